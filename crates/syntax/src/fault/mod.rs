@@ -1,0 +1,49 @@
+//! The faults of syntax: one constructor each, so that all texts are seen together.
+//!
+//! In: the place and what stands there. Out: a [`Diagnostic`] whose id is one of [`IDS`] and has a page
+//! `spec/faults/<id>.md`. Each message says what is wrong, the reason what was expected, the help what to write.
+
+mod lexical;
+mod structure;
+mod wording;
+
+pub(crate) use lexical::*;
+pub(crate) use structure::*;
+
+/// The ids of all faults this crate reports, in alphabetical order.
+pub const IDS: &[&str] = &[
+    "assign-in-term",
+    "domain-arity",
+    "duplicate-section",
+    "equals-for-assign",
+    "expected-command",
+    "expected-declaration",
+    "expected-definition",
+    "expected-domain",
+    "expected-name",
+    "expected-rule",
+    "expected-term",
+    "expected-token",
+    "file-too-large",
+    "foreign-operator",
+    "missing-brackets",
+    "missing-end",
+    "missing-section",
+    "misplaced-section",
+    "name-class",
+    "nested-too-deeply",
+    "number-form",
+    "quantifier-parentheses",
+    "rule-in-term",
+    "several-rules",
+    "single-rule-block",
+    "stray-end",
+    "term-as-rule",
+    "too-many-faults",
+    "unexpected-text",
+    "unknown-character",
+    "unknown-escape",
+    "unterminated-character",
+    "unterminated-comment",
+    "unterminated-string",
+];

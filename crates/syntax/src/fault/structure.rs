@@ -1,0 +1,266 @@
+//! Faults of the parser.
+
+use super::wording::{expected, found, name_of, shape_of};
+use crate::{Diagnostic, Span, SyntaxKind, SyntaxKind::*};
+
+/// What stands where something else was expected.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Found<'t> {
+    pub(crate) span: Span,
+    pub(crate) kind: SyntaxKind,
+    pub(crate) text: &'t str,
+}
+
+impl std::fmt::Display for Found<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&found(self.kind, self.text))
+    }
+}
+
+/// No term where one must stand; `wanted` says which.
+pub(crate) fn expected_term(found: Found<'_>, wanted: &str) -> Diagnostic {
+    Diagnostic::error("expected-term", found.span, format!("expected {wanted}, found {found}"))
+        .because("a term must stand here")
+        .with_help("write a term: a literal, a variable, a function, or a compound of these")
+}
+
+/// No rule where one must stand; `wanted` says which.
+pub(crate) fn expected_rule(found: Found<'_>, wanted: &str) -> Diagnostic {
+    Diagnostic::error("expected-rule", found.span, format!("expected {wanted}, found {found}"))
+        .because("a rule must stand here")
+        .with_help("write a rule: `skip` does nothing, `f := t` updates, `r_x[]` calls, `par … endpar` holds several")
+}
+
+/// No domain where one must stand.
+pub(crate) fn expected_domain(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("expected-domain", found.span, format!("expected a domain, found {found}"))
+        .because("a domain must stand here")
+        .with_help("write a domain's name, or Prod, Seq, Powerset, Bag, Map or Rule with its domains in parentheses")
+}
+
+/// A certain token is missing.
+pub(crate) fn expected_token(found: Found<'_>, at: Span, kind: SyntaxKind, context: &str) -> Diagnostic {
+    let wanted = expected(kind);
+    Diagnostic::error("expected-token", at, format!("expected {wanted} {context}, found {found}"))
+        .because(format!("{wanted} is missing here"))
+        .with_help(format!("write {wanted}"))
+}
+
+/// A name of another class than the place asks for.
+pub(crate) fn name_class(found: Found<'_>, kind: SyntaxKind) -> Diagnostic {
+    Diagnostic::error("name-class", found.span, format!("`{}` cannot be {}", found.text, name_of(kind)))
+        .because(shape_of(kind))
+        .with_help("rename it, here and wherever it is used")
+}
+
+/// No name where one must stand.
+pub(crate) fn expected_name(found: Found<'_>, kind: SyntaxKind) -> Diagnostic {
+    let fault = Diagnostic::error("expected-name", found.span, format!("expected {}, found {found}", name_of(kind)))
+        .because(shape_of(kind));
+    match found.kind.text() {
+        Some(word) if word.starts_with(|c: char| c.is_ascii_alphabetic()) => {
+            fault.with_help(format!("`{}` is a keyword; choose another name", found.text))
+        }
+        _ => fault.with_help("write the name"),
+    }
+}
+
+/// The end of a construct is missing.
+pub(crate) fn missing_end(found: Found<'_>, end: SyntaxKind, opener: Found<'_>) -> Diagnostic {
+    let wanted = expected(end);
+    Diagnostic::error("missing-end", found.span, format!("`{}` has no {wanted}; found {found}", opener.text))
+        .because(format!("{wanted} is expected here"))
+        .with_label(opener.span, format!("`{}` is opened here", opener.text))
+        .with_help(format!("write {wanted} where what `{}` opens is to end", opener.text))
+}
+
+/// `else if` took one `endif` and needs a second.
+pub(crate) fn else_if(found: Found<'_>, opener: Found<'_>) -> Diagnostic {
+    missing_end(found, ENDIF_KW, opener)
+        .with_help("`else if` opens a second `if` that needs its own `endif`: write `elseif`, or one more `endif`")
+}
+
+/// An end that nothing waits for.
+pub(crate) fn stray_end(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("stray-end", found.span, format!("{found} ends nothing"))
+        .because("nothing that it could end is open here")
+        .with_help("remove it, or write what it is to end")
+}
+
+/// Two rules where one is to stand.
+pub(crate) fn several_rules(found: Found<'_>, opener: Found<'_>) -> Diagnostic {
+    Diagnostic::error("several-rules", found.span, format!("a second rule where `{}` takes one", opener.text))
+        .because("this rule follows another without `par` or `seq` around them")
+        .with_label(opener.span, format!("`{}` is opened here", opener.text))
+        .with_help("write `par … endpar` around the rules (or `seq … endseq`), or end the construct before this rule")
+}
+
+/// `x = 3` or `x : = 3` as a rule.
+pub(crate) fn equals_for_assign(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("equals-for-assign", found.span, "an update is written with `:=`")
+        .because("`=` compares two terms")
+        .with_help("write `:=`")
+}
+
+/// `:=` within a term.
+pub(crate) fn assign_in_term(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("assign-in-term", found.span, "an update cannot stand in a term")
+        .because("`:=` updates a location and makes a rule")
+        .with_help("write `=` to compare")
+}
+
+/// A term where a rule must stand.
+pub(crate) fn term_as_rule(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("term-as-rule", found.span, format!("a term with {found} is no rule"))
+        .because("expected `:=`, as a rule must stand here")
+        .with_help("write `location := term` for an update")
+}
+
+/// `r_x` without brackets.
+pub(crate) fn missing_brackets(found: Found<'_>) -> Diagnostic {
+    let name = found.text;
+    Diagnostic::error("missing-brackets", found.span, format!("the call of `{name}` has no brackets"))
+        .because("a call needs them even without arguments")
+        .with_help(format!("write `{name}[]` to call a macro rule, `{name}()` to call a turbo rule"))
+}
+
+/// A rule's name in a term.
+pub(crate) fn rule_in_term(found: Found<'_>) -> Diagnostic {
+    let name = found.text;
+    Diagnostic::error("rule-in-term", found.span, format!("the rule `{name}` cannot stand in a term"))
+        .because("a term must stand here")
+        .with_help(format!(
+            "write `<<{name}>>` for the rule as a value, or `f <- {name}(…)` for the result of a turbo rule"
+        ))
+}
+
+/// `forall …` in a term without parentheses.
+pub(crate) fn quantifier_parentheses(found: Found<'_>) -> Diagnostic {
+    let word = found.text;
+    Diagnostic::error("quantifier-parentheses", found.span, "a quantified term stands in parentheses")
+        .because(format!("`{word}` without `(` before it"))
+        .with_help(format!("write `({word} $x in D with condition)`"))
+}
+
+/// An operator without its left operand.
+pub(crate) fn no_left_operand(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("expected-term", found.span, format!("the operator {found} has no left operand"))
+        .because("a term must stand before it")
+        .with_help("write the operand, or remove the operator")
+}
+
+/// `.5`
+pub(crate) fn bare_fraction(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("number-form", found.span, "a real number has digits on both sides of its point")
+        .because("no digit before the point")
+        .with_help("write `0.` before the digits")
+}
+
+/// `f()`
+pub(crate) fn empty_parentheses(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("expected-term", found.span, "nothing stands between the parentheses")
+        .because("a term must stand here")
+        .with_help("a function without arguments is written without parentheses")
+}
+
+/// A wrong number of domains behind a constructor.
+pub(crate) fn domain_arity(found: Found<'_>, count: usize) -> Diagnostic {
+    let wanted = match found.kind {
+        PROD_KW => "two domains or more",
+        MAP_KW => "two domains",
+        RULE_DOMAIN_KW => "one domain or more, or no parentheses",
+        _ => "one domain",
+    };
+    Diagnostic::error("domain-arity", found.span, format!("`{}` takes {wanted}", found.text))
+        .because(format!("{count} given"))
+        .with_help(format!("give `{}` {wanted}", found.text))
+}
+
+/// No definition, declaration or section where one must stand.
+pub(crate) fn expected_definition(found: Found<'_>, wanted: &str) -> Diagnostic {
+    Diagnostic::error("expected-definition", found.span, format!("expected {wanted}, found {found}"))
+        .because("this starts none, and the text up to the next one is skipped")
+        .with_help(
+            "check the end of what stands before, or write the word that starts it: `function`, `rule`, `main` …",
+        )
+}
+
+/// A declaration among the definitions.
+pub(crate) fn declaration_in_definitions(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error(
+        "expected-definition",
+        found.span,
+        format!("expected a definition, found the declaration {found}"),
+    )
+    .because("domains and functions are declared in the signature")
+    .with_help("move it to the section `signature:`")
+}
+
+/// `;` or `,` between rules or definitions.
+pub(crate) fn separator(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("unexpected-text", found.span, format!("{found} separates nothing here"))
+        .because("rules and definitions follow one another without a mark between them")
+        .with_help("remove it")
+}
+
+/// Text behind the end.
+pub(crate) fn unexpected_text(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("unexpected-text", found.span, format!("expected the end, found {found}"))
+        .because("the term ends before this")
+        .with_help("remove it, or write the operator that joins it to the term")
+}
+
+/// No `asm` or `module` at the start.
+pub(crate) fn no_machine_name(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("missing-section", found.span, format!("expected `asm` or `module`, found {found}"))
+        .because("a file starts with its name")
+        .with_help("write `asm NAME` or `module NAME`, with NAME as the file is called")
+}
+
+/// A section is missing.
+pub(crate) fn missing_section(found: Found<'_>, section: &str) -> Diagnostic {
+    Diagnostic::error("missing-section", found.span, format!("the section `{section}:` is missing; found {found}"))
+        .because(format!("`{section}:` is expected before this"))
+        .with_help(format!("write `{section}:`, even if nothing is in it"))
+}
+
+/// A section stands twice.
+pub(crate) fn duplicate_section(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("duplicate-section", found.span, format!("a second {found}"))
+        .because("a file has at most one")
+        .with_help("join the two")
+}
+
+/// A section stands too late.
+pub(crate) fn misplaced_section(found: Found<'_>, later: &str) -> Diagnostic {
+    Diagnostic::error("misplaced-section", found.span, format!("{found} behind `{later}`"))
+        .because("the order is: import, export, signature, definitions, main, init")
+        .with_help(format!("move it before `{later}`"))
+}
+
+/// No command of a scenario.
+pub(crate) fn expected_command(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("expected-command", found.span, format!("expected a command, found {found}"))
+        .because("a command must stand here")
+        .with_help("the commands are: check, set, step, step until, exec, pick, begin … end, execblock, expect")
+}
+
+/// An `expect` of something unknown.
+pub(crate) fn unknown_trouble(found: Found<'_>, whole: bool) -> Diagnostic {
+    let choices = if whole {
+        "`check`, `invariant NAME`, `inconsistent update` or `error`"
+    } else {
+        "`failure`, `inconsistent update` or `error`"
+    };
+    Diagnostic::error("expected-command", found.span, format!("expected {choices}, found {found}"))
+        .because("this says what trouble is expected")
+        .with_help(format!("write {choices}"))
+}
+
+/// The limit of nesting.
+pub(crate) fn nested_too_deeply(found: Found<'_>) -> Diagnostic {
+    use crate::parser::{MAX_CHAIN, MAX_NESTING};
+    Diagnostic::error("nested-too-deeply", found.span, "this is nested too deeply")
+        .because(format!("at most {MAX_NESTING} constructs in one another, and {MAX_CHAIN} operators in one chain"))
+        .with_help("split it: define functions for parts of a term, rules for parts of a rule")
+}

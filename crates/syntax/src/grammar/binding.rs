@@ -1,0 +1,57 @@
+//! `let`, and variables that range over a collection (spec/language.md, 6.2 and 7).
+
+use super::term::{delimited, term};
+use super::{list, name, recovery};
+use crate::SyntaxKind::{self, *};
+use crate::parser::Parser;
+
+/// `$x in D, $y in E`
+pub(super) fn binders(p: &mut Parser<'_>) {
+    loop {
+        p.start(BINDER);
+        let named = name::name(p, VARIABLE);
+        if named && p.expect(IN_KW, "behind the variable") {
+            term(p, "the range of the variable");
+        }
+        p.finish();
+        if !p.eat(COMMA) {
+            return;
+        }
+    }
+}
+
+/// `let ($x = a, $y = b) in t endlet`
+pub(super) fn let_term(p: &mut Parser<'_>) {
+    let_construct(p, LET_TERM, |p| {
+        delimited(p, "a term behind `in`");
+    });
+}
+
+/// A `let` with a body that is a term or a rule.
+pub(super) fn let_construct(p: &mut Parser<'_>, kind: SyntaxKind, body: fn(&mut Parser<'_>)) {
+    p.start(kind);
+    p.bump_opener(ENDLET_KW);
+    if p.at(L_PAREN) {
+        list::list(p, R_PAREN, list::Empty::Forbidden, binding);
+    } else {
+        p.expect(L_PAREN, "behind `let`");
+        if p.at(VARIABLE) {
+            binding(p);
+        }
+    }
+    if p.expect(IN_KW, "behind the bindings of `let`") {
+        body(p);
+    }
+    recovery::end(p);
+    p.finish();
+}
+
+fn binding(p: &mut Parser<'_>) -> bool {
+    p.start(BINDING);
+    let named = name::name(p, VARIABLE);
+    if named && p.expect(EQ, "behind the variable of `let`") {
+        delimited(p, "the value of the variable");
+    }
+    p.finish();
+    named
+}

@@ -1,0 +1,133 @@
+//! Domains, and their declarations in the signature (spec/language.md, section 3).
+
+use super::{list, name, recovery};
+use crate::SyntaxKind::{self, *};
+use crate::fault;
+use crate::parser::Parser;
+
+/// A domain as it is written where one is expected.
+pub(super) fn domain(p: &mut Parser<'_>) -> bool {
+    match p.current() {
+        DOMAIN_ID | ENUM_ID => {
+            p.start(NAMED_DOMAIN);
+            p.bump();
+            p.finish();
+        }
+        PROD_KW | SEQ_DOMAIN_KW | POWERSET_KW | BAG_KW | MAP_KW | RULE_DOMAIN_KW => structured(p),
+        FUNCTION_ID | RULE_ID | GENERIC_ID | COMPLEX if !p.on_new_line() => {
+            p.start(NAMED_DOMAIN);
+            name::name(p, DOMAIN_ID);
+            p.finish();
+        }
+        _ => {
+            let found = p.found();
+            p.fault(fault::expected_domain(found));
+            return false;
+        }
+    }
+    true
+}
+
+/// `Prod(D, E)`, `Seq(D)` …
+fn structured(p: &mut Parser<'_>) {
+    if !p.enter() {
+        recovery::too_deep(p);
+        return;
+    }
+    p.start(STRUCTURED_DOMAIN);
+    let found = p.found();
+    let constructor = p.current();
+    p.bump();
+    if p.at(L_PAREN) {
+        let count = list::list(p, R_PAREN, list::Empty::Allowed, domain);
+        let right = match constructor {
+            PROD_KW => count >= 2,
+            MAP_KW => count == 2,
+            RULE_DOMAIN_KW => count >= 1,
+            _ => count == 1,
+        };
+        if !right {
+            p.fault_before(fault::domain_arity(found, count));
+        }
+    } else if constructor != RULE_DOMAIN_KW {
+        p.expect(L_PAREN, "behind the constructor of a domain");
+    }
+    p.finish();
+    p.leave();
+}
+
+/// A declaration of a domain; `false` when the cursor is at none.
+pub(super) fn declaration(p: &mut Parser<'_>) -> bool {
+    let behind = if p.at(DYNAMIC_KW) { p.peek(1) } else { p.current() };
+    match behind {
+        ANYDOMAIN_KW => simple(p, ANY_DOMAIN_DECL),
+        BASIC_KW => simple(p, BASIC_DOMAIN_DECL),
+        ABSTRACT_KW => simple(p, ABSTRACT_DOMAIN_DECL),
+        ENUM_KW => enumeration(p),
+        DOMAIN_KW => concrete(p),
+        PROD_KW | SEQ_DOMAIN_KW | POWERSET_KW | BAG_KW | MAP_KW | RULE_DOMAIN_KW => {
+            p.start(STRUCTURED_DOMAIN_DECL);
+            domain(p);
+            p.finish();
+        }
+        _ => return false,
+    }
+    true
+}
+
+/// `anydomain D`, `basic domain D`, `[dynamic] abstract domain D`
+fn simple(p: &mut Parser<'_>, kind: SyntaxKind) {
+    p.start(kind);
+    p.eat(DYNAMIC_KW);
+    let anydomain = p.at(ANYDOMAIN_KW);
+    p.bump();
+    if anydomain || p.expect(DOMAIN_KW, "in the declaration of a domain") {
+        name::domain_name(p);
+    }
+    p.finish();
+}
+
+/// `enum domain D = {AA | BB}`
+fn enumeration(p: &mut Parser<'_>) {
+    p.start(ENUM_DOMAIN_DECL);
+    p.eat(DYNAMIC_KW);
+    p.bump();
+    if p.expect(DOMAIN_KW, "behind `enum`") && name::domain_name(p) && p.expect(EQ, "behind the name of an enum domain")
+    {
+        if p.at(L_BRACE) {
+            p.bump_opener(R_BRACE);
+            literals(p);
+            recovery::end(p);
+        } else {
+            p.expect(L_BRACE, "before the literals of an enum domain");
+        }
+    }
+    p.finish();
+}
+
+fn literals(p: &mut Parser<'_>) {
+    loop {
+        p.start(ENUM_LITERAL_DECL);
+        let named = name::name(p, ENUM_ID);
+        p.finish();
+        if !p.eat(BAR) && !p.eat(COMMA) {
+            let forgotten = named && p.at_any(name::NAMES);
+            if !forgotten {
+                return;
+            }
+            let found = p.found();
+            p.fault(fault::expected_token(found, found.span, BAR, "between two enum literals"));
+        }
+    }
+}
+
+/// `[dynamic] domain D subsetof E`
+fn concrete(p: &mut Parser<'_>) {
+    p.start(CONCRETE_DOMAIN_DECL);
+    p.eat(DYNAMIC_KW);
+    p.bump();
+    if name::domain_name(p) && p.expect(SUBSETOF_KW, "behind the name of a concrete domain") {
+        domain(p);
+    }
+    p.finish();
+}

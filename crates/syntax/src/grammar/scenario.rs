@@ -1,0 +1,287 @@
+//! Scenarios: the language Avalla (spec/avalla.md).
+//!
+//! Its words are no keywords of the lexer: each is an ordinary name, so that a model may have a function `step`. The
+//! grammar takes them as keywords where a command starts.
+
+use super::term::{location, term};
+use super::{domain, list, name, recovery, rule};
+use crate::SyntaxKind::{self, *};
+use crate::fault;
+use crate::parser::Parser;
+
+/// A whole scenario file.
+pub(crate) fn scenario_file(p: &mut Parser<'_>) {
+    p.in_scenario = true;
+    if p.at(EOF) {
+        return;
+    }
+    header(p);
+    while !p.at(EOF) {
+        if !command(p) {
+            no_command(p);
+        }
+    }
+}
+
+/// `scenario NAME load PATH`
+fn header(p: &mut Parser<'_>) {
+    if word(p, "scenario", SCENARIO_KW) {
+        name::generic_name(p);
+    }
+    if word(p, "load", LOAD_KW) && !p.eat(STRING) {
+        p.expect(MODULE_REF, "behind `load`");
+    }
+    p.eat(SEMICOLON);
+}
+
+/// Takes a word as a keyword, or reports that it is missing.
+fn word(p: &mut Parser<'_>, text: &str, kind: SyntaxKind) -> bool {
+    if p.at_word(text) {
+        p.bump_as(kind);
+        return true;
+    }
+    let found = p.found();
+    p.fault(fault::expected_token(found, found.span, kind, "in the head of the scenario"));
+    false
+}
+
+/// The kind of the command that starts at the cursor.
+fn command_word(p: &Parser<'_>) -> Option<SyntaxKind> {
+    if p.at(INVARIANT_KW) {
+        return Some(INVARIANT_KW);
+    }
+    if !p.at(FUNCTION_ID) {
+        return None;
+    }
+    Some(match p.token_text() {
+        "check" => CHECK_KW,
+        "strict" => STRICT_KW,
+        "set" => SET_KW,
+        "step" => STEP_KW,
+        "exec" => EXEC_KW,
+        "pick" => PICK_KW,
+        "begin" => BEGIN_KW,
+        "execblock" => EXECBLOCK_KW,
+        "expect" => EXPECT_KW,
+        _ => return None,
+    })
+}
+
+/// One command; `false` when the cursor is at none.
+fn command(p: &mut Parser<'_>) -> bool {
+    let Some(kind) = command_word(p) else { return false };
+    match kind {
+        CHECK_KW | STRICT_KW => check(p, kind),
+        SET_KW => set(p),
+        STEP_KW => step(p),
+        EXEC_KW => exec(p),
+        PICK_KW => pick(p),
+        BEGIN_KW => block(p),
+        EXECBLOCK_KW => execblock(p),
+        EXPECT_KW => expect(p),
+        _ => invariant(p),
+    }
+    true
+}
+
+/// `invariant NAME: term;`
+fn invariant(p: &mut Parser<'_>) {
+    p.start(SCENARIO_INVARIANT);
+    p.bump();
+    name::generic_name(p);
+    if p.expect(COLON, "behind the name of the invariant") {
+        term(p, "a formula");
+    }
+    semicolon(p);
+    p.finish();
+}
+
+/// `[strict] check term;`
+fn check(p: &mut Parser<'_>, kind: SyntaxKind) {
+    p.start(CHECK_COMMAND);
+    p.bump_as(kind);
+    if kind == STRICT_KW {
+        if p.at_word("check") {
+            p.bump_as(CHECK_KW);
+        } else {
+            p.expect(CHECK_KW, "behind `strict`");
+        }
+    }
+    term(p, "a formula");
+    semicolon(p);
+    p.finish();
+}
+
+/// `set location := term;`
+fn set(p: &mut Parser<'_>) {
+    p.start(SET_COMMAND);
+    p.bump_as(SET_KW);
+    location(p);
+    let found = p.found();
+    if p.at(EQ) {
+        p.fault(fault::equals_for_assign(found));
+        p.bump();
+        term(p, "a value");
+    } else if p.expect(ASSIGN, "behind the location that is set") {
+        term(p, "a value");
+    }
+    semicolon(p);
+    p.finish();
+}
+
+/// `step`, `step N`, `step until term [within N];`
+fn step(p: &mut Parser<'_>) {
+    let checkpoint = p.checkpoint();
+    p.bump_as(STEP_KW);
+    if p.at_word("until") {
+        p.start_at(checkpoint, STEP_UNTIL_COMMAND);
+        p.bump_as(UNTIL_KW);
+        term(p, "a condition");
+        if p.at_word("within") {
+            p.bump_as(WITHIN_KW);
+            p.expect(INTEGER, "behind `within`");
+        }
+        semicolon(p);
+    } else {
+        p.start_at(checkpoint, STEP_COMMAND);
+        p.eat(INTEGER);
+        p.eat(SEMICOLON);
+    }
+    p.finish();
+}
+
+/// `exec rule;`
+fn exec(p: &mut Parser<'_>) {
+    p.start(EXEC_COMMAND);
+    p.bump_as(EXEC_KW);
+    rule::rule(p, "a rule behind `exec`");
+    semicolon(p);
+    p.finish();
+}
+
+/// `pick $x [in r_R(D)] := term;`
+fn pick(p: &mut Parser<'_>) {
+    p.start(PICK_COMMAND);
+    p.bump_as(PICK_KW);
+    name::name(p, VARIABLE);
+    if p.eat(IN_KW) && name::name(p, RULE_ID) && p.at(L_PAREN) {
+        list::list(p, R_PAREN, list::Empty::Allowed, domain::domain);
+    }
+    if p.expect(ASSIGN, "before the value that is picked") {
+        term(p, "a value");
+    }
+    semicolon(p);
+    p.finish();
+}
+
+/// `begin NAME … end`
+fn block(p: &mut Parser<'_>) {
+    if !p.enter() {
+        recovery::too_deep(p);
+        return;
+    }
+    p.start(BLOCK);
+    p.bump_opener_as(BEGIN_KW, END_KW);
+    name::generic_name(p);
+    while !p.at(EOF) && !p.at_word("end") {
+        if !command(p) {
+            no_command(p);
+        }
+    }
+    if p.at_word("end") {
+        p.bump_as(END_KW);
+        p.close();
+    } else {
+        recovery::end(p);
+    }
+    p.eat(SEMICOLON);
+    p.finish();
+    p.leave();
+}
+
+/// `execblock [FILE:]NAME;`
+fn execblock(p: &mut Parser<'_>) {
+    p.start(EXECBLOCK_COMMAND);
+    p.bump_as(EXECBLOCK_KW);
+    if name::generic_name(p) && p.eat(COLON) {
+        name::generic_name(p);
+    }
+    semicolon(p);
+    p.finish();
+}
+
+/// `expect failure [by …];` for the whole scenario, or `expect inconsistent update;`, `expect error;` for one step.
+fn expect(p: &mut Parser<'_>) {
+    let checkpoint = p.checkpoint();
+    p.bump_as(EXPECT_KW);
+    if p.at_word("failure") {
+        p.start_at(checkpoint, SCENARIO_EXPECT);
+        p.bump();
+        if p.at_word("by") {
+            p.bump();
+            trouble(p, true);
+        }
+    } else {
+        p.start_at(checkpoint, EXPECT_STEP_COMMAND);
+        trouble(p, false);
+    }
+    semicolon(p);
+    p.finish();
+}
+
+/// `inconsistent update`, `error`; for a whole scenario also `check`, `invariant [NAME]`
+fn trouble(p: &mut Parser<'_>, whole: bool) {
+    if p.at_word("inconsistent") {
+        p.bump();
+        if p.at_word("update") {
+            p.bump();
+            return;
+        }
+    } else if p.at_word("error") {
+        p.bump();
+        return;
+    } else if whole && p.at_word("check") {
+        p.bump_as(CHECK_KW);
+        return;
+    } else if whole && p.at(INVARIANT_KW) {
+        p.bump();
+        if !p.at(SEMICOLON) {
+            name::generic_name(p);
+        }
+        return;
+    }
+    let found = p.found();
+    p.fault(fault::unknown_trouble(found, whole));
+}
+
+/// The `;` that ends a command; skips to it, or to the next command.
+fn semicolon(p: &mut Parser<'_>) {
+    if p.eat(SEMICOLON) {
+        return;
+    }
+    p.fault_missing(SEMICOLON, "at the end of the command");
+    skip_command(p);
+}
+
+fn no_command(p: &mut Parser<'_>) {
+    let found = p.found();
+    p.fault(fault::expected_command(found));
+    if !p.eat(SEMICOLON) {
+        p.start(ERROR);
+        p.bump();
+        p.finish();
+        skip_command(p);
+    }
+}
+
+fn skip_command(p: &mut Parser<'_>) {
+    let stops = |p: &Parser<'_>| p.ends_command() || p.on_new_line() && command_word(p).is_some() || p.at_word("end");
+    if !stops(p) {
+        p.start(ERROR);
+        while !stops(p) {
+            p.bump();
+        }
+        p.finish();
+    }
+    p.eat(SEMICOLON);
+}

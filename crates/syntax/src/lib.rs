@@ -1,0 +1,61 @@
+//! Text → lossless tree.
+//!
+//! In: the text of one file. Out: a [`Parse`]: a lossless tree (every byte of the text is in it), and the
+//! faults found on the way. Parsing never fails, never panics, and knows no second file; the tree holds no
+//! semantic facts. Later stages read the tree through the typed views of [`ast`] only.
+//!
+//! The grammar is that of `spec/language.md`: AsmetaL and the scenario language Avalla.
+
+pub mod ast;
+pub mod diagnostic;
+pub mod kind;
+pub mod source;
+
+mod fault;
+mod grammar;
+mod lexer;
+mod parser;
+mod token_set;
+
+pub use diagnostic::{Diagnostic, Label, Severity};
+pub use fault::IDS as FAULT_IDS;
+pub use kind::{AsmetaL, SyntaxKind};
+pub use parser::{MAX_CHAIN, MAX_FAULTS, MAX_NESTING, MAX_TEXT_BYTES};
+pub use source::{FileId, LineColumn, SourceFile, Sources, Span};
+
+use lexer::Mode;
+
+/// An untyped node of the lossless tree.
+pub type SyntaxNode = rowan::SyntaxNode<AsmetaL>;
+/// A token of the lossless tree.
+pub type SyntaxToken = rowan::SyntaxToken<AsmetaL>;
+
+/// What parsing one file gives: always a tree, and the faults found.
+#[derive(Debug, Clone)]
+pub struct Parse {
+    green: rowan::GreenNode,
+    /// Faults in the order of their position.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Parse {
+    /// The root of the tree: a [`SyntaxKind::SOURCE_FILE`] or [`SyntaxKind::SCENARIO_FILE`].
+    pub fn syntax(&self) -> SyntaxNode {
+        SyntaxNode::new_root(self.green.clone())
+    }
+}
+
+/// Parses a file of AsmetaL (`.asm`).
+pub fn parse_asmetal(file: FileId, text: &str) -> Parse {
+    parser::parse(file, text, Mode::AsmetaL, SyntaxKind::SOURCE_FILE, grammar::source_file)
+}
+
+/// Parses a scenario file (`.avalla`).
+pub fn parse_avalla(file: FileId, text: &str) -> Parse {
+    parser::parse(file, text, Mode::Avalla, SyntaxKind::SCENARIO_FILE, grammar::scenario_file)
+}
+
+/// Parses a single term, as written on a command line (`--until TERM`).
+pub fn parse_term(file: FileId, text: &str) -> Parse {
+    parser::parse(file, text, Mode::AsmetaL, SyntaxKind::TERM_FILE, grammar::term_file)
+}
