@@ -213,10 +213,12 @@ definitions:
 
 	// A new cycle, from the phase after the waiting one.
 	rule r_startCycle($c in Scheduler, $waiting in SchedulePhase) =
-		par
-			r_task_nextPeriod[scheduler_mainThread($c)]
-			r_enterPhase[$c, nextPhase($waiting)]
-		endpar
+		let ($first = nextPhase($waiting)) in
+			par
+				r_task_nextPeriod[scheduler_mainThread($c)]
+				r_enterPhase[$c, $first]
+			endpar
+		endlet
 
 	// A synchronous task that is done just when its period ends starts the next cycle at once. An
 	// asynchronous task rests for a tick, and so does a task with a single phase besides the waiting,

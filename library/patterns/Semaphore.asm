@@ -29,8 +29,8 @@ signature:
 
 	// Written by the task alone
 	controlled sem_state: Prod(Semaphore, Task) -> TaskCSState
-	// raised by a post of a task that is not inside; never lowered
-	controlled sem_illegalPost: Prod(Semaphore, Task) -> Boolean
+	// raised by the post of a task that is not inside; never lowered
+	controlled sem_illegalPost: Semaphore -> Boolean
 
 	// Written by the arbiter alone: the tasks known to be waiting, first come first
 	controlled semaq: Semaphore -> Seq(Task)
@@ -58,7 +58,7 @@ definitions:
 
 	// Never more tasks inside than permits, and nobody has left without being inside.
 	function sem_sound($s in Semaphore) =
-		semacount($s) >= 0 and not (exists $t in Task with sem_illegalPost($s, $t))
+		semacount($s) >= 0 and not sem_illegalPost($s)
 
 	// Ask, and enter as soon as granted; to be called again in every step until the task is inside.
 	rule r_sem_wait($s in Semaphore, $t in Task) =
@@ -80,7 +80,7 @@ definitions:
 		if sem_state($s, $t) = EXECUTION then
 			sem_state($s, $t) := READY
 		else
-			sem_illegalPost($s, $t) := true
+			sem_illegalPost($s) := true
 		endif
 
 	// The arbiter: remembers the order of arrival. Runs beside the tasks, in every step.

@@ -75,7 +75,7 @@ default init s0:
 	function sem_permits($s in Semaphore) = 1
 	function sem_users($s in Semaphore) = [producer_task, consumer_task]
 	function sem_state($s in Semaphore, $t in Task) = READY
-	function sem_illegalPost($s in Semaphore, $t in Task) = false
+	function sem_illegalPost($s in Semaphore) = false
 	function semaq($s in Semaphore) = []
 
 	function dimension($b in SwingingBuffer) = 2

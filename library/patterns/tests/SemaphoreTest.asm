@@ -58,5 +58,5 @@ default init s0:
 	function sem_permits($s in Semaphore) = if $s = lock then 1 else 2 endif
 	function sem_users($s in Semaphore) = [high, middle, low]
 	function sem_state($s in Semaphore, $t in Task) = READY
-	function sem_illegalPost($s in Semaphore, $t in Task) = false
+	function sem_illegalPost($s in Semaphore) = false
 	function semaq($s in Semaphore) = []
