@@ -1,0 +1,48 @@
+# The developer's commands. Each runs alone on a machine that has Rust, Node, Python, g++ and make; what more it
+# needs it installs itself, and says so first.
+
+CARGO ?= cargo
+GROUNDSTATE := target/release/groundstate
+MODELS := library/patterns examples
+
+.PHONY: help demo test lint unit scenarios fuzz bench corpus update clean
+
+help: ## this list
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*##/\t/' | expand -t 12
+
+demo: $(GROUNDSTATE) ## check the library, run the complete controller for a second, test every scenario, write out/report.html
+	@GROUNDSTATE=$(GROUNDSTATE) sh docs/demo.sh
+
+test: lint unit scenarios fuzz ## everything that must hold before a change lands
+
+lint:
+	$(CARGO) fmt --all --check
+	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
+
+unit:
+	$(CARGO) test --workspace --locked
+
+scenarios: $(GROUNDSTATE)
+	$(GROUNDSTATE) check $(MODELS)
+	$(GROUNDSTATE) test $(MODELS)
+
+fuzz: ## the fuzz targets, for a short time
+	$(CARGO) xtask fuzz --seconds 20
+
+bench: ## steps per second and peak memory of this project's models
+	$(CARGO) xtask bench
+
+corpus: ## make corpus CORPUS=path: compare with recorded results of the public corpus
+	$(CARGO) xtask corpus $(CORPUS)
+
+update: ## rewrite all golden expectations
+	UPDATE_EXPECT=1 SNAPSHOTS=overwrite $(CARGO) test --workspace
+
+clean: ## remove what was built
+	$(CARGO) clean
+	rm -rf out
+
+# Cargo knows best what is up to date.
+$(GROUNDSTATE): FORCE
+	$(CARGO) build --release --locked --package cli
+FORCE:

@@ -1,0 +1,162 @@
+//! The library functions on values (spec/standard-library.md).
+//!
+//! In: a builtin and its operands. Out: a value, or a fault where the function is not defined: an undefined
+//! operand, an index outside, a result beyond 64 bits. Each file owns the functions of a few domains.
+
+mod collection;
+mod number;
+mod sequence;
+mod text;
+
+use program::{Builtin, TermId};
+use syntax::Span;
+
+use crate::environment::{Choice, TimeUnit};
+use crate::execute::{Executor, Outcome};
+use crate::fault::FaultKind;
+use crate::print::Show;
+use crate::value::Value;
+
+/// Why a builtin has no value, before its place is known.
+pub(crate) enum Trouble {
+    Undefined,
+    Bad(String),
+    Zero,
+    Overflow(String),
+    NotANumber(String),
+}
+
+/// What a builtin gives.
+pub(crate) type Result<T = Value> = std::result::Result<T, Trouble>;
+
+impl<'a> Executor<'a> {
+    /// Applies a builtin to values.
+    #[inline]
+    pub fn apply(&mut self, builtin: Builtin, operands: &[Value], id: TermId) -> Outcome<Value> {
+        use Value::{Boolean, Integer};
+        // The operations that most models spend their time in.
+        match (builtin, operands) {
+            (Builtin::Eq, [a, b]) => return Ok(Boolean(a == b)),
+            (Builtin::Neq, [a, b]) => return Ok(Boolean(a != b)),
+            (Builtin::Lt, [Integer(a), Integer(b)]) => return Ok(Boolean(a < b)),
+            (Builtin::Le, [Integer(a), Integer(b)]) => return Ok(Boolean(a <= b)),
+            (Builtin::Gt, [Integer(a), Integer(b)]) => return Ok(Boolean(a > b)),
+            (Builtin::Ge, [Integer(a), Integer(b)]) => return Ok(Boolean(a >= b)),
+            (Builtin::Not, [Boolean(a)]) => return Ok(Boolean(!a)),
+            (Builtin::IntAdd, [Integer(a), Integer(b)]) => {
+                if let Some(sum) = a.checked_add(*b) {
+                    return Ok(Integer(sum));
+                }
+            }
+            (Builtin::IntSub, [Integer(a), Integer(b)]) => {
+                if let Some(difference) = a.checked_sub(*b) {
+                    return Ok(Integer(difference));
+                }
+            }
+            _ => {}
+        }
+        self.apply_any(builtin, operands, id)
+    }
+
+    fn apply_any(&mut self, builtin: Builtin, operands: &[Value], id: TermId) -> Outcome<Value> {
+        let span = self.program.term_span(id);
+        let outcome = match builtin {
+            Builtin::IsDef => Ok(Value::Boolean(!operands[0].is_undef())),
+            Builtin::IsUndef => Ok(Value::Boolean(operands[0].is_undef())),
+            // Printing is the shells' business; the value of `print` is irrelevant.
+            Builtin::Print => Ok(Value::Integer(0)),
+            Builtin::ToString => Ok(Value::string(match &operands[0] {
+                Value::String(text) => text.to_string(),
+                Value::Char(c) => c.to_string(),
+                other => other.show(self.program).to_string(),
+            })),
+            Builtin::Not => Ok(match &operands[0] {
+                Value::Boolean(b) => Value::Boolean(!b),
+                _ => Value::Undef,
+            }),
+            Builtin::Xor | Builtin::Iff => match (&operands[0], &operands[1]) {
+                (Value::Boolean(a), Value::Boolean(b)) => Ok(Value::Boolean((a == b) == (builtin == Builtin::Iff))),
+                _ => Err(Trouble::Undefined),
+            },
+            Builtin::Program => {
+                return Ok(self.agent_program(&operands[0]).map_or(Value::Undef, Value::Rule));
+            }
+            Builtin::AgentId => match &operands[0] {
+                Value::Undef => Err(Trouble::Undefined),
+                agent => Ok(Value::string(agent.show(self.program).to_string())),
+            },
+            Builtin::GetAgent => Ok(self.agent_named(&operands[0])),
+            Builtin::ChooseOne => return self.choose_one(&operands[0], span),
+            Builtin::TimeNanoseconds => return self.clock(TimeUnit::Nanoseconds, span),
+            Builtin::TimeMilliseconds => return self.clock(TimeUnit::Milliseconds, span),
+            Builtin::TimeSeconds => return self.clock(TimeUnit::Seconds, span),
+            Builtin::Temporal(_) => return self.fault(span, FaultKind::Temporal),
+            _ => number::apply(builtin, operands)
+                .or_else(|| text::apply(builtin, operands))
+                .or_else(|| sequence::apply(builtin, operands))
+                .or_else(|| collection::apply(builtin, operands))
+                .unwrap_or(Err(Trouble::Undefined)),
+        };
+        match outcome {
+            Ok(value) => {
+                self.check_built(&value, span)?;
+                Ok(value)
+            }
+            Err(trouble) => self.trouble(trouble, builtin, operands, span),
+        }
+    }
+
+    /// Keeps collections within the limit.
+    #[inline]
+    fn check_built(&self, value: &Value, span: Span) -> Outcome<()> {
+        match value {
+            Value::Set(items) | Value::Seq(items) => self.check_size(items.len() as u64, span),
+            Value::String(text) => self.check_size(text.len() as u64, span),
+            Value::Map(entries) => self.check_size(entries.len() as u64, span),
+            Value::Bag(counts) => self.check_size(counts.values().fold(0u64, |sum, n| sum.saturating_add(*n)), span),
+            _ => Ok(()),
+        }
+    }
+
+    #[cold]
+    fn trouble(&self, trouble: Trouble, builtin: Builtin, operands: &[Value], span: Span) -> Outcome<Value> {
+        let name = builtin.name();
+        let kind = match trouble {
+            Trouble::Undefined if operands.iter().any(Value::is_undef) => {
+                FaultKind::UndefinedOperand { operation: format!("`{name}`") }
+            }
+            Trouble::Undefined => {
+                let shown: Vec<String> = operands.iter().map(|value| value.show(self.program).to_string()).collect();
+                FaultKind::BadOperand { reason: format!("`{name}` is not defined on ({})", shown.join(", ")) }
+            }
+            Trouble::Bad(reason) => FaultKind::BadOperand { reason },
+            Trouble::Zero => FaultKind::DivisionByZero,
+            Trouble::Overflow(operation) => FaultKind::Overflow { operation },
+            Trouble::NotANumber(operation) => FaultKind::NotANumber { operation },
+        };
+        self.fault(span, kind)
+    }
+
+    fn agent_named(&self, name: &Value) -> Value {
+        let Value::String(name) = name else { return Value::Undef };
+        let found = self.program.functions.iter().find(|f| f.element.is_some() && f.name == **name);
+        found.map_or(Value::Undef, |f| Value::Element(self.base_domain(f.codomain), f.element.unwrap_or_default()))
+    }
+
+    /// `chooseone(S)`: an element chosen by the environment; undef of an empty set.
+    fn choose_one(&mut self, set: &Value, span: Span) -> Outcome<Value> {
+        let Value::Set(elements) = set else { return self.undefined_operand("`chooseone`", span) };
+        if elements.is_empty() {
+            return Ok(Value::Undef);
+        }
+        let choice = Choice { span, values: elements, variables: 1 };
+        match self.environment.choose(self.program, &choice) {
+            Ok(chosen) if chosen < elements.len() => Ok(elements[chosen].clone()),
+            Ok(chosen) => {
+                let reason = format!("choice {chosen} of {} candidates does not exist", elements.len());
+                self.fault(span, FaultKind::Environment { reason })
+            }
+            Err(reason) => self.fault(span, FaultKind::Environment { reason }),
+        }
+    }
+}

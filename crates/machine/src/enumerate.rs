@@ -1,0 +1,179 @@
+//! Ranging over domains and collections: the binders of quantifiers, comprehensions, choose and forall.
+//!
+//! The order is canonical: enum literals and numbers ascending, elements in the order of their making, sets in the
+//! order of values, sequences in their own; of several binders the leftmost varies slowest.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use program::{Binder, DomainId, DomainKind, Term, TermId};
+use syntax::Span;
+
+use crate::execute::{Executor, Outcome};
+use crate::fault::FaultKind;
+use crate::value::Value;
+
+/// What is done for each binding.
+pub(crate) type Visit<'v, 'a> = dyn FnMut(&mut Executor<'a>) -> Outcome<ControlFlow<()>> + 'v;
+
+/// The elements of a range, not necessarily built.
+enum Elements {
+    Booleans,
+    Enum(DomainId, u32),
+    /// Elements `0..count` of an abstract domain, then those of the intermediate state.
+    Counted(DomainId, u32, Vec<Value>),
+    Listed(Arc<Vec<Value>>),
+}
+
+impl<'a> Executor<'a> {
+    /// Visits every binding of the binders until a visit breaks off.
+    pub fn for_each_binding(
+        &mut self,
+        binders: &'a [Binder],
+        visit: &mut Visit<'_, 'a>,
+    ) -> Outcome<ControlFlow<()>> {
+        let Some((binder, rest)) = binders.split_first() else { return visit(self) };
+        let elements = self.range_elements(binder.range)?;
+        let visit_one = |this: &mut Self, visit: &mut Visit<'_, 'a>, value: Value| {
+            this.bind(binder.slot, value);
+            if rest.is_empty() { visit(this) } else { this.for_each_binding(rest, visit) }
+        };
+        match elements {
+            Elements::Booleans => {
+                for value in [false, true] {
+                    if visit_one(self, visit, Value::Boolean(value))?.is_break() {
+                        return Ok(ControlFlow::Break(()));
+                    }
+                }
+            }
+            Elements::Enum(domain, count) => {
+                for index in 0..count {
+                    if visit_one(self, visit, Value::Enum(domain, index))?.is_break() {
+                        return Ok(ControlFlow::Break(()));
+                    }
+                }
+            }
+            Elements::Counted(domain, count, more) => {
+                for index in 0..count {
+                    if visit_one(self, visit, Value::Element(domain, index))?.is_break() {
+                        return Ok(ControlFlow::Break(()));
+                    }
+                }
+                for value in more {
+                    if visit_one(self, visit, value)?.is_break() {
+                        return Ok(ControlFlow::Break(()));
+                    }
+                }
+            }
+            Elements::Listed(values) => {
+                for value in values.iter() {
+                    if visit_one(self, visit, value.clone())?.is_break() {
+                        return Ok(ControlFlow::Break(()));
+                    }
+                }
+            }
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+
+    fn range_elements(&mut self, range: TermId) -> Outcome<Elements> {
+        let span = self.program.term_span(range);
+        if let Term::Domain(domain) = self.program.term(range) {
+            return self.domain_elements(*domain, span);
+        }
+        let value = self.evaluate(range)?;
+        match value {
+            Value::Set(elements) | Value::Seq(elements) => Ok(Elements::Listed(elements)),
+            Value::Bag(counts) => {
+                let all = counts.iter().flat_map(|(value, count)| std::iter::repeat_n(value.clone(), *count as usize));
+                Ok(Elements::Listed(Arc::new(all.collect())))
+            }
+            Value::Map(entries) => {
+                let pairs = entries.iter().map(|(key, value)| Value::tuple(vec![key.clone(), value.clone()]));
+                Ok(Elements::Listed(Arc::new(pairs.collect())))
+            }
+            Value::Undef => self.fault(span, FaultKind::UndefinedOperand { operation: "ranging over the elements".into() }),
+            _ => self.fault(span, FaultKind::BadOperand { reason: "only a collection can be ranged over".into() }),
+        }
+    }
+
+    fn domain_elements(&mut self, domain: DomainId, span: Span) -> Outcome<Elements> {
+        let program = self.program;
+        match &program.domain(domain).kind {
+            DomainKind::Basic(model::Basic::Boolean) => Ok(Elements::Booleans),
+            DomainKind::Enum { literals } => Ok(Elements::Enum(domain, literals.len() as u32)),
+            DomainKind::Abstract { .. } => {
+                let carrier = &self.core.store.carriers[domain.0 as usize];
+                Ok(Elements::Counted(domain, carrier.count, carrier.intermediate.clone()))
+            }
+            DomainKind::Concrete { dynamic: true, .. } => {
+                let carrier = &self.core.store.carriers[domain.0 as usize];
+                let elements = carrier.elements.iter().chain(&carrier.intermediate).cloned().collect();
+                Ok(Elements::Listed(Arc::new(elements)))
+            }
+            DomainKind::Concrete { .. } => match &self.core.contents[domain.0 as usize] {
+                Some(elements) => Ok(Elements::Listed(Arc::clone(elements))),
+                None => self.fault(span, FaultKind::NotEnumerable { domain }),
+            },
+            DomainKind::Prod(parts) => {
+                let mut columns = Vec::new();
+                let mut size = 1u64;
+                for part in parts {
+                    let column = self.listed(*part, span)?;
+                    size = size.saturating_mul(column.len() as u64);
+                    columns.push(column);
+                }
+                self.check_size(size, span)?;
+                Ok(Elements::Listed(Arc::new(product(&columns))))
+            }
+            DomainKind::Powerset(of) => {
+                let elements = self.listed(*of, span)?;
+                let size = 1u64.checked_shl(elements.len() as u32).unwrap_or(u64::MAX);
+                self.check_size(if elements.len() >= 64 { u64::MAX } else { size }, span)?;
+                Ok(Elements::Listed(Arc::new(subsets(&elements))))
+            }
+            _ => self.fault(span, FaultKind::NotEnumerable { domain }),
+        }
+    }
+
+    /// The elements of a domain, built, in canonical order.
+    pub fn listed(&mut self, domain: DomainId, span: Span) -> Outcome<Arc<Vec<Value>>> {
+        Ok(match self.domain_elements(domain, span)? {
+            Elements::Booleans => Arc::new(vec![Value::Boolean(false), Value::Boolean(true)]),
+            Elements::Enum(domain, count) => Arc::new((0..count).map(|index| Value::Enum(domain, index)).collect()),
+            Elements::Counted(domain, count, more) => {
+                self.check_size(u64::from(count), span)?;
+                Arc::new((0..count).map(|index| Value::Element(domain, index)).chain(more).collect())
+            }
+            Elements::Listed(values) => values,
+        })
+    }
+}
+
+fn product(columns: &[Arc<Vec<Value>>]) -> Vec<Value> {
+    let mut rows = vec![Vec::with_capacity(columns.len())];
+    for column in columns {
+        rows = rows
+            .into_iter()
+            .flat_map(|row: Vec<Value>| {
+                column.iter().map(move |value| {
+                    let mut longer = row.clone();
+                    longer.push(value.clone());
+                    longer
+                })
+            })
+            .collect();
+    }
+    rows.into_iter().map(Value::tuple).collect()
+}
+
+fn subsets(elements: &[Value]) -> Vec<Value> {
+    let mut sets: Vec<Value> = (0..1u64 << elements.len())
+        .map(|mask| {
+            let chosen = elements.iter().enumerate().filter(|(i, _)| mask >> i & 1 == 1);
+            Value::set(chosen.map(|(_, value)| value.clone()).collect())
+        })
+        .collect();
+    sets.sort_unstable();
+    sets
+}

@@ -1,0 +1,333 @@
+//! Terms → values, in the current (intermediate) state (Börger & Stärk 2003, definition 2.4.10).
+//!
+//! `and`, `or`, `not`, `implies` are Kleene's and evaluate from the left, the right operand only where it matters;
+//! equality is total; every other operation on undef is a fault, as is a guard that is undef.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use program::{
+    BinderList, Builtin, CollectionKind, DomainKind, FunctionId, FunctionKind, Literal, Quantifier, Term, TermId,
+    TermList,
+};
+use syntax::Span;
+
+use crate::execute::{Executor, Outcome};
+use crate::fault::FaultKind;
+use crate::value::{Real, Value};
+
+impl<'a> Executor<'a> {
+    /// The value of a term.
+    pub fn evaluate(&mut self, id: TermId) -> Outcome<Value> {
+        let program = self.program;
+        match program.term(id) {
+            Term::Constant(index) => Ok(constant(&program.constants[*index as usize])),
+            Term::Slot(slot) => Ok(self.slot(*slot).clone()),
+            Term::Read { function, arguments } => self.evaluate_read(*function, *arguments, id),
+            Term::Define { function, arguments } => self.evaluate_definition(*function, *arguments, id),
+            Term::Builtin { builtin, arguments } => self.evaluate_builtin(*builtin, program.term_list(*arguments), id),
+            Term::Domain(domain) => {
+                let elements = self.listed(*domain, program.term_span(id))?;
+                Ok(Value::Set(elements))
+            }
+            Term::Tuple(components) => Ok(Value::tuple(self.evaluate_all(*components)?)),
+            Term::Project { tuple, index } => match self.evaluate(*tuple)? {
+                Value::Tuple(components) => Ok(components[*index as usize].clone()),
+                _ => self.undefined_operand("taking a component", program.term_span(id)),
+            },
+            Term::Collection { kind, elements } => {
+                let elements = self.evaluate_all(*elements)?;
+                Ok(collection(*kind, elements))
+            }
+            Term::Range { kind, low, high, step } => {
+                let (low, high) = (self.evaluate(*low)?, self.evaluate(*high)?);
+                let step = step.map(|step| self.evaluate(step)).transpose()?;
+                let elements = self.range(&low, &high, step.as_ref(), program.term_span(id))?;
+                Ok(collection(*kind, elements))
+            }
+            Term::Comprehension { kind, binders, condition, body } => {
+                self.evaluate_comprehension(*kind, *binders, *condition, *body)
+            }
+            Term::Quantified { quantifier, binders, condition } => {
+                self.evaluate_quantified(*quantifier, *binders, *condition)
+            }
+            Term::If { branches, otherwise } => {
+                for branch in program.term_list(*branches).chunks_exact(2) {
+                    if self.holds(branch[0])? {
+                        return self.evaluate(branch[1]);
+                    }
+                }
+                otherwise.map_or(Ok(Value::Undef), |otherwise| self.evaluate(otherwise))
+            }
+            Term::Switch { subject, cases, otherwise } => {
+                let subject = self.evaluate(*subject)?;
+                for case in program.term_list(*cases).chunks_exact(2) {
+                    if self.evaluate(case[0])? == subject {
+                        return self.evaluate(case[1]);
+                    }
+                }
+                otherwise.map_or(Ok(Value::Undef), |otherwise| self.evaluate(otherwise))
+            }
+            Term::Let { slot, value, body } => {
+                let value = self.evaluate(*value)?;
+                self.bind(*slot, value);
+                self.evaluate(*body)
+            }
+            Term::Rule(procedure) => Ok(Value::Rule(*procedure)),
+            Term::Coerce(operand) => {
+                let value = self.evaluate(*operand)?;
+                Ok(self.coerce(value, &program.domain(program.term_domain(id)).kind))
+            }
+        }
+    }
+
+    /// The truth of a guard; a fault where it is undef.
+    #[inline]
+    pub fn holds(&mut self, id: TermId) -> Outcome<bool> {
+        match self.evaluate(id)? {
+            Value::Boolean(truth) => Ok(truth),
+            _ => self.fault(self.program.term_span(id), FaultKind::UndefinedGuard),
+        }
+    }
+
+    /// The values of a list of terms.
+    pub fn evaluate_all(&mut self, list: TermList) -> Outcome<Vec<Value>> {
+        self.program.term_list(list).iter().map(|term| self.evaluate(*term)).collect()
+    }
+
+    /// Puts the values of a list of terms on the scratch stack; gives where they start.
+    #[inline]
+    pub fn gather(&mut self, list: TermList) -> Outcome<usize> {
+        let start = self.core.scratch.len();
+        for term in self.program.term_list(list) {
+            let value = self.evaluate(*term)?;
+            self.core.scratch.push(value);
+        }
+        Ok(start)
+    }
+
+    fn evaluate_read(&mut self, function: FunctionId, arguments: TermList, id: TermId) -> Outcome<Value> {
+        let start = self.gather(arguments)?;
+        let kind = self.program.functions[function.0 as usize].kind;
+        let plain = matches!(kind, FunctionKind::Controlled | FunctionKind::Out | FunctionKind::Local);
+        if plain && self.core.initials[function.0 as usize].is_none() {
+            let found = self.core.store.find(function, &self.core.scratch[start..]);
+            self.core.scratch.truncate(start);
+            return Ok(found.map_or(Value::Undef, |index| self.core.store.values[index as usize].clone()));
+        }
+        let arguments: Vec<Value> = self.core.scratch.drain(start..).collect();
+        self.read(function, &arguments, self.program.term_span(id))
+    }
+
+    fn evaluate_definition(&mut self, function: FunctionId, arguments: TermList, id: TermId) -> Outcome<Value> {
+        let start = self.gather(arguments)?;
+        let program = self.program;
+        let Some(definition) = &program.functions[function.0 as usize].definition else {
+            self.core.scratch.truncate(start);
+            return Ok(Value::Undef);
+        };
+        self.in_frame(start, definition.frame, program.term_span(id), |this| this.evaluate(definition.body))
+    }
+
+    fn evaluate_comprehension(
+        &mut self,
+        kind: CollectionKind,
+        binders: BinderList,
+        condition: Option<TermId>,
+        body: TermId,
+    ) -> Outcome<Value> {
+        let program = self.program;
+        let mut elements = Vec::new();
+        let _ = self.for_each_binding(program.binder_list(binders), &mut |this| {
+            if match condition {
+                Some(condition) => this.holds(condition)?,
+                None => true,
+            } {
+                elements.push(this.evaluate(body)?);
+                this.check_size(elements.len() as u64, program.term_span(body))?;
+            }
+            Ok(ControlFlow::Continue(()))
+        })?;
+        Ok(collection(kind, elements))
+    }
+
+    fn evaluate_quantified(
+        &mut self,
+        quantifier: Quantifier,
+        binders: BinderList,
+        condition: Option<TermId>,
+    ) -> Outcome<Value> {
+        let program = self.program;
+        let (mut satisfied, mut refuted) = (0u64, false);
+        let _ = self.for_each_binding(program.binder_list(binders), &mut |this| {
+            let holds = match condition {
+                Some(condition) => this.holds(condition)?,
+                None => true,
+            };
+            satisfied += u64::from(holds);
+            refuted |= !holds;
+            let decided = match quantifier {
+                Quantifier::Forall => refuted,
+                Quantifier::Exists => satisfied > 0,
+                Quantifier::ExistsUnique => satisfied > 1,
+            };
+            Ok(if decided { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+        })?;
+        Ok(Value::Boolean(match quantifier {
+            Quantifier::Forall => !refuted,
+            Quantifier::Exists => satisfied > 0,
+            Quantifier::ExistsUnique => satisfied == 1,
+        }))
+    }
+
+    /// The connectives, which do not evaluate all their operands; every other builtin is applied to values.
+    fn evaluate_builtin(&mut self, builtin: Builtin, arguments: &'a [TermId], id: TermId) -> Outcome<Value> {
+        let decides = match builtin {
+            Builtin::And => Some(false),
+            Builtin::Or => Some(true),
+            Builtin::Implies => return self.evaluate_implication(arguments[0], arguments[1], id),
+            Builtin::Pre => return self.evaluate_before(arguments[0]),
+            _ => None,
+        };
+        if let Some(deciding) = decides {
+            let left = self.evaluate(arguments[0])?;
+            if left == Value::Boolean(deciding) {
+                return Ok(left);
+            }
+            let right = self.evaluate(arguments[1])?;
+            return Ok(if right == Value::Boolean(deciding) || left == Value::Boolean(!deciding) { right } else { left });
+        }
+        match arguments {
+            [operand] => {
+                let operand = self.evaluate(*operand)?;
+                self.apply(builtin, &[operand], id)
+            }
+            [left, right] => {
+                let left = self.evaluate(*left)?;
+                let right = self.evaluate(*right)?;
+                self.apply(builtin, &[left, right], id)
+            }
+            _ => {
+                let operands: Vec<Value> =
+                    arguments.iter().map(|term| self.evaluate(*term)).collect::<Outcome<_>>()?;
+                self.apply(builtin, &operands, id)
+            }
+        }
+    }
+
+    /// Kleene's implication: `false` implies anything, anything implies `true`.
+    fn evaluate_implication(&mut self, premise: TermId, conclusion: TermId, _id: TermId) -> Outcome<Value> {
+        let premise = self.evaluate(premise)?;
+        if premise == Value::Boolean(false) {
+            return Ok(Value::Boolean(true));
+        }
+        let conclusion = self.evaluate(conclusion)?;
+        Ok(match (premise, conclusion) {
+            (_, Value::Boolean(true)) => Value::Boolean(true),
+            (Value::Boolean(true), conclusion) => conclusion,
+            _ => Value::Undef,
+        })
+    }
+
+    /// `pre(t)`: the value of a term in the state before the step.
+    fn evaluate_before(&mut self, term: TermId) -> Outcome<Value> {
+        self.core.updates.swap_original(&mut self.core.store, false);
+        let value = self.evaluate(term);
+        self.core.updates.swap_original(&mut self.core.store, true);
+        value
+    }
+
+    fn coerce(&self, value: Value, to: &DomainKind) -> Value {
+        let complex = matches!(to, DomainKind::Basic(model::Basic::Complex));
+        match value {
+            Value::Integer(n) if complex => complex_of(n as f64),
+            Value::Real(r) if complex => complex_of(r.get()),
+            Value::Integer(n) => Value::Real(Real::new(n as f64).expect("an integer is a number")),
+            other => other,
+        }
+    }
+
+    fn range(&mut self, low: &Value, high: &Value, step: Option<&Value>, span: Span) -> Outcome<Vec<Value>> {
+        let one = Value::Integer(1);
+        match (low, high, step.unwrap_or(&one)) {
+            (Value::Integer(low), Value::Integer(high), Value::Integer(step)) => {
+                if *step <= 0 {
+                    return self.fault(span, FaultKind::BadOperand { reason: format!("the step {step} is not positive") });
+                }
+                let size = (i128::from(*high) - i128::from(*low)).max(-1) / i128::from(*step) + 1;
+                if low > high {
+                    return Ok(Vec::new());
+                }
+                self.check_size(u64::try_from(size).unwrap_or(u64::MAX), span)?;
+                Ok((0..size as i64).map(|i| Value::Integer(low + i * step)).collect())
+            }
+            (Value::Real(low), Value::Real(high), step) => {
+                let step = match step {
+                    Value::Real(step) => step.get(),
+                    Value::Integer(step) => *step as f64,
+                    _ => return self.undefined_operand("a range", span),
+                };
+                self.real_range(low.get(), high.get(), step, span)
+            }
+            (Value::Undef, ..) | (_, Value::Undef, _) | (.., Value::Undef) => self.undefined_operand("a range", span),
+            _ => self.fault(span, FaultKind::BadOperand { reason: "the bounds of a range are numbers of one kind".into() }),
+        }
+    }
+
+    /// `low`, `low + step`, … each rounded to the decimals of `low` and `step`, so that 0.1 steps stay exact.
+    fn real_range(&mut self, low: f64, high: f64, step: f64, span: Span) -> Outcome<Vec<Value>> {
+        if step <= 0.0 {
+            return self.fault(span, FaultKind::BadOperand { reason: format!("the step {step:?} is not positive") });
+        }
+        let decimals = |x: f64| format!("{x}").split_once('.').map_or(0, |(_, fraction)| fraction.len()).min(15) as i32;
+        let scale = 10f64.powi(decimals(low).max(decimals(step)));
+        let size = (((high - low) / step) * (1.0 + 1e-12) + 1e-9).floor();
+        if size < 0.0 {
+            return Ok(Vec::new());
+        }
+        self.check_size(size as u64, span)?;
+        let number = |i: u64| ((low + i as f64 * step) * scale).round() / scale;
+        Ok((0..=size as u64).filter_map(|i| Real::new(number(i)).map(Value::Real)).collect())
+    }
+
+    /// The fault of an operation on undef.
+    #[cold]
+    pub fn undefined_operand<T>(&self, operation: &str, span: Span) -> Outcome<T> {
+        self.fault(span, FaultKind::UndefinedOperand { operation: operation.to_string() })
+    }
+}
+
+fn complex_of(re: f64) -> Value {
+    let part = |x| Real::new(x).expect("a coerced number is a number");
+    Value::Complex(Arc::new((part(re), part(0.0))))
+}
+
+/// The value of a literal.
+pub(crate) fn constant(literal: &Literal) -> Value {
+    match literal {
+        Literal::Undef => Value::Undef,
+        Literal::Boolean(b) => Value::Boolean(*b),
+        Literal::Integer(n) => Value::Integer(*n),
+        Literal::Real(r) => Real::new(*r).map_or(Value::Undef, Value::Real),
+        Literal::Complex(re, im) => match (Real::new(*re), Real::new(*im)) {
+            (Some(re), Some(im)) => Value::Complex(Arc::new((re, im))),
+            _ => Value::Undef,
+        },
+        Literal::Char(c) => Value::Char(*c),
+        Literal::String(text) => Value::string(text.as_str()),
+        Literal::Enum(domain, index) => Value::Enum(*domain, *index),
+    }
+}
+
+/// A collection of a kind; the elements of a map are pairs.
+pub(crate) fn collection(kind: CollectionKind, elements: Vec<Value>) -> Value {
+    match kind {
+        CollectionKind::Set => Value::set(elements),
+        CollectionKind::Seq => Value::seq(elements),
+        CollectionKind::Bag => Value::bag(elements),
+        CollectionKind::Map => Value::map(elements.into_iter().filter_map(|pair| match pair {
+            Value::Tuple(parts) if parts.len() == 2 => Some((parts[0].clone(), parts[1].clone())),
+            _ => None,
+        })),
+    }
+}

@@ -1,0 +1,221 @@
+//! The executor: what evaluating terms and running rules share.
+//!
+//! In: a program, the machine's [`Core`] (store, update set, frames) and an environment. It lives for one call of
+//! the machine's public face. INVARIANT: after a fault the core holds the state before the call.
+
+use program::{DomainId, DomainKind, FunctionId, Program, Slot};
+use syntax::Span;
+
+use crate::coverage::Coverage;
+use crate::environment::{Environment, TimeUnit};
+use crate::fault::{Fault, FaultKind};
+use crate::limits::Limits;
+use crate::membership::Membership;
+use crate::store::Store;
+use crate::update::Updates;
+use crate::value::Value;
+
+/// What an evaluation gives.
+pub(crate) type Outcome<T> = Result<T, Box<Fault>>;
+
+/// The state of a machine and its working memory.
+#[derive(Debug)]
+pub(crate) struct Core {
+    pub store: Store,
+    pub updates: Updates,
+    /// Frames of the running procedures and definitions, one on top of the other.
+    pub frames: Vec<Value>,
+    /// Start of the running frame.
+    pub base: usize,
+    /// Values of arguments being gathered.
+    pub scratch: Vec<Value>,
+    /// The epoch of inputs: advances when they are forgotten.
+    pub epoch: u32,
+    /// Locations the environment gave values for in this epoch, in the order asked.
+    pub inputs: Vec<u32>,
+    /// The clock's readings in this epoch.
+    pub clock: [Option<i64>; 3],
+    /// Rounds of loops in this step.
+    pub iterations: u64,
+    /// Depth of calls.
+    pub depth: u64,
+    /// Calls being made, for the fault's report.
+    pub calls: Vec<Span>,
+    /// The contents of static concrete domains, evaluated once.
+    pub contents: Vec<Option<std::sync::Arc<Vec<Value>>>>,
+    /// What the values of each function must be checked for, by function.
+    pub codomains: Vec<Membership>,
+    /// Counts, where wanted.
+    pub coverage: Option<Box<Coverage>>,
+    /// The initial values of functions while the initial state is being made; after that, of those whose
+    /// arguments cannot be enumerated: index into the program's initials, by function.
+    pub initials: Vec<Option<u32>>,
+    /// The initial state is being made.
+    pub starting: bool,
+}
+
+/// One call's view of program, core and environment.
+pub(crate) struct Executor<'a> {
+    pub program: &'a Program,
+    pub core: &'a mut Core,
+    pub environment: &'a mut dyn Environment,
+    pub limits: Limits,
+}
+
+impl Executor<'_> {
+    /// A fault at a place.
+    #[cold]
+    pub fn fault<T>(&self, span: Span, kind: FaultKind) -> Outcome<T> {
+        const SHOWN: usize = 8;
+        let calls = &self.core.calls;
+        let mut chain: Vec<Span> = calls.iter().rev().take(SHOWN).copied().collect();
+        if calls.len() > 2 * SHOWN {
+            chain.extend(calls[..SHOWN].iter().rev());
+        } else {
+            chain.extend(calls.iter().rev().skip(SHOWN));
+        }
+        Err(Box::new(Fault { kind, span, calls: chain }))
+    }
+
+    /// The value of a variable.
+    #[inline]
+    pub fn slot(&self, slot: Slot) -> &Value {
+        &self.core.frames[self.core.base + slot.0 as usize]
+    }
+
+    /// Binds a variable.
+    #[inline]
+    pub fn bind(&mut self, slot: Slot, value: Value) {
+        let index = self.core.base + slot.0 as usize;
+        self.core.frames[index] = value;
+    }
+
+    /// Runs `body` in a new frame whose first slots are the values on the scratch stack from `arguments` on.
+    pub fn in_frame<T>(
+        &mut self,
+        arguments: usize,
+        frame: u32,
+        span: Span,
+        body: impl FnOnce(&mut Self) -> Outcome<T>,
+    ) -> Outcome<T> {
+        if self.core.depth >= self.limits.call_depth {
+            self.core.scratch.truncate(arguments);
+            return self.fault(span, FaultKind::Limit { limit: "nested calls", value: self.limits.call_depth });
+        }
+        let (base, top) = (self.core.base, self.core.frames.len());
+        self.core.frames.extend(self.core.scratch.drain(arguments..));
+        self.core.frames.resize(top + frame as usize, Value::Undef);
+        self.core.base = top;
+        self.core.depth += 1;
+        self.core.calls.push(span);
+        // LIMIT: terms of one body nest no deeper than the parser allows, which a megabyte holds.
+        let result = stacker::maybe_grow(1 << 20, 8 << 20, || body(self));
+        self.core.calls.pop();
+        self.core.depth -= 1;
+        self.core.frames.truncate(top);
+        self.core.base = base;
+        result
+    }
+
+    /// The clock, read once an epoch.
+    pub fn clock(&mut self, unit: TimeUnit, span: Span) -> Outcome<Value> {
+        let entry = unit as usize;
+        if let Some(time) = self.core.clock[entry] {
+            return Ok(Value::Integer(time));
+        }
+        match self.environment.time(unit) {
+            Ok(time) => {
+                self.core.clock[entry] = Some(time);
+                Ok(Value::Integer(time))
+            }
+            Err(reason) => self.fault(span, FaultKind::Environment { reason }),
+        }
+    }
+
+    /// Counts against the limit of collection sizes.
+    #[inline]
+    pub fn check_size(&self, size: u64, span: Span) -> Outcome<()> {
+        if size > self.limits.collection {
+            return self.fault(span, FaultKind::Limit { limit: "elements of one collection", value: self.limits.collection });
+        }
+        Ok(())
+    }
+
+    /// Counts a round of a loop.
+    #[inline]
+    pub fn count_iteration(&mut self, span: Span) -> Outcome<()> {
+        self.core.iterations += 1;
+        if self.core.iterations > self.limits.iterations {
+            return self.fault(span, FaultKind::Limit { limit: "iterations in one step", value: self.limits.iterations });
+        }
+        Ok(())
+    }
+
+    /// The value of a location, asking the environment where it is an input not yet given.
+    pub fn read(&mut self, function: FunctionId, arguments: &[Value], span: Span) -> Outcome<Value> {
+        use program::FunctionKind::{Monitored, Shared};
+        let declared = &self.program.functions[function.0 as usize];
+        if let Some(element) = declared.element {
+            return Ok(Value::Element(self.base_domain(declared.codomain), element));
+        }
+        let found = self.core.store.find(function, arguments);
+        match declared.kind {
+            Monitored => {
+                if let Some(index) = found {
+                    if self.core.store.given[index as usize] == self.core.epoch {
+                        return Ok(self.core.store.values[index as usize].clone());
+                    }
+                }
+                self.ask(function, arguments, span)
+            }
+            Shared => {
+                if let Some(index) = found {
+                    let value = &self.core.store.values[index as usize];
+                    if !value.is_undef() || self.core.store.given[index as usize] != 0 {
+                        return Ok(value.clone());
+                    }
+                }
+                if self.core.initials[function.0 as usize].is_some() {
+                    return self.read_initial(function, arguments, span);
+                }
+                self.ask(function, arguments, span)
+            }
+            program::FunctionKind::Static | program::FunctionKind::Derived => Ok(Value::Undef),
+            _ => {
+                if self.core.initials[function.0 as usize].is_some() {
+                    return self.read_initial(function, arguments, span);
+                }
+                Ok(found.map_or(Value::Undef, |index| self.core.store.values[index as usize].clone()))
+            }
+        }
+    }
+
+    /// Asks the environment for an input and keeps it.
+    fn ask(&mut self, function: FunctionId, arguments: &[Value], span: Span) -> Outcome<Value> {
+        if self.core.starting && self.core.initials[function.0 as usize].is_some() {
+            return self.read_initial(function, arguments, span);
+        }
+        let location = crate::location::Location { function, arguments: arguments.to_vec() };
+        let codomain = self.program.function(function).codomain;
+        let value = match self.environment.monitored(self.program, &location, codomain) {
+            Ok(value) => value,
+            Err(reason) => return self.fault(span, FaultKind::Environment { reason }),
+        };
+        if !self.is_member(function, &value) {
+            return self.fault(span, FaultKind::OutOfDomain { location, value, domain: codomain });
+        }
+        let index = self.core.store.number(function, arguments);
+        self.core.store.values[index as usize] = value.clone();
+        self.core.store.given[index as usize] = self.core.epoch;
+        self.core.inputs.push(index);
+        Ok(value)
+    }
+
+    /// The type domain of a domain.
+    pub fn base_domain(&self, domain: DomainId) -> DomainId {
+        match &self.program.domain(domain).kind {
+            DomainKind::Concrete { base, .. } => *base,
+            _ => domain,
+        }
+    }
+}

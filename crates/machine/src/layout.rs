@@ -1,0 +1,145 @@
+//! Where the locations of each function stand in the store.
+//!
+//! In: the program and the contents of its static domains. Out: one [`Layout`] a function. A function over small
+//! finite domains is *dense*: its locations are an array, and a location's number is computed from its
+//! arguments. All others, and arguments outside the declared domains (undef among them), are *sparse*: numbered
+//! as they come up. INVARIANT: number ↔ location is one to one.
+
+use program::{DomainId, DomainKind, Function, FunctionKind, Program};
+
+use crate::value::Value;
+
+/// The number of a location in the store.
+pub(crate) type LocationIndex = u32;
+
+/// LIMIT: a function with more locations than this is sparse.
+const DENSE_LIMIT: u64 = 1 << 18;
+
+/// Where a function's locations stand.
+#[derive(Debug, Clone)]
+pub(crate) enum Layout {
+    /// It has none: static or derived by definition, or of the library.
+    None,
+    /// One location: a function without arguments.
+    Single(LocationIndex),
+    /// An array from `base`, one dimension a parameter, the last varying fastest.
+    Dense { base: LocationIndex, len: u32, dimensions: Box<[Dimension]> },
+    /// Numbered as they come up.
+    Sparse,
+}
+
+/// How one argument becomes an index.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Dimension {
+    pub kind: DimensionKind,
+    pub size: u32,
+}
+
+/// The values a dimension covers: `size` of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum DimensionKind {
+    Boolean,
+    Enum(DomainId),
+    Element(DomainId),
+    Integer { low: i64 },
+}
+
+impl Dimension {
+    /// The index of a value, if the dimension covers it.
+    #[inline]
+    pub fn index(&self, value: &Value) -> Option<u32> {
+        let index = match (self.kind, value) {
+            (DimensionKind::Boolean, Value::Boolean(b)) => u32::from(*b),
+            (DimensionKind::Enum(domain), Value::Enum(other, index)) if domain == *other => *index,
+            (DimensionKind::Element(domain), Value::Element(other, index)) if domain == *other => *index,
+            (DimensionKind::Integer { low }, Value::Integer(n)) => {
+                u32::try_from(n.wrapping_sub(low)).ok().filter(|_| *n >= low)?
+            }
+            _ => return None,
+        };
+        (index < self.size).then_some(index)
+    }
+
+    /// The value of an index.
+    pub fn value(&self, index: u32) -> Value {
+        match self.kind {
+            DimensionKind::Boolean => Value::Boolean(index == 1),
+            DimensionKind::Enum(domain) => Value::Enum(domain, index),
+            DimensionKind::Element(domain) => Value::Element(domain, index),
+            DimensionKind::Integer { low } => Value::Integer(low + i64::from(index)),
+        }
+    }
+}
+
+/// Lays out all functions; gives the layouts and the number of dense locations. `contents` gives the elements of
+/// a static concrete domain, where they are known.
+pub(crate) fn lay_out(program: &Program, contents: &dyn Fn(DomainId) -> Option<Vec<Value>>) -> (Vec<Layout>, u32) {
+    let mut next = 0u32;
+    let layouts = program.functions.iter().map(|function| {
+        if !has_locations(function) {
+            return Layout::None;
+        }
+        if function.parameters.is_empty() {
+            next += 1;
+            return Layout::Single(next - 1);
+        }
+        let dimensions: Option<Box<[Dimension]>> =
+            function.parameters.iter().map(|domain| dimension(program, *domain, contents)).collect();
+        let Some(dimensions) = dimensions else { return Layout::Sparse };
+        let mut len = 1u64;
+        for dimension in &dimensions {
+            len = len.saturating_mul(u64::from(dimension.size));
+        }
+        if len == 0 || len > DENSE_LIMIT || u64::from(next) + len > u64::from(u32::MAX / 2) {
+            return Layout::Sparse;
+        }
+        let base = next;
+        next += len as u32;
+        Layout::Dense { base, len: len as u32, dimensions }
+    });
+    let layouts = layouts.collect();
+    (layouts, next)
+}
+
+fn has_locations(function: &Function) -> bool {
+    match function.kind {
+        FunctionKind::Static | FunctionKind::Derived => false,
+        FunctionKind::Monitored
+        | FunctionKind::Controlled
+        | FunctionKind::Shared
+        | FunctionKind::Out
+        | FunctionKind::Local => true,
+    }
+}
+
+fn dimension(
+    program: &Program,
+    domain: DomainId,
+    contents: &dyn Fn(DomainId) -> Option<Vec<Value>>,
+) -> Option<Dimension> {
+    match &program.domain(domain).kind {
+        DomainKind::Basic(model::Basic::Boolean) => Some(Dimension { kind: DimensionKind::Boolean, size: 2 }),
+        DomainKind::Enum { literals } => {
+            Some(Dimension { kind: DimensionKind::Enum(domain), size: literals.len() as u32 })
+        }
+        DomainKind::Abstract { elements, .. } => {
+            Some(Dimension { kind: DimensionKind::Element(domain), size: elements.len() as u32 })
+        }
+        DomainKind::Concrete { base, .. } => match &program.domain(*base).kind {
+            DomainKind::Basic(model::Basic::Integer | model::Basic::Natural) => integers(&contents(domain)?),
+            DomainKind::Basic(_) => dimension(program, *base, contents),
+            DomainKind::Enum { .. } | DomainKind::Abstract { .. } => dimension(program, *base, contents),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// The span from the least to the greatest of these numbers.
+fn integers(contents: &[Value]) -> Option<Dimension> {
+    let numbers = || contents.iter().filter_map(|value| if let Value::Integer(n) = value { Some(*n) } else { None });
+    let (low, high) = (numbers().min()?, numbers().max()?);
+    let size = u32::try_from(high.checked_sub(low)?.checked_add(1)?).ok()?;
+    let compact = u64::from(size) <= 4 * contents.len() as u64 + 16;
+    compact.then_some(Dimension { kind: DimensionKind::Integer { low }, size })
+}

@@ -1,0 +1,34 @@
+//! The semantics of ASMs: program × state × environment → update set → next state.
+//!
+//! In: a [`program::Program`]. A [`Machine`] holds its current state; [`Machine::step`] makes one step, taking
+//! inputs and choices from an [`Environment`], or gives a [`Fault`] and leaves the state as it was. Definitions
+//! are those of E. Börger, R. Stärk, *Abstract State Machines*, Springer 2003: locations, updates and update sets
+//! (2.4), rules (2.4.4), turbo rules (4.1). It must not know files, clocks, random sources or printing.
+
+mod builtin;
+mod coverage;
+mod enumerate;
+mod environment;
+mod evaluate;
+mod execute;
+mod fault;
+mod layout;
+mod limits;
+mod location;
+mod machine;
+mod membership;
+mod perform;
+mod print;
+mod start;
+mod store;
+mod update;
+mod value;
+
+pub use coverage::Coverage;
+pub use environment::{Choice, Closed, Environment, TimeUnit};
+pub use fault::{ClashSide, Fault, FaultKind};
+pub use limits::Limits;
+pub use location::Location;
+pub use machine::{Change, Machine, Snapshot, Step};
+pub use print::{Show, ShowValue, element_name};
+pub use value::{Real, Value};

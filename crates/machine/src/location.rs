@@ -1,0 +1,46 @@
+//! Locations: a function's name with argument values (Börger & Stärk 2003, definition 2.4.3).
+
+use std::fmt;
+
+use program::{FunctionId, Program};
+
+use crate::print::Show;
+use crate::value::Value;
+
+/// A location: what an update changes and a state gives a value to.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Location {
+    /// The dynamic function.
+    pub function: FunctionId,
+    /// One value a parameter.
+    pub arguments: Vec<Value>,
+}
+
+impl Location {
+    /// The location as it would be written: `f(a,1)`.
+    pub fn show<'a>(&'a self, program: &'a Program) -> impl fmt::Display + 'a {
+        ShowLocation { location: self, program }
+    }
+}
+
+struct ShowLocation<'a> {
+    location: &'a Location,
+    program: &'a Program,
+}
+
+impl fmt::Display for ShowLocation<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.program.function(self.location.function).name)?;
+        if self.location.arguments.is_empty() {
+            return Ok(());
+        }
+        f.write_str("(")?;
+        for (index, argument) in self.location.arguments.iter().enumerate() {
+            if index > 0 {
+                f.write_str(",")?;
+            }
+            write!(f, "{}", argument.show(self.program))?;
+        }
+        f.write_str(")")
+    }
+}

@@ -1,0 +1,346 @@
+//! The public face of the machine: a program and its current state, moved on step by step.
+
+use std::sync::Arc;
+
+use program::{DomainId, Expression, FunctionId, FunctionKind, ProcedureId, Program};
+use syntax::Span;
+
+use crate::coverage::Coverage;
+use crate::environment::{Closed, Environment};
+use crate::execute::{Core, Executor, Outcome};
+use crate::fault::{Fault, FaultKind};
+use crate::limits::Limits;
+use crate::location::Location;
+use crate::store::Store;
+use crate::value::Value;
+
+/// One location whose value a step changed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Change {
+    /// The location.
+    pub location: Location,
+    /// Its value before.
+    pub before: Value,
+    /// Its value after.
+    pub after: Value,
+    /// The update rule that wrote it.
+    pub span: Span,
+}
+
+/// What a step did.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Step {
+    /// How many updates the step's update set held, trivial ones and new elements included.
+    pub updates: usize,
+    /// Whether any of them changed a value or a domain grew.
+    pub changed: bool,
+}
+
+/// A copy of a whole state, to go back to.
+#[derive(Debug, Clone)]
+pub struct Snapshot {
+    store: Store,
+    steps: u64,
+    initials: Vec<Option<u32>>,
+}
+
+/// A machine: a program and its current state.
+#[derive(Debug)]
+pub struct Machine {
+    program: Arc<Program>,
+    limits: Limits,
+    core: Core,
+    steps: u64,
+    /// What the last commit overwrote: location, value before, the update rule's place.
+    overwritten: Vec<(u32, Value, Span)>,
+    /// A step was committed since inputs were last forgotten.
+    stale: bool,
+    /// Sparse locations at the last compaction.
+    compacted: usize,
+}
+
+impl Machine {
+    /// A machine whose locations are all undef: see [`Machine::start`].
+    pub fn new(program: Arc<Program>, limits: Limits) -> Machine {
+        let core = Core::new(&program, limits);
+        Machine { program, limits, core, steps: 0, overwritten: Vec::new(), stale: false, compacted: 0 }
+    }
+
+    /// The program.
+    pub fn program(&self) -> &Arc<Program> {
+        &self.program
+    }
+
+    fn execute<T>(
+        &mut self,
+        environment: &mut dyn Environment,
+        body: impl for<'a> FnOnce(&mut Executor<'a>, &'a Program) -> Outcome<T>,
+    ) -> Result<T, Fault> {
+        let program = Arc::clone(&self.program);
+        let core = &mut self.core;
+        core.scratch.clear();
+        core.frames.clear();
+        core.calls.clear();
+        (core.base, core.depth) = (0, 0);
+        let mut executor = Executor { program: &program, core, environment, limits: self.limits };
+        body(&mut executor, &program).map_err(|fault| *fault)
+    }
+
+    /// Sets the initial state: contents of dynamic domains, initial values. Steps made: 0.
+    ///
+    /// # Errors
+    /// An initial value that cannot be evaluated, or lies outside its domain.
+    pub fn start(&mut self, environment: &mut dyn Environment) -> Result<(), Fault> {
+        let coverage = self.core.coverage.take();
+        self.core = Core::new(&self.program, self.limits);
+        self.core.coverage = coverage;
+        self.steps = 0;
+        self.overwritten.clear();
+        self.execute(environment, |executor, _| executor.start())
+    }
+
+    /// How many steps have been committed since the start.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Makes one step of the main rule: [`Machine::prepare`] and [`Machine::commit`].
+    ///
+    /// # Errors
+    /// A fault leaves the state as it was.
+    pub fn step(&mut self, environment: &mut dyn Environment) -> Result<Step, Fault> {
+        self.prepare(environment)?;
+        Ok(self.commit())
+    }
+
+    /// Forgets the inputs of the last step if there was one since, then computes the main rule's update set
+    /// without applying it. Until [`Machine::commit`] terms are evaluated in the old state with the inputs of this
+    /// step.
+    ///
+    /// # Errors
+    /// A fault leaves the state as it was.
+    pub fn prepare(&mut self, environment: &mut dyn Environment) -> Result<(), Fault> {
+        match self.program.main {
+            Some(main) => self.prepare_procedure(main, environment),
+            None => {
+                let span = Span { file: syntax::FileId(0), start: 0, end: 0 };
+                Err(Fault { kind: FaultKind::NoMain, span, calls: Vec::new() })
+            }
+        }
+    }
+
+    /// The same for another procedure without parameters (a scenario's `exec`).
+    ///
+    /// # Errors
+    /// A fault leaves the state as it was.
+    pub fn prepare_procedure(
+        &mut self,
+        procedure: ProcedureId,
+        environment: &mut dyn Environment,
+    ) -> Result<(), Fault> {
+        self.discard();
+        if self.stale {
+            self.forget_inputs();
+        }
+        self.core.iterations = 0;
+        self.core.updates.begin();
+        let outcome = self.execute(environment, |executor, program| {
+            let span = program.procedure(procedure).span;
+            executor.enter(procedure, 0, span)
+        });
+        if outcome.is_err() {
+            self.discard();
+        }
+        outcome
+    }
+
+    /// Applies the update set prepared. The inputs of the step can still be read until
+    /// [`Machine::forget_inputs`].
+    pub fn commit(&mut self) -> Step {
+        let program = Arc::clone(&self.program);
+        let core = &mut self.core;
+        self.overwritten.clear();
+        let created = core.updates.created().len();
+        let mut step = Step { updates: core.updates.len() + created, changed: created > 0 };
+        for update in core.updates.updates() {
+            let value = &mut core.store.values[update.location as usize];
+            if *value != update.value {
+                let before = std::mem::replace(value, update.value.clone());
+                self.overwritten.push((update.location, before, program.rule_span(update.rule)));
+                step.changed = true;
+            }
+        }
+        for (domain, element) in core.updates.created() {
+            let carrier = &mut core.store.carriers[domain.0 as usize];
+            if matches!(program.domain(*domain).kind, program::DomainKind::Abstract { .. }) {
+                carrier.count = carrier.fresh;
+            } else {
+                carrier.elements.push(element.clone());
+                carrier.elements.sort_unstable();
+            }
+        }
+        core.updates.release();
+        self.stale = true;
+        self.steps += 1;
+        step
+    }
+
+    /// Drops the update set prepared.
+    pub fn discard(&mut self) {
+        let core = &mut self.core;
+        core.updates.roll_back(&mut core.store);
+        for carrier in &mut core.store.carriers {
+            carrier.fresh = carrier.count;
+        }
+    }
+
+    /// What the last committed step changed, in the canonical order of locations.
+    pub fn changes(&self) -> Vec<Change> {
+        let mut changes: Vec<Change> = self
+            .overwritten
+            .iter()
+            .map(|(index, before, span)| Change {
+                location: self.core.store.location(*index),
+                before: before.clone(),
+                after: self.core.store.values[*index as usize].clone(),
+                span: *span,
+            })
+            .collect();
+        changes.sort_by(|a, b| a.location.cmp(&b.location));
+        changes
+    }
+
+    /// The values that the environment gave since inputs were last forgotten, in the order asked.
+    pub fn inputs(&self) -> Vec<(Location, Value)> {
+        let store = &self.core.store;
+        self.core.inputs.iter().map(|i| (store.location(*i), store.values[*i as usize].clone())).collect()
+    }
+
+    /// Makes every monitored location, and the clock, be asked for anew.
+    pub fn forget_inputs(&mut self) {
+        self.stale = false;
+        let core = &mut self.core;
+        core.epoch += 1;
+        core.clock = [None; 3];
+        for index in std::mem::take(&mut core.inputs) {
+            let function = core.store.function_of(index);
+            if self.program.function(function).kind == FunctionKind::Monitored {
+                core.store.values[index as usize] = Value::Undef;
+            }
+        }
+        // Numbers are handed out afresh here, where nothing holds one.
+        let sparse = core.store.sparse_len();
+        if sparse > 2 * self.compacted + 4096 {
+            let program = &self.program;
+            core.store.compact(&|location| program.function(location.function).kind != FunctionKind::Monitored);
+            core.updates.renumbered();
+            self.overwritten.clear();
+            self.compacted = core.store.sparse_len();
+        }
+    }
+
+    /// The current value of a location; a monitored one's only if it was asked for in this step.
+    pub fn value(&self, location: &Location) -> Value {
+        let found = self.core.store.find(location.function, &location.arguments);
+        found.map_or(Value::Undef, |index| self.core.store.values[index as usize].clone())
+    }
+
+    /// Sets a location from outside: an input of this step, the environment's part of a shared function, a
+    /// debugger's change.
+    ///
+    /// # Errors
+    /// A value outside the codomain.
+    pub fn set(&mut self, location: &Location, value: Value) -> Result<(), Fault> {
+        let Location { function, arguments } = location;
+        let span = self.program.function(*function).span;
+        self.execute(&mut Closed, |executor, program| {
+            if !executor.is_member(*function, &value) {
+                let domain = program.function(*function).codomain;
+                let kind = FaultKind::OutOfDomain { location: location.clone(), value, domain };
+                return executor.fault(span, kind);
+            }
+            let index = executor.core.store.number(*function, arguments);
+            executor.core.store.values[index as usize] = value;
+            executor.core.store.given[index as usize] = executor.core.epoch;
+            if program.function(*function).kind == FunctionKind::Monitored && !executor.core.inputs.contains(&index) {
+                executor.core.inputs.push(index);
+            }
+            Ok(())
+        })
+    }
+
+    /// All locations of dynamic functions that have a value other than undef, in canonical order; inputs included
+    /// as long as they are not forgotten.
+    pub fn locations(&self) -> Vec<(Location, Value)> {
+        let store = &self.core.store;
+        let mut all: Vec<(Location, Value)> = (0..store.len())
+            .filter(|index| !store.values[*index].is_undef())
+            .map(|index| (store.location(index as u32), store.values[index].clone()))
+            .collect();
+        all.sort();
+        all
+    }
+
+    /// Evaluates a term without parameters in the current state.
+    ///
+    /// # Errors
+    /// What evaluation meets; the state stays as it is.
+    pub fn evaluate(
+        &mut self,
+        expression: &Expression,
+        environment: &mut dyn Environment,
+    ) -> Result<Value, Fault> {
+        self.core.iterations = 0;
+        self.execute(environment, |executor, program| {
+            let span = program.term_span(expression.body);
+            executor.in_frame(0, expression.frame, span, |this| this.evaluate(expression.body))
+        })
+    }
+
+    /// The elements of a domain in the current state, in canonical order.
+    ///
+    /// # Errors
+    /// A domain that is infinite or without contents.
+    pub fn elements(&mut self, domain: DomainId) -> Result<Vec<Value>, Fault> {
+        let span = Span { file: syntax::FileId(0), start: 0, end: 0 };
+        self.execute(&mut Closed, |executor, _| executor.listed(domain, span)).map(|elements| elements.to_vec())
+    }
+
+    /// Whether a value is in a domain in the current state (undef is in every one).
+    pub fn contains(&mut self, domain: DomainId, value: &Value) -> bool {
+        self.execute(&mut Closed, |executor, _| Ok(executor.contains(domain, value))).unwrap_or(false)
+    }
+
+    /// A copy of the state.
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot { store: self.core.store.clone(), steps: self.steps, initials: self.core.initials.clone() }
+    }
+
+    /// Goes back to a state copied from this machine.
+    pub fn restore(&mut self, snapshot: &Snapshot) {
+        self.discard();
+        self.core.store = snapshot.store.clone();
+        self.core.initials.clone_from(&snapshot.initials);
+        self.core.inputs.clear();
+        self.core.epoch += 1;
+        self.core.clock = [None; 3];
+        self.core.updates.renumbered();
+        self.steps = snapshot.steps;
+        self.overwritten.clear();
+    }
+
+    /// Counts from now on which rules run.
+    pub fn enable_coverage(&mut self) {
+        self.core.coverage = Some(Box::new(Coverage::new(&self.program)));
+    }
+
+    /// What has run since coverage was enabled.
+    pub fn coverage(&self) -> Option<&Coverage> {
+        self.core.coverage.as_deref()
+    }
+
+    /// The function of a name and a number of parameters.
+    pub fn find_function(&self, name: &str, arity: usize) -> Option<FunctionId> {
+        self.program.find_function(name, arity)
+    }
+}

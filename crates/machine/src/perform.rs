@@ -1,0 +1,395 @@
+//! Rules → updates (Börger & Stärk 2003, table 2.2; section 4.1 for turbo rules).
+//!
+//! Running a rule adds its updates to the current unit of the update set; the units of [`crate::update`] give
+//! `par` its consistency and `seq` its intermediate states.
+
+use std::ops::ControlFlow;
+
+use program::{BinderList, DomainId, DomainKind, FunctionId, FunctionKind, ProcedureId, Rule, RuleId, RuleList, Slot, TermId, TermList};
+use syntax::Span;
+
+use crate::environment::Choice;
+use crate::execute::{Executor, Outcome};
+use crate::fault::{ClashSide, FaultKind};
+use crate::location::Location;
+use crate::update::Clash;
+use crate::value::Value;
+
+impl<'a> Executor<'a> {
+    /// Runs a rule.
+    pub fn perform(&mut self, id: RuleId) -> Outcome<()> {
+        let program = self.program;
+        if let Some(coverage) = &mut self.core.coverage {
+            coverage.ran(id);
+        }
+        match program.rule(id) {
+            Rule::Skip => Ok(()),
+            Rule::Update { function, arguments, value } => {
+                let value = self.evaluate(*value)?;
+                self.update(*function, *arguments, value, id)
+            }
+            Rule::Call { procedure, arguments } => self.call(*procedure, *arguments, id),
+            Rule::TurboCall { procedure, arguments } => {
+                let unit = self.core.updates.open();
+                self.call(*procedure, *arguments, id)?;
+                let joined = self.core.updates.join(unit, None);
+                self.consistent(joined).map(drop)
+            }
+            Rule::Return { function, target, procedure, arguments } => {
+                self.perform_return((*function, *target), *procedure, *arguments, id)
+            }
+            Rule::RunValue { rule, arguments } => self.run_value(*rule, *arguments, id),
+            Rule::RunAgent { agent } => self.run_agent(*agent, id),
+            Rule::Par(rules) => {
+                for rule in program.rule_list(*rules) {
+                    self.perform(*rule)?;
+                }
+                Ok(())
+            }
+            Rule::Seq(rules) => self.sequence(id, |this| {
+                for rule in program.rule_list(*rules) {
+                    this.perform_part(*rule)?;
+                }
+                Ok(())
+            }),
+            Rule::If { guards, rules } => {
+                let rules = program.rule_list(*rules);
+                let guards = program.term_list(*guards);
+                for (guard, rule) in guards.iter().zip(rules) {
+                    if self.holds(*guard)? {
+                        return self.take(id, Some(*rule));
+                    }
+                }
+                self.take(id, rules.get(guards.len()).copied())
+            }
+            Rule::Switch { subject, values, rules } => {
+                let subject = self.evaluate(*subject)?;
+                let rules = program.rule_list(*rules);
+                let values = program.term_list(*values);
+                for (value, rule) in values.iter().zip(rules) {
+                    if self.evaluate(*value)? == subject {
+                        return self.take(id, Some(*rule));
+                    }
+                }
+                self.take(id, rules.get(values.len()).copied())
+            }
+            Rule::Let { slot, value, body } => {
+                let value = self.evaluate(*value)?;
+                self.bind(*slot, value);
+                self.perform(*body)
+            }
+            Rule::Choose { binders, condition, body, if_none } => {
+                self.perform_choose(id, *binders, *condition, *body, *if_none)
+            }
+            Rule::Forall { binders, condition, body } => self.perform_forall(id, *binders, *condition, *body),
+            Rule::Extend { domain, first, count, body } => {
+                for offset in 0..*count {
+                    let element = self.create(*domain, program.rule_span(id))?;
+                    self.bind(Slot(first.0 + offset), element);
+                }
+                self.perform(*body)
+            }
+            Rule::Iterate(body) => self.sequence(id, |this| {
+                while this.perform_part(*body)? {
+                    this.count_iteration(program.rule_span(id))?;
+                }
+                Ok(())
+            }),
+            Rule::While { condition, body } => self.sequence(id, |this| {
+                while this.holds(*condition)? && this.perform_part(*body)? {
+                    this.count_iteration(program.rule_span(id))?;
+                }
+                Ok(())
+            }),
+            Rule::RecursiveWhile { condition, body } => self.sequence(id, |this| {
+                while this.holds(*condition)? {
+                    this.perform_part(*body)?;
+                    this.count_iteration(program.rule_span(id))?;
+                }
+                Ok(())
+            }),
+            Rule::Local { start, len, initialisations, body } => {
+                let locals = &program.function_lists[*start as usize..(*start + *len) as usize];
+                self.perform_local(id, locals, *initialisations, *body)
+            }
+        }
+    }
+
+    /// Runs the branch of an if or switch that is taken, if any.
+    fn take(&mut self, id: RuleId, branch: Option<RuleId>) -> Outcome<()> {
+        if let Some(coverage) = &mut self.core.coverage {
+            coverage.went(id, usize::from(branch.is_some()));
+        }
+        branch.map_or(Ok(()), |branch| self.perform(branch))
+    }
+
+    /// Adds the update `function(arguments) := value`.
+    fn update(&mut self, function: FunctionId, arguments: TermList, value: Value, id: RuleId) -> Outcome<()> {
+        let start = self.gather(arguments)?;
+        if self.core.initials[function.0 as usize].is_some() {
+            // An initial value that is due only when read must be there before it is overwritten.
+            let arguments = self.core.scratch[start..].to_vec();
+            self.read(function, &arguments, self.program.rule_span(id))?;
+        }
+        if !self.is_member(function, &value) {
+            let location = Location { function, arguments: self.core.scratch.split_off(start) };
+            let domain = self.program.function(function).codomain;
+            return self.fault(self.program.rule_span(id), FaultKind::OutOfDomain { location, value, domain });
+        }
+        let core = &mut *self.core;
+        let index = core.store.number(function, &core.scratch[start..]);
+        core.scratch.truncate(start);
+        if let Some(coverage) = &mut core.coverage {
+            coverage.went(id, usize::from(core.store.values[index as usize] != value));
+        }
+        if core.updates.len() as u64 >= self.limits.updates || core.store.len() as u64 > self.limits.locations {
+            return self.limit_of_updates(id);
+        }
+        let pushed = core.updates.push(index, value, id);
+        self.consistent(pushed)
+    }
+
+    #[cold]
+    fn limit_of_updates(&self, id: RuleId) -> Outcome<()> {
+        let (limit, value) = if self.core.updates.len() as u64 >= self.limits.updates {
+            ("updates in one step", self.limits.updates)
+        } else {
+            ("locations", self.limits.locations)
+        };
+        self.fault(self.program.rule_span(id), FaultKind::Limit { limit, value })
+    }
+
+    /// Turns a clash into a fault that names both rules.
+    #[inline]
+    fn consistent<T>(&self, outcome: Result<T, Box<Clash>>) -> Outcome<T> {
+        match outcome {
+            Ok(value) => Ok(value),
+            Err(clash) => self.inconsistent(*clash),
+        }
+    }
+
+    #[cold]
+    fn inconsistent<T>(&self, clash: Clash) -> Outcome<T> {
+        let side = |(value, rule): (Value, RuleId)| ClashSide { value, span: self.program.rule_span(rule) };
+        let location = self.core.store.location(clash.location);
+        let span = self.program.rule_span(clash.second.1);
+        let (first, second) = (side(clash.first), side(clash.second));
+        self.fault(span, FaultKind::InconsistentUpdate { location, first, second })
+    }
+
+    fn call(&mut self, procedure: ProcedureId, arguments: TermList, id: RuleId) -> Outcome<()> {
+        let start = self.gather(arguments)?;
+        self.enter(procedure, start, self.program.rule_span(id))
+    }
+
+    /// Runs a procedure on the arguments that stand on the scratch stack from `start` on.
+    pub fn enter(&mut self, procedure: ProcedureId, start: usize, span: Span) -> Outcome<()> {
+        let procedure = self.program.procedure(procedure);
+        self.in_frame(start, procedure.frame, span, |this| this.perform(procedure.body))
+    }
+
+    /// `target <- procedure(arguments)`: what the body writes to `result` becomes an update of the target.
+    fn perform_return(
+        &mut self,
+        (function, target): (FunctionId, TermList),
+        procedure: ProcedureId,
+        arguments: TermList,
+        id: RuleId,
+    ) -> Outcome<()> {
+        let result = self.program.result_function.map(|function| self.core.store.number(function, &[]));
+        let unit = self.core.updates.open();
+        self.call(procedure, arguments, id)?;
+        let joined = self.core.updates.join(unit, result);
+        let value = self.consistent(joined)?;
+        self.update(function, target, value.unwrap_or_default(), id)
+    }
+
+    fn run_value(&mut self, rule: TermId, arguments: TermList, id: RuleId) -> Outcome<()> {
+        let span = self.program.rule_span(id);
+        let procedure = match self.evaluate(rule)? {
+            Value::Rule(procedure) => procedure,
+            value => return self.fault(span, FaultKind::NotARule { value }),
+        };
+        let declared = self.program.procedure(procedure);
+        let (given, expected) = (arguments.len as usize, declared.parameters.len());
+        if given != expected {
+            return self.fault(span, FaultKind::WrongArguments { given, expected });
+        }
+        if !declared.turbo {
+            return self.call(procedure, arguments, id);
+        }
+        let unit = self.core.updates.open();
+        self.call(procedure, arguments, id)?;
+        let joined = self.core.updates.join(unit, None);
+        self.consistent(joined).map(drop)
+    }
+
+    /// Runs the program of an agent; `self` is the agent within it, and what it was before after it.
+    fn run_agent(&mut self, agent: TermId, id: RuleId) -> Outcome<()> {
+        let span = self.program.rule_span(id);
+        let agent = self.evaluate(agent)?;
+        let Some(procedure) = self.agent_program(&agent) else {
+            return self.fault(span, FaultKind::NotARule { value: agent });
+        };
+        let Some(function) = self.program.self_function else { return self.enter(procedure, self.core.scratch.len(), span) };
+        let index = self.core.store.number(function, &[]) as usize;
+        let former = std::mem::replace(&mut self.core.store.values[index], agent);
+        let outcome = self.enter(procedure, self.core.scratch.len(), span);
+        self.core.store.values[index] = former;
+        outcome
+    }
+
+    /// The program of an agent: that of the most specific domain it is in.
+    pub fn agent_program(&mut self, agent: &Value) -> Option<ProcedureId> {
+        let program = self.program;
+        let fitting: Vec<&program::AgentProgram> =
+            program.agents.iter().filter(|entry| !agent.is_undef() && self.contains(entry.domain, agent)).collect();
+        let specific =
+            fitting.iter().rev().find(|entry| matches!(program.domain(entry.domain).kind, DomainKind::Concrete { .. }));
+        specific.or(fitting.last()).map(|entry| entry.procedure)
+    }
+
+    /// Runs `parts` as a sequence and joins its net effect to the current unit.
+    fn sequence(&mut self, id: RuleId, parts: impl FnOnce(&mut Self) -> Outcome<()>) -> Outcome<()> {
+        self.sequence_without(id, &[], parts)
+    }
+
+    fn sequence_without(
+        &mut self,
+        _id: RuleId,
+        locals: &[FunctionId],
+        parts: impl FnOnce(&mut Self) -> Outcome<()>,
+    ) -> Outcome<()> {
+        let sequence = self.core.updates.begin_sequence();
+        parts(self)?;
+        let core = &mut *self.core;
+        let ended = core.updates.end_sequence(sequence, &mut core.store, &|store, index| {
+            !locals.is_empty() && locals.contains(&store.function_of(index))
+        });
+        self.consistent(ended)
+    }
+
+    /// Runs one part of a sequence, whose updates make the next intermediate state; tells whether there were any.
+    fn perform_part(&mut self, rule: RuleId) -> Outcome<bool> {
+        let unit = self.core.updates.open();
+        self.perform(rule)?;
+        let any = !self.core.updates.is_empty(unit);
+        self.core.updates.apply(unit, &mut self.core.store);
+        Ok(any)
+    }
+
+    /// Runs a body with local functions that start undefined and leave no trace.
+    fn perform_local(&mut self, id: RuleId, locals: &[FunctionId], initialisations: RuleList, body: RuleId) -> Outcome<()> {
+        debug_assert!(locals.iter().all(|f| self.program.function(*f).kind == FunctionKind::Local));
+        let mut outer = Vec::new();
+        for function in locals {
+            for index in self.core.store.indices_of(*function) {
+                let value = std::mem::take(&mut self.core.store.values[index as usize]);
+                if !value.is_undef() {
+                    outer.push((index, value));
+                }
+            }
+        }
+        let program = self.program;
+        let outcome = self.sequence_without(id, locals, |this| {
+            for rule in program.rule_list(initialisations) {
+                this.perform_part(*rule)?;
+            }
+            this.perform_part(body).map(drop)
+        });
+        for (index, value) in outer {
+            self.core.store.values[index as usize] = value;
+        }
+        outcome
+    }
+
+    fn perform_forall(&mut self, id: RuleId, binders: BinderList, condition: Option<TermId>, body: RuleId) -> Outcome<()> {
+        let program = self.program;
+        let mut count = 0usize;
+        let _ = self.for_each_binding(program.binder_list(binders), &mut |this| {
+            let taken = match condition {
+                Some(condition) => this.holds(condition)?,
+                None => true,
+            };
+            if taken {
+                count += 1;
+                this.perform(body)?;
+            }
+            Ok(ControlFlow::Continue(()))
+        })?;
+        if let Some(coverage) = &mut self.core.coverage {
+            coverage.went(id, count.min(2));
+        }
+        Ok(())
+    }
+
+    fn perform_choose(
+        &mut self,
+        id: RuleId,
+        binders: BinderList,
+        condition: Option<TermId>,
+        body: RuleId,
+        if_none: Option<RuleId>,
+    ) -> Outcome<()> {
+        let program = self.program;
+        let binders = program.binder_list(binders);
+        let span = program.rule_span(id);
+        let start = self.core.scratch.len();
+        let _ = self.for_each_binding(binders, &mut |this| {
+            let fits = match condition {
+                Some(condition) => this.holds(condition)?,
+                None => true,
+            };
+            if fits {
+                for binder in binders {
+                    let value = this.slot(binder.slot).clone();
+                    this.core.scratch.push(value);
+                }
+                this.check_size((this.core.scratch.len() - start) as u64, span)?;
+            }
+            Ok(ControlFlow::Continue(()))
+        })?;
+        let candidates = (self.core.scratch.len() - start) / binders.len().max(1);
+        if let Some(coverage) = &mut self.core.coverage {
+            coverage.went(id, candidates.min(2));
+        }
+        if candidates == 0 {
+            return if_none.map_or(Ok(()), |rule| self.perform(rule));
+        }
+        let choice = Choice { span, values: &self.core.scratch[start..], variables: binders.len() };
+        let chosen = match self.environment.choose(program, &choice) {
+            Ok(chosen) if chosen < candidates => chosen,
+            Ok(chosen) => {
+                let reason = format!("choice {chosen} of {candidates} candidates does not exist");
+                return self.fault(span, FaultKind::Environment { reason });
+            }
+            Err(reason) => return self.fault(span, FaultKind::Environment { reason }),
+        };
+        for (offset, binder) in binders.iter().enumerate() {
+            let value = std::mem::take(&mut self.core.scratch[start + chosen * binders.len() + offset]);
+            self.bind(binder.slot, value);
+        }
+        self.core.scratch.truncate(start);
+        self.perform(body)
+    }
+
+    /// Makes a fresh element of a dynamic domain.
+    fn create(&mut self, domain: DomainId, span: Span) -> Outcome<Value> {
+        let base = self.base_domain(domain);
+        let carrier = &mut self.core.store.carriers[base.0 as usize];
+        if u64::from(carrier.fresh) >= self.limits.locations.min(u64::from(u32::MAX - 1)) {
+            return self.fault(span, FaultKind::Limit { limit: "elements of one domain", value: self.limits.locations });
+        }
+        let element = Value::Element(base, carrier.fresh);
+        carrier.fresh += 1;
+        self.core.updates.create(base, element.clone());
+        if domain != base {
+            self.core.updates.create(domain, element.clone());
+        }
+        self.core.iterations += 1;
+        if self.core.iterations > self.limits.iterations.saturating_mul(10) {
+            return self.fault(span, FaultKind::Limit { limit: "iterations in one step", value: self.limits.iterations });
+        }
+        Ok(element)
+    }
+}

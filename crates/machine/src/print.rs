@@ -1,0 +1,121 @@
+//! Values as text: as AsmetaL would write them, so that what is printed can be read back (named elements and
+//! literals by their names, elements made by `extend` as `domain!k`).
+
+use std::fmt;
+
+use program::{DomainId, DomainKind, Program};
+
+use crate::value::Value;
+
+/// Gives a value a `Display`.
+pub trait Show {
+    /// The value as AsmetaL would write it.
+    fn show<'a>(&'a self, program: &'a Program) -> ShowValue<'a>;
+}
+
+impl Show for Value {
+    fn show<'a>(&'a self, program: &'a Program) -> ShowValue<'a> {
+        ShowValue { value: self, program }
+    }
+}
+
+/// See [`Show`].
+pub struct ShowValue<'a> {
+    value: &'a Value,
+    program: &'a Program,
+}
+
+impl fmt::Display for ShowValue<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let program = self.program;
+        match self.value {
+            Value::Undef => f.write_str("undef"),
+            Value::Boolean(b) => write!(f, "{b}"),
+            Value::Integer(n) => write!(f, "{n}"),
+            Value::Real(r) => real(f, r.get()),
+            Value::Enum(domain, index) => match &program.domain(*domain).kind {
+                DomainKind::Enum { literals } => f.write_str(&literals[*index as usize]),
+                _ => write!(f, "?{index}"),
+            },
+            Value::Element(domain, index) => f.write_str(&element_name(program, *domain, *index)),
+            Value::Char(c) => write!(f, "'{}'", escaped(&c.to_string(), '\'')),
+            Value::Rule(procedure) => write!(f, "<<{}>>", program.procedure(*procedure).name),
+            Value::Complex(parts) => {
+                let (re, im) = (parts.0.get(), parts.1.get());
+                real(f, re)?;
+                f.write_str(if im < 0.0 { "-i" } else { "+i" })?;
+                real(f, im.abs())
+            }
+            Value::String(text) => write!(f, "\"{}\"", escaped(text, '"')),
+            Value::Tuple(items) => list(f, program, "(", items, ")"),
+            Value::Seq(items) => list(f, program, "[", items, "]"),
+            Value::Set(items) => list(f, program, "{", items, "}"),
+            Value::Bag(items) => {
+                let all = items.iter().flat_map(|(item, count)| std::iter::repeat_n(item, *count as usize));
+                list(f, program, "<", all, ">")
+            }
+            Value::Map(items) if items.is_empty() => f.write_str("{->}"),
+            Value::Map(items) => {
+                f.write_str("{")?;
+                for (index, (key, value)) in items.iter().enumerate() {
+                    let comma = if index > 0 { "," } else { "" };
+                    write!(f, "{comma}{}->{}", key.show(program), value.show(program))?;
+                }
+                f.write_str("}")
+            }
+        }
+    }
+}
+
+/// The name of an element: its static function's, or `domain!k` with `k` from 1 for one made by `extend`.
+pub fn element_name(program: &Program, domain: DomainId, index: u32) -> String {
+    let entry = program.domain(domain);
+    match &entry.kind {
+        DomainKind::Abstract { elements, .. } if (index as usize) < elements.len() => elements[index as usize].clone(),
+        DomainKind::Abstract { elements, .. } => {
+            format!("{}!{}", entry.name.to_lowercase(), index as usize - elements.len() + 1)
+        }
+        _ => format!("{}!{}", entry.name.to_lowercase(), index + 1),
+    }
+}
+
+fn list<'v>(
+    f: &mut fmt::Formatter<'_>,
+    program: &Program,
+    open: &str,
+    items: impl IntoIterator<Item = &'v Value>,
+    close: &str,
+) -> fmt::Result {
+    f.write_str(open)?;
+    for (index, item) in items.into_iter().enumerate() {
+        let comma = if index > 0 { "," } else { "" };
+        write!(f, "{comma}{}", item.show(program))?;
+    }
+    f.write_str(close)
+}
+
+/// A Real: the shortest decimal that reads back as the same double, always with a point.
+fn real(f: &mut fmt::Formatter<'_>, number: f64) -> fmt::Result {
+    if number.is_infinite() {
+        return f.write_str(if number > 0.0 { "Infinity" } else { "-Infinity" });
+    }
+    write!(f, "{number:?}")
+}
+
+fn escaped(text: &str, quote: char) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '\n' => out.push_str("\\n"),
+            '\t' => out.push_str("\\t"),
+            '\r' => out.push_str("\\r"),
+            '\\' => out.push_str("\\\\"),
+            c if c == quote => {
+                out.push('\\');
+                out.push(c);
+            }
+            c => out.push(c),
+        }
+    }
+    out
+}

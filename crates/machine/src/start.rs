@@ -1,0 +1,197 @@
+//! The initial state, and what is fixed before it: contents of static domains, layouts, membership checks.
+//!
+//! Initial values are evaluated eagerly, in the initial state: one that reads another initialised location has
+//! that one evaluated first. LIMIT: of a function whose arguments cannot be enumerated the initial value of a
+//! location is evaluated when it is first read.
+
+use std::sync::Arc;
+
+use program::{DomainId, DomainKind, FunctionId, Program};
+use syntax::Span;
+
+use crate::environment::Closed;
+use crate::execute::{Core, Executor, Outcome};
+use crate::fault::FaultKind;
+use crate::limits::Limits;
+use crate::membership::membership;
+use crate::store::Store;
+use crate::update::Updates;
+use crate::value::Value;
+
+/// LIMIT: a function with more locations has its initial values evaluated when they are first read.
+const EAGER_LIMIT: u64 = 1 << 20;
+
+impl Core {
+    /// A core with all locations undef, laid out for the program.
+    pub fn new(program: &Program, limits: Limits) -> Core {
+        let mut core = Core {
+            store: Store::new(program, &|_| None),
+            updates: Updates::default(),
+            frames: Vec::new(),
+            base: 0,
+            scratch: Vec::new(),
+            epoch: 1,
+            inputs: Vec::new(),
+            clock: [None; 3],
+            iterations: 0,
+            depth: 0,
+            calls: Vec::new(),
+            contents: vec![None; program.domains.len()],
+            codomains: Vec::new(),
+            coverage: None,
+            initials: vec![None; program.functions.len()],
+            starting: false,
+        };
+        core.reset_carriers(program);
+        Executor { program, core: &mut core, environment: &mut Closed, limits }.fill_contents();
+        let contents = |domain: DomainId| core.contents[domain.0 as usize].as_ref().map(|elements| elements.to_vec());
+        let store = Store::new(program, &contents);
+        let codomains = program.functions.iter().map(|f| membership(program, f.codomain, &contents)).collect();
+        core.store = store;
+        core.codomains = codomains;
+        core.reset_carriers(program);
+        core
+    }
+
+    /// Gives every domain its static elements alone.
+    pub fn reset_carriers(&mut self, program: &Program) {
+        for (carrier, domain) in self.store.carriers.iter_mut().zip(&program.domains) {
+            carrier.intermediate.clear();
+            match &domain.kind {
+                DomainKind::Abstract { elements, .. } => {
+                    carrier.count = elements.len() as u32;
+                    carrier.fresh = carrier.count;
+                }
+                DomainKind::Concrete { base, elements, dynamic: true, .. } => {
+                    carrier.elements = elements.iter().map(|index| Value::Element(*base, *index)).collect();
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+impl<'a> Executor<'a> {
+    /// Evaluates the contents of the static concrete domains. One that cannot be evaluated yet (it ranges over a
+    /// later one) is tried again; one that never can stays without contents and is not enumerable.
+    fn fill_contents(&mut self) {
+        let program = self.program;
+        loop {
+            let mut progress = false;
+            for (index, domain) in program.domains.iter().enumerate() {
+                let DomainKind::Concrete { base, dynamic: false, elements, contents } = &domain.kind else { continue };
+                if self.core.contents[index].is_some() {
+                    continue;
+                }
+                let declared = elements.iter().map(|element| Value::Element(*base, *element));
+                let mut values: Vec<Value> = declared.collect();
+                match contents {
+                    Some(expression) => match self.closed(expression) {
+                        Ok(Value::Set(defined) | Value::Seq(defined)) => values.extend(defined.iter().cloned()),
+                        _ => {
+                            self.core.scratch.clear();
+                            continue;
+                        }
+                    },
+                    None if values.is_empty() => continue,
+                    None => {}
+                }
+                values.sort_unstable();
+                values.dedup();
+                self.core.contents[index] = Some(Arc::new(values));
+                progress = true;
+            }
+            if !progress {
+                return;
+            }
+        }
+    }
+
+    /// Evaluates an expression without parameters in a frame of its own.
+    pub fn closed(&mut self, expression: &'a program::Expression) -> Outcome<Value> {
+        let span = self.program.term_span(expression.body);
+        let start = self.core.scratch.len();
+        self.in_frame(start, expression.frame, span, |this| this.evaluate(expression.body))
+    }
+
+    /// Sets the initial state.
+    pub fn start(&mut self) -> Outcome<()> {
+        let program = self.program;
+        self.core.starting = true;
+        for (index, domain) in program.domains.iter().enumerate() {
+            if let DomainKind::Concrete { dynamic: true, contents: Some(expression), .. } = &domain.kind {
+                if let Value::Set(defined) | Value::Seq(defined) = self.closed(expression)? {
+                    let carrier = &mut self.core.store.carriers[index];
+                    carrier.elements.extend(defined.iter().cloned());
+                    carrier.elements.sort_unstable();
+                    carrier.elements.dedup();
+                }
+            }
+        }
+        for (index, initial) in program.initials.iter().enumerate() {
+            self.core.initials[initial.function.0 as usize] = Some(index as u32);
+        }
+        let mut eager = Vec::new();
+        for initial in &program.initials {
+            if let Some(tuples) = self.argument_tuples(initial.function, initial.span) {
+                for arguments in &tuples {
+                    self.read_initial(initial.function, arguments, initial.span)?;
+                }
+                eager.push(initial.function);
+            }
+        }
+        for function in eager {
+            self.core.initials[function.0 as usize] = None;
+        }
+        self.core.starting = false;
+        Ok(())
+    }
+
+    /// All argument tuples of a function, if they can be enumerated and are not too many.
+    fn argument_tuples(&mut self, function: FunctionId, span: Span) -> Option<Vec<Vec<Value>>> {
+        let mut tuples = vec![Vec::new()];
+        for parameter in &self.program.function(function).parameters {
+            let elements = self.listed(*parameter, span).ok()?;
+            if tuples.len() as u64 * elements.len() as u64 > EAGER_LIMIT {
+                return None;
+            }
+            tuples = tuples
+                .into_iter()
+                .flat_map(|tuple: Vec<Value>| {
+                    elements.iter().map(move |value| {
+                        let mut longer = tuple.clone();
+                        longer.push(value.clone());
+                        longer
+                    })
+                })
+                .collect();
+        }
+        Some(tuples)
+    }
+
+    /// The value of a location that has an initial value: evaluated now if that has not been done yet.
+    pub fn read_initial(&mut self, function: FunctionId, arguments: &[Value], span: Span) -> Outcome<Value> {
+        let program = self.program;
+        let index = self.core.store.number(function, arguments) as usize;
+        // `given` marks the locations whose initial value has been set.
+        if self.core.store.given[index] != 0 {
+            return Ok(self.core.store.values[index].clone());
+        }
+        let Some(initial) = self.core.initials[function.0 as usize] else {
+            return Ok(self.core.store.values[index].clone());
+        };
+        let initial = &program.initials[initial as usize];
+        let start = self.core.scratch.len();
+        self.core.scratch.extend(arguments.iter().cloned());
+        let value = self.in_frame(start, initial.value.frame, span, |this| this.evaluate(initial.value.body))?;
+        if !self.is_member(function, &value) {
+            let location = crate::location::Location { function, arguments: arguments.to_vec() };
+            let domain = program.function(function).codomain;
+            return self.fault(initial.span, FaultKind::OutOfDomain { location, value, domain });
+        }
+        let index = self.core.store.number(function, arguments) as usize;
+        self.core.store.values[index] = value.clone();
+        self.core.store.given[index] = self.core.epoch;
+        Ok(value)
+    }
+}

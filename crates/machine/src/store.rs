@@ -1,0 +1,189 @@
+//! The current state: a value for each location, and the carriers of the dynamic domains.
+//!
+//! Locations are numbered ([`crate::layout`]); a value is read by its number without looking anything up by name.
+//! INVARIANT: between steps a location's entry is the state's value; within a `seq` it is that of the
+//! intermediate state, and the log in [`crate::update`] can take it back.
+
+use hashbrown::{Equivalent, HashMap};
+use program::{DomainId, FunctionId, Program};
+use rustc_hash::FxBuildHasher;
+
+use crate::layout::{Layout, LocationIndex, lay_out};
+use crate::location::Location;
+use crate::value::Value;
+
+/// A key looked up without building a [`Location`].
+#[derive(Hash)]
+struct LocationRef<'a> {
+    function: FunctionId,
+    arguments: &'a [Value],
+}
+
+impl Equivalent<Location> for LocationRef<'_> {
+    fn equivalent(&self, key: &Location) -> bool {
+        self.function == key.function && *self.arguments == key.arguments[..]
+    }
+}
+
+/// The elements of a dynamic domain.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Carrier {
+    /// Abstract: how many elements the state has.
+    pub count: u32,
+    /// Abstract: the number that the next fresh element gets.
+    pub fresh: u32,
+    /// Concrete and dynamic: its elements, sorted.
+    pub elements: Vec<Value>,
+    /// Elements that only the intermediate state of a running `seq` has, beyond those.
+    pub intermediate: Vec<Value>,
+}
+
+/// Values by location number, and what belongs to them.
+#[derive(Debug, Clone)]
+pub(crate) struct Store {
+    /// The value of each location.
+    pub values: Vec<Value>,
+    /// For an input: the epoch in which the environment gave it.
+    pub given: Vec<u32>,
+    /// By function.
+    pub layouts: Vec<Layout>,
+    dense: u32,
+    sparse: HashMap<Location, LocationIndex, FxBuildHasher>,
+    /// The locations of the sparse numbers, from `dense` on.
+    sparse_locations: Vec<Location>,
+    /// By domain; only dynamic ones' are used.
+    pub carriers: Vec<Carrier>,
+}
+
+impl Store {
+    /// A store whose locations are all undef.
+    pub fn new(program: &Program, contents: &dyn Fn(DomainId) -> Option<Vec<Value>>) -> Store {
+        let (layouts, dense) = lay_out(program, contents);
+        Store {
+            values: vec![Value::Undef; dense as usize],
+            given: vec![0; dense as usize],
+            layouts,
+            dense,
+            sparse: HashMap::default(),
+            sparse_locations: Vec::new(),
+            carriers: vec![Carrier::default(); program.domains.len()],
+        }
+    }
+
+    /// The number of a location, if it has one yet.
+    #[inline]
+    pub fn find(&self, function: FunctionId, arguments: &[Value]) -> Option<LocationIndex> {
+        match &self.layouts[function.0 as usize] {
+            Layout::Single(index) => return Some(*index),
+            Layout::Dense { base, dimensions, .. } => {
+                let mut offset = 0u32;
+                let mut inside = true;
+                for (dimension, argument) in dimensions.iter().zip(arguments) {
+                    match dimension.index(argument) {
+                        Some(index) => offset = offset * dimension.size + index,
+                        None => {
+                            inside = false;
+                            break;
+                        }
+                    }
+                }
+                if inside {
+                    return Some(base + offset);
+                }
+            }
+            Layout::None | Layout::Sparse => {}
+        }
+        self.sparse.get(&LocationRef { function, arguments }).copied()
+    }
+
+    /// The number of a location, giving it one if it has none.
+    pub fn number(&mut self, function: FunctionId, arguments: &[Value]) -> LocationIndex {
+        if let Some(index) = self.find(function, arguments) {
+            return index;
+        }
+        let index = self.values.len() as u32;
+        let location = Location { function, arguments: arguments.to_vec() };
+        self.sparse_locations.push(location.clone());
+        self.sparse.insert(location, index);
+        self.values.push(Value::Undef);
+        self.given.push(0);
+        index
+    }
+
+    /// How many locations have a number.
+    pub fn len(&self) -> usize {
+        self.values.len()
+    }
+
+    /// How many locations have a number beyond the dense ones.
+    pub fn sparse_len(&self) -> usize {
+        self.sparse_locations.len()
+    }
+
+    /// The location of a number.
+    pub fn location(&self, index: LocationIndex) -> Location {
+        if index >= self.dense {
+            return self.sparse_locations[(index - self.dense) as usize].clone();
+        }
+        let function = self.layouts.iter().position(|layout| match layout {
+            Layout::Single(single) => *single == index,
+            Layout::Dense { base, len, .. } => (*base..base + len).contains(&index),
+            Layout::None | Layout::Sparse => false,
+        });
+        let function = FunctionId(function.expect("a dense number belongs to a function") as u32);
+        let mut arguments = Vec::new();
+        if let Layout::Dense { base, dimensions, .. } = &self.layouts[function.0 as usize] {
+            let mut offset = index - base;
+            for dimension in dimensions.iter().rev() {
+                arguments.push(dimension.value(offset % dimension.size));
+                offset /= dimension.size;
+            }
+            arguments.reverse();
+        }
+        Location { function, arguments }
+    }
+
+    /// The function of a location's number.
+    pub fn function_of(&self, index: LocationIndex) -> FunctionId {
+        if index >= self.dense {
+            self.sparse_locations[(index - self.dense) as usize].function
+        } else {
+            self.location(index).function
+        }
+    }
+
+    /// The numbers of a function's locations.
+    pub fn indices_of(&self, function: FunctionId) -> Vec<LocationIndex> {
+        let mut indices: Vec<LocationIndex> = match &self.layouts[function.0 as usize] {
+            Layout::Single(index) => vec![*index],
+            Layout::Dense { base, len, .. } => (*base..base + len).collect(),
+            Layout::None | Layout::Sparse => Vec::new(),
+        };
+        let sparse = self.sparse_locations.iter().enumerate().filter(|(_, location)| location.function == function);
+        indices.extend(sparse.map(|(i, _)| self.dense + i as u32));
+        indices
+    }
+
+    /// Takes the numbers back from sparse locations that are undef, unless undef was given to one that `keeps` what
+    /// it is given. No number handed out before is valid after.
+    pub fn compact(&mut self, keeps: &dyn Fn(&Location) -> bool) {
+        let kept: Vec<(Location, Value, u32)> = std::mem::take(&mut self.sparse_locations)
+            .into_iter()
+            .enumerate()
+            .map(|(i, location)| {
+                let index = self.dense as usize + i;
+                (location, std::mem::take(&mut self.values[index]), self.given[index])
+            })
+            .filter(|(location, value, given)| !value.is_undef() || (*given != 0 && keeps(location)))
+            .collect();
+        self.sparse.clear();
+        self.values.truncate(self.dense as usize);
+        self.given.truncate(self.dense as usize);
+        for (location, value, given) in kept {
+            self.sparse.insert(location.clone(), self.values.len() as u32);
+            self.sparse_locations.push(location);
+            self.values.push(value);
+            self.given.push(given);
+        }
+    }
+}

@@ -1,0 +1,262 @@
+//! Update sets under construction (Börger & Stärk 2003, definitions 2.4.5 and 4.1.1).
+//!
+//! A *unit* is a rule whose updates must be consistent among themselves: the whole step, one part of a `seq`, one
+//! round of a `while`, the body of a turbo call. Units nest; their updates are consecutive suffixes of one stack.
+//! A location's *stamp* says whether the current unit holds an update for it, so a clash is found in constant time.
+//!
+//! A finished part of a `seq` is applied to the store at once and what it overwrote is logged; when the `seq` ends
+//! the log is taken back and its net effect (the U ⊕ V of the book) joins the enclosing unit. So reading in an
+//! intermediate state costs nothing extra.
+
+use program::{DomainId, RuleId};
+
+use crate::layout::LocationIndex;
+use crate::store::Store;
+use crate::value::Value;
+
+/// One update: what a location is to become, and who says so.
+#[derive(Debug, Clone)]
+pub(crate) struct Update {
+    pub location: LocationIndex,
+    pub value: Value,
+    pub rule: RuleId,
+    /// The location's stamp before this update.
+    previous: Stamp,
+}
+
+/// Which unit holds an update of a location, and where on the stack. Unit 0 is none.
+#[derive(Debug, Clone, Copy, Default)]
+struct Stamp {
+    unit: u32,
+    index: u32,
+}
+
+/// What a `seq` overwrote.
+#[derive(Debug, Clone)]
+struct Overwritten {
+    location: LocationIndex,
+    before: Value,
+    rule: RuleId,
+}
+
+/// A unit being computed.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Unit {
+    enclosing: u32,
+    updates: usize,
+    created: usize,
+}
+
+/// A `seq` being computed.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sequence {
+    log: usize,
+    created: usize,
+}
+
+/// Two updates of one location with different values.
+#[derive(Debug)]
+pub(crate) struct Clash {
+    pub location: LocationIndex,
+    pub first: (Value, RuleId),
+    pub second: (Value, RuleId),
+}
+
+/// The update set of the running step.
+#[derive(Debug, Default)]
+pub(crate) struct Updates {
+    stack: Vec<Update>,
+    stamps: Vec<Stamp>,
+    log: Vec<Overwritten>,
+    /// Elements made by `extend`, with the domain that gets them.
+    created: Vec<(DomainId, Value)>,
+    unit: u32,
+    units: u32,
+    merge: Vec<Overwritten>,
+}
+
+impl Updates {
+    /// Begins a step; the last one was committed ([`Updates::release`]) or rolled back.
+    pub fn begin(&mut self) {
+        if self.units > u32::MAX / 2 {
+            self.renumbered();
+        }
+        // Unit numbers never come again, so that no old stamp can be taken for a new one.
+        self.units += 1;
+        self.unit = self.units;
+    }
+
+    /// Location numbers have changed: no stamp is valid any more.
+    pub fn renumbered(&mut self) {
+        self.stamps.clear();
+        self.units = 0;
+    }
+
+    /// How many updates the step has so far.
+    pub fn len(&self) -> usize {
+        self.stack.len()
+    }
+
+    /// The updates of the step, once it is computed.
+    pub fn updates(&self) -> &[Update] {
+        &self.stack
+    }
+
+    /// The elements made in the step.
+    pub fn created(&self) -> &[(DomainId, Value)] {
+        &self.created
+    }
+
+    /// Empties the update set, keeping its memory.
+    pub fn release(&mut self) {
+        self.stack.clear();
+        self.log.clear();
+        self.created.clear();
+    }
+
+    /// Adds an update to the current unit.
+    #[inline]
+    pub fn push(&mut self, location: LocationIndex, value: Value, rule: RuleId) -> Result<(), Box<Clash>> {
+        if location as usize >= self.stamps.len() {
+            self.stamps.resize(location as usize + 1, Stamp::default());
+        }
+        let stamp = &mut self.stamps[location as usize];
+        if stamp.unit == self.unit {
+            let held = &self.stack[stamp.index as usize];
+            if held.value == value {
+                return Ok(());
+            }
+            let first = (held.value.clone(), held.rule);
+            return Err(Box::new(Clash { location, first, second: (value, rule) }));
+        }
+        let previous = *stamp;
+        *stamp = Stamp { unit: self.unit, index: self.stack.len() as u32 };
+        self.stack.push(Update { location, value, rule, previous });
+        Ok(())
+    }
+
+    /// Records an element made by `extend`.
+    pub fn create(&mut self, domain: DomainId, element: Value) {
+        self.created.push((domain, element));
+    }
+
+    /// Begins a unit inside the current one.
+    pub fn open(&mut self) -> Unit {
+        let unit = Unit { enclosing: self.unit, updates: self.stack.len(), created: self.created.len() };
+        self.units += 1;
+        self.unit = self.units;
+        unit
+    }
+
+    /// Whether the unit has no update and made no element.
+    pub fn is_empty(&self, unit: Unit) -> bool {
+        self.stack.len() == unit.updates && self.created.len() == unit.created
+    }
+
+    /// Ends a unit by joining its updates to the enclosing one; an update of `dropped` is left out and its value
+    /// given back.
+    pub fn join(&mut self, unit: Unit, dropped: Option<LocationIndex>) -> Result<Option<Value>, Box<Clash>> {
+        let updates = self.close(unit);
+        let mut result = None;
+        for update in updates {
+            if Some(update.location) == dropped {
+                result = Some(update.value);
+            } else {
+                self.push(update.location, update.value, update.rule)?;
+            }
+        }
+        Ok(result)
+    }
+
+    /// Takes the unit's updates off the stack and makes the enclosing unit current.
+    fn close(&mut self, unit: Unit) -> Vec<Update> {
+        let updates: Vec<Update> = self.stack.drain(unit.updates..).collect();
+        for update in updates.iter().rev() {
+            self.stamps[update.location as usize] = update.previous;
+        }
+        self.unit = unit.enclosing;
+        updates
+    }
+
+    /// Begins a `seq`.
+    pub fn begin_sequence(&mut self) -> Sequence {
+        Sequence { log: self.log.len(), created: self.created.len() }
+    }
+
+    /// Ends a part of a `seq`: its updates become the intermediate state.
+    pub fn apply(&mut self, unit: Unit, store: &mut Store) {
+        while self.stack.len() > unit.updates {
+            let update = self.stack.pop().expect("longer than the unit's start");
+            self.stamps[update.location as usize] = update.previous;
+            let before = std::mem::replace(&mut store.values[update.location as usize], update.value);
+            self.log.push(Overwritten { location: update.location, before, rule: update.rule });
+        }
+        self.unit = unit.enclosing;
+        for (domain, element) in &self.created[unit.created..] {
+            store.carriers[domain.0 as usize].intermediate.push(element.clone());
+        }
+    }
+
+    /// Ends a `seq`: takes the intermediate state back and adds the net effect to the current unit, leaving out
+    /// updates of locations for which `local` holds.
+    pub fn end_sequence(
+        &mut self,
+        sequence: Sequence,
+        store: &mut Store,
+        local: &dyn Fn(&Store, LocationIndex) -> bool,
+    ) -> Result<(), Box<Clash>> {
+        let mut merge = std::mem::take(&mut self.merge);
+        merge.clear();
+        while self.log.len() > sequence.log {
+            let mut entry = self.log.pop().expect("longer than the sequence's start");
+            std::mem::swap(&mut store.values[entry.location as usize], &mut entry.before);
+            merge.push(entry); // `before` now holds the value after
+        }
+        self.forget_intermediate(sequence.created, store);
+        let own = self.stack.len();
+        let mut outcome = Ok(());
+        // The last write of a location comes first here; earlier ones are left out.
+        for entry in merge.drain(..) {
+            if local(store, entry.location) {
+                continue;
+            }
+            let held = self.stamps.get(entry.location as usize).copied().unwrap_or_default();
+            if held.unit == self.unit && held.index as usize >= own {
+                continue;
+            }
+            outcome = self.push(entry.location, entry.before, entry.rule);
+            if outcome.is_err() {
+                break;
+            }
+        }
+        self.merge = merge;
+        outcome
+    }
+
+    /// Takes back every intermediate state: the step is given up.
+    pub fn roll_back(&mut self, store: &mut Store) {
+        while let Some(entry) = self.log.pop() {
+            store.values[entry.location as usize] = entry.before;
+        }
+        self.forget_intermediate(0, store);
+        self.release();
+    }
+
+    fn forget_intermediate(&self, from: usize, store: &mut Store) {
+        for (domain, element) in &self.created[from..] {
+            store.carriers[domain.0 as usize].intermediate.retain(|kept| kept != element);
+        }
+    }
+
+    /// Puts the state before the step in place of the intermediate one, or back again: an involution.
+    pub fn swap_original(&mut self, store: &mut Store, back: bool) {
+        let mut swap = |entry: &mut Overwritten| {
+            std::mem::swap(&mut store.values[entry.location as usize], &mut entry.before);
+        };
+        if back {
+            self.log.iter_mut().for_each(&mut swap);
+        } else {
+            self.log.iter_mut().rev().for_each(&mut swap);
+        }
+    }
+}

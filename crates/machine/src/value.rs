@@ -1,0 +1,150 @@
+//! Values: the elements of the universes.
+//!
+//! A value is 16 bytes: small ones stand in it, compound ones are shared and immutable. INVARIANT: a set's
+//! elements are sorted and distinct; a bag's and a map's keys are sorted by their tree; no NaN occurs and no
+//! negative zero, so that equality is that of the derived order.
+
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+use std::hash::{Hash, Hasher};
+use std::sync::Arc;
+
+use program::{DomainId, ProcedureId};
+
+/// A double without NaN and without negative zero, totally ordered.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Real(f64);
+
+impl Real {
+    /// The number, unless it is NaN.
+    pub fn new(number: f64) -> Option<Real> {
+        // Adding zero turns -0.0 into 0.0.
+        (!number.is_nan()).then_some(Real(number + 0.0))
+    }
+
+    /// The number.
+    pub fn get(self) -> f64 {
+        self.0
+    }
+}
+
+impl Eq for Real {}
+
+impl PartialOrd for Real {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Real {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.0.total_cmp(&other.0)
+    }
+}
+
+impl Hash for Real {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.0.to_bits().hash(state);
+    }
+}
+
+/// A value. The derived order is the canonical one: of output, of state encoding, of search.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub enum Value {
+    /// The undefined value.
+    #[default]
+    Undef,
+    /// A truth value.
+    Boolean(bool),
+    /// An Integer or a Natural.
+    Integer(i64),
+    /// A Real.
+    Real(Real),
+    /// A literal of an enum domain, by its place.
+    Enum(DomainId, u32),
+    /// An element of an abstract domain (the base, never a concrete one), by its number from 0.
+    Element(DomainId, u32),
+    /// A Char.
+    Char(char),
+    /// A rule.
+    Rule(ProcedureId),
+    /// A Complex: real and imaginary part.
+    Complex(Arc<(Real, Real)>),
+    /// A String.
+    String(Arc<String>),
+    /// A tuple.
+    Tuple(Arc<Vec<Value>>),
+    /// A sequence.
+    Seq(Arc<Vec<Value>>),
+    /// A set: sorted, distinct.
+    Set(Arc<Vec<Value>>),
+    /// A bag: each element with how often it occurs, never 0.
+    Bag(Arc<BTreeMap<Value, u64>>),
+    /// A map.
+    Map(Arc<BTreeMap<Value, Value>>),
+}
+
+impl Value {
+    /// A string.
+    pub fn string(text: impl Into<String>) -> Value {
+        Value::String(Arc::new(text.into()))
+    }
+
+    /// A tuple.
+    pub fn tuple(components: Vec<Value>) -> Value {
+        Value::Tuple(Arc::new(components))
+    }
+
+    /// A sequence.
+    pub fn seq(elements: Vec<Value>) -> Value {
+        Value::Seq(Arc::new(elements))
+    }
+
+    /// The set of these elements, which may repeat and come in any order.
+    pub fn set(mut elements: Vec<Value>) -> Value {
+        elements.sort_unstable();
+        elements.dedup();
+        Value::Set(Arc::new(elements))
+    }
+
+    /// The bag of these elements.
+    pub fn bag(elements: impl IntoIterator<Item = Value>) -> Value {
+        let mut counts = BTreeMap::new();
+        for element in elements {
+            *counts.entry(element).or_insert(0) += 1;
+        }
+        Value::Bag(Arc::new(counts))
+    }
+
+    /// The map of these entries; of equal keys the last counts.
+    pub fn map(entries: impl IntoIterator<Item = (Value, Value)>) -> Value {
+        Value::Map(Arc::new(entries.into_iter().collect()))
+    }
+
+    /// Is it `undef`?
+    pub fn is_undef(&self) -> bool {
+        matches!(self, Value::Undef)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_is_two_words() {
+        assert_eq!(std::mem::size_of::<Value>(), 16);
+    }
+
+    #[test]
+    fn sets_are_canonical() {
+        let set = |numbers: &[i64]| Value::set(numbers.iter().map(|n| Value::Integer(*n)).collect());
+        assert_eq!(set(&[3, 1, 2, 1]), set(&[1, 2, 3]));
+    }
+
+    #[test]
+    fn zero_is_one() {
+        assert_eq!(Real::new(-0.0), Real::new(0.0));
+        assert_eq!(Real::new(f64::NAN), None);
+    }
+}
