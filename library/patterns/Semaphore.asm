@@ -7,7 +7,7 @@
    - asking and entering are two steps: a task asks (WAITING), and enters (EXECUTION) in a later step
      in which `sem_granted` holds for it; the grant is a function of the state, the same for all;
    - grants go by arrival, whatever the kind of task; requests of the same step go by the priority
-     order `sem_users`. Nobody is overtaken more than once by each other task.
+XX
    The free permits are counted from the tasks inside, never stored. */
 module Semaphore
 
