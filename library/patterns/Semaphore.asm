@@ -3,11 +3,11 @@
    Tasks that step in the same instant cannot see each other's request, so none of them may decide
    alone that the semaphore is free, and none may decrement a shared counter: two decrements in one
    step are the same update, and a permit is handed out twice. Therefore
-   - every location has one writer: a task writes only its own `sem_state`, the arbiter only `semaq`;
+   - no counter is shared: a task writes its own `sem_state`, the arbiter alone writes `semaq`;
    - asking and entering are two steps: a task asks (WAITING), and enters (EXECUTION) in a later step
      in which `sem_granted` holds for it; the grant is a function of the state, the same for all;
    - grants go by arrival, whatever the kind of task; requests of the same step go by the priority
-XX
+     order `sem_users`. A later request never overtakes an earlier one, so nobody starves.
    The free permits are counted from the tasks inside, never stored. */
 module Semaphore
 
@@ -29,7 +29,7 @@ signature:
 
 	// Written by the task alone
 	controlled sem_state: Prod(Semaphore, Task) -> TaskCSState
-	// raised by the post of a task that is not inside; never lowered
+	// Raised by the post of a task that is not inside, never lowered: several may raise it at once.
 	controlled sem_illegalPost: Semaphore -> Boolean
 
 	// Written by the arbiter alone: the tasks known to be waiting, first come first
