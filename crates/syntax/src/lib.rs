@@ -11,6 +11,7 @@ pub mod diagnostic;
 pub mod kind;
 pub mod source;
 
+mod dump;
 mod fault;
 mod grammar;
 mod lexer;
@@ -18,6 +19,7 @@ mod parser;
 mod token_set;
 
 pub use diagnostic::{Diagnostic, Label, Severity};
+pub use dump::dump;
 pub use fault::IDS as FAULT_IDS;
 pub use kind::{AsmetaL, SyntaxKind};
 pub use parser::{MAX_CHAIN, MAX_FAULTS, MAX_NESTING, MAX_TEXT_BYTES};

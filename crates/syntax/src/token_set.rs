@@ -10,8 +10,6 @@ use crate::SyntaxKind;
 pub(crate) struct TokenSet([u64; 3]);
 
 impl TokenSet {
-    pub(crate) const EMPTY: TokenSet = TokenSet([0; 3]);
-
     pub(crate) const fn new(kinds: &[SyntaxKind]) -> TokenSet {
         let mut bits = [0; 3];
         let mut at = 0;

@@ -29,19 +29,23 @@ pub trait AstNode: Sized {
 }
 
 /// The byte range of a node without the trivia at its ends.
+///
+/// INVARIANT: the parser puts trivia outside the nodes it separates, so only the root has trivia at its ends, and only
+/// the node's own children need a look. This takes constant time for all other nodes.
 pub fn trimmed_range(node: &SyntaxNode) -> rowan::TextRange {
-    let significant = |token: &SyntaxToken| !token.kind().is_trivia();
-    let mut tokens = node.descendants_with_tokens().filter_map(|element| element.into_token()).filter(significant);
-    let Some(first) = tokens.next() else { return node.text_range() };
-    let mut last = node.last_token();
-    while let Some(token) = &last {
-        if significant(token) {
-            break;
-        }
-        last = token.prev_token();
+    let trivia = |element: &rowan::SyntaxElement<AsmetaL>| element.kind().is_trivia();
+    let mut first = node.first_child_or_token();
+    while let Some(element) = first.as_ref().filter(|element| trivia(element)) {
+        first = element.next_sibling_or_token();
     }
-    let end = last.map_or(first.text_range().end(), |token| token.text_range().end());
-    rowan::TextRange::new(first.text_range().start(), end.max(first.text_range().end()))
+    let mut last = node.last_child_or_token();
+    while let Some(element) = last.as_ref().filter(|element| trivia(element)) {
+        last = element.prev_sibling_or_token();
+    }
+    match (first, last) {
+        (Some(first), Some(last)) => rowan::TextRange::new(first.text_range().start(), last.text_range().end()),
+        _ => rowan::TextRange::empty(node.text_range().start()),
+    }
 }
 
 /// Iterates over the children of one view type.

@@ -1,6 +1,6 @@
 //! Faults of the parser.
 
-use super::wording::{expected, found, name_of, shape_of};
+use super::wording::{expected, found, name_of, renamed, shape_of};
 use crate::{Diagnostic, Span, SyntaxKind, SyntaxKind::*};
 
 /// What stands where something else was expected.
@@ -39,18 +39,24 @@ pub(crate) fn expected_domain(found: Found<'_>) -> Diagnostic {
 }
 
 /// A certain token is missing.
-pub(crate) fn expected_token(found: Found<'_>, at: Span, kind: SyntaxKind, context: &str) -> Diagnostic {
+pub(crate) fn expected_token(found: Found<'_>, kind: SyntaxKind, context: &str) -> Diagnostic {
     let wanted = expected(kind);
-    Diagnostic::error("expected-token", at, format!("expected {wanted} {context}, found {found}"))
+    Diagnostic::error("expected-token", found.span, format!("expected {wanted} {context}, found {found}"))
         .because(format!("{wanted} is missing here"))
         .with_help(format!("write {wanted}"))
 }
 
 /// A name of another class than the place asks for.
 pub(crate) fn name_class(found: Found<'_>, kind: SyntaxKind) -> Diagnostic {
-    Diagnostic::error("name-class", found.span, format!("`{}` cannot be {}", found.text, name_of(kind)))
-        .because(shape_of(kind))
-        .with_help("rename it, here and wherever it is used")
+    let fault = Diagnostic::error("name-class", found.span, format!("`{}` cannot be {}", found.text, name_of(kind)));
+    let fault = match found.kind {
+        COMPLEX => fault.because("`i`, also with digits behind it, is the imaginary unit"),
+        _ => fault.because(shape_of(kind)),
+    };
+    match renamed(found.text, kind) {
+        Some(name) => fault.with_help(format!("write `{name}`, here and wherever it is used")),
+        None => fault.with_help("rename it, here and wherever it is used"),
+    }
 }
 
 /// No name where one must stand.
@@ -65,19 +71,31 @@ pub(crate) fn expected_name(found: Found<'_>, kind: SyntaxKind) -> Diagnostic {
     }
 }
 
-/// The end of a construct is missing.
-pub(crate) fn missing_end(found: Found<'_>, end: SyntaxKind, opener: Found<'_>) -> Diagnostic {
+/// The end of a construct is missing; `within` is the opener of a construct in it whose end may be the missing one.
+pub(crate) fn missing_end(
+    found: Found<'_>,
+    end: SyntaxKind,
+    opener: Found<'_>,
+    within: Option<Found<'_>>,
+) -> Diagnostic {
     let wanted = expected(end);
-    Diagnostic::error("missing-end", found.span, format!("`{}` has no {wanted}; found {found}", opener.text))
-        .because(format!("{wanted} is expected here"))
-        .with_label(opener.span, format!("`{}` is opened here", opener.text))
-        .with_help(format!("write {wanted} where what `{}` opens is to end", opener.text))
+    let word = opener.text;
+    let fault = Diagnostic::error("missing-end", found.span, format!("`{word}` has no {wanted}; found {found}"))
+        .because(format!("{wanted} is expected here at the latest"))
+        .with_label(opener.span, format!("this `{word}` is open"))
+        .with_help(format!("write {wanted} where what `{word}` opens is to end"));
+    match within {
+        Some(within) => fault
+            .with_label(within.span, format!("the {wanted} may be missing to this `{word}`: its end is not below it")),
+        None => fault,
+    }
 }
 
-/// `else if` took one `endif` and needs a second.
-pub(crate) fn else_if(found: Found<'_>, opener: Found<'_>) -> Diagnostic {
-    missing_end(found, ENDIF_KW, opener)
-        .with_help("`else if` opens a second `if` that needs its own `endif`: write `elseif`, or one more `endif`")
+/// `else if` took the one `endif`.
+pub(crate) fn else_if(found: Found<'_>, outer: Found<'_>, inner: Found<'_>) -> Diagnostic {
+    missing_end(found, ENDIF_KW, outer, None)
+        .with_label(inner.span, "this second `if` took the `endif`")
+        .with_help("write `elseif` for `else if`, or one more `endif`")
 }
 
 /// An end that nothing waits for.
@@ -114,6 +132,13 @@ pub(crate) fn term_as_rule(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("term-as-rule", found.span, format!("a term with {found} is no rule"))
         .because("expected `:=`, as a rule must stand here")
         .with_help("write `location := term` for an update")
+}
+
+/// A branch behind `else` or `otherwise`.
+pub(crate) fn misplaced_branch(found: Found<'_>, last: &str) -> Diagnostic {
+    Diagnostic::error("misplaced-branch", found.span, format!("{found} behind `{last}`"))
+        .because(format!("`{last}` is the last branch"))
+        .with_help(format!("move this branch before `{last}`, or end the construct before it"))
 }
 
 /// `r_x` without brackets.
@@ -263,4 +288,54 @@ pub(crate) fn nested_too_deeply(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("nested-too-deeply", found.span, "this is nested too deeply")
         .because(format!("at most {MAX_NESTING} constructs in one another, and {MAX_CHAIN} operators in one chain"))
         .with_help("split it: define functions for parts of a term, rules for parts of a rule")
+}
+
+/// `{1..5}`
+pub(crate) fn dots_in_range(found: Found<'_>) -> Diagnostic {
+    let span = Span { end: found.span.end + 1, ..found.span };
+    Diagnostic::error("foreign-operator", span, "a range is written with `:`")
+        .because("`..` is no operator of AsmetaL")
+        .with_help("write `{lo : hi}`, or `{lo : hi, step}`")
+}
+
+/// `elif`, `elsif`
+pub(crate) fn foreign_word(found: Found<'_>, ours: &str) -> Diagnostic {
+    Diagnostic::error("foreign-operator", found.span, format!("{found} is no word of AsmetaL"))
+        .because(format!("written `{ours}` in AsmetaL"))
+        .with_help(format!("write `{ours}`"))
+}
+
+/// `endforall` and the like.
+pub(crate) fn no_such_end(found: Found<'_>) -> Diagnostic {
+    stray_end(found)
+        .because("`choose`, `forall`, `while` and `extend` have one rule behind `do`, and no word ends them")
+        .with_help("remove it; write `par … endpar` around several rules")
+}
+
+/// `execblock file.block`
+pub(crate) fn dot_in_block_name(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("expected-token", found.span, "a file and its block are joined by `:`")
+        .because("`:` is expected here")
+        .with_help("write `execblock file:block;`")
+}
+
+/// A text beyond the limit.
+pub(crate) fn file_too_large(span: Span, length: usize) -> Diagnostic {
+    let limit = crate::parser::MAX_TEXT_BYTES;
+    Diagnostic::error(
+        "file-too-large",
+        span,
+        format!("the file has {length} bytes, more than the {limit} that are read"),
+    )
+    .because("nothing of it was read")
+    .with_help("split it into modules that import one another")
+}
+
+/// The limit of faults.
+pub(crate) fn too_many_faults(next: Span) -> Diagnostic {
+    let limit = crate::parser::MAX_FAULTS;
+    let fault = Diagnostic::warning("too-many-faults", next, "there are more faults from here on");
+    fault
+        .because(format!("only the first {limit} of a file are reported"))
+        .with_help("mend the first ones and check again")
 }

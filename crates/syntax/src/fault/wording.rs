@@ -57,3 +57,21 @@ pub(super) fn shape_of(kind: SyntaxKind) -> &'static str {
         _ => "a name holds letters, digits and `_`, and does not start with a digit",
     }
 }
+
+/// The nearest name of a class.
+pub(super) fn renamed(name: &str, kind: SyntaxKind) -> Option<String> {
+    let bare = name.trim_start_matches(['$', '_']);
+    let first = bare.chars().next()?;
+    let name = match kind {
+        VARIABLE => format!("${bare}"),
+        ENUM_ID => bare.to_ascii_uppercase(),
+        DOMAIN_ID => first.to_ascii_uppercase().to_string() + &bare[1..].to_ascii_lowercase(),
+        RULE_ID => format!("r_{bare}"),
+        INVARIANT_ID => format!("inv_{bare}"),
+        CTL_ID => format!("ctlSpec_{bare}"),
+        LTL_ID => format!("ltlSpec_{bare}"),
+        FUNCTION_ID => first.to_ascii_lowercase().to_string() + &bare[1..],
+        _ => return None,
+    };
+    (kind == VARIABLE || crate::lexer::classify(&name) == kind).then_some(name)
+}

@@ -1,9 +1,10 @@
 //! `let`, and variables that range over a collection (spec/language.md, 6.2 and 7).
 
-use super::term::{delimited, term};
+use super::conditional::{self, Body};
+use super::term::{inside, term};
 use super::{list, name, recovery};
 use crate::SyntaxKind::{self, *};
-use crate::parser::Parser;
+use crate::parser::{Parser, Within};
 
 /// `$x in D, $y in E`
 pub(super) fn binders(p: &mut Parser<'_>) {
@@ -22,13 +23,11 @@ pub(super) fn binders(p: &mut Parser<'_>) {
 
 /// `let ($x = a, $y = b) in t endlet`
 pub(super) fn let_term(p: &mut Parser<'_>) {
-    let_construct(p, LET_TERM, |p| {
-        delimited(p, "a term behind `in`");
-    });
+    let_construct(p, LET_TERM, conditional::TERM);
 }
 
 /// A `let` with a body that is a term or a rule.
-pub(super) fn let_construct(p: &mut Parser<'_>, kind: SyntaxKind, body: fn(&mut Parser<'_>)) {
+pub(super) fn let_construct(p: &mut Parser<'_>, kind: SyntaxKind, body: Body) {
     p.start(kind);
     p.bump_opener(ENDLET_KW);
     if p.at(L_PAREN) {
@@ -39,9 +38,7 @@ pub(super) fn let_construct(p: &mut Parser<'_>, kind: SyntaxKind, body: fn(&mut 
             binding(p);
         }
     }
-    if p.expect(IN_KW, "behind the bindings of `let`") {
-        body(p);
-    }
+    body.behind(p, IN_KW, "behind the bindings of `let`", "what to do or give behind `in`");
     recovery::end(p);
     p.finish();
 }
@@ -50,7 +47,7 @@ fn binding(p: &mut Parser<'_>) -> bool {
     p.start(BINDING);
     let named = name::name(p, VARIABLE);
     if named && p.expect(EQ, "behind the variable of `let`") {
-        delimited(p, "the value of the variable");
+        inside(p, Within::Bindings, |p| term(p, "the value of the variable"));
     }
     p.finish();
     named

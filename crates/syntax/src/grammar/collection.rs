@@ -3,16 +3,15 @@
 //! Which of them it is shows only behind the first element, so the node is put around what was read. `{$x in …` always
 //! starts a comprehension; a set whose first element is a membership test has it in parentheses.
 
-use super::term::{delimited, term};
+use super::term::{delimited, inside, term};
 use super::{binding, list, recovery};
 use crate::SyntaxKind::{self, *};
-use crate::parser::Parser;
+use crate::fault;
+use crate::parser::{Parser, Within};
 
 /// From one of the brackets `{`, `[`, `<` to its end.
 pub(super) fn collection(p: &mut Parser<'_>) {
     let checkpoint = p.checkpoint();
-    let bag = matches!(p.current(), LT | RETURN_ARROW);
-    let in_bag = std::mem::replace(&mut p.in_bag, bag);
     let close = match p.current() {
         L_BRACE => R_BRACE,
         L_BRACKET => R_BRACKET,
@@ -23,11 +22,11 @@ pub(super) fn collection(p: &mut Parser<'_>) {
     } else {
         p.bump_opener(close);
     }
-    let kind = contents(p, close);
+    let within = if close == GT { Within::Bag } else { Within::Plain };
+    let kind = inside(p, within, |p| contents(p, close));
     recovery::end(p);
     p.start_at(checkpoint, kind);
     p.finish();
-    p.in_bag = in_bag;
 }
 
 fn contents(p: &mut Parser<'_>, close: SyntaxKind) -> SyntaxKind {
@@ -54,8 +53,14 @@ fn contents(p: &mut Parser<'_>, close: SyntaxKind) -> SyntaxKind {
             }
             MAP_TERM
         }
-        COLON => {
-            p.bump();
+        COLON | DOT => {
+            if p.at(DOT) {
+                let found = p.found();
+                p.fault(fault::dots_in_range(found));
+                recovery::error(p, if p.peek(1) == DOT { 2 } else { 1 });
+            } else {
+                p.bump();
+            }
             term(p, "the upper bound of the range");
             if p.eat(COMMA) {
                 term(p, "the step of the range");

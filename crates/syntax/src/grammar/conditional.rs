@@ -1,25 +1,40 @@
 //! `if` and `switch`, which terms and rules share (spec/language.md, 6.2 and 7).
 
 use super::recovery;
-use super::term::delimited;
+use super::term::{self, delimited};
 use crate::SyntaxKind::{self, *};
+use crate::fault;
 use crate::parser::Parser;
 
-/// Parses what stands behind `then`, `else`, `case a:` and `otherwise`.
-type Body = fn(&mut Parser<'_>, &str);
+/// What stands behind `then`, `else`, `case a:` and `otherwise`.
+#[derive(Clone, Copy)]
+pub(super) struct Body {
+    /// Parses the body.
+    pub(super) parse: fn(&mut Parser<'_>, &str),
+    /// The cursor is at one.
+    pub(super) starts: fn(&Parser<'_>) -> bool,
+}
 
-fn term_body(p: &mut Parser<'_>, wanted: &str) {
-    delimited(p, wanted);
+/// A body that is a term.
+pub(super) const TERM: Body = Body { parse: |p, wanted| _ = delimited(p, wanted), starts: |p| p.at_any(term::STARTS) };
+
+impl Body {
+    /// The body behind a keyword or mark; where that is missing, a body that stands there is read all the same.
+    pub(super) fn behind(self, p: &mut Parser<'_>, keyword: SyntaxKind, context: &str, wanted: &str) {
+        if p.expect(keyword, context) || (self.starts)(p) {
+            (self.parse)(p, wanted);
+        }
+    }
 }
 
 /// `if g then a elseif h then b else c endif`
 pub(super) fn if_term(p: &mut Parser<'_>) {
-    if_construct(p, IF_TERM, term_body);
+    if_construct(p, IF_TERM, TERM);
 }
 
 /// `switch t case a: b otherwise c endswitch`
 pub(super) fn switch_term(p: &mut Parser<'_>) {
-    switch_construct(p, SWITCH_TERM, term_body);
+    switch_construct(p, SWITCH_TERM, TERM);
 }
 
 /// An `if` with branches that are terms or rules.
@@ -27,22 +42,50 @@ pub(super) fn if_construct(p: &mut Parser<'_>, kind: SyntaxKind, body: Body) {
     p.start(kind);
     p.bump_opener(ENDIF_KW);
     branch(p, body);
-    while p.eat(ELSEIF_KW) {
+    while elseif(p) {
         branch(p, body);
     }
-    if p.eat(ELSE_KW) {
-        body(p, "what to do or give otherwise, behind `else`");
+    let mut else_if = None;
+    let ended = p.eat(ELSE_KW);
+    if ended {
+        else_if = (p.at(IF_KW) && !p.on_new_line()).then(|| p.found());
+        (body.parse)(p, "what to do or give otherwise, behind `else`");
+    }
+    while else_if.is_none() && ended && matches!(p.current(), ELSE_KW | ELSEIF_KW) {
+        let found = p.found();
+        p.fault(fault::misplaced_branch(found, "else"));
+        p.start(ERROR);
+        if p.eat(ELSE_KW) {
+            (body.parse)(p, "what to do or give behind `else`");
+        } else {
+            p.bump();
+            branch(p, body);
+        }
+        p.finish();
+    }
+    if let (Some(inner), Some((_, outer)), false) = (else_if, p.innermost(), p.at(ENDIF_KW)) {
+        let found = p.missing();
+        p.fault(fault::else_if(found, outer, inner));
     }
     recovery::end(p);
     p.finish();
 }
 
+/// Takes `elseif`, or what other languages have for it.
+fn elseif(p: &mut Parser<'_>) -> bool {
+    if p.at_word("elif") || p.at_word("elsif") {
+        let found = p.found();
+        p.fault(fault::foreign_word(found, "elseif"));
+        p.bump_as(ELSEIF_KW);
+        return true;
+    }
+    p.eat(ELSEIF_KW)
+}
+
 fn branch(p: &mut Parser<'_>, body: Body) {
     p.start(CONDITIONAL_BRANCH);
     delimited(p, "a condition");
-    if p.expect(THEN_KW, "behind the condition") {
-        body(p, "what to do or give behind `then`");
-    }
+    body.behind(p, THEN_KW, "behind the condition", "what to do or give behind `then`");
     p.finish();
 }
 
@@ -55,17 +98,24 @@ pub(super) fn switch_construct(p: &mut Parser<'_>, kind: SyntaxKind, body: Body)
         p.expect(CASE_KW, "behind the term of `switch`");
     }
     while p.at(CASE_KW) {
-        p.start(CASE_BRANCH);
-        p.bump();
-        delimited(p, "a value behind `case`");
-        if p.expect(COLON, "behind the value of `case`") {
-            body(p, "what to do or give in this case");
-        }
-        p.finish();
+        case(p, body);
     }
     if p.eat(OTHERWISE_KW) {
-        body(p, "what to do or give otherwise");
+        (body.parse)(p, "what to do or give otherwise");
+    }
+    while p.at(CASE_KW) {
+        let found = p.found();
+        p.fault(fault::misplaced_branch(found, "otherwise"));
+        case(p, body);
     }
     recovery::end(p);
+    p.finish();
+}
+
+fn case(p: &mut Parser<'_>, body: Body) {
+    p.start(CASE_BRANCH);
+    p.bump();
+    delimited(p, "a value behind `case`");
+    body.behind(p, COLON, "behind the value of `case`", "what to do or give in this case");
     p.finish();
 }

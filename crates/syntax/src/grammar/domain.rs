@@ -20,7 +20,7 @@ pub(super) fn domain(p: &mut Parser<'_>) -> bool {
             p.finish();
         }
         _ => {
-            let found = p.found();
+            let found = p.missing();
             p.fault(fault::expected_domain(found));
             return false;
         }
@@ -116,7 +116,7 @@ fn literals(p: &mut Parser<'_>) {
                 return;
             }
             let found = p.found();
-            p.fault(fault::expected_token(found, found.span, BAR, "between two enum literals"));
+            p.fault(fault::expected_token(found, BAR, "between two enum literals"));
         }
     }
 }

@@ -176,7 +176,7 @@ fn name_ref(p: &mut Parser<'_>) -> bool {
     if known {
         p.bump();
     } else {
-        let found = p.found();
+        let found = p.missing();
         p.fault(fault::expected_name(found, FUNCTION_ID));
     }
     p.finish();

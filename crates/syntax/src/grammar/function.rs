@@ -40,7 +40,7 @@ pub(super) fn definition(p: &mut Parser<'_>) {
     p.bump();
     if name::name(p, FUNCTION_ID) {
         parameters(p);
-        if p.expect(EQ, "before the defining term") {
+        if p.expect(EQ, "before the defining term") || p.at_any(term::STARTS) && !p.on_new_line() {
             term::term(p, "the defining term");
         }
     }

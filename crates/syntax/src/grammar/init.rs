@@ -33,8 +33,8 @@ fn agent(p: &mut Parser<'_>) {
         if p.at(RULE_ID) {
             rule::call(p);
         } else {
-            let found = p.found();
-            p.fault(fault::expected_name(found, RULE_ID));
+            let found = p.missing();
+            p.fault(fault::expected_rule(found, "a call of a macro rule, `r_x[]`,"));
         }
     }
     p.finish();

@@ -49,7 +49,7 @@ pub(super) fn more_items(
                 return count;
             }
             let found = p.found();
-            p.fault(fault::expected_token(found, found.span, COMMA, "between two items"));
+            p.fault(fault::expected_token(found, COMMA, "between two items"));
         }
         let before = p.position();
         item(p);

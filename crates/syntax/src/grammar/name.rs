@@ -46,7 +46,7 @@ pub(super) fn generic_name(p: &mut Parser<'_>) -> bool {
         p.bump_as(GENERIC_ID);
         return true;
     }
-    let found = p.found();
+    let found = p.missing();
     p.fault(fault::expected_name(found, GENERIC_ID));
     false
 }

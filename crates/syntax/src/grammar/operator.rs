@@ -5,7 +5,7 @@
 
 use crate::SyntaxKind::*;
 use crate::fault;
-use crate::parser::Parser;
+use crate::parser::{Parser, Within};
 
 /// The power of the operators that bind least.
 pub(super) const LOWEST: u8 = 1;
@@ -35,8 +35,10 @@ fn power_of(operator: &str) -> Option<u8> {
 pub(super) fn infix_power(p: &Parser<'_>) -> Option<u8> {
     match p.current() {
         FUNCTION_ID => power_of(p.token_text()),
-        GT if p.in_bag => None,
-        EQ | NEQ | LT | LE | GT | GE | IN_KW => Some(RELATION),
+        GT if p.within == Within::Bag => None,
+        EQ | NEQ | LT | LE | GT | GE => Some(RELATION),
+        IN_KW if p.within == Within::Bindings && p.find_on_line(R_PAREN).is_none() => None, // `let ($x = a in` lacks its `)`
+        IN_KW => Some(RELATION),
         RETURN_ARROW if p.peek(1) != RULE_ID => Some(RELATION),
         ASSIGN => Some(RELATION), // meant as `=`; reported when it is taken
         PLUS | MINUS => Some(SUM),

@@ -69,7 +69,7 @@ fn over_item(p: &mut Parser<'_>) -> bool {
         }
         DOMAIN_ID | ENUM_ID | RULE_ID => p.bump(),
         _ => {
-            let found = p.found();
+            let found = p.missing();
             p.fault(fault::expected_name(found, FUNCTION_ID));
             return false;
         }

@@ -5,8 +5,8 @@
 
 use super::{list, operator, rule, term};
 use crate::SyntaxKind::{self, *};
-use crate::fault;
-use crate::parser::Parser;
+use crate::fault::{self, Found};
+use crate::parser::{Parser, Within};
 use crate::token_set::TokenSet;
 
 /// Words that a section of a file starts with.
@@ -108,13 +108,12 @@ const TERM_JUNK: TokenSet = TokenSet::new(&[
 pub(super) fn end(p: &mut Parser<'_>) {
     let Some((end, opener)) = p.innermost() else { return };
     if p.at(end) {
-        p.bump();
-        p.close();
+        p.bump_end();
         return;
     }
-    let found = p.found();
-    p.fault(fault::missing_end(found, end, opener));
-    p.close();
+    let within = p.close();
+    let found = if p.at_any(ENDS) { p.found() } else { p.missing() };
+    p.fault(fault::missing_end(found, end, opener, within));
     if p.at_any(ENDS) && !p.is_awaited(p.current()) {
         error(p, 1); // an end that nothing waits for: instead of ours, or in excess before ours
         p.eat(end);
@@ -152,10 +151,10 @@ pub(super) fn no_term(p: &mut Parser<'_>, wanted: &str) -> bool {
         DOT if p.peek(1) == INTEGER => p.fault(fault::bare_fraction(found)),
         FUNCTION_ID if operator::is_infix_word(p) => p.fault(fault::no_left_operand(found)),
         EQ | NEQ | LE | GE | GT | STAR | SLASH | CARET => p.fault(fault::no_left_operand(found)),
-        _ => p.fault(fault::expected_term(found, wanted)),
+        _ => p.fault(fault::expected_term(p.missing(), wanted)),
     }
     let word = p.at(FUNCTION_ID) && !operator::is_infix_word(p);
-    if word || !p.at_any(TERM_JUNK) || p.at(GT) && p.in_bag {
+    if word || !p.at_any(TERM_JUNK) || p.at(GT) && p.within == Within::Bag {
         return false;
     }
     error(p, 1);
@@ -165,7 +164,7 @@ pub(super) fn no_term(p: &mut Parser<'_>, wanted: &str) -> bool {
 
 /// Where a rule is expected and none starts. Gives `true` if a rule was read after all.
 pub(super) fn no_rule(p: &mut Parser<'_>, wanted: &str) -> bool {
-    let found = p.found();
+    let found = p.missing();
     p.fault(if found.kind == SEMICOLON { fault::separator(found) } else { fault::expected_rule(found, wanted) });
     rule_junk(p);
     rule::starts(p) && rule::rule(p, wanted)
@@ -236,11 +235,23 @@ pub(super) fn several_rules(p: &mut Parser<'_>) {
     if !rule::starts(p) {
         return;
     }
-    let found = p.found();
     if p.is_left_of_innermost() {
-        p.fault(fault::missing_end(found, end, opener)); // by its indentation it is a neighbour of the construct
+        let found = p.missing(); // by its indentation this is a neighbour of the construct
+        p.fault(fault::missing_end(found, end, opener, p.crooked_within_innermost()));
         return;
     }
+    more_than_one(p, opener);
+}
+
+/// Behind the body of a rule's declaration: the same.
+pub(super) fn several_bodies(p: &mut Parser<'_>, declaration: Found<'_>) {
+    if rule::starts(p) {
+        more_than_one(p, declaration);
+    }
+}
+
+fn more_than_one(p: &mut Parser<'_>, opener: Found<'_>) {
+    let found = p.found();
     p.fault(fault::several_rules(found, opener));
     p.start(ERROR);
     while rule::starts(p) {
@@ -267,7 +278,7 @@ pub(super) fn term_as_rule(p: &mut Parser<'_>) {
 
 /// Behind `<-`, where no call of a turbo rule stands.
 pub(super) fn no_turbo_call(p: &mut Parser<'_>) {
-    let found = p.found();
+    let found = p.missing();
     p.fault(fault::expected_rule(found, "a call of a turbo rule, `r_x(…)`, behind `<-`"));
     if p.at(RULE_ID) {
         rule::call(p);
@@ -283,6 +294,7 @@ pub(super) fn no_definition(p: &mut Parser<'_>, wanted: &str) {
     let found = p.found();
     p.fault(match found.kind {
         SEMICOLON | COMMA => fault::separator(found),
+        kind if ENDS.contains(kind) => fault::stray_end(found),
         _ => fault::expected_definition(found, wanted),
     });
     p.start(ERROR);

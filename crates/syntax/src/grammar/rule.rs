@@ -1,5 +1,6 @@
 //! Rules and their declarations (spec/language.md, sections 5 and 7).
 
+use super::conditional::Body;
 use super::recovery::{self, RULE_STARTS};
 use super::term::{delimited, location, term};
 use super::{binding, conditional, domain, function, list, name};
@@ -10,6 +11,7 @@ use crate::parser::Parser;
 /// `[macro | turbo] rule r_x($p in D) [in C] = R`
 pub(super) fn declaration(p: &mut Parser<'_>) {
     p.start(RULE_DECL);
+    let opener = p.found();
     if !p.eat(MACRO_KW) {
         p.eat(TURBO_KW);
     }
@@ -18,12 +20,14 @@ pub(super) fn declaration(p: &mut Parser<'_>) {
         if p.eat(IN_KW) {
             domain::domain(p);
         }
-        if p.expect(EQ, "before the body of the rule") {
-            rule(p, "the body of the rule");
-        }
+        behind(p, EQ, "before the body of the rule", "the body of the rule");
+        recovery::several_bodies(p, opener);
     }
     p.finish();
 }
+
+/// Words that look like the end of a rule that has none.
+const NO_ENDS: [&str; 7] = ["endchoose", "enddo", "endforall", "endwhile", "endextend", "endrule", "endfor"];
 
 /// A rule.
 pub(super) fn rule(p: &mut Parser<'_>, wanted: &str) -> bool {
@@ -31,6 +35,11 @@ pub(super) fn rule(p: &mut Parser<'_>, wanted: &str) -> bool {
         return recovery::too_deep(p);
     }
     let found = rule_here(p, wanted);
+    if p.at(SEMICOLON) && !p.in_scenario {
+        let mark = p.found();
+        p.fault(fault::separator(mark));
+        recovery::error(p, 1);
+    }
     p.leave();
     found
 }
@@ -45,9 +54,9 @@ fn rule_here(p: &mut Parser<'_>, wanted: &str) -> bool {
         PAR_KW => block(p, PAR_RULE, ENDPAR_KW),
         SEQ_KW => block(p, SEQ_RULE, ENDSEQ_KW),
         ITERATE_KW => block(p, ITERATE_RULE, ENDITERATE_KW),
-        IF_KW => conditional::if_construct(p, IF_RULE, branch),
-        SWITCH_KW => conditional::switch_construct(p, SWITCH_RULE, branch),
-        LET_KW => binding::let_construct(p, LET_RULE, |p| branch(p, "a rule behind `in`")),
+        IF_KW => conditional::if_construct(p, IF_RULE, BRANCH),
+        SWITCH_KW => conditional::switch_construct(p, SWITCH_RULE, BRANCH),
+        LET_KW => binding::let_construct(p, LET_RULE, BRANCH),
         CHOOSE_KW => ranging(p, CHOOSE_RULE),
         FORALL_KW => ranging(p, FORALL_RULE),
         EXTEND_KW => extend(p),
@@ -56,6 +65,11 @@ fn rule_here(p: &mut Parser<'_>, wanted: &str) -> bool {
         LOCAL_KW => local(p),
         DYNAMIC_KW if p.peek(1) == LOCAL_KW => local(p),
         RULE_ID => call(p),
+        FUNCTION_ID if NO_ENDS.contains(&p.token_text()) && !matches!(p.peek(1), ASSIGN | L_PAREN) => {
+            let found = p.found();
+            p.fault(fault::no_such_end(found));
+            recovery::error(p, 1);
+        }
         FUNCTION_ID | VARIABLE => update(p),
         ENUM_ID | DOMAIN_ID if p.peek(1) == ASSIGN => update(p),
         _ => return recovery::no_rule(p, wanted),
@@ -64,9 +78,19 @@ fn rule_here(p: &mut Parser<'_>, wanted: &str) -> bool {
 }
 
 /// The rule of a branch, which an end mark follows.
-fn branch(p: &mut Parser<'_>, wanted: &str) {
-    rule(p, wanted);
-    recovery::several_rules(p);
+const BRANCH: Body = Body {
+    parse: |p, wanted| {
+        rule(p, wanted);
+        recovery::several_rules(p);
+    },
+    starts,
+};
+
+/// The rule behind a keyword or mark; where that is missing, a rule that stands there is read all the same.
+fn behind(p: &mut Parser<'_>, keyword: SyntaxKind, context: &str, wanted: &str) {
+    if p.expect(keyword, context) || starts(p) {
+        rule(p, wanted);
+    }
 }
 
 /// `par R S endpar`, `seq R S endseq`, `iterate R enditerate`
@@ -88,9 +112,7 @@ fn ranging(p: &mut Parser<'_>, kind: SyntaxKind) {
     if p.eat(WITH_KW) {
         delimited(p, "a condition");
     }
-    if p.expect(DO_KW, "before the rule") {
-        rule(p, "the rule behind `do`");
-    }
+    behind(p, DO_KW, "before the rule", "the rule behind `do`");
     if kind == CHOOSE_RULE && p.eat(IFNONE_KW) {
         rule(p, "the rule behind `ifnone`");
     }
@@ -103,9 +125,7 @@ fn extend(p: &mut Parser<'_>) {
     p.bump();
     if name::domain_name(p) && p.expect(WITH_KW, "behind the domain that is extended") {
         while name::name(p, VARIABLE) && p.eat(COMMA) {}
-        if p.expect(DO_KW, "before the rule") {
-            rule(p, "the rule behind `do`");
-        }
+        behind(p, DO_KW, "before the rule", "the rule behind `do`");
     }
     p.finish();
 }
@@ -115,9 +135,7 @@ fn repeat(p: &mut Parser<'_>, kind: SyntaxKind) {
     p.start(kind);
     p.bump();
     delimited(p, "a condition");
-    if p.expect(DO_KW, "behind the condition") {
-        rule(p, "the rule behind `do`");
-    }
+    behind(p, DO_KW, "behind the condition", "the rule behind `do`");
     p.finish();
 }
 

@@ -11,7 +11,6 @@ use crate::parser::Parser;
 
 /// A whole scenario file.
 pub(crate) fn scenario_file(p: &mut Parser<'_>) {
-    p.in_scenario = true;
     if p.at(EOF) {
         return;
     }
@@ -41,7 +40,7 @@ fn word(p: &mut Parser<'_>, text: &str, kind: SyntaxKind) -> bool {
         return true;
     }
     let found = p.found();
-    p.fault(fault::expected_token(found, found.span, kind, "in the head of the scenario"));
+    p.fault(fault::expected_token(found, kind, "in the head of the scenario"));
     false
 }
 
@@ -203,8 +202,15 @@ fn block(p: &mut Parser<'_>) {
 fn execblock(p: &mut Parser<'_>) {
     p.start(EXECBLOCK_COMMAND);
     p.bump_as(EXECBLOCK_KW);
-    if name::generic_name(p) && p.eat(COLON) {
-        name::generic_name(p);
+    if name::generic_name(p) {
+        if p.at(DOT) && p.touches_next() {
+            let found = p.found();
+            p.fault(fault::dot_in_block_name(found));
+            p.bump_as(COLON);
+            name::generic_name(p);
+        } else if p.eat(COLON) {
+            name::generic_name(p);
+        }
     }
     semicolon(p);
     p.finish();
@@ -259,7 +265,7 @@ fn semicolon(p: &mut Parser<'_>) {
     if p.eat(SEMICOLON) {
         return;
     }
-    p.fault_missing(SEMICOLON, "at the end of the command");
+    p.expect(SEMICOLON, "at the end of the command");
     skip_command(p);
 }
 

@@ -7,7 +7,7 @@ use super::operator::{LOWEST, NOT, SIGN, infix, infix_power, is_infix_word};
 use super::{binding, collection, conditional, domain, list, recovery};
 use crate::SyntaxKind::*;
 use crate::fault;
-use crate::parser::{MAX_CHAIN, Parser};
+use crate::parser::{MAX_CHAIN, Parser, Within};
 use crate::token_set::TokenSet;
 
 /// Tokens that a term can start with.
@@ -50,10 +50,15 @@ pub(super) fn term(p: &mut Parser<'_>, wanted: &str) -> bool {
 
 /// A term between brackets or keywords, where a bare `>` is a comparison again.
 pub(super) fn delimited(p: &mut Parser<'_>, wanted: &str) -> bool {
-    let in_bag = std::mem::replace(&mut p.in_bag, false);
-    let found = term(p, wanted);
-    p.in_bag = in_bag;
-    found
+    inside(p, Within::Plain, |p| term(p, wanted))
+}
+
+/// Parses something that stands in something else.
+pub(super) fn inside<T>(p: &mut Parser<'_>, within: Within, parse: impl FnOnce(&mut Parser<'_>) -> T) -> T {
+    let outer = std::mem::replace(&mut p.within, within);
+    let result = parse(p);
+    p.within = outer;
+    result
 }
 
 /// A term of operators that bind at least as tightly as `least`.
@@ -166,7 +171,7 @@ fn parenthesised(p: &mut Parser<'_>) {
     if matches!(p.peek(1), FORALL_KW | EXISTS_KW) {
         p.start(QUANTIFIED_TERM);
         p.bump_opener(R_PAREN);
-        quantifier(p);
+        inside(p, Within::Plain, quantifier);
         recovery::end(p);
         p.finish();
         return;
@@ -186,7 +191,7 @@ pub(super) fn quantifier(p: &mut Parser<'_>) {
     }
     binding::binders(p);
     if p.eat(WITH_KW) {
-        delimited(p, "a condition");
+        term(p, "a condition");
     }
 }
 

@@ -11,9 +11,11 @@ mod raw;
 mod word;
 
 use crate::fault;
+use crate::parser::MAX_FAULTS;
 use crate::{Diagnostic, FileId, Span, SyntaxKind, SyntaxKind::*};
 use logos::Logos;
 use raw::Raw;
+pub(crate) use word::classify;
 
 /// Which language is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,22 +47,34 @@ struct Lexer<'t> {
     path_seen: bool,
     tokens: Vec<Token>,
     faults: Vec<Diagnostic>,
+    unterminated: Vec<u32>,
 }
 
-/// Cuts a text into tokens; the last one is an [`EOF`] of no length.
-pub(crate) fn tokenize(file: FileId, text: &str, mode: Mode) -> (Vec<Token>, Vec<Diagnostic>) {
+/// What the lexer gives.
+#[derive(Debug)]
+pub(crate) struct Lexed {
+    /// The last one is an [`EOF`] of no length.
+    pub(crate) tokens: Vec<Token>,
+    pub(crate) faults: Vec<Diagnostic>,
+    /// Starts of strings, characters and comments without their end.
+    pub(crate) unterminated: Vec<u32>,
+}
+
+/// Cuts a text into tokens.
+pub(crate) fn tokenize(file: FileId, text: &str, mode: Mode) -> Lexed {
     let mut lexer = Lexer {
         file,
         text,
         mode,
         context: Context::Normal,
         path_seen: false,
+        unterminated: Vec::new(),
         tokens: Vec::with_capacity(text.len() / 4 + 1),
         faults: Vec::new(),
     };
     lexer.run();
     lexer.push(EOF, text.len());
-    (lexer.tokens, lexer.faults)
+    Lexed { tokens: lexer.tokens, faults: lexer.faults, unterminated: lexer.unterminated }
 }
 
 impl<'t> Lexer<'t> {
@@ -73,7 +87,8 @@ impl<'t> Lexer<'t> {
                 Ok(Raw::LineComment) => self.push(LINE_COMMENT, start),
                 Ok(Raw::BlockComment) => {
                     if end - start < 4 || !self.text[start..end].ends_with("*/") {
-                        self.faults.push(fault::unterminated_comment(self.span(start, start + 2)));
+                        self.fault(fault::unterminated_comment(self.span(start, start + 2)));
+                        self.unterminated.push(start as u32);
                     }
                     self.push(BLOCK_COMMENT, start);
                 }
@@ -88,6 +103,12 @@ impl<'t> Lexer<'t> {
                         raw.bump(start + length);
                     }
                 }
+                Ok(Raw::Word | Raw::Imaginary) if self.context == Context::Name && self.mode == Mode::Avalla => {
+                    self.context = Context::Normal;
+                    self.push(GENERIC_ID, start);
+                    raw = Raw::lexer(self.text);
+                    raw.bump(start + self.dotted_name_length(start));
+                }
                 _ => self.significant(token, start, end),
             }
         }
@@ -99,10 +120,10 @@ impl<'t> Lexer<'t> {
         let kind = match token {
             Ok(Raw::Word | Raw::Imaginary) if context == Context::Name && !text.contains('.') => GENERIC_ID,
             Ok(Raw::Word) if self.takes_exponent(text, start) => return,
-            Ok(Raw::Word) => self.word(text, start),
+            Ok(Raw::Word) => self.word(text),
             Ok(Raw::ForeignWord) => {
-                self.faults.push(fault::foreign_letter(self.span(start, end), text));
-                word::classify(text)
+                self.fault(fault::foreign_letter(self.span(start, end), text));
+                classify(text)
             }
             Ok(Raw::Imaginary) => match self.number_before(start) {
                 Some(number) => {
@@ -114,15 +135,21 @@ impl<'t> Lexer<'t> {
             Ok(Raw::String) => self.quoted(STRING, text, start),
             Ok(Raw::Char) => self.quoted(CHAR, text, start),
             Ok(Raw::OpenString) => {
-                self.faults.push(fault::unterminated_string(self.span(start, end)));
+                self.fault(fault::unterminated_string(self.span(start, end)));
+                self.unterminated.push(start as u32);
                 STRING
             }
             Ok(Raw::OpenChar) => {
-                self.faults.push(fault::unterminated_character(self.span(start, end)));
+                self.fault(fault::unterminated_character(self.span(start, end)));
+                self.unterminated.push(start as u32);
                 CHAR
             }
             Ok(Raw::Foreign) => {
-                self.faults.push(fault::foreign_operator(self.span(start, end), text));
+                self.fault(fault::foreign_operator(self.span(start, end), text));
+                ERROR
+            }
+            Ok(Raw::ForeignComment) => {
+                self.fault(fault::unknown_character(self.span(start, start + 1), "#"));
                 ERROR
             }
             Ok(mark) => mark.kind(),
@@ -134,35 +161,43 @@ impl<'t> Lexer<'t> {
                 {
                     return; // a run of strange characters is one token, reported once
                 }
-                self.faults.push(fault::unknown_character(self.span(start, end), text));
+                self.fault(fault::unknown_character(self.span(start, end), text));
                 ERROR
             }
         };
         self.push(kind, start);
     }
 
-    fn word(&mut self, text: &str, start: usize) -> SyntaxKind {
-        let kind = word::classify(text);
+    fn word(&mut self, text: &str) -> SyntaxKind {
+        let kind = classify(text);
         match self.mode {
             Mode::AsmetaL => match kind {
                 ASM_KW | MODULE_KW | INIT_KW => self.context = Context::Name,
                 IMPORT_KW => self.context = Context::Path,
                 _ => {}
             },
-            Mode::Avalla => {
-                if text == "load" && !self.path_seen && self.starts_header(start) {
+            Mode::Avalla => match text {
+                "scenario" if self.significant_before() == 0 => self.context = Context::Name,
+                "load" if !self.path_seen && self.significant_before() <= 2 => {
                     self.path_seen = true;
                     self.context = Context::Path;
                 }
-            }
+                _ => {}
+            },
         }
         kind
     }
 
-    /// `load` stands where a scenario's header has it: nothing but a name or two comes before.
-    fn starts_header(&self, start: usize) -> bool {
-        let before = self.tokens.iter().filter(|token| !token.kind.is_trivia()).take(3).count();
-        start == 0 || before <= 2
+    /// How many tokens other than trivia were read; 3 stands for more, too.
+    fn significant_before(&self) -> usize {
+        self.tokens.iter().filter(|token| !token.kind.is_trivia()).take(3).count()
+    }
+
+    /// The length of the name of a scenario, which may hold dots.
+    fn dotted_name_length(&self, start: usize) -> usize {
+        let rest = &self.text[start..];
+        let part = |letter: char| letter.is_ascii_alphanumeric() || letter == '_' || letter == '.';
+        rest.find(|letter| !part(letter)).unwrap_or(rest.len())
     }
 
     /// The length of the path that starts here; 0 when there is none.
@@ -209,7 +244,7 @@ impl<'t> Lexer<'t> {
         number.kind = REAL;
         let from = number.start as usize;
         let span = self.span(from, start + text.len());
-        self.faults.push(fault::exponent(span, &self.text[from..start + text.len()]));
+        self.fault(fault::exponent(span, &self.text[from..start + text.len()]));
         true
     }
 
@@ -225,10 +260,16 @@ impl<'t> Lexer<'t> {
                 && !matches!(escaped, 'n' | 't' | 'b' | 'r' | 'f' | '\\' | '\'' | '"' | 'u' | '0'..='7')
             {
                 let span = self.span(start + at, start + next + escaped.len_utf8());
-                self.faults.push(fault::unknown_escape(span, escaped));
+                self.fault(fault::unknown_escape(span, escaped));
             }
         }
         kind
+    }
+
+    fn fault(&mut self, fault: Diagnostic) {
+        if self.faults.len() <= MAX_FAULTS {
+            self.faults.push(fault);
+        }
     }
 
     fn span(&self, start: usize, end: usize) -> Span {

@@ -104,6 +104,8 @@ pub(super) enum Raw {
     #[token("/\\")]
     #[token("\\/")]
     Foreign,
+    #[regex(r"#[^\n]*", allow_greedy = true)]
+    ForeignComment,
 }
 
 /// Takes a comment up to its end mark, or else the rest of the file.
@@ -152,7 +154,7 @@ impl Raw {
             Raw::Star => STAR,
             Raw::Slash => SLASH,
             Raw::Caret => CARET,
-            Raw::Foreign => ERROR,
+            Raw::Foreign | Raw::ForeignComment => ERROR,
         }
     }
 }

@@ -6,7 +6,7 @@
 use crate::SyntaxKind::{self, *};
 
 /// The kind of a word.
-pub(super) fn classify(word: &str) -> SyntaxKind {
+pub(crate) fn classify(word: &str) -> SyntaxKind {
     keyword(word).unwrap_or_else(|| class(word))
 }
 

@@ -1,0 +1,118 @@
+//! The parser's machinery: a cursor over the tokens, the tree under construction, and the faults.
+//!
+//! In: a text and the grammar's start. Out: a [`Parse`]. The grammar (module `grammar`) decides; this module keeps the
+//! books. INVARIANT: every token goes into the tree exactly once and in order, so the tree is lossless; a node never
+//! starts or ends with trivia, except the root. At one token at most one fault is reported: what follows from it is no
+//! news.
+//!
+//! LIMIT: [`MAX_NESTING`], [`MAX_CHAIN`], [`MAX_FAULTS`], [`MAX_TEXT_BYTES`].
+
+mod cursor;
+mod nesting;
+mod report;
+mod tree;
+
+use crate::fault;
+use crate::lexer::{self, Mode, Token};
+use crate::{AsmetaL, Diagnostic, FileId, Parse, Span, SyntaxKind, SyntaxKind::*};
+use nesting::Open;
+use rowan::{GreenNodeBuilder, Language};
+
+/// How many constructs may be nested in one another (parentheses, rules in rules, right operands …).
+pub const MAX_NESTING: usize = 256;
+
+/// The greatest height of the tree of one rule or term. A chain of left-associative operators (`a + b + …`) makes the
+/// tree higher by one for each operator; so a chain has at most this many.
+pub const MAX_CHAIN: usize = 1000;
+
+/// How many faults of one file are reported.
+pub const MAX_FAULTS: usize = 200;
+
+/// The longest text that is read.
+pub const MAX_TEXT_BYTES: usize = 1 << 30;
+
+/// What a term stands in, as far as that changes its operators.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Within {
+    /// Parentheses, keywords or nothing.
+    Plain,
+    /// A bag, which a bare `>` closes.
+    Bag,
+    /// The bindings of a `let`, behind which `in` stands.
+    Bindings,
+}
+
+/// The state of one parse.
+pub(crate) struct Parser<'t> {
+    file: FileId,
+    text: &'t str,
+    tokens: Vec<Token>,
+    /// The current token; never one that is skipped.
+    at: usize,
+    /// The first token that is not in the tree yet.
+    emitted: usize,
+    builder: GreenNodeBuilder<'static>,
+
+    faults: Vec<Diagnostic>,
+    /// The token at which the last fault was reported.
+    fault_at: usize,
+    /// Starts of tokens that the lexer found without their end; faults right behind them are no news.
+    unterminated: Vec<u32>,
+
+    /// Constructs that wait for their end, innermost last.
+    open: Vec<Open<'t>>,
+    /// Constructs whose end is not below their beginning.
+    crooked: Vec<Open<'t>>,
+    nesting_reported: bool,
+    depth: usize,
+    /// The greatest depth of the tree since the last [`Parser::take_deepest`].
+    deepest: usize,
+
+    /// What a term stands in, as far as that changes its operators.
+    pub(crate) within: Within,
+    /// A scenario is read: `;` ends a command.
+    pub(crate) in_scenario: bool,
+}
+
+/// Parses a text from one start of the grammar.
+pub(crate) fn parse(file: FileId, text: &str, mode: Mode, root: SyntaxKind, grammar: fn(&mut Parser<'_>)) -> Parse {
+    if text.len() > MAX_TEXT_BYTES {
+        return too_large(file, text, root);
+    }
+    let lexed = lexer::tokenize(file, text, mode);
+    let mut parser = Parser {
+        file,
+        text,
+        tokens: lexed.tokens,
+        at: 0,
+        emitted: 0,
+        builder: GreenNodeBuilder::new(),
+        faults: lexed.faults,
+        fault_at: usize::MAX,
+        unterminated: lexed.unterminated,
+        open: Vec::new(),
+        crooked: Vec::new(),
+        nesting_reported: false,
+        depth: 0,
+        deepest: 0,
+        within: Within::Plain,
+        in_scenario: mode == Mode::Avalla,
+    };
+    parser.skip();
+    parser.builder.start_node(AsmetaL::kind_to_raw(root));
+    grammar(&mut parser);
+    parser.finish_root()
+}
+
+/// A text beyond the limit is one token, unread.
+fn too_large(file: FileId, text: &str, root: SyntaxKind) -> Parse {
+    let mut builder = GreenNodeBuilder::new();
+    builder.start_node(AsmetaL::kind_to_raw(root));
+    // A token's length is 32 bits wide; beyond that not even the tree can hold the text.
+    if u32::try_from(text.len()).is_ok() {
+        builder.token(AsmetaL::kind_to_raw(ERROR), text);
+    }
+    builder.finish_node();
+    let fault = fault::file_too_large(Span { file, start: 0, end: 0 }, text.len());
+    Parse { green: builder.finish(), diagnostics: vec![fault] }
+}

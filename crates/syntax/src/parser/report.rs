@@ -1,0 +1,76 @@
+//! Reporting faults, each mistake once.
+
+use super::{MAX_FAULTS, Parser};
+use crate::fault::{self, Found};
+use crate::{Diagnostic, Span, SyntaxKind, SyntaxKind::*};
+
+impl<'t> Parser<'t> {
+    /// Reports a fault at the current token, unless it follows from one that is known.
+    pub(crate) fn fault(&mut self, fault: Diagnostic) {
+        let news =
+            self.fault_at != self.at && !self.at(ERROR) && !self.has_enough_faults() && !self.follows_lexical_fault();
+        self.fault_at = self.at;
+        if news {
+            self.push_fault(fault);
+        }
+    }
+
+    /// Reports a fault that lies before the current token.
+    pub(crate) fn fault_before(&mut self, fault: Diagnostic) {
+        self.push_fault(fault);
+    }
+
+    /// Reports that something is nested too deeply, the first time.
+    pub(crate) fn fault_once(&mut self, fault: Diagnostic) {
+        if !std::mem::replace(&mut self.nesting_reported, true) {
+            self.push_fault(fault);
+        }
+        self.fault_at = self.at;
+    }
+
+    /// Takes a token that must stand here, or reports that it is missing.
+    pub(crate) fn expect(&mut self, kind: SyntaxKind, context: &str) -> bool {
+        if self.eat(kind) {
+            return true;
+        }
+        self.fault(fault::expected_token(self.missing(), kind, context));
+        false
+    }
+
+    /// The current token as a fault shows it that reports something missing before it.
+    pub(crate) fn missing(&self) -> Found<'t> {
+        Found { span: self.missing_place(), ..self.found() }
+    }
+
+    /// Where something is missing: at the current token, or, if that is on a later line, behind the one before.
+    pub(crate) fn missing_place(&self) -> Span {
+        if self.on_new_line() || self.at(EOF) { self.end_of_previous() } else { self.span_of(self.at) }
+    }
+
+    /// What the lexer has reported stands right before the current token: a strange character, or a string, character
+    /// or comment without its end.
+    fn follows_lexical_fault(&self) -> bool {
+        let mut from = self.at;
+        while from > 0 && self.is_skipped(from - 1) {
+            from -= 1;
+            if self.tokens[from].kind == ERROR {
+                return true;
+            }
+        }
+        let from = self.tokens[from.saturating_sub(1)].start;
+        let until = self.tokens[self.at].start;
+        let next = self.unterminated.partition_point(|start| *start < from);
+        self.unterminated.get(next).is_some_and(|start| *start < until)
+    }
+
+    /// So many faults are known that no more are kept. (The lexer, which runs first, keeps half as many.)
+    pub(super) fn has_enough_faults(&self) -> bool {
+        self.faults.len() > 2 * MAX_FAULTS
+    }
+
+    fn push_fault(&mut self, fault: Diagnostic) {
+        if !self.has_enough_faults() {
+            self.faults.push(fault);
+        }
+    }
+}

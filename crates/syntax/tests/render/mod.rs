@@ -1,0 +1,33 @@
+//! Shows diagnostics as a golden test pins them: position, source line, underline, labels, help.
+
+use std::fmt::Write;
+use syntax::{Diagnostic, SourceFile, Span};
+
+/// All diagnostics of one text.
+pub fn render(text: &str, diagnostics: &[Diagnostic]) -> String {
+    let file = SourceFile::new("model.asm", text);
+    let mut out = String::new();
+    for fault in diagnostics {
+        let _ = writeln!(out, "{:?}[{}]: {}", fault.severity, fault.id, fault.message);
+        place(&mut out, &file, fault.primary.span, '^', &fault.primary.text);
+        for label in &fault.secondary {
+            place(&mut out, &file, label.span, '-', &label.text);
+        }
+        if let Some(help) = &fault.help {
+            let _ = writeln!(out, "  help: {help}");
+        }
+        out.push('\n');
+    }
+    out
+}
+
+fn place(out: &mut String, file: &SourceFile, span: Span, mark: char, text: &str) {
+    let at = file.line_column(span.start);
+    let line = file.text.lines().nth(at.line as usize - 1).unwrap_or_default();
+    let line = line.replace('\t', " ");
+    let rest = line.chars().count().saturating_sub(at.column as usize - 1);
+    let length = file.text[span.range()].chars().count().min(rest).max(1);
+    let _ = writeln!(out, "{:>4} | {}", at.line, line.trim_end());
+    let marks: String = std::iter::repeat_n(mark, length).collect();
+    let _ = writeln!(out, "     | {:indent$}{marks} {text}", "", indent = at.column as usize - 1);
+}
