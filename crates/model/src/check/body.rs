@@ -1,0 +1,143 @@
+//! The body of one declaration: a rule, a definition, a property or a fragment, with its variables.
+//!
+//! In: a [`Site`] and the parameters. Out: terms and rules, with all variables of the declaration in one list.
+//! INVARIANT: scoping is lexical; a name means its innermost binding, and re-binding a name makes a new variable.
+
+use syntax::{Span, SyntaxToken};
+
+use crate::domain::{DomainId, Domains};
+use crate::fault;
+use crate::model::{FunctionId, Variable, VariableId};
+use crate::site::Site;
+use crate::suggest::did_you_mean;
+use crate::term::{Term, TermKind};
+
+/// What binds a variable; decides whether it may be updated, and how that is explained.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Bound {
+    /// A parameter of a macro rule, called by name.
+    MacroParameter,
+    /// Any other parameter.
+    Parameter,
+    /// `let`
+    Let,
+    /// `forall`, `choose`, a quantifier or a comprehension.
+    Range,
+    /// `extend`
+    Extend,
+}
+
+/// The body of one declaration.
+pub(crate) struct Body<'a> {
+    /// The file and the model.
+    pub(crate) site: Site<'a>,
+    /// All variables of the declaration.
+    pub(crate) variables: Vec<Variable>,
+    /// What binds each of them.
+    pub(crate) bound: Vec<Bound>,
+    /// The names bound here, the innermost last.
+    scope: Vec<(String, VariableId)>,
+    /// The local functions declared here, the innermost last.
+    pub(crate) locals: Vec<(String, FunctionId)>,
+    /// The domain of the result, in a turbo rule that declares one.
+    pub(crate) result: Option<DomainId>,
+    /// The environment's functions may be updated too (a scenario sets them).
+    pub(crate) as_environment: bool,
+}
+
+/// How far the scope reached before a binding.
+pub(crate) struct Mark(usize);
+
+impl<'a> Body<'a> {
+    /// A body with these parameters in scope.
+    pub(crate) fn new(site: Site<'a>, parameters: &[Variable], bound: Bound) -> Self {
+        let scope = parameters.iter().enumerate().map(|(i, v)| (v.name.clone(), VariableId(i as u32))).collect();
+        Body {
+            site,
+            variables: parameters.to_vec(),
+            bound: vec![bound; parameters.len()],
+            scope,
+            locals: Vec::new(),
+            result: None,
+            as_environment: false,
+        }
+    }
+
+    /// Where the scope stands now.
+    pub(crate) fn mark(&self) -> Mark {
+        Mark(self.scope.len())
+    }
+
+    /// Ends the scope of everything bound since.
+    pub(crate) fn release(&mut self, mark: Mark) {
+        self.scope.truncate(mark.0);
+    }
+
+    /// Binds a variable from here on.
+    pub(crate) fn bind(&mut self, token: &SyntaxToken, domain: DomainId, bound: Bound) -> VariableId {
+        let span = self.site.token_span(token);
+        let id = self.add_variable(token.text().to_string(), domain, span, bound);
+        self.scope.push((token.text().to_string(), id));
+        id
+    }
+
+    /// A variable that no text names.
+    pub(crate) fn made_variable(&mut self, domain: DomainId, span: Span) -> VariableId {
+        let name = format!("$${}", self.variables.len());
+        self.add_variable(name, domain, span, Bound::Let)
+    }
+
+    fn add_variable(&mut self, name: String, domain: DomainId, span: Span, bound: Bound) -> VariableId {
+        self.variables.push(Variable { name, domain, span });
+        self.bound.push(bound);
+        VariableId(self.variables.len() as u32 - 1)
+    }
+
+    /// The variable that a name means here.
+    pub(crate) fn lookup(&self, name: &str) -> Option<VariableId> {
+        self.scope.iter().rev().find(|(bound, _)| bound == name).map(|(_, id)| *id)
+    }
+
+    /// The variable of that id.
+    pub(crate) fn variable(&self, id: VariableId) -> &Variable {
+        &self.variables[id.0 as usize]
+    }
+
+    /// The names in scope.
+    pub(crate) fn visible(&self) -> Vec<&str> {
+        self.scope.iter().map(|(name, _)| name.as_str()).collect()
+    }
+
+    /// A variable as a term.
+    pub(crate) fn variable_term(&self, id: VariableId, span: Span) -> Term {
+        Term { kind: TermKind::Variable(id), domain: self.variable(id).domain, span }
+    }
+
+    /// The term that a written variable means.
+    pub(crate) fn resolve_variable(&mut self, token: &SyntaxToken) -> Term {
+        let span = self.site.token_span(token);
+        let name = token.text();
+        if let Some(id) = self.lookup(name) {
+            return self.variable_term(id, span);
+        }
+        let plain = name.trim_start_matches('$');
+        let help = if self.site.names.functions.contains_key(plain) {
+            format!("did you mean the function `{plain}`?")
+        } else {
+            let elsewhere = self.variables.iter().find(|variable| variable.name == name);
+            match elsewhere {
+                Some(_) => format!("`{name}` is bound elsewhere in this declaration, but its scope ends before here"),
+                None => did_you_mean(name, self.visible(), || {
+                    format!("bind it: as a parameter, or by `let`, `forall`, `choose`, as in `forall {name} in …`")
+                }),
+            }
+        };
+        self.site.faults.push(fault::name::unknown_variable(span, name, help));
+        error_term(span)
+    }
+}
+
+/// Stands where a reported fault left no term.
+pub(crate) fn error_term(span: Span) -> Term {
+    Term { kind: TermKind::Error, domain: Domains::ERROR, span }
+}

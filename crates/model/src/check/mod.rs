@@ -1,0 +1,246 @@
+//! The whole of checking: texts in, checked model out.
+//!
+//! In: the root file and a [`Loader`]. Out: [`Checked`]. Files are checked in the order of imports, so what a file
+//! needs from another is there; within a file first everything is declared, then bodies are checked.
+
+pub(crate) mod body;
+
+mod apply;
+mod call;
+mod collection;
+mod definition;
+mod init;
+mod literal;
+mod property;
+mod rule;
+mod term;
+mod update;
+
+use std::collections::BTreeSet;
+
+use syntax::ast::{self, AstNode};
+use syntax::{FileId, SourceFile, Sources, Span};
+
+use crate::domain::{DomainKind, Domains};
+use crate::fault::{self, Faults};
+use crate::imports::{self, Import, Unit};
+use crate::library;
+use crate::model::{Checked, FunctionKind, Loader, Model, RuleId};
+use crate::names::{Names, Selection};
+use crate::site::{Site, kind_word};
+use crate::suggest::nearest;
+use crate::{declare, macros};
+use body::{Body, Bound};
+use definition::Defined;
+
+/// Checks a model: reads what it imports, resolves every name, gives every term a domain.
+///
+/// Never fails and never panics: what could not be understood is in `diagnostics`, and everything else is checked
+/// all the same, so one run shows all faults.
+pub fn check(root: SourceFile, loader: &mut dyn Loader) -> Checked {
+    let mut sources = Sources::default();
+    let mut faults = Faults::default();
+    let units = imports::read(root, loader, &mut sources, &mut faults);
+    let mut checker = Checker {
+        sources: &sources,
+        units: &units,
+        model: Model::empty(FileId(0)),
+        faults,
+        exported: Vec::new(),
+        defined: Defined::default(),
+    };
+    for index in 0..units.len() {
+        checker.unit(index);
+    }
+    let Checker { model, mut faults, .. } = checker;
+    macros::check(&model, &mut faults);
+    report_undefined(&model, &mut faults);
+    Checked { diagnostics: faults.into_sorted(), model, sources }
+}
+
+struct Checker<'a> {
+    sources: &'a Sources,
+    units: &'a [Unit],
+    model: Model,
+    faults: Faults,
+    /// What each checked unit exports; none without an export clause.
+    exported: Vec<Option<Names>>,
+    defined: Defined,
+}
+
+impl Checker<'_> {
+    fn site<'s>(&'s mut self, names: &'s Names, file: FileId) -> Site<'s> {
+        Site { model: &mut self.model, names, faults: &mut self.faults, file }
+    }
+
+    fn unit(&mut self, index: usize) {
+        let unit = &self.units[index];
+        self.report_file_name(unit);
+        let imported = self.imported(unit);
+        let (names, rules) = declare::declare(unit, imported, &mut self.model, &mut self.faults);
+        let exported = self.exported_by(unit, &names);
+        self.exported.push(exported);
+        self.definitions(unit, &names, &rules);
+        let (inits, default_init) = init::inits(&mut self.site(&names, unit.file), &unit.tree);
+        if index + 1 == self.units.len() {
+            self.root(unit, inits, default_init, names, &rules);
+        }
+    }
+
+    fn root(
+        &mut self,
+        unit: &Unit,
+        inits: Vec<crate::model::Init>,
+        default_init: Option<usize>,
+        names: Names,
+        rules: &[(ast::RuleDecl, RuleId)],
+    ) {
+        let model = &mut self.model;
+        model.root = unit.file;
+        model.asynchronous = unit.tree.is_asynchronous();
+        let name = unit.tree.machine_name().and_then(|name| name.name());
+        model.name = name.map(|token| token.text().to_string()).unwrap_or_default();
+        model.inits = inits;
+        model.default_init = default_init;
+        model.names = names;
+        let main = unit.tree.main_rule().and_then(|main| main.rule());
+        model.main = main.and_then(|main| rules.iter().find(|(decl, _)| *decl == main)).map(|(_, id)| *id);
+        if let Some(id) = model.main {
+            let main = model.rule(id);
+            if !main.parameters.is_empty() {
+                self.faults.push(fault::rule::main_with_parameters(main.span, &main.name));
+            }
+        }
+    }
+
+    fn report_file_name(&mut self, unit: &Unit) {
+        let source = self.sources.file(unit.file);
+        let Some(machine) = unit.tree.machine_name() else { return };
+        let Some(token) = machine.name() else { return };
+        let stem = library::stem(&source.name);
+        if token.text() != stem && !source.name.starts_with('<') {
+            let span = Span::new(unit.file, token.text_range());
+            let word = if machine.is_module() { "module" } else { "asm" };
+            self.faults.push(fault::import::file_name(span, token.text(), stem, word));
+        }
+    }
+
+    /// The names that a unit's imports bring.
+    fn imported(&mut self, unit: &Unit) -> Names {
+        let mut names = Names { incomplete: unit.broken, ..Names::default() };
+        for import in &unit.imports {
+            let Some(target) = import.target else {
+                names.incomplete = true;
+                continue;
+            };
+            let selection = self.selection(unit, import, target);
+            match &self.exported[target] {
+                Some(exported) => names.import(&exported.select(&selection), &self.model.functions),
+                None => self.report_without_export(unit, import),
+            }
+        }
+        names
+    }
+
+    fn report_without_export(&mut self, unit: &Unit, import: &Import) {
+        if let (Some(token), Some(path)) = (import.clause.path_token(), import.clause.path()) {
+            let span = Span::new(unit.file, token.text_range());
+            self.faults.push(fault::import::without_export(span, &path));
+        }
+    }
+
+    fn selection(&mut self, unit: &Unit, import: &Import, target: usize) -> Selection {
+        let Some(written) = import.clause.selection() else { return Selection::All };
+        let path = import.clause.path().unwrap_or_default();
+        let mut selected = BTreeSet::new();
+        for token in written.names().filter_map(|name| name.token()) {
+            let name = token.text();
+            if let Some(exported) = &self.exported[target]
+                && !exported.has(name)
+                && !exported.incomplete
+            {
+                let all = exported.functions.keys().chain(exported.domains.keys()).chain(exported.rules.keys());
+                let suggestion = nearest(name, all.map(String::as_str));
+                let span = Span::new(unit.file, token.text_range());
+                self.faults.push(fault::import::not_exported(span, name, &path, suggestion));
+            }
+            selected.insert(name.to_string());
+        }
+        Selection::Only(selected)
+    }
+
+    fn exported_by(&mut self, unit: &Unit, names: &Names) -> Option<Names> {
+        let export = unit.tree.export()?;
+        if export.is_all() {
+            return Some(names.clone());
+        }
+        let mut selected = BTreeSet::new();
+        for token in export.names().filter_map(|name| name.token()) {
+            let name = token.text();
+            if !names.has(name) && !names.incomplete {
+                let all = names.functions.keys().chain(names.domains.keys()).chain(names.rules.keys());
+                let help = crate::suggest::did_you_mean(name, all.map(String::as_str), || {
+                    "declare it, or remove it from the list".to_string()
+                });
+                let span = Span::new(unit.file, token.text_range());
+                self.faults.push(fault::import::unknown_name(span, name, help));
+            }
+            selected.insert(name.to_string());
+        }
+        Some(names.select(&Selection::Only(selected)))
+    }
+
+    fn definitions(&mut self, unit: &Unit, names: &Names, rules: &[(ast::RuleDecl, RuleId)]) {
+        let definitions = unit.tree.definitions();
+        for def in definitions.iter().flat_map(|definitions| definitions.domain_defs()) {
+            let mut defined = std::mem::take(&mut self.defined);
+            definition::domain(self.site(names, unit.file), &def, &mut defined);
+            self.defined = defined;
+        }
+        for def in definitions.iter().flat_map(|definitions| definitions.function_defs()) {
+            let mut defined = std::mem::take(&mut self.defined);
+            definition::function(self.site(names, unit.file), &def, &mut defined);
+            self.defined = defined;
+        }
+        for (decl, id) in rules {
+            self.rule(unit, names, decl, *id);
+        }
+        let sources = self.sources;
+        for written in definitions.iter().flat_map(|definitions| definitions.properties()) {
+            property::property(self.site(names, unit.file), &written, sources);
+        }
+    }
+
+    fn rule(&mut self, unit: &Unit, names: &Names, decl: &ast::RuleDecl, id: RuleId) {
+        let rule = self.model.rule(id);
+        let (parameters, result, place) = (rule.variables.clone(), rule.result, Span::new(unit.file, decl.range()));
+        let bound = if rule.turbo { Bound::Parameter } else { Bound::MacroParameter };
+        let mut body = Body::new(self.site(names, unit.file), &parameters, bound);
+        body.result = result;
+        let checked = body.optional_rule(decl.body(), place);
+        let variables = body.variables;
+        let rule = &mut self.model.rules[id.0 as usize];
+        rule.body = checked;
+        rule.variables = variables;
+    }
+}
+
+/// Warns of static and derived functions without a meaning.
+fn report_undefined(model: &Model, faults: &mut Faults) {
+    for function in &model.functions {
+        let defined = function.library || function.definition.is_some();
+        if defined || !matches!(function.kind, FunctionKind::Static | FunctionKind::Derived) {
+            continue;
+        }
+        let domains = &model.domains;
+        let element = function.parameters.is_empty()
+            && function.kind == FunctionKind::Static
+            && matches!(
+                domains.kind(domains.type_domain(function.codomain)),
+                DomainKind::Abstract { .. } | DomainKind::Error
+            );
+        if !element && function.codomain != Domains::ERROR {
+            faults.push(fault::function::undefined(function.span, &function.name, kind_word(function.kind)));
+        }
+    }
+}

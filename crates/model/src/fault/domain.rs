@@ -1,0 +1,51 @@
+//! Faults of domain declarations and definitions.
+
+use syntax::{Diagnostic, Span};
+
+/// `basic domain` with a name that is not basic.
+pub(crate) fn not_basic(span: Span, name: &str) -> Diagnostic {
+    Diagnostic::error("not-basic-domain", span, format!("`{name}` is not a basic domain"))
+        .because("basic are Complex, Real, Integer, Natural, Char, String, Boolean and Undef")
+        .with_help(format!("write `abstract domain {name}` for a set of unnamed elements"))
+}
+
+/// `subsetof` a concrete domain.
+pub(crate) fn concrete_over_concrete(
+    span: Span,
+    name: &str,
+    base: &str,
+    type_domain: &str,
+    declared: Option<Span>,
+) -> Diagnostic {
+    let message = format!("`{name}` cannot be a subset of `{base}`, which is itself a subset of `{type_domain}`");
+    let fault = Diagnostic::error("concrete-over-concrete", span, message)
+        .with_help(format!("write `domain {name} subsetof {type_domain}` and define its contents"));
+    match declared {
+        Some(place) => fault.with_label(place, format!("`{base}` is declared here")),
+        None => fault,
+    }
+}
+
+/// A structured domain over too few or too many domains.
+pub(crate) fn arity(span: Span, constructor: &str, expected: &str, found: usize) -> Diagnostic {
+    let message = format!("`{constructor}` is over {expected}, not over {}", super::count(found, "domain"));
+    Diagnostic::error("domain-arity", span, message).with_help(match constructor {
+        "Prod" => "write the one domain itself, or add another",
+        "Map" => "write `Map(Key,Value)`",
+        _ => "write a product for several: `Prod(A,B)`",
+    })
+}
+
+/// A definition of a domain that has no contents to define.
+pub(crate) fn not_definable(span: Span, name: &str, kind: &str, help: &str) -> Diagnostic {
+    Diagnostic::error("domain-not-definable", span, format!("the contents of `{name}` cannot be defined here"))
+        .because(kind.to_string())
+        .with_help(help)
+}
+
+/// Contents that are no set of elements of the base.
+pub(crate) fn contents(span: Span, name: &str, base: &str, found: &str) -> Diagnostic {
+    Diagnostic::error("domain-contents", span, format!("`{name}` is a subset of {base}, but its contents are {found}"))
+        .because(format!("a set of {base} is expected"))
+        .with_help("write the elements in braces: `{1, 2, 5}`, or a range: `{1 : 5}`")
+}

@@ -1,0 +1,40 @@
+//! Lossless trees → the checked model.
+//!
+//! In: the root file and a [`Loader`] that finds imported texts. Out: [`Checked`]: the sources read, an immutable
+//! [`Model`] in which every name is resolved, every term has a domain and every coercion is explicit, and the
+//! faults found. The model is complete only when no fault is an error; readers further down may rely on that.
+//!
+//! Definitions follow E. Börger, R. Stärk, *Abstract State Machines*, Springer 2003, chapter 2; where AsmetaL
+//! differs, spec/language.md says so. It must not know how a model is executed or what a shell looks like.
+
+pub mod domain;
+pub mod rule;
+pub mod term;
+
+mod check;
+mod coerce;
+mod compat;
+mod constant;
+mod declare;
+mod fault;
+mod imports;
+mod library;
+mod macros;
+mod model;
+mod names;
+mod overload;
+mod site;
+mod suggest;
+mod visit;
+
+pub use check::check;
+
+pub use domain::{Basic, Domain, DomainId, DomainKind, Domains};
+pub use fault::IDS;
+pub use model::{
+    AgentProgram, Checked, Definition, Function, FunctionId, FunctionKind, Init, InitialFunction, Loader, Model,
+    Property, PropertyKind, Rule, RuleId, Variable, VariableId,
+};
+pub use names::Names;
+pub use rule::{Call, RuleKind, RuleNode, Target};
+pub use term::{Binder, CollectionKind, Literal, Quantifier, Term, TermKind};

@@ -1,0 +1,138 @@
+//! What can be said of macro rules only when all rules are known.
+//!
+//! In: the rules of a model. Out: faults where macro rules call each other in a circle, and where a parameter that is
+//! updated gets an argument that is no location. A macro call stands for the body of the rule with the arguments put
+//! in for the parameters (Börger & Stärk 2003, section 2.2.4), hence both.
+
+use std::collections::BTreeSet;
+
+use syntax::Span;
+
+use crate::fault::{self, Faults};
+use crate::model::{FunctionKind, Model, RuleId, VariableId};
+use crate::rule::{Call, RuleKind, RuleNode, Target};
+use crate::term::{Term, TermKind};
+
+/// Reports recursive macro rules, and arguments that have to be locations and are not.
+pub(crate) fn check(model: &Model, faults: &mut Faults) {
+    report_recursion(model, faults);
+    let updated = updated_parameters(model);
+    for (index, _) in model.rules.iter().enumerate() {
+        let caller = RuleId(index as u32);
+        for (call, _) in calls(&model.rule(caller).body) {
+            report_arguments(model, caller, call, &updated, faults);
+        }
+    }
+}
+
+/// All macro calls inside a rule, with their places.
+fn calls(rule: &RuleNode) -> Vec<(&Call, Span)> {
+    let mut calls = Vec::new();
+    rule.walk(&mut |node| {
+        if let RuleKind::MacroCall(call) = &node.kind {
+            calls.push((call, node.span));
+        }
+    });
+    calls
+}
+
+fn report_recursion(model: &Model, faults: &mut Faults) {
+    let edges: Vec<Vec<(RuleId, Span)>> = model
+        .rules
+        .iter()
+        .map(|rule| calls(&rule.body).iter().map(|(call, span)| (call.rule, *span)).collect())
+        .collect();
+    let mut done = vec![false; edges.len()];
+    for start in 0..edges.len() {
+        // Depth first with an explicit path, so that a long chain of rules needs no deep stack.
+        let mut path: Vec<(usize, usize)> = vec![(start, 0)];
+        while let Some((rule, next)) = path.last_mut() {
+            let rule = *rule;
+            if done[rule] || *next >= edges[rule].len() {
+                done[rule] = true;
+                path.pop();
+                continue;
+            }
+            let (callee, span) = edges[rule][*next];
+            *next += 1;
+            let callee = callee.0 as usize;
+            if let Some(at) = path.iter().position(|(open, _)| *open == callee) {
+                let name = |index: usize| model.rules[index].name.clone();
+                let mut cycle: Vec<String> = path[at..].iter().map(|(open, _)| name(*open)).collect();
+                cycle.push(name(callee));
+                faults.push(fault::rule::recursive_macro(span, &cycle, model.rules[callee].span));
+            } else if !done[callee] {
+                path.push((callee, 0));
+            }
+        }
+    }
+}
+
+/// The parameters that a macro rule updates, itself or through the macro rules that it hands them to.
+fn updated_parameters(model: &Model) -> BTreeSet<(RuleId, VariableId)> {
+    let mut updated = BTreeSet::new();
+    for (index, rule) in model.rules.iter().enumerate() {
+        rule.body.walk(&mut |node| {
+            if let RuleKind::Update { target: Target::Parameter(id, _), .. }
+            | RuleKind::Return { target: Target::Parameter(id, _), .. } = &node.kind
+            {
+                updated.insert((RuleId(index as u32), *id));
+            }
+        });
+    }
+    loop {
+        let before = updated.len();
+        for (index, rule) in model.rules.iter().enumerate() {
+            let caller = RuleId(index as u32);
+            for (call, _) in calls(&rule.body) {
+                for (argument, parameter) in call.arguments.iter().zip(&model.rule(call.rule).parameters) {
+                    if let TermKind::Variable(id) = argument.kind
+                        && is_macro_parameter(model, caller, id)
+                        && updated.contains(&(call.rule, *parameter))
+                    {
+                        updated.insert((caller, id));
+                    }
+                }
+            }
+        }
+        if updated.len() == before {
+            return updated;
+        }
+    }
+}
+
+fn is_macro_parameter(model: &Model, rule: RuleId, variable: VariableId) -> bool {
+    let rule = model.rule(rule);
+    !rule.turbo && rule.parameters.contains(&variable)
+}
+
+fn report_arguments(
+    model: &Model,
+    caller: RuleId,
+    call: &Call,
+    updated: &BTreeSet<(RuleId, VariableId)>,
+    faults: &mut Faults,
+) {
+    let callee = model.rule(call.rule);
+    for (argument, parameter) in call.arguments.iter().zip(&callee.parameters) {
+        if !updated.contains(&(call.rule, *parameter)) || is_location(model, caller, argument) {
+            continue;
+        }
+        let variable = &callee.variables[parameter.0 as usize];
+        let message =
+            format!("`{}` updates its parameter `{}`, but this argument is no location", callee.name, variable.name);
+        faults.push(fault::rule::not_a_location(argument.span, &message, Some(variable.span)));
+    }
+}
+
+fn is_location(model: &Model, caller: RuleId, argument: &Term) -> bool {
+    match &argument.kind {
+        TermKind::Apply { function, .. } => matches!(
+            model.function(*function).kind,
+            FunctionKind::Controlled | FunctionKind::Shared | FunctionKind::Out | FunctionKind::Local
+        ),
+        TermKind::Variable(id) => is_macro_parameter(model, caller, *id),
+        TermKind::Error => true,
+        _ => false,
+    }
+}

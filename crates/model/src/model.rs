@@ -1,0 +1,259 @@
+//! The checked model as a whole: tables of domains, functions and rules, properties and initial states.
+//!
+//! INVARIANT: ids index the tables of the model they come from. Tables are in the order of declaration, imported
+//! files first, so that output made by walking them is the same every time.
+
+use syntax::{Diagnostic, FileId, SourceFile, Sources, Span};
+
+use crate::domain::{DomainId, Domains};
+use crate::names::Names;
+use crate::rule::RuleNode;
+use crate::term::Term;
+
+/// Names a function of a model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct FunctionId(pub u32);
+
+/// Names a rule of a model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct RuleId(pub u32);
+
+/// Names a logical variable within its declaration (a rule, a definition, a property).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct VariableId(pub u32);
+
+/// Finds the texts of imported files; the shells implement it over a disk, tests over a map.
+pub trait Loader {
+    /// The text that `path`, as written in an import of `importer`, leads to; `.asm` is still to be added where
+    /// it is missing and either slash is a separator. The error is a sentence for the user.
+    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String>;
+}
+
+/// The result of checking: always as much as could be understood.
+#[derive(Debug, Clone)]
+pub struct Checked {
+    /// All texts read, the root first.
+    pub sources: Sources,
+    /// The model; complete when `diagnostics` hold no error.
+    pub model: Model,
+    /// Faults, in the order of files and positions.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// A checked model.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// The name after `asm` or `module`; empty for a file of comments alone.
+    pub name: String,
+    /// The file it stands in.
+    pub root: FileId,
+    /// `asyncr` stands before `asm`: agents interleave.
+    pub asynchronous: bool,
+    /// All domains.
+    pub domains: Domains,
+    /// All functions.
+    pub functions: Vec<Function>,
+    /// All rules.
+    pub rules: Vec<Rule>,
+    /// The main rule; none for a library module.
+    pub main: Option<RuleId>,
+    /// Invariants, temporal properties and assumptions, those of imported files included, in order.
+    pub properties: Vec<Property>,
+    /// Initial states of the root file.
+    pub inits: Vec<Init>,
+    /// The index of the default one in `inits`.
+    pub default_init: Option<usize>,
+    /// What the names of the root file mean, so that terms and rules from elsewhere (a scenario, a command line)
+    /// can be read as if they stood in it.
+    pub names: Names,
+}
+
+impl Model {
+    /// A model with the predefined domains and nothing else.
+    pub fn empty(root: FileId) -> Self {
+        Model {
+            name: String::new(),
+            root,
+            asynchronous: false,
+            domains: Domains::new(),
+            functions: Vec::new(),
+            rules: Vec::new(),
+            main: None,
+            properties: Vec::new(),
+            inits: Vec::new(),
+            default_init: None,
+            names: Names::default(),
+        }
+    }
+
+    pub(crate) fn add_function(&mut self, function: Function) -> FunctionId {
+        self.functions.push(function);
+        FunctionId(self.functions.len() as u32 - 1)
+    }
+
+    /// The function of that id.
+    pub fn function(&self, id: FunctionId) -> &Function {
+        &self.functions[id.0 as usize]
+    }
+
+    /// The rule of that id.
+    pub fn rule(&self, id: RuleId) -> &Rule {
+        &self.rules[id.0 as usize]
+    }
+
+    /// All functions with their ids.
+    pub fn functions(&self) -> impl Iterator<Item = (FunctionId, &Function)> {
+        self.functions.iter().enumerate().map(|(i, function)| (FunctionId(i as u32), function))
+    }
+}
+
+/// A logical variable.
+#[derive(Debug, Clone)]
+pub struct Variable {
+    /// The name with its `$`; a made one starts with `$$`.
+    pub name: String,
+    /// The domain of its values.
+    pub domain: DomainId,
+    /// Where it is bound.
+    pub span: Span,
+}
+
+/// Who may change a function, and when (Börger & Stärk, section 2.2.3).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum FunctionKind {
+    /// Never changes; defined by a term, by the library, or (0-ary, abstract) an element of its domain.
+    Static,
+    /// Defined by a term over the state.
+    Derived,
+    /// Written by the environment.
+    Monitored,
+    /// Written by the machine.
+    Controlled,
+    /// Written by both.
+    Shared,
+    /// Written by the machine and not read by it.
+    Out,
+    /// Of a turbo rule with local state.
+    Local,
+}
+
+/// A function.
+#[derive(Debug, Clone)]
+pub struct Function {
+    /// The name.
+    pub name: String,
+    /// The kind.
+    pub kind: FunctionKind,
+    /// Parameter domains; a declared product is taken apart into its components.
+    pub parameters: Vec<DomainId>,
+    /// The domain of its values.
+    pub codomain: DomainId,
+    /// The defining term of a static or derived function.
+    pub definition: Option<Definition>,
+    /// Declared in a built-in library file; without a definition its meaning is the machine's
+    /// (named by `name`, `parameters` and `codomain`).
+    pub library: bool,
+    /// Where it is declared.
+    pub span: Span,
+}
+
+/// A defining term with its parameters.
+#[derive(Debug, Clone)]
+pub struct Definition {
+    /// All variables of this definition.
+    pub variables: Vec<Variable>,
+    /// The parameters, a prefix of the variables.
+    pub parameters: Vec<VariableId>,
+    /// The term.
+    pub body: Term,
+}
+
+/// A declared rule.
+#[derive(Debug, Clone)]
+pub struct Rule {
+    /// The name.
+    pub name: String,
+    /// A turbo rule: called by value, atomic.
+    pub turbo: bool,
+    /// All variables of this declaration.
+    pub variables: Vec<Variable>,
+    /// The parameters, a prefix of the variables.
+    pub parameters: Vec<VariableId>,
+    /// The domain of a turbo rule's result.
+    pub result: Option<DomainId>,
+    /// The body.
+    pub body: RuleNode,
+    /// Where the name is declared.
+    pub span: Span,
+}
+
+/// What a property is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum PropertyKind {
+    /// Holds in every state.
+    Invariant,
+    /// An assumption on the environment.
+    Invar,
+    /// A formula over the CTL library.
+    Ctl,
+    /// A formula over the LTL library.
+    Ltl,
+    /// True again and again on every fair run.
+    Justice,
+    /// If the first is true again and again, so is the second.
+    Compassion,
+}
+
+/// A property or an assumption.
+#[derive(Debug, Clone)]
+pub struct Property {
+    /// Which.
+    pub kind: PropertyKind,
+    /// Its name, or `invariant at line N` where it has none.
+    pub name: String,
+    /// The variables of its formulas.
+    pub variables: Vec<Variable>,
+    /// The formula.
+    pub formula: Term,
+    /// The second formula of a compassion.
+    pub conclusion: Option<Term>,
+    /// Where it is written.
+    pub span: Span,
+}
+
+/// An initial state.
+#[derive(Debug, Clone)]
+pub struct Init {
+    /// The name.
+    pub name: String,
+    /// Contents of dynamic concrete domains.
+    pub domains: Vec<(DomainId, Term)>,
+    /// Initial values.
+    pub functions: Vec<InitialFunction>,
+    /// Programs of agents.
+    pub agents: Vec<AgentProgram>,
+    /// Where the name is written.
+    pub span: Span,
+}
+
+/// `function f($x in D) = term` of an initial state.
+#[derive(Debug, Clone)]
+pub struct InitialFunction {
+    /// The function.
+    pub function: FunctionId,
+    /// Its initial values.
+    pub definition: Definition,
+    /// Where it is written.
+    pub span: Span,
+}
+
+/// `agent D: r_x[]` of an initial state.
+#[derive(Debug, Clone)]
+pub struct AgentProgram {
+    /// The domain of the agents: `Agent` or a subset of it.
+    pub domain: DomainId,
+    /// The parameterless macro rule that is their program.
+    pub rule: RuleId,
+    /// Where it is written.
+    pub span: Span,
+}

@@ -1,0 +1,109 @@
+//! The names visible in a file: its own and those that its imports bring.
+//!
+//! In: declarations and the names exported by imported files. Out: name → domain, enum literal, functions (all
+//! overloads), rules (all overloads). INVARIANT: overloads stand in the order of declaration, imported ones first; of
+//! two functions with the same name and parameters, the one that came first stays.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::domain::DomainId;
+use crate::model::{Function, FunctionId, RuleId};
+
+/// What the names of a file mean.
+#[derive(Debug, Clone, Default)]
+pub struct Names {
+    pub(crate) domains: BTreeMap<String, DomainId>,
+    pub(crate) literals: BTreeMap<String, (DomainId, u32)>,
+    pub(crate) functions: BTreeMap<String, Vec<FunctionId>>,
+    pub(crate) rules: BTreeMap<String, Vec<RuleId>>,
+    /// A reported fault may have hidden names (an import that failed, a broken signature), so a name that is not
+    /// here is no fault of its own.
+    pub(crate) incomplete: bool,
+}
+
+/// Which names an import brings: all, or those listed.
+pub(crate) enum Selection {
+    /// All that are exported.
+    All,
+    /// Only these.
+    Only(BTreeSet<String>),
+}
+
+impl Selection {
+    fn has(&self, name: &str) -> bool {
+        match self {
+            Selection::All => true,
+            Selection::Only(names) => names.contains(name),
+        }
+    }
+}
+
+impl Names {
+    /// The domain of that name.
+    pub fn domain(&self, name: &str) -> Option<DomainId> {
+        self.domains.get(name).copied()
+    }
+
+    /// The enum literal of that name: its domain and its place in it.
+    pub fn literal(&self, name: &str) -> Option<(DomainId, u32)> {
+        self.literals.get(name).copied()
+    }
+
+    /// All functions of that name.
+    pub fn functions(&self, name: &str) -> &[FunctionId] {
+        self.functions.get(name).map_or(&[], Vec::as_slice)
+    }
+
+    /// All rules of that name.
+    pub fn rules(&self, name: &str) -> &[RuleId] {
+        self.rules.get(name).map_or(&[], Vec::as_slice)
+    }
+
+    /// Something has that name.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.domains.contains_key(name) || self.functions.contains_key(name) || self.rules.contains_key(name)
+    }
+
+    /// Only the selected names. Enum literals come along always, as they belong to their domain.
+    pub(crate) fn select(&self, selection: &Selection) -> Names {
+        let Selection::Only(_) = selection else { return self.clone() };
+        Names {
+            domains: keep(&self.domains, selection),
+            literals: self.literals.clone(),
+            functions: keep(&self.functions, selection),
+            rules: keep(&self.rules, selection),
+            incomplete: self.incomplete,
+        }
+    }
+
+    /// Adds what an import brings. `table` is the model's functions.
+    pub(crate) fn import(&mut self, other: &Names, table: &[Function]) {
+        self.incomplete |= other.incomplete;
+        for (name, domain) in &other.domains {
+            self.domains.entry(name.clone()).or_insert(*domain);
+        }
+        for (name, literal) in &other.literals {
+            self.literals.entry(name.clone()).or_insert(*literal);
+        }
+        for (name, functions) in &other.functions {
+            let Some(known) = self.functions.get_mut(name) else {
+                self.functions.insert(name.clone(), functions.clone());
+                continue;
+            };
+            for id in functions {
+                let parameters = &table[id.0 as usize].parameters;
+                if !known.iter().any(|other| table[other.0 as usize].parameters == *parameters) {
+                    known.push(*id);
+                }
+            }
+        }
+        for (name, rules) in &other.rules {
+            let known = self.rules.entry(name.clone()).or_default();
+            known.extend(rules.iter().filter(|id| !known.contains(id)).copied().collect::<Vec<_>>());
+        }
+    }
+}
+
+fn keep<V: Clone>(table: &BTreeMap<String, V>, selection: &Selection) -> BTreeMap<String, V> {
+    table.iter().filter(|(name, _)| selection.has(name)).map(|(name, value)| (name.clone(), value.clone())).collect()
+}

@@ -1,0 +1,245 @@
+//! Where names are resolved: a file, what it sees, and the model under construction.
+//!
+//! In: names and domains as written. Out: what they mean, or a reported fault and [`Domains::ERROR`]. Everything that
+//! declares or checks does so through a [`Site`].
+
+use syntax::ast::{self, AstNode};
+use syntax::{FileId, Span, SyntaxKind, SyntaxToken};
+
+use crate::domain::{Basic, DomainId, DomainKind, Domains};
+use crate::fault::{self, Faults, Mismatch};
+use crate::library;
+use crate::model::{FunctionId, FunctionKind, Model, RuleId};
+use crate::names::Names;
+use crate::suggest::{did_you_mean, nearest};
+
+/// A file being declared or checked.
+pub(crate) struct Site<'a> {
+    /// The model under construction.
+    pub(crate) model: &'a mut Model,
+    /// What the file sees.
+    pub(crate) names: &'a Names,
+    /// The faults found so far.
+    pub(crate) faults: &'a mut Faults,
+    /// The file.
+    pub(crate) file: FileId,
+}
+
+impl Site<'_> {
+    /// The place of a node.
+    pub(crate) fn span(&self, node: &impl AstNode) -> Span {
+        Span::new(self.file, node.range())
+    }
+
+    /// The place of a token.
+    pub(crate) fn token_span(&self, token: &SyntaxToken) -> Span {
+        Span::new(self.file, token.text_range())
+    }
+
+    /// The domain as written in a model.
+    pub(crate) fn display(&self, domain: DomainId) -> String {
+        self.model.domains.display(domain)
+    }
+
+    /// The place where a domain is declared, if it is one with a declaration.
+    pub(crate) fn declared(&self, domain: DomainId) -> Option<Span> {
+        self.model.domains.get(domain).span
+    }
+
+    /// What to say of a term of domain `found` where `expected` is.
+    pub(crate) fn mismatch(&self, expected: DomainId, found: DomainId) -> Mismatch {
+        let domains = &self.model.domains;
+        let conversion = match (domains.numeric(found), domains.numeric(expected)) {
+            (Some(Basic::Real), Some(Basic::Integer)) => Some("rtoi"),
+            (Some(Basic::Real), Some(Basic::Natural)) => Some("rton"),
+            (Some(Basic::Integer), Some(Basic::Natural)) => Some("iton"),
+            (Some(Basic::Complex), Some(Basic::Real)) => Some("re"),
+            _ => None,
+        };
+        Mismatch { expected: self.display(expected), found: self.display(found), conversion }
+    }
+
+    /// `f: Prod(A,B) -> C`
+    pub(crate) fn signature(&self, id: FunctionId) -> String {
+        let function = self.model.function(id);
+        let codomain = self.display(function.codomain);
+        match function.parameters.as_slice() {
+            [] => format!("{}: {codomain}", function.name),
+            parameters => format!("{}: {} -> {codomain}", function.name, self.product(parameters)),
+        }
+    }
+
+    /// `r_x(A,B)`
+    pub(crate) fn rule_signature(&self, id: RuleId) -> String {
+        let rule = self.model.rule(id);
+        let parameters: Vec<String> =
+            rule.parameters.iter().map(|id| self.display(rule.variables[id.0 as usize].domain)).collect();
+        format!("{}({})", rule.name, parameters.join(","))
+    }
+
+    /// Several domains as one: nothing, the domain itself, or a product.
+    pub(crate) fn product(&self, domains: &[DomainId]) -> String {
+        let parts: Vec<String> = domains.iter().map(|domain| self.display(*domain)).collect();
+        match parts.as_slice() {
+            [one] => one.clone(),
+            _ => format!("Prod({})", parts.join(",")),
+        }
+    }
+
+    /// The domain that a written one means.
+    pub(crate) fn resolve_domain(&mut self, domain: &ast::Domain) -> DomainId {
+        match domain {
+            ast::Domain::Named(named) => match named.name() {
+                Some(name) => self.resolve_domain_name(&name),
+                None => Domains::ERROR,
+            },
+            ast::Domain::Structured(structured) => {
+                stacker::maybe_grow(64 * 1024, 1024 * 1024, || self.resolve_structured(structured))
+            }
+        }
+    }
+
+    fn resolve_structured(&mut self, domain: &ast::StructuredDomain) -> DomainId {
+        let Some(constructor) = domain.constructor() else { return Domains::ERROR };
+        let parts: Vec<DomainId> = domain.arguments().map(|argument| self.resolve_domain(&argument)).collect();
+        if parts.contains(&Domains::ERROR) {
+            return Domains::ERROR;
+        }
+        let kind = match (constructor, parts.as_slice()) {
+            (SyntaxKind::PROD_KW, [_, _, ..]) => DomainKind::Prod(parts),
+            (SyntaxKind::SEQ_DOMAIN_KW, [of]) => DomainKind::Seq(*of),
+            (SyntaxKind::POWERSET_KW, [of]) => DomainKind::Powerset(*of),
+            (SyntaxKind::BAG_KW, [of]) => DomainKind::Bag(*of),
+            (SyntaxKind::MAP_KW, [key, value]) => DomainKind::Map(*key, *value),
+            (SyntaxKind::RULE_DOMAIN_KW, _) => DomainKind::Rule(parts),
+            (_, []) => return Domains::ERROR, // the parser has reported the missing domains
+            _ => {
+                let expected = match constructor {
+                    SyntaxKind::PROD_KW => "2 or more domains",
+                    SyntaxKind::MAP_KW => "2 domains",
+                    _ => "1 domain",
+                };
+                let span = self.span(domain);
+                let name = constructor.text().unwrap_or_default();
+                self.faults.push(fault::domain::arity(span, name, expected, parts.len()));
+                return Domains::ERROR;
+            }
+        };
+        self.model.domains.structured(kind)
+    }
+
+    /// The domain of that name.
+    pub(crate) fn resolve_domain_name(&mut self, token: &SyntaxToken) -> DomainId {
+        let (name, span) = (token.text(), self.token_span(token));
+        match self.names.domain(name) {
+            Some(domain) => domain,
+            None => self.unknown_domain(name, span),
+        }
+    }
+
+    fn unknown_domain(&mut self, name: &str, span: Span) -> DomainId {
+        if library::is_standard_name(name) && !self.names.domains.contains_key("Integer") && !self.names.incomplete {
+            self.faults.missing_library(fault::import::missing_library(span, &format!("the domain `{name}`")));
+            return predefined(name).unwrap_or(Domains::ERROR);
+        }
+        if self.names.incomplete {
+            return predefined(name).unwrap_or(Domains::ERROR);
+        }
+        let help = match self.names.literal(name) {
+            Some((domain, _)) => format!("`{name}` is a literal of the enum domain `{}`", self.display(domain)),
+            None => did_you_mean(name, self.names.domains.keys().map(String::as_str), || {
+                self.hidden(name, |model, name| {
+                    model
+                        .domains
+                        .iter()
+                        .find_map(|(_, domain)| (domain.name.as_deref() == Some(name)).then_some(domain.span?))
+                })
+                .unwrap_or_else(|| {
+                    format!("declare it in the signature: `abstract domain {name}`, or import the file that does")
+                })
+            }),
+        };
+        self.faults.push(fault::name::unknown_domain(span, name, help));
+        Domains::ERROR
+    }
+
+    /// Says that a name is declared in a file that is read but does not let it be seen here.
+    fn hidden(&self, name: &str, find: impl Fn(&Model, &str) -> Option<Span>) -> Option<String> {
+        let place = find(self.model, name)?;
+        (place.file != self.file)
+            .then(|| format!("`{name}` is declared in an imported file: add it to that file's export list, and to the selection of the import"))
+    }
+
+    /// Reports a function name that means nothing.
+    pub(crate) fn unknown_function(&mut self, name: &str, span: Span, variables: &[&str]) {
+        if library::is_standard_name(name) && !self.names.functions.contains_key("eq") && !self.names.incomplete {
+            self.faults.missing_library(fault::import::missing_library(span, &format!("`{name}`")));
+            return;
+        }
+        if self.names.incomplete {
+            return;
+        }
+        let variable = format!("${name}");
+        let help = if variables.contains(&variable.as_str()) {
+            format!("did you mean the variable `{variable}`?")
+        } else {
+            did_you_mean(name, self.names.functions.keys().map(String::as_str), || {
+                if let Some(other) =
+                    nearest(name, self.names.literals.keys().chain(self.names.domains.keys()).map(String::as_str))
+                {
+                    return format!("did you mean `{other}`?");
+                }
+                self.hidden(name, |model, name| model.functions.iter().find(|f| f.name == name).map(|f| f.span))
+                    .unwrap_or_else(|| {
+                        format!("declare it in the signature: `controlled {name}: …`, or import the file that does")
+                    })
+            })
+        };
+        self.faults.push(fault::name::unknown_function(span, name, help));
+    }
+
+    /// Reports a rule name that means nothing.
+    pub(crate) fn unknown_rule(&mut self, token: &SyntaxToken) {
+        if self.names.incomplete {
+            return;
+        }
+        let (name, span) = (token.text(), self.token_span(token));
+        let help = did_you_mean(name, self.names.rules.keys().map(String::as_str), || {
+            self.hidden(name, |model, name| model.rules.iter().find(|r| r.name == name).map(|r| r.span)).unwrap_or_else(
+                || format!("declare it in the definitions: `rule {name} = …`, or import the file that does"),
+            )
+        });
+        self.faults.push(fault::name::unknown_rule(span, name, help));
+    }
+}
+
+/// The predefined domain of that name.
+pub(crate) fn predefined(name: &str) -> Option<DomainId> {
+    Some(match name {
+        "Complex" => Domains::COMPLEX,
+        "Real" => Domains::REAL,
+        "Integer" => Domains::INTEGER,
+        "Natural" => Domains::NATURAL,
+        "Char" => Domains::CHAR,
+        "String" => Domains::STRING,
+        "Boolean" => Domains::BOOLEAN,
+        "Undef" => Domains::UNDEF,
+        "Agent" => Domains::AGENT,
+        "Reserve" => Domains::RESERVE,
+        "Any" => Domains::ANY,
+        _ => return None,
+    })
+}
+
+/// The word for a kind of function.
+pub(crate) fn kind_word(kind: FunctionKind) -> &'static str {
+    match kind {
+        FunctionKind::Static => "static",
+        FunctionKind::Derived => "derived",
+        FunctionKind::Monitored => "monitored",
+        FunctionKind::Controlled => "controlled",
+        FunctionKind::Shared => "shared",
+        FunctionKind::Out => "out",
+        FunctionKind::Local => "local",
+    }
+}
