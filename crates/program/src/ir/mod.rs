@@ -1,0 +1,72 @@
+//! The types of the IR.
+//!
+//! Terms and rules stand in arenas and name each other by index; lists of children are ranges of one shared
+//! array. INVARIANT (checked by [`crate::verify`]): every index lies in its table, a child's index is below its
+//! parent's, a slot lies below the frame size of its procedure and is bound at one place of it only, argument
+//! counts match, terms and rules nest no deeper than [`MAX_DEPTH`].
+//!
+//! Domain and function ids are those of the model, so that a fault found here can speak of the model.
+
+mod program;
+mod rule;
+mod term;
+mod visit;
+
+pub use program::{AgentProgram, Domain, DomainKind, Expression, Function, Initial, Procedure, Program, Property};
+pub use rule::Rule;
+pub use term::Term;
+
+/// LIMIT: how deep terms and rules nest in one procedure or expression.
+pub const MAX_DEPTH: u32 = 4096;
+
+/// Names a term of the arena.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct TermId(pub u32);
+
+/// Names a rule of the arena.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct RuleId(pub u32);
+
+/// Names a procedure: a rule with its own frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ProcedureId(pub u32);
+
+/// A variable's place in the frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Slot(pub u32);
+
+/// A list of term ids, a range of [`Program::term_lists`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct TermList {
+    /// First index.
+    pub start: u32,
+    /// How many.
+    pub len: u32,
+}
+
+/// A list of rule ids, a range of [`Program::rule_lists`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct RuleList {
+    /// First index.
+    pub start: u32,
+    /// How many.
+    pub len: u32,
+}
+
+/// `slot in range`, of quantifiers, comprehensions, choose and forall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Binder {
+    /// The variable bound.
+    pub slot: Slot,
+    /// The range: often a [`Term::Domain`].
+    pub range: TermId,
+}
+
+/// A list of binders, a range of [`Program::binder_lists`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct BinderList {
+    /// First index.
+    pub start: u32,
+    /// How many.
+    pub len: u32,
+}

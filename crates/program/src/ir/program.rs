@@ -1,0 +1,258 @@
+//! A whole program: the tables of domains, functions, procedures and properties, and the arenas.
+//!
+//! INVARIANT: the tables of domains and functions are in the order of the model's ids; see [`crate::ir`] for the
+//! arenas.
+
+use model::{DomainId, FunctionId, FunctionKind, Literal, PropertyKind};
+use syntax::Span;
+
+use crate::ir::{Binder, BinderList, ProcedureId, Rule, RuleId, RuleList, Term, TermId, TermList};
+use crate::lower::Specialisations;
+
+/// A rule with a frame of its own: a (specialised) macro rule, a turbo rule, the main rule, a fragment.
+#[derive(Debug, Clone)]
+pub struct Procedure {
+    /// The name of the rule it comes from.
+    pub name: String,
+    /// The model's rule, if it is one.
+    pub rule: Option<model::RuleId>,
+    /// Called by value, as one unit.
+    pub turbo: bool,
+    /// The domains of its parameters, which are its first slots.
+    pub parameters: Vec<DomainId>,
+    /// How many slots its frame has.
+    pub frame: u32,
+    /// The name of each slot as the model writes it, with its `$`; not always distinct.
+    pub names: Vec<String>,
+    /// The body.
+    pub body: RuleId,
+    /// Where it is declared.
+    pub span: Span,
+}
+
+/// A term with a frame of its own: a definition, an initial value, a formula.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Expression {
+    /// The domains of its parameters, which are its first slots.
+    pub parameters: Vec<DomainId>,
+    /// How many slots its frame has.
+    pub frame: u32,
+    /// The name of each slot as the model writes it, with its `$`; not always distinct.
+    pub names: Vec<String>,
+    /// The term.
+    pub body: TermId,
+}
+
+/// A function.
+#[derive(Debug, Clone)]
+pub struct Function {
+    /// The name.
+    pub name: String,
+    /// The kind.
+    pub kind: FunctionKind,
+    /// Parameter domains.
+    pub parameters: Vec<DomainId>,
+    /// The domain of its values.
+    pub codomain: DomainId,
+    /// The definition of a static or derived one.
+    pub definition: Option<Expression>,
+    /// For a 0-ary static function of an abstract domain: which element it is, from 0, of the base domain.
+    pub element: Option<u32>,
+    /// Declared in a built-in library.
+    pub library: bool,
+    /// Where it is declared.
+    pub span: Span,
+}
+
+/// What is needed of a domain at run time: enumeration, membership, printing.
+#[derive(Debug, Clone)]
+pub struct Domain {
+    /// As it would be written.
+    pub name: String,
+    /// What it is.
+    pub kind: DomainKind,
+}
+
+/// What a domain is at run time.
+#[derive(Debug, Clone, PartialEq)]
+pub enum DomainKind {
+    /// Never has a value: an unresolved domain.
+    Error,
+    /// Any value.
+    Any,
+    /// See [`model::Basic`].
+    Basic(model::Basic),
+    /// Enumeration; literals in order.
+    Enum {
+        /// Their names.
+        literals: Vec<String>,
+    },
+    /// Abstract; the elements named by static functions come first, in order of declaration.
+    Abstract {
+        /// Names of the static elements.
+        elements: Vec<String>,
+        /// May grow.
+        dynamic: bool,
+    },
+    /// Concrete.
+    Concrete {
+        /// The type domain.
+        base: DomainId,
+        /// Its contents are part of the state.
+        dynamic: bool,
+        /// The static elements declared with it (indices into the base's elements).
+        elements: Vec<u32>,
+        /// The defining term (static, or initial for a dynamic one).
+        contents: Option<Expression>,
+    },
+    /// Product.
+    Prod(Vec<DomainId>),
+    /// Sequences.
+    Seq(DomainId),
+    /// Sets.
+    Powerset(DomainId),
+    /// Bags.
+    Bag(DomainId),
+    /// Maps.
+    Map(DomainId, DomainId),
+    /// Rules.
+    Rule(Vec<DomainId>),
+}
+
+/// A property or an assumption.
+#[derive(Debug, Clone)]
+pub struct Property {
+    /// Which.
+    pub kind: PropertyKind,
+    /// Its name.
+    pub name: String,
+    /// The formula.
+    pub formula: Expression,
+    /// The second formula of a compassion.
+    pub conclusion: Option<Expression>,
+    /// A monitored function is read in it, directly or through definitions.
+    pub reads_monitored: bool,
+    /// Where it is written.
+    pub span: Span,
+}
+
+/// The initial value of a function, as a term over its arguments.
+#[derive(Debug, Clone)]
+pub struct Initial {
+    /// The function.
+    pub function: FunctionId,
+    /// The value.
+    pub value: Expression,
+    /// Where it is written.
+    pub span: Span,
+}
+
+/// The program of the agents of a domain.
+#[derive(Debug, Clone)]
+pub struct AgentProgram {
+    /// `Agent` or a subset of it.
+    pub domain: DomainId,
+    /// The program.
+    pub procedure: ProcedureId,
+}
+
+/// A whole program.
+#[derive(Debug, Clone, Default)]
+pub struct Program {
+    /// The machine's name.
+    pub name: String,
+    /// Agents interleave.
+    pub asynchronous: bool,
+    /// Domains, by the model's ids.
+    pub domains: Vec<Domain>,
+    /// Functions, by the model's ids.
+    pub functions: Vec<Function>,
+    /// The constant pool.
+    pub constants: Vec<Literal>,
+    /// The arena of terms.
+    pub terms: Vec<Term>,
+    /// The domain of each term.
+    pub term_domains: Vec<DomainId>,
+    /// The place of each term.
+    pub term_spans: Vec<Span>,
+    /// The arena of rules.
+    pub rules: Vec<Rule>,
+    /// The place of each rule.
+    pub rule_spans: Vec<Span>,
+    /// Children of terms.
+    pub term_lists: Vec<TermId>,
+    /// Children of rules.
+    pub rule_lists: Vec<RuleId>,
+    /// Binders.
+    pub binder_lists: Vec<Binder>,
+    /// Functions of local rules.
+    pub function_lists: Vec<FunctionId>,
+    /// Procedures.
+    pub procedures: Vec<Procedure>,
+    /// The main rule.
+    pub main: Option<ProcedureId>,
+    /// Initial values, in order; of a library function such as `self` none.
+    pub initials: Vec<Initial>,
+    /// Programs of agents, the more specific domains first: the first that holds an agent counts.
+    pub agents: Vec<AgentProgram>,
+    /// Properties and assumptions.
+    pub properties: Vec<Property>,
+    /// The library function `self`, if the model imports it.
+    pub self_function: Option<FunctionId>,
+    /// The library function `result`, if the model imports it.
+    pub result_function: Option<FunctionId>,
+    /// Which procedure stands for which rule with which arguments; used when fragments are added.
+    pub specialisations: Specialisations,
+}
+
+impl Program {
+    /// The term of that id.
+    pub fn term(&self, id: TermId) -> &Term {
+        &self.terms[id.0 as usize]
+    }
+    /// The rule of that id.
+    pub fn rule(&self, id: RuleId) -> &Rule {
+        &self.rules[id.0 as usize]
+    }
+    /// The terms of a list.
+    pub fn term_list(&self, list: TermList) -> &[TermId] {
+        &self.term_lists[list.start as usize..(list.start + list.len) as usize]
+    }
+    /// The rules of a list.
+    pub fn rule_list(&self, list: RuleList) -> &[RuleId] {
+        &self.rule_lists[list.start as usize..(list.start + list.len) as usize]
+    }
+    /// The binders of a list.
+    pub fn binder_list(&self, list: BinderList) -> &[Binder] {
+        &self.binder_lists[list.start as usize..(list.start + list.len) as usize]
+    }
+    /// The place of a term.
+    pub fn term_span(&self, id: TermId) -> Span {
+        self.term_spans[id.0 as usize]
+    }
+    /// The place of a rule.
+    pub fn rule_span(&self, id: RuleId) -> Span {
+        self.rule_spans[id.0 as usize]
+    }
+    /// The domain of a term.
+    pub fn term_domain(&self, id: TermId) -> DomainId {
+        self.term_domains[id.0 as usize]
+    }
+    /// The function of that id.
+    pub fn function(&self, id: FunctionId) -> &Function {
+        &self.functions[id.0 as usize]
+    }
+    /// The domain of that id.
+    pub fn domain(&self, id: DomainId) -> &Domain {
+        &self.domains[id.0 as usize]
+    }
+    /// The procedure of that id.
+    pub fn procedure(&self, id: ProcedureId) -> &Procedure {
+        &self.procedures[id.0 as usize]
+    }
+    /// The function of that name and number of parameters; the last declared wins.
+    pub fn find_function(&self, name: &str, arity: usize) -> Option<FunctionId> {
+        let found = self.functions.iter().rposition(|f| f.name == name && f.parameters.len() == arity);
+        found.map(|index| FunctionId(index as u32))
+    }
+}

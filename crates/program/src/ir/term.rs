@@ -1,0 +1,117 @@
+//! Terms of the IR (Börger & Stärk 2003, section 2.4.2).
+//!
+//! INVARIANT: a child's index is below its parent's.
+
+use model::{CollectionKind, DomainId, FunctionId, Quantifier};
+
+use crate::builtin::Builtin;
+use crate::ir::{BinderList, ProcedureId, Slot, TermId, TermList};
+
+/// A term of the IR. Its domain and span stand in [`Program::term_domains`] and [`Program::term_spans`].
+#[derive(Debug, Clone, PartialEq)]
+pub enum Term {
+    /// A constant of the pool [`Program::constants`].
+    Constant(u32),
+    /// A variable.
+    Slot(Slot),
+    /// The value of a location of a dynamic function (controlled, monitored, shared, out, local), or of a static
+    /// function without definition: an element of its abstract domain (then without arguments), or else undef.
+    Read {
+        /// The function.
+        function: FunctionId,
+        /// One term a parameter.
+        arguments: TermList,
+    },
+    /// A static or derived function with a definition.
+    Define {
+        /// The function.
+        function: FunctionId,
+        /// One term a parameter, evaluated first.
+        arguments: TermList,
+    },
+    /// A library function.
+    Builtin {
+        /// Which.
+        builtin: Builtin,
+        /// Its arguments.
+        arguments: TermList,
+    },
+    /// The set of a domain's elements.
+    Domain(DomainId),
+    /// A tuple.
+    Tuple(TermList),
+    /// Component of a tuple, from 0.
+    Project {
+        /// The tuple.
+        tuple: TermId,
+        /// Which component.
+        index: u32,
+    },
+    /// A collection by its elements; those of a map are tuples.
+    Collection {
+        /// Of which kind.
+        kind: CollectionKind,
+        /// In order.
+        elements: TermList,
+    },
+    /// `{low : high, step}`
+    Range {
+        /// Of which kind.
+        kind: CollectionKind,
+        /// Lower bound.
+        low: TermId,
+        /// Upper bound, included.
+        high: TermId,
+        /// Step; 1 if absent.
+        step: Option<TermId>,
+    },
+    /// A comprehension.
+    Comprehension {
+        /// Of which kind.
+        kind: CollectionKind,
+        /// What is ranged over, leftmost slowest.
+        binders: BinderList,
+        /// Only where this holds.
+        condition: Option<TermId>,
+        /// The element.
+        body: TermId,
+    },
+    /// A quantified formula.
+    Quantified {
+        /// Which quantifier.
+        quantifier: Quantifier,
+        /// What is ranged over, leftmost slowest.
+        binders: BinderList,
+        /// The condition; true if absent.
+        condition: Option<TermId>,
+    },
+    /// Guards and terms alternate in `branches`; undef where none is taken and there is no `otherwise`.
+    If {
+        /// guard, term, guard, term, …
+        branches: TermList,
+        /// Where no guard holds.
+        otherwise: Option<TermId>,
+    },
+    /// Values and terms alternate in `cases`.
+    Switch {
+        /// The term compared.
+        subject: TermId,
+        /// value, term, value, term, …
+        cases: TermList,
+        /// Where no case matches.
+        otherwise: Option<TermId>,
+    },
+    /// One binding; several are nested.
+    Let {
+        /// The variable.
+        slot: Slot,
+        /// Its value.
+        value: TermId,
+        /// The term it is bound in.
+        body: TermId,
+    },
+    /// A rule as a value.
+    Rule(ProcedureId),
+    /// A numeric coercion to the term's domain, Real or Complex.
+    Coerce(TermId),
+}

@@ -1,0 +1,157 @@
+//! Calls: which procedure a rule becomes for the arguments it is given.
+//!
+//! A turbo rule is one procedure, called by value. A macro rule is one procedure for each shape of its arguments:
+//! those by value are its first slots, then come the slots that its by-name arguments need. INVARIANT: a procedure
+//! has its number before its body is lowered, so that recursion ends; calls of the same shape share it.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use model::{DomainId, RuleId, Term};
+use syntax::Span;
+
+use crate::ir::{self, Procedure, ProcedureId, Slot, TermId, TermList};
+use crate::lower::argument::ArgumentId;
+use crate::lower::environment::{Binding, Environment, Frame};
+use crate::lower::{Lowering, MAX_PROCEDURES};
+
+/// Which procedure stands for which rule with which arguments.
+#[derive(Debug, Clone, Default)]
+pub struct Specialisations {
+    /// By-name arguments by their canonical text.
+    pub(super) arguments: BTreeMap<String, ArgumentId>,
+    /// Procedures by rule and shape of the arguments.
+    pub(super) procedures: BTreeMap<String, ProcedureId>,
+}
+
+/// A procedure whose body is still to be lowered.
+#[derive(Debug)]
+pub(super) struct Pending<'m> {
+    procedure: ProcedureId,
+    body: &'m model::RuleNode,
+    environment: Environment<'m>,
+    frame: Frame,
+}
+
+impl<'m> Lowering<'m, '_> {
+    /// The procedure of a call, and the terms passed to it.
+    pub(super) fn lower_call(&mut self, id: RuleId, arguments: &'m [Term], span: Span) -> (ProcedureId, TermList) {
+        let rule = self.model.rule(id);
+        let mut callee = Environment { variables: &rule.variables, bindings: BTreeMap::new() };
+        let mut frame = Frame::default();
+        let mut key = id.0.to_string();
+        let mut passed: Vec<TermId> = Vec::with_capacity(arguments.len());
+        let mut by_name = Vec::new();
+        for (parameter, argument) in rule.parameters.iter().zip(arguments) {
+            let named = if rule.turbo { None } else { self.by_name(argument) };
+            if let Some((argument, slots)) = named {
+                by_name.push((*parameter, argument, slots));
+                write!(key, " n{argument}").expect("a string takes any text");
+            } else {
+                passed.push(self.lower_term(argument));
+                let variable = &rule.variables[parameter.0 as usize];
+                let slot = frame.add(variable.name.clone(), variable.domain);
+                callee.bindings.insert(*parameter, Binding::Slot(slot));
+                key.push_str(" v");
+            }
+        }
+        let by_value = passed.len();
+        let mut needed: Vec<Slot> = Vec::new();
+        for (parameter, argument, slots) in by_name {
+            let mut given = Vec::with_capacity(slots.len());
+            for slot in slots {
+                let index = needed.iter().position(|other| *other == slot).unwrap_or_else(|| {
+                    needed.push(slot);
+                    let (name, domain) = self.slot(slot);
+                    frame.add(name, domain);
+                    passed.push(self.term(ir::Term::Slot(slot), domain, span));
+                    needed.len() - 1
+                });
+                given.push(Slot((by_value + index) as u32));
+                write!(key, ":{index}").expect("a string takes any text");
+            }
+            key.push(';');
+            callee.bindings.insert(parameter, Binding::ByName { argument, slots: given });
+        }
+        let procedure = self.procedure(key, id, callee, frame);
+        (procedure, self.term_list(&passed))
+    }
+
+    /// The procedure of a rule whose arguments are all passed by value.
+    pub(super) fn procedure_by_value(&mut self, id: RuleId) -> ProcedureId {
+        let rule = self.model.rule(id);
+        let mut environment = Environment { variables: &rule.variables, bindings: BTreeMap::new() };
+        let mut frame = Frame::default();
+        let mut key = id.0.to_string();
+        for parameter in &rule.parameters {
+            let variable = &rule.variables[parameter.0 as usize];
+            environment.bindings.insert(*parameter, Binding::Slot(frame.add(variable.name.clone(), variable.domain)));
+            key.push_str(" v");
+        }
+        self.procedure(key, id, environment, frame)
+    }
+
+    /// A procedure of a rule without parameters that is none of the model's: a fragment.
+    pub(super) fn fragment_procedure(&mut self, rule: &'m model::Rule) -> ProcedureId {
+        let procedure = self.add_procedure(None, rule, &Frame::default());
+        let environment = Environment { variables: &rule.variables, bindings: BTreeMap::new() };
+        self.pending.push_back(Pending { procedure, body: &rule.body, environment, frame: Frame::default() });
+        procedure
+    }
+
+    /// Lowers the body of a procedure.
+    pub(super) fn lower_pending(&mut self, pending: Pending<'m>) {
+        self.environment = pending.environment;
+        self.frame = pending.frame;
+        self.depth = 0;
+        let body = self.lower_rule(pending.body);
+        let names = std::mem::take(&mut self.frame).names;
+        let procedure = &mut self.program.procedures[pending.procedure.0 as usize];
+        procedure.frame = names.len() as u32;
+        procedure.names = names;
+        procedure.body = body;
+    }
+
+    /// The argument and the slots it needs, unless it is passed by value. One passed on is the same argument.
+    fn by_name(&mut self, argument: &'m Term) -> Option<(ArgumentId, Vec<Slot>)> {
+        if let model::TermKind::Variable(variable) = &argument.kind {
+            return match self.environment.bindings.get(variable) {
+                Some(Binding::ByName { argument, slots }) => Some((*argument, slots.clone())),
+                _ => None,
+            };
+        }
+        if self.is_simple(argument) { None } else { Some(self.intern(argument)) }
+    }
+
+    fn slot(&self, slot: Slot) -> (String, DomainId) {
+        (self.frame.names[slot.0 as usize].clone(), self.frame.domains[slot.0 as usize])
+    }
+
+    fn procedure(&mut self, key: String, id: RuleId, environment: Environment<'m>, frame: Frame) -> ProcedureId {
+        if let Some(known) = self.program.specialisations.procedures.get(&key) {
+            return *known;
+        }
+        let rule = self.model.rule(id);
+        let procedure = self.add_procedure(Some(id), rule, &frame);
+        self.program.specialisations.procedures.insert(key, procedure);
+        self.pending.push_back(Pending { procedure, body: &rule.body, environment, frame });
+        if self.program.procedures.len() > MAX_PROCEDURES {
+            self.stop(rule.span, format!("calls by name make more than {MAX_PROCEDURES} procedures"));
+        }
+        procedure
+    }
+
+    fn add_procedure(&mut self, id: Option<RuleId>, rule: &model::Rule, frame: &Frame) -> ProcedureId {
+        self.program.procedures.push(Procedure {
+            name: rule.name.clone(),
+            rule: id,
+            turbo: rule.turbo,
+            parameters: frame.domains.clone(),
+            frame: 0,
+            names: Vec::new(),
+            body: ir::RuleId(0),
+            span: rule.span,
+        });
+        ProcedureId(self.program.procedures.len() as u32 - 1)
+    }
+}

@@ -1,0 +1,60 @@
+//! The table of domains: what is needed of each at run time.
+//!
+//! INVARIANT: a domain has the model's id. Contents of a static concrete domain come from its definition, those of
+//! a dynamic one from the initial state; names of elements are filled in with the functions that denote them.
+
+use model::{DomainId, Init};
+
+use crate::ir::{Domain, DomainKind};
+use crate::lower::Lowering;
+
+impl<'m> Lowering<'m, '_> {
+    /// Adds the domains that the program does not have yet, without contents.
+    pub(super) fn lower_domains(&mut self) {
+        for (id, domain) in self.model.domains.iter().skip(self.program.domains.len()) {
+            let kind = match &domain.kind {
+                model::DomainKind::Error => DomainKind::Error,
+                model::DomainKind::Any => DomainKind::Any,
+                model::DomainKind::Basic(basic) => DomainKind::Basic(*basic),
+                model::DomainKind::Enum { literals } => DomainKind::Enum { literals: literals.clone() },
+                model::DomainKind::Abstract { dynamic } => {
+                    DomainKind::Abstract { elements: Vec::new(), dynamic: *dynamic }
+                }
+                model::DomainKind::Concrete { base, dynamic, .. } => {
+                    DomainKind::Concrete { base: *base, dynamic: *dynamic, elements: Vec::new(), contents: None }
+                }
+                model::DomainKind::Prod(parts) => DomainKind::Prod(parts.clone()),
+                model::DomainKind::Seq(of) => DomainKind::Seq(*of),
+                model::DomainKind::Powerset(of) => DomainKind::Powerset(*of),
+                model::DomainKind::Bag(of) => DomainKind::Bag(*of),
+                model::DomainKind::Map(key, value) => DomainKind::Map(*key, *value),
+                model::DomainKind::Rule(parts) => DomainKind::Rule(parts.clone()),
+            };
+            self.program.domains.push(Domain { name: self.model.domains.display(id), kind });
+        }
+    }
+
+    /// Fills in the contents of static concrete domains, from that id on.
+    pub(super) fn lower_static_contents(&mut self, from: usize) {
+        let model = self.model;
+        for (id, domain) in model.domains.iter().skip(from) {
+            if let model::DomainKind::Concrete { definition: Some(term), .. } = &domain.kind {
+                self.lower_contents(id, term);
+            }
+        }
+    }
+
+    /// Fills in the initial contents of dynamic concrete domains.
+    pub(super) fn lower_initial_contents(&mut self, init: &'m Init) {
+        for (id, term) in &init.domains {
+            self.lower_contents(*id, term);
+        }
+    }
+
+    fn lower_contents(&mut self, id: DomainId, term: &'m model::Term) {
+        let lowered = self.lower_expression(&[], &[], term);
+        if let DomainKind::Concrete { contents, .. } = &mut self.program.domains[id.0 as usize].kind {
+            *contents = Some(lowered);
+        }
+    }
+}

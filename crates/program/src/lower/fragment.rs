@@ -1,0 +1,72 @@
+//! Fragments: terms, rules and locations added to a program that is already lowered.
+//!
+//! In: what a scenario, a command line or a debugger wrote, checked against the same model (which may have grown
+//! by domains and functions meanwhile). Out: ids and expressions of the same program; what was there before stays
+//! as it is. Errors are those of [`crate::lower`]; after one the program is still well formed.
+
+use model::{FunctionId, Model, Term, Variable};
+use syntax::Diagnostic;
+
+use crate::ir::{Expression, ProcedureId, Program};
+use crate::lower::Lowering;
+
+/// Adds a term; `variables` are those of its binders.
+///
+/// # Errors
+/// `model-too-large`.
+pub fn lower_term(
+    program: &mut Program,
+    model: &Model,
+    term: &Term,
+    variables: &[Variable],
+) -> Result<Expression, Vec<Diagnostic>> {
+    let mut lowering = Lowering::for_fragment(model, program);
+    let expression = lowering.lower_expression(variables, &[], term);
+    lowering.finish()?;
+    Ok(expression)
+}
+
+/// Adds a rule without parameters, which need not be one of the model's, as a procedure.
+///
+/// # Errors
+/// `model-too-large`, `not-a-location`.
+pub fn lower_rule(program: &mut Program, model: &Model, rule: &model::Rule) -> Result<ProcedureId, Vec<Diagnostic>> {
+    let mut lowering = Lowering::for_fragment(model, program);
+    let procedure = lowering.fragment_procedure(rule);
+    lowering.finish()?;
+    Ok(procedure)
+}
+
+/// Adds the arguments of a location: `f(1, a)` as the function and a term for each argument.
+///
+/// # Errors
+/// `not-a-location` for a term that is no application of a dynamic function; `model-too-large`.
+pub fn lower_location(
+    program: &mut Program,
+    model: &Model,
+    term: &Term,
+    variables: &[Variable],
+) -> Result<(FunctionId, Vec<Expression>), Vec<Diagnostic>> {
+    let mut lowering = Lowering::for_fragment(model, program);
+    let Some((function, arguments)) = lowering.location(term) else {
+        let fault = Diagnostic::error("not-a-location", term.span, "a value stands here, not a location")
+            .because("only a location can be assigned")
+            .with_help("write a dynamic function, applied to its arguments");
+        return Err(vec![fault]);
+    };
+    let arguments = arguments.iter().map(|argument| lowering.lower_expression(variables, &[], argument)).collect();
+    lowering.finish()?;
+    Ok((function, arguments))
+}
+
+impl<'m, 'p> Lowering<'m, 'p> {
+    /// A lowering into an existing program, brought up to date with the model.
+    fn for_fragment(model: &'m Model, program: &'p mut Program) -> Self {
+        let (domains, functions) = (program.domains.len(), program.functions.len());
+        let mut lowering = Lowering::new(model, program);
+        lowering.lower_signature();
+        lowering.lower_static_contents(domains);
+        lowering.lower_function_definitions(functions);
+        lowering
+    }
+}

@@ -1,0 +1,121 @@
+//! The table of functions, the elements that some of them denote, and what an application of each means.
+//!
+//! INVARIANT: a function has the model's id. The 0-ary static functions without definition that are declared in an
+//! abstract domain, or in a subset of one, are its elements, numbered from 0 in order of declaration.
+
+use model::{DomainId, FunctionId, FunctionKind, Init};
+
+use crate::builtin::Builtin;
+use crate::ir::{DomainKind, Function, Initial};
+use crate::lower::{Lowering, builtin};
+
+/// What an application of a function is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Meaning {
+    /// A location.
+    Read,
+    /// Its definition.
+    Define,
+    /// An operation of the library.
+    Builtin(Builtin),
+    /// Just its argument of that index: unary plus, `first(1, 2)`.
+    Argument(usize),
+}
+
+impl<'m> Lowering<'m, '_> {
+    /// What an application of a function is.
+    pub(super) fn meaning(&mut self, id: FunctionId) -> Meaning {
+        if let Some(known) = self.meanings.get(&id) {
+            return *known;
+        }
+        let function = self.model.function(id);
+        let meaning = match function.kind {
+            FunctionKind::Static | FunctionKind::Derived => {
+                if function.definition.is_some() {
+                    Meaning::Define
+                } else if function.library {
+                    builtin::resolve(self.model, function).unwrap_or(Meaning::Read)
+                } else {
+                    Meaning::Read
+                }
+            }
+            FunctionKind::Monitored
+            | FunctionKind::Controlled
+            | FunctionKind::Shared
+            | FunctionKind::Out
+            | FunctionKind::Local => Meaning::Read,
+        };
+        self.meanings.insert(id, meaning);
+        meaning
+    }
+
+    /// Adds the functions that the program does not have yet, without definitions.
+    pub(super) fn lower_functions(&mut self) {
+        for (_, function) in self.model.functions().skip(self.program.functions.len()) {
+            let element = self.element(function);
+            self.program.functions.push(Function {
+                name: function.name.clone(),
+                kind: function.kind,
+                parameters: function.parameters.clone(),
+                codomain: function.codomain,
+                definition: None,
+                element,
+                library: function.library,
+                span: function.span,
+            });
+            let id = Some(FunctionId(self.program.functions.len() as u32 - 1));
+            if function.library && function.kind == FunctionKind::Controlled && function.parameters.is_empty() {
+                match function.name.as_str() {
+                    "self" => self.program.self_function = id,
+                    "result" => self.program.result_function = id,
+                    _ => {}
+                }
+            }
+        }
+    }
+
+    /// Fills in the definitions of static and derived functions, from that id on.
+    pub(super) fn lower_function_definitions(&mut self, from: usize) {
+        let model = self.model;
+        for (id, function) in model.functions().skip(from) {
+            if let Some(definition) = &function.definition {
+                let lowered = self.lower_expression(&definition.variables, &definition.parameters, &definition.body);
+                self.program.functions[id.0 as usize].definition = Some(lowered);
+            }
+        }
+    }
+
+    /// Adds the initial values of an initial state.
+    pub(super) fn lower_initial_values(&mut self, init: &'m Init) {
+        for initial in &init.functions {
+            let definition = &initial.definition;
+            let value = self.lower_expression(&definition.variables, &definition.parameters, &definition.body);
+            self.program.initials.push(Initial { function: initial.function, value, span: initial.span });
+        }
+    }
+
+    /// Which element of its domain a function denotes, if it denotes one. Numbers it.
+    fn element(&mut self, function: &model::Function) -> Option<u32> {
+        let constant =
+            function.kind == FunctionKind::Static && function.parameters.is_empty() && function.definition.is_none();
+        if !constant {
+            return None;
+        }
+        let base = self.model.domains.type_domain(function.codomain);
+        let number = match self.domain_kind(base) {
+            DomainKind::Abstract { elements, .. } => {
+                elements.push(function.name.clone());
+                elements.len() as u32 - 1
+            }
+            _ => return None,
+        };
+        if let DomainKind::Concrete { elements, .. } = self.domain_kind(function.codomain) {
+            elements.push(number);
+        }
+        Some(number)
+    }
+
+    fn domain_kind(&mut self, id: DomainId) -> &mut DomainKind {
+        &mut self.program.domains[id.0 as usize].kind
+    }
+}

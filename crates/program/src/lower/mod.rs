@@ -1,0 +1,181 @@
+//! Lowering: the checked model → the IR.
+//!
+//! In: a complete model. Out: a [`Program`] that [`crate::verify`] accepts, or the limits that were passed. A
+//! fault that an incomplete model still holds becomes undef or skip; nothing here panics on it.
+//!
+//! Bodies are lowered one at a time, each in its own frame: definitions and formulas where they are met, rules from
+//! a queue ([`call`]), so that chains of calls cost no stack. Macro rules are called by name (Börger & Stärk 2003,
+//! section 2.4.4): [`argument`] says what that means for a frame of slots.
+
+mod arena;
+mod argument;
+mod builtin;
+mod call;
+mod constant;
+mod domains;
+mod environment;
+mod fragment;
+mod functions;
+mod initial;
+mod number;
+mod property;
+mod rule;
+mod term;
+
+use std::collections::{BTreeMap, VecDeque};
+use std::rc::Rc;
+
+use model::{FunctionId, Model, Term};
+use syntax::{Diagnostic, Span};
+
+use crate::ir::{Expression, MAX_DEPTH, Program, RuleId, TermId};
+
+pub use call::Specialisations;
+pub use fragment::{lower_location, lower_rule, lower_term};
+
+use argument::{Argument, ArgumentId};
+use constant::ConstantKey;
+use environment::{Environment, Frame};
+use functions::Meaning;
+
+/// LIMIT: how many procedures, each a rule specialised on its arguments.
+const MAX_PROCEDURES: usize = 100_000;
+/// LIMIT: how many terms and rules.
+const MAX_NODES: usize = 5_000_000;
+/// LIMIT: how deep the lowering nests. An application can add a coercion, hence half of what the IR allows.
+const MAX_NESTING: u32 = MAX_DEPTH / 2;
+/// Stack kept free for one level, and how much is added when it is not.
+const RED_ZONE: usize = 64 * 1024;
+const STACK_PIECE: usize = 1024 * 1024;
+
+/// Lowers a checked model.
+///
+/// # Errors
+/// `model-too-large` where the calls by name need more procedures or terms than the limits allow;
+/// `not-a-location` where a rule that assigns its parameter is run with a value for it.
+pub fn lower(model: &Model) -> Result<Program, Vec<Diagnostic>> {
+    let mut program = Program { name: model.name.clone(), asynchronous: model.asynchronous, ..Program::default() };
+    let mut lowering = Lowering::new(model, &mut program);
+    lowering.lower_signature();
+    lowering.lower_main();
+    lowering.lower_static_contents(0);
+    lowering.lower_function_definitions(0);
+    lowering.lower_initial_state();
+    lowering.lower_properties();
+    lowering.finish()?;
+    Ok(program)
+}
+
+/// The state of a lowering: the tables being filled, and the body being lowered.
+struct Lowering<'m, 'p> {
+    model: &'m Model,
+    program: &'p mut Program,
+    /// Where each literal stands in the pool.
+    constants: BTreeMap<ConstantKey, u32>,
+    /// What an application of each function is, once it was asked for.
+    meanings: BTreeMap<FunctionId, Meaning>,
+    /// The by-name arguments met so far.
+    arguments: BTreeMap<ArgumentId, Rc<Argument<'m>>>,
+    /// Procedures whose bodies are still to be lowered.
+    pending: VecDeque<call::Pending<'m>>,
+    diagnostics: Vec<Diagnostic>,
+    /// Set when a limit was passed: stands for every term and rule from then on.
+    stopped: Option<(TermId, RuleId)>,
+    /// What the variables of the term or rule being lowered stand for.
+    environment: Environment<'m>,
+    /// The slots of the body being lowered.
+    frame: Frame,
+    /// How deep in the body.
+    depth: u32,
+}
+
+impl<'m, 'p> Lowering<'m, 'p> {
+    fn new(model: &'m Model, program: &'p mut Program) -> Self {
+        let keys = program.constants.iter().map(ConstantKey::of);
+        let constants = keys.zip(0..).collect();
+        Lowering {
+            model,
+            program,
+            constants,
+            meanings: BTreeMap::new(),
+            arguments: BTreeMap::new(),
+            pending: VecDeque::new(),
+            diagnostics: Vec::new(),
+            stopped: None,
+            environment: Environment::default(),
+            frame: Frame::default(),
+            depth: 0,
+        }
+    }
+
+    /// Adds the domains and functions that the program does not have yet, without their defining terms.
+    fn lower_signature(&mut self) {
+        self.lower_domains();
+        self.lower_functions();
+    }
+
+    /// Adds the main rule, which is then the first procedure.
+    fn lower_main(&mut self) {
+        self.program.main = self.model.main.map(|rule| self.procedure_by_value(rule));
+    }
+
+    /// Lowers the bodies still pending; gives the faults, if there were any.
+    fn finish(mut self) -> Result<(), Vec<Diagnostic>> {
+        while let Some(pending) = self.pending.pop_front() {
+            self.lower_pending(pending);
+        }
+        if self.diagnostics.is_empty() {
+            debug_assert_eq!(crate::verify(self.program), Ok(()), "the lowered program is well formed");
+            return Ok(());
+        }
+        Err(self.diagnostics)
+    }
+
+    /// Lowers a term in a frame of its own; the parameters are its first slots.
+    fn lower_expression(
+        &mut self,
+        variables: &'m [model::Variable],
+        parameters: &[model::VariableId],
+        body: &'m Term,
+    ) -> Expression {
+        self.enter(variables);
+        for parameter in parameters {
+            self.bind(*parameter, body.domain);
+        }
+        let parameters = self.frame.domains.clone();
+        let body = self.lower_term(body);
+        let names = std::mem::take(&mut self.frame).names;
+        Expression { parameters, frame: names.len() as u32, names, body }
+    }
+
+    /// Starts a body with an empty frame.
+    fn enter(&mut self, variables: &'m [model::Variable]) {
+        self.environment = Environment { variables, bindings: BTreeMap::new() };
+        self.frame = Frame::default();
+        self.depth = 0;
+    }
+
+    /// Lowers something one level deeper.
+    fn nested<T>(&mut self, span: Span, lower: impl FnOnce(&mut Self) -> T) -> T {
+        self.depth += 1;
+        if self.depth > MAX_NESTING {
+            self.stop(span, format!("terms or rules nest more than {MAX_NESTING} deep here"));
+        }
+        let result = stacker::maybe_grow(RED_ZONE, STACK_PIECE, || lower(self));
+        self.depth -= 1;
+        result
+    }
+
+    /// Reports that a limit is passed, once; from now on nothing is lowered.
+    fn stop(&mut self, span: Span, message: String) {
+        if self.stopped.is_some() {
+            return;
+        }
+        let help = "arguments of macro rules are substituted in the rule's body; \
+                    bind large ones by `let` before the call";
+        self.diagnostics.push(
+            Diagnostic::error("model-too-large", span, message).because("the limit is passed here").with_help(help),
+        );
+        self.stopped = Some(self.sentinels(span));
+    }
+}

@@ -1,0 +1,46 @@
+//! Numeric forms: where operands of one operation differ in form, the narrower is coerced.
+//!
+//! The checker makes a coercion explicit where an argument's domain differs from the parameter's. What is left are
+//! library functions declared over different numbers, such as `eq: Prod(Real, Integer)`, and equality over a domain
+//! variable; the machine compares values of one form only.
+
+use model::{Basic, DomainId, DomainKind, Term};
+
+use crate::builtin::Builtin;
+use crate::lower::Lowering;
+
+/// How the machine holds a number; wider ones later.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Form {
+    /// Integer and Natural.
+    Integer,
+    Real,
+    Complex,
+}
+
+impl Lowering<'_, '_> {
+    /// The form of a domain's values, if they are numbers.
+    pub(super) fn form(&self, domain: DomainId) -> Option<Form> {
+        let domains = &self.model.domains;
+        match domains.kind(domains.type_domain(domain)) {
+            DomainKind::Basic(Basic::Natural | Basic::Integer) => Some(Form::Integer),
+            DomainKind::Basic(Basic::Real) => Some(Form::Real),
+            DomainKind::Basic(Basic::Complex) => Some(Form::Complex),
+            _ => None,
+        }
+    }
+
+    /// The form that an operation's operands are brought to: its own, or the widest of theirs.
+    pub(super) fn common_form(&self, builtin: Builtin, operands: &[Term]) -> Option<Form> {
+        use Builtin::*;
+        match builtin {
+            Eq | Neq | Lt | Le | Gt | Ge => operands.iter().filter_map(|operand| self.form(operand.domain)).max(),
+            RealNeg | RealAdd | RealSub | RealMul | RealDiv | RealMin | RealMax | RealAbs | RealPower | Floor
+            | Round | Sqrt | RealToInt | RealToNat => Some(Form::Real),
+            Re | Im | ComplexNeg | ComplexAdd | ComplexSub | ComplexMul | ComplexDiv | Norm | IsZero => {
+                Some(Form::Complex)
+            }
+            _ => None,
+        }
+    }
+}
