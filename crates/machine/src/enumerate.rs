@@ -27,11 +27,7 @@ enum Elements {
 
 impl<'a> Executor<'a> {
     /// Visits every binding of the binders until a visit breaks off.
-    pub fn for_each_binding(
-        &mut self,
-        binders: &'a [Binder],
-        visit: &mut Visit<'_, 'a>,
-    ) -> Outcome<ControlFlow<()>> {
+    pub fn for_each_binding(&mut self, binders: &'a [Binder], visit: &mut Visit<'_, 'a>) -> Outcome<ControlFlow<()>> {
         let Some((binder, rest)) = binders.split_first() else { return visit(self) };
         let elements = self.range_elements(binder.range)?;
         let visit_one = |this: &mut Self, visit: &mut Visit<'_, 'a>, value: Value| {
@@ -92,7 +88,9 @@ impl<'a> Executor<'a> {
                 let pairs = entries.iter().map(|(key, value)| Value::tuple(vec![key.clone(), value.clone()]));
                 Ok(Elements::Listed(Arc::new(pairs.collect())))
             }
-            Value::Undef => self.fault(span, FaultKind::UndefinedOperand { operation: "ranging over the elements".into() }),
+            Value::Undef => {
+                self.fault(span, FaultKind::UndefinedOperand { operation: "ranging over the elements".into() })
+            }
             _ => self.fault(span, FaultKind::BadOperand { reason: "only a collection can be ranged over".into() }),
         }
     }

@@ -195,7 +195,11 @@ impl<'a> Executor<'a> {
                 return Ok(left);
             }
             let right = self.evaluate(arguments[1])?;
-            return Ok(if right == Value::Boolean(deciding) || left == Value::Boolean(!deciding) { right } else { left });
+            return Ok(if right == Value::Boolean(deciding) || left == Value::Boolean(!deciding) {
+                right
+            } else {
+                left
+            });
         }
         match arguments {
             [operand] => {
@@ -208,8 +212,7 @@ impl<'a> Executor<'a> {
                 self.apply(builtin, &[left, right], id)
             }
             _ => {
-                let operands: Vec<Value> =
-                    arguments.iter().map(|term| self.evaluate(*term)).collect::<Outcome<_>>()?;
+                let operands: Vec<Value> = arguments.iter().map(|term| self.evaluate(*term)).collect::<Outcome<_>>()?;
                 self.apply(builtin, &operands, id)
             }
         }
@@ -252,7 +255,8 @@ impl<'a> Executor<'a> {
         match (low, high, step.unwrap_or(&one)) {
             (Value::Integer(low), Value::Integer(high), Value::Integer(step)) => {
                 if *step <= 0 {
-                    return self.fault(span, FaultKind::BadOperand { reason: format!("the step {step} is not positive") });
+                    return self
+                        .fault(span, FaultKind::BadOperand { reason: format!("the step {step} is not positive") });
                 }
                 let size = (i128::from(*high) - i128::from(*low)).max(-1) / i128::from(*step) + 1;
                 if low > high {
@@ -270,7 +274,8 @@ impl<'a> Executor<'a> {
                 self.real_range(low.get(), high.get(), step, span)
             }
             (Value::Undef, ..) | (_, Value::Undef, _) | (.., Value::Undef) => self.undefined_operand("a range", span),
-            _ => self.fault(span, FaultKind::BadOperand { reason: "the bounds of a range are numbers of one kind".into() }),
+            _ => self
+                .fault(span, FaultKind::BadOperand { reason: "the bounds of a range are numbers of one kind".into() }),
         }
     }
 

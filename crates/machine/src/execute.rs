@@ -136,7 +136,8 @@ impl Executor<'_> {
     #[inline]
     pub fn check_size(&self, size: u64, span: Span) -> Outcome<()> {
         if size > self.limits.collection {
-            return self.fault(span, FaultKind::Limit { limit: "elements of one collection", value: self.limits.collection });
+            return self
+                .fault(span, FaultKind::Limit { limit: "elements of one collection", value: self.limits.collection });
         }
         Ok(())
     }
@@ -146,7 +147,8 @@ impl Executor<'_> {
     pub fn count_iteration(&mut self, span: Span) -> Outcome<()> {
         self.core.iterations += 1;
         if self.core.iterations > self.limits.iterations {
-            return self.fault(span, FaultKind::Limit { limit: "iterations in one step", value: self.limits.iterations });
+            return self
+                .fault(span, FaultKind::Limit { limit: "iterations in one step", value: self.limits.iterations });
         }
         Ok(())
     }
@@ -161,10 +163,8 @@ impl Executor<'_> {
         let found = self.core.store.find(function, arguments);
         match declared.kind {
             Monitored => {
-                if let Some(index) = found {
-                    if self.core.store.given[index as usize] == self.core.epoch {
-                        return Ok(self.core.store.values[index as usize].clone());
-                    }
+                if let Some(index) = found.filter(|index| self.core.store.given[*index as usize] == self.core.epoch) {
+                    return Ok(self.core.store.values[index as usize].clone());
                 }
                 self.ask(function, arguments, span)
             }

@@ -285,11 +285,7 @@ impl Machine {
     ///
     /// # Errors
     /// What evaluation meets; the state stays as it is.
-    pub fn evaluate(
-        &mut self,
-        expression: &Expression,
-        environment: &mut dyn Environment,
-    ) -> Result<Value, Fault> {
+    pub fn evaluate(&mut self, expression: &Expression, environment: &mut dyn Environment) -> Result<Value, Fault> {
         self.core.iterations = 0;
         self.execute(environment, |executor, program| {
             let span = program.term_span(expression.body);

@@ -5,7 +5,10 @@
 
 use std::ops::ControlFlow;
 
-use program::{BinderList, DomainId, DomainKind, FunctionId, FunctionKind, ProcedureId, Rule, RuleId, RuleList, Slot, TermId, TermList};
+use program::{
+    BinderList, DomainId, DomainKind, FunctionId, FunctionKind, ProcedureId, Rule, RuleId, RuleList, Slot, TermId,
+    TermList,
+};
 use syntax::Span;
 
 use crate::environment::Choice;
@@ -231,7 +234,9 @@ impl<'a> Executor<'a> {
         let Some(procedure) = self.agent_program(&agent) else {
             return self.fault(span, FaultKind::NotARule { value: agent });
         };
-        let Some(function) = self.program.self_function else { return self.enter(procedure, self.core.scratch.len(), span) };
+        let Some(function) = self.program.self_function else {
+            return self.enter(procedure, self.core.scratch.len(), span);
+        };
         let index = self.core.store.number(function, &[]) as usize;
         let former = std::mem::replace(&mut self.core.store.values[index], agent);
         let outcome = self.enter(procedure, self.core.scratch.len(), span);
@@ -279,7 +284,13 @@ impl<'a> Executor<'a> {
     }
 
     /// Runs a body with local functions that start undefined and leave no trace.
-    fn perform_local(&mut self, id: RuleId, locals: &[FunctionId], initialisations: RuleList, body: RuleId) -> Outcome<()> {
+    fn perform_local(
+        &mut self,
+        id: RuleId,
+        locals: &[FunctionId],
+        initialisations: RuleList,
+        body: RuleId,
+    ) -> Outcome<()> {
         debug_assert!(locals.iter().all(|f| self.program.function(*f).kind == FunctionKind::Local));
         let mut outer = Vec::new();
         for function in locals {
@@ -303,7 +314,13 @@ impl<'a> Executor<'a> {
         outcome
     }
 
-    fn perform_forall(&mut self, id: RuleId, binders: BinderList, condition: Option<TermId>, body: RuleId) -> Outcome<()> {
+    fn perform_forall(
+        &mut self,
+        id: RuleId,
+        binders: BinderList,
+        condition: Option<TermId>,
+        body: RuleId,
+    ) -> Outcome<()> {
         let program = self.program;
         let mut count = 0usize;
         let _ = self.for_each_binding(program.binder_list(binders), &mut |this| {
@@ -378,7 +395,8 @@ impl<'a> Executor<'a> {
         let base = self.base_domain(domain);
         let carrier = &mut self.core.store.carriers[base.0 as usize];
         if u64::from(carrier.fresh) >= self.limits.locations.min(u64::from(u32::MAX - 1)) {
-            return self.fault(span, FaultKind::Limit { limit: "elements of one domain", value: self.limits.locations });
+            return self
+                .fault(span, FaultKind::Limit { limit: "elements of one domain", value: self.limits.locations });
         }
         let element = Value::Element(base, carrier.fresh);
         carrier.fresh += 1;
@@ -388,7 +406,8 @@ impl<'a> Executor<'a> {
         }
         self.core.iterations += 1;
         if self.core.iterations > self.limits.iterations.saturating_mul(10) {
-            return self.fault(span, FaultKind::Limit { limit: "iterations in one step", value: self.limits.iterations });
+            return self
+                .fault(span, FaultKind::Limit { limit: "iterations in one step", value: self.limits.iterations });
         }
         Ok(element)
     }

@@ -47,9 +47,9 @@ impl fmt::Display for ShowValue<'_> {
                 real(f, im.abs())
             }
             Value::String(text) => write!(f, "\"{}\"", escaped(text, '"')),
-            Value::Tuple(items) => list(f, program, "(", items, ")"),
-            Value::Seq(items) => list(f, program, "[", items, "]"),
-            Value::Set(items) => list(f, program, "{", items, "}"),
+            Value::Tuple(items) => list(f, program, "(", items.iter(), ")"),
+            Value::Seq(items) => list(f, program, "[", items.iter(), "]"),
+            Value::Set(items) => list(f, program, "{", items.iter(), "}"),
             Value::Bag(items) => {
                 let all = items.iter().flat_map(|(item, count)| std::iter::repeat_n(item, *count as usize));
                 list(f, program, "<", all, ">")

@@ -119,13 +119,12 @@ impl<'a> Executor<'a> {
         let program = self.program;
         self.core.starting = true;
         for (index, domain) in program.domains.iter().enumerate() {
-            if let DomainKind::Concrete { dynamic: true, contents: Some(expression), .. } = &domain.kind {
-                if let Value::Set(defined) | Value::Seq(defined) = self.closed(expression)? {
-                    let carrier = &mut self.core.store.carriers[index];
-                    carrier.elements.extend(defined.iter().cloned());
-                    carrier.elements.sort_unstable();
-                    carrier.elements.dedup();
-                }
+            let DomainKind::Concrete { dynamic: true, contents: Some(expression), .. } = &domain.kind else { continue };
+            if let Value::Set(defined) | Value::Seq(defined) = self.closed(expression)? {
+                let carrier = &mut self.core.store.carriers[index];
+                carrier.elements.extend(defined.iter().cloned());
+                carrier.elements.sort_unstable();
+                carrier.elements.dedup();
             }
         }
         for (index, initial) in program.initials.iter().enumerate() {

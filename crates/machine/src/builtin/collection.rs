@@ -135,11 +135,11 @@ fn bag(builtin: Builtin, operands: &[Value]) -> Option<Result> {
             combine(u64::min).map(|counts| sorted(counts.into_keys().collect()))
         }
         Builtin::BagContains => counts(&operands[0]).map(|b| Value::Boolean(b.contains_key(&operands[1]))),
-        Builtin::BagCount => counts(&operands[0]).map(|b| {
-            Value::Integer(i64::try_from(b.get(&operands[1]).copied().unwrap_or(0)).unwrap_or(i64::MAX))
+        Builtin::BagCount => counts(&operands[0])
+            .map(|b| Value::Integer(i64::try_from(b.get(&operands[1]).copied().unwrap_or(0)).unwrap_or(i64::MAX))),
+        Builtin::BagSize => counts(&operands[0]).map(|b| {
+            Value::Integer(b.values().fold(0i64, |sum, n| sum.saturating_add(i64::try_from(*n).unwrap_or(i64::MAX))))
         }),
-        Builtin::BagSize => counts(&operands[0])
-            .map(|b| Value::Integer(b.values().fold(0i64, |sum, n| sum.saturating_add(i64::try_from(*n).unwrap_or(i64::MAX))))),
         Builtin::BagIncluding => adjusted(|n| n.saturating_add(1)),
         Builtin::BagExcluding => adjusted(|n| n.saturating_sub(1)),
         _ => return None,

@@ -4,6 +4,7 @@
 //! operand, an index outside, a result beyond 64 bits. Each file owns the functions of a few domains.
 
 mod collection;
+mod name;
 mod number;
 mod sequence;
 mod text;
@@ -120,7 +121,7 @@ impl<'a> Executor<'a> {
 
     #[cold]
     fn trouble(&self, trouble: Trouble, builtin: Builtin, operands: &[Value], span: Span) -> Outcome<Value> {
-        let name = builtin.name();
+        let name = name::name(builtin);
         let kind = match trouble {
             Trouble::Undefined if operands.iter().any(Value::is_undef) => {
                 FaultKind::UndefinedOperand { operation: format!("`{name}`") }

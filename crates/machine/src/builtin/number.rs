@@ -129,7 +129,8 @@ fn complex(builtin: Builtin, operands: &[Value]) -> Option<Result> {
             _ => Err(Trouble::NotANumber("the complex operation".into())),
         }
     };
-    let binary = |compute: fn((f64, f64), (f64, f64)) -> (f64, f64)| -> Result {
+    type Pair = (f64, f64);
+    let binary = |compute: fn(Pair, Pair) -> Pair| -> Result {
         let (re, im) = compute(parts(&operands[0])?, parts(&operands[1])?);
         make(re, im)
     };
