@@ -7,6 +7,8 @@ module LTLLibrary
 export *
 
 signature:
+    basic domain Boolean
+
     // Future.
     static x: Boolean -> Boolean                 // in the next state
     static g: Boolean -> Boolean                 // globally

@@ -11,10 +11,12 @@ use crate::domain::{Basic, DomainId, DomainKind, Domains};
 
 /// The least cost that stands for a numeric coercion.
 pub(crate) const COERCING: u32 = 10_000;
+/// The least cost that stands for taking a value for one of a subset, which only the run can tell.
+pub(crate) const NARROWING: u32 = 100;
 const TO_BASE: u32 = 10;
 const VARIABLE: u32 = 20;
 const UNKNOWN: u32 = 60;
-const TO_CONCRETE: u32 = 100;
+const TO_CONCRETE: u32 = NARROWING;
 const SIBLING: u32 = 200;
 const PER_COMPONENT: u32 = 1;
 

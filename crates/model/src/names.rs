@@ -64,12 +64,15 @@ impl Names {
         self.domains.contains_key(name) || self.functions.contains_key(name) || self.rules.contains_key(name)
     }
 
-    /// Only the selected names. Enum literals come along always, as they belong to their domain.
+    /// Only the selected names, and the literals of the enum domains among them.
     pub(crate) fn select(&self, selection: &Selection) -> Names {
         let Selection::Only(_) = selection else { return self.clone() };
+        let domains = keep(&self.domains, selection);
+        let of_kept = |literal: &(DomainId, u32)| domains.values().any(|domain| *domain == literal.0);
+        let literals = self.literals.iter().filter(|(_, literal)| of_kept(literal));
         Names {
-            domains: keep(&self.domains, selection),
-            literals: self.literals.clone(),
+            literals: literals.map(|(name, literal)| (name.clone(), *literal)).collect(),
+            domains,
             functions: keep(&self.functions, selection),
             rules: keep(&self.rules, selection),
             incomplete: self.incomplete,

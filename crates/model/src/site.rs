@@ -138,12 +138,15 @@ impl Site<'_> {
     }
 
     fn unknown_domain(&mut self, name: &str, span: Span) -> DomainId {
-        if library::is_standard_name(name) && !self.names.domains.contains_key("Integer") && !self.names.incomplete {
-            self.faults.missing_library(fault::import::missing_library(span, &format!("the domain `{name}`")));
-            return predefined(name).unwrap_or(Domains::ERROR);
+        // The predefined domains need no import, unlike the functions on them.
+        if let Some(domain) = predefined(name) {
+            return domain;
         }
         if self.names.incomplete {
-            return predefined(name).unwrap_or(Domains::ERROR);
+            return Domains::ERROR;
+        }
+        if let Some(domain) = self.domain_in_signatures(name) {
+            return domain;
         }
         let help = match self.names.literal(name) {
             Some((domain, _)) => format!("`{name}` is a literal of the enum domain `{}`", self.display(domain)),
@@ -161,6 +164,13 @@ impl Site<'_> {
         };
         self.faults.push(fault::name::unknown_domain(span, name, help));
         Domains::ERROR
+    }
+
+    /// A domain that is not imported by name, but that a visible function is declared with.
+    fn domain_in_signatures(&self, name: &str) -> Option<DomainId> {
+        let functions = self.names.functions.values().flatten().map(|id| self.model.function(*id));
+        let mut domains = functions.flat_map(|function| function.parameters.iter().chain([&function.codomain]));
+        domains.find(|domain| self.model.domains.get(**domain).name.as_deref() == Some(name)).copied()
     }
 
     /// Says that a name is declared in a file that is read but does not let it be seen here.

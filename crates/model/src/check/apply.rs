@@ -113,11 +113,14 @@ impl Body<'_> {
             }
         }
         let parameters = self.site.model.function(id).parameters.clone();
+        let of_agent = arguments.iter().any(|argument| self.mentions_self(argument));
         let arguments: Vec<Term> = arguments
             .into_iter()
             .zip(&parameters)
             .map(|(argument, formal)| {
-                self.report_narrower(id, *formal, &argument);
+                if !of_agent {
+                    self.report_narrower(id, *formal, &argument);
+                }
                 let formal = self.site.model.domains.instantiate(*formal, &bindings);
                 self.coerce(argument, formal)
             })
@@ -149,12 +152,13 @@ impl Body<'_> {
         Some(Term { kind: TermKind::Project { tuple: Box::new(tuple), index: index as u32 }, domain, span })
     }
 
-    /// A function over a subset of an abstract domain needs an argument of that subset, or the agent itself.
+    /// A function over a subset of an abstract domain needs an argument of that subset. (Where `self` is an argument
+    /// nothing is reported: that the agent is of the right kind is a matter of whose program this is.)
     fn report_narrower(&mut self, id: FunctionId, formal: DomainId, argument: &Term) {
         let domains = &self.site.model.domains;
         let DomainKind::Concrete { base, .. } = domains.kind(formal) else { return };
         let abstract_base = matches!(domains.kind(*base), DomainKind::Abstract { .. });
-        if !abstract_base || argument.domain != *base || self.mentions_self(argument) {
+        if !abstract_base || argument.domain != *base {
             return;
         }
         let (expected, found) = (self.site.display(formal), self.site.display(*base));

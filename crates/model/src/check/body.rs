@@ -3,11 +3,13 @@
 //! In: a [`Site`] and the parameters. Out: terms and rules, with all variables of the declaration in one list.
 //! INVARIANT: scoping is lexical; a name means its innermost binding, and re-binding a name makes a new variable.
 
+use std::collections::BTreeSet;
+
 use syntax::{Span, SyntaxToken};
 
 use crate::domain::{DomainId, Domains};
 use crate::fault;
-use crate::model::{FunctionId, Variable, VariableId};
+use crate::model::{Function, FunctionId, FunctionKind, Variable, VariableId};
 use crate::site::Site;
 use crate::suggest::did_you_mean;
 use crate::term::{Term, TermKind};
@@ -36,7 +38,9 @@ pub(crate) struct Body<'a> {
     /// What binds each of them.
     pub(crate) bound: Vec<Bound>,
     /// The names bound here, the innermost last.
-    scope: Vec<(String, VariableId)>,
+    scope: Vec<(String, Meaning)>,
+    /// The variables that some update in this declaration writes to.
+    pub(crate) updated: BTreeSet<String>,
     /// The local functions declared here, the innermost last.
     pub(crate) locals: Vec<(String, FunctionId)>,
     /// The domain of the result, in a turbo rule that declares one.
@@ -45,18 +49,32 @@ pub(crate) struct Body<'a> {
     pub(crate) as_environment: bool,
 }
 
+/// What a variable's name means.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Meaning {
+    /// A logical variable: a value.
+    Variable(VariableId),
+    /// A `let` variable that is updated in its scope: a local function without arguments.
+    Local(FunctionId),
+}
+
 /// How far the scope reached before a binding.
 pub(crate) struct Mark(usize);
 
 impl<'a> Body<'a> {
     /// A body with these parameters in scope.
     pub(crate) fn new(site: Site<'a>, parameters: &[Variable], bound: Bound) -> Self {
-        let scope = parameters.iter().enumerate().map(|(i, v)| (v.name.clone(), VariableId(i as u32))).collect();
+        let scope = parameters
+            .iter()
+            .enumerate()
+            .map(|(i, v)| (v.name.clone(), Meaning::Variable(VariableId(i as u32))))
+            .collect();
         Body {
             site,
             variables: parameters.to_vec(),
             bound: vec![bound; parameters.len()],
             scope,
+            updated: BTreeSet::new(),
             locals: Vec::new(),
             result: None,
             as_environment: false,
@@ -77,7 +95,23 @@ impl<'a> Body<'a> {
     pub(crate) fn bind(&mut self, token: &SyntaxToken, domain: DomainId, bound: Bound) -> VariableId {
         let span = self.site.token_span(token);
         let id = self.add_variable(token.text().to_string(), domain, span, bound);
-        self.scope.push((token.text().to_string(), id));
+        self.scope.push((token.text().to_string(), Meaning::Variable(id)));
+        id
+    }
+
+    /// Binds a name to a local function from here on.
+    pub(crate) fn bind_local(&mut self, token: &SyntaxToken, codomain: DomainId) -> FunctionId {
+        let (name, span) = (token.text().to_string(), self.site.token_span(token));
+        let id = self.site.model.add_function(Function {
+            name: name.clone(),
+            kind: FunctionKind::Local,
+            parameters: Vec::new(),
+            codomain,
+            definition: None,
+            library: false,
+            span,
+        });
+        self.scope.push((name, Meaning::Local(id)));
         id
     }
 
@@ -93,8 +127,8 @@ impl<'a> Body<'a> {
         VariableId(self.variables.len() as u32 - 1)
     }
 
-    /// The variable that a name means here.
-    pub(crate) fn lookup(&self, name: &str) -> Option<VariableId> {
+    /// What a variable's name means here.
+    pub(crate) fn lookup(&self, name: &str) -> Option<Meaning> {
         self.scope.iter().rev().find(|(bound, _)| bound == name).map(|(_, id)| *id)
     }
 
@@ -117,8 +151,13 @@ impl<'a> Body<'a> {
     pub(crate) fn resolve_variable(&mut self, token: &SyntaxToken) -> Term {
         let span = self.site.token_span(token);
         let name = token.text();
-        if let Some(id) = self.lookup(name) {
-            return self.variable_term(id, span);
+        match self.lookup(name) {
+            Some(Meaning::Variable(id)) => return self.variable_term(id, span),
+            Some(Meaning::Local(function)) => {
+                let domain = self.site.model.function(function).codomain;
+                return Term { kind: TermKind::Apply { function, arguments: Vec::new() }, domain, span };
+            }
+            None => {}
         }
         let plain = name.trim_start_matches('$');
         let help = if self.site.names.functions.contains_key(plain) {

@@ -7,6 +7,7 @@ use syntax::{Span, SyntaxToken, ast};
 
 use super::body::Body;
 use crate::coerce::can_coerce;
+use crate::compat::NARROWING;
 use crate::domain::{DomainId, Domains};
 use crate::fault;
 use crate::model::RuleId;
@@ -98,7 +99,8 @@ impl Body<'_> {
         self.site.faults.push(fault);
     }
 
-    /// The rule of that name with exactly these parameter domains; without domains, the only one of that name.
+    /// The rule of that name with exactly these parameter domains, else one whose parameters take them; without
+    /// domains, the only one of that name.
     pub(crate) fn rule_by_domains(&mut self, token: &SyntaxToken, domains: &[DomainId], span: Span) -> Option<RuleId> {
         let candidates = self.site.names.rules(token.text());
         if candidates.is_empty() {
@@ -107,6 +109,16 @@ impl Body<'_> {
         }
         let exact = candidates.iter().rev().find(|id| self.formals(**id) == domains);
         if let Some(id) = exact {
+            return Some(*id);
+        }
+        let wider = candidates.iter().rev().find(|id| {
+            let formals = self.formals(**id);
+            let narrow = |(domain, formal): (&DomainId, &DomainId)| {
+                self.site.model.domains.fits(*domain, *formal).is_some_and(|cost| cost < NARROWING)
+            };
+            formals.len() == domains.len() && domains.iter().zip(&formals).all(narrow)
+        });
+        if let Some(id) = wider {
             return Some(*id);
         }
         if let ([only], []) = (candidates, domains) {

@@ -175,7 +175,8 @@ fn is_dynamic(site: &Site<'_>, domain: DomainId) -> bool {
     match site.model.domains.kind(domain) {
         DomainKind::Abstract { dynamic } | DomainKind::Concrete { dynamic, .. } => *dynamic,
         DomainKind::Prod(parts) => parts.iter().any(|part| is_dynamic(site, *part)),
-        DomainKind::Powerset(of) => is_dynamic(site, *of),
+        DomainKind::Powerset(of) | DomainKind::Seq(of) | DomainKind::Bag(of) => is_dynamic(site, *of),
+        DomainKind::Map(key, value) => is_dynamic(site, *key) || is_dynamic(site, *value),
         _ => false,
     }
 }

@@ -217,6 +217,7 @@ impl Checker<'_> {
         let bound = if rule.turbo { Bound::Parameter } else { Bound::MacroParameter };
         let mut body = Body::new(self.site(names, unit.file), &parameters, bound);
         body.result = result;
+        body.updated = decl.body().map(|rule| rule::updated_variables(&rule)).unwrap_or_default();
         let checked = body.optional_rule(decl.body(), place);
         let variables = body.variables;
         let rule = &mut self.model.rules[id.0 as usize];

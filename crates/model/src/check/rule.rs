@@ -4,15 +4,17 @@
 //! INVARIANT: safe on any tree, however deep. That macro rules are not recursive, and that location parameters get
 //! locations, is seen only when all rules are known: see `macros.rs`.
 
-use syntax::Span;
-use syntax::ast;
+use std::collections::BTreeSet;
+
+use syntax::ast::{self, AstNode};
+use syntax::{Span, SyntaxKind};
 
 use super::body::{Body, Bound};
 use crate::coerce::can_coerce;
 use crate::domain::{DomainId, DomainKind, Domains};
 use crate::fault;
-use crate::model::{Function, FunctionKind};
-use crate::rule::{RuleKind, RuleNode};
+use crate::model::{Function, FunctionId, FunctionKind, VariableId};
+use crate::rule::{RuleKind, RuleNode, Target};
 use crate::term::{Term, TermKind};
 
 impl Body<'_> {
@@ -53,13 +55,7 @@ impl Body<'_> {
             ast::Rule::Seq(seq) => RuleKind::Seq(seq.rules().map(|rule| self.rule(&rule)).collect()),
             ast::Rule::If(rule) => self.if_rule(rule, span),
             ast::Rule::Switch(rule) => self.switch_rule(rule, span),
-            ast::Rule::Let(rule) => {
-                let mark = self.mark();
-                let bindings = self.bindings(rule.bindings());
-                let body = self.boxed(rule.body(), span);
-                self.release(mark);
-                RuleKind::Let { bindings, body }
-            }
+            ast::Rule::Let(rule) => self.let_rule(rule, span),
             ast::Rule::Choose(rule) => {
                 let mark = self.mark();
                 let binders = self.binders(rule.binders());
@@ -115,6 +111,40 @@ impl Body<'_> {
         }
         let otherwise = rule.otherwise().map(|rule| Box::new(self.rule(&rule)));
         RuleKind::Switch { subject, cases, otherwise }
+    }
+
+    /// `let`: variables stand for values, but one that an update writes to is local state: a local function.
+    fn let_rule(&mut self, rule: &ast::LetRule, span: Span) -> RuleKind {
+        let mark = self.mark();
+        let mut wrappers: Vec<Wrapper> = Vec::new();
+        for binding in rule.bindings() {
+            let place = self.site.span(&binding);
+            let term = self.optional_term(binding.term(), place);
+            let Some(token) = binding.variable() else { continue };
+            if self.updated.contains(token.text()) {
+                let function = self.bind_local(&token, term.domain);
+                let target = Target::Location { function, arguments: Vec::new(), span: self.site.token_span(&token) };
+                let first = RuleNode { kind: RuleKind::Update { target, value: term }, span: place };
+                wrappers.push(Wrapper::Local(vec![(function, first)]));
+                continue;
+            }
+            let bound = (self.bind(&token, term.domain, Bound::Let), term);
+            match wrappers.last_mut() {
+                Some(Wrapper::Let(bindings)) => bindings.push(bound),
+                _ => wrappers.push(Wrapper::Let(vec![bound])),
+            }
+        }
+        let body = self.optional_rule(rule.body(), span);
+        self.release(mark);
+        let wrap = |body: RuleNode, wrapper| {
+            let body = Box::new(body);
+            let kind = match wrapper {
+                Wrapper::Let(bindings) => RuleKind::Let { bindings, body },
+                Wrapper::Local(locals) => RuleKind::Local { locals, body },
+            };
+            RuleNode { kind, span }
+        };
+        wrappers.into_iter().rev().fold(body, wrap).kind
     }
 
     fn extend(&mut self, rule: &ast::ExtendRule, span: Span) -> RuleKind {
@@ -247,4 +277,24 @@ impl Body<'_> {
         self.locals.truncate(outer);
         RuleKind::Local { locals, body }
     }
+}
+
+/// What stands around the body of a `let`, from the outside in.
+enum Wrapper {
+    Let(Vec<(VariableId, Term)>),
+    Local(Vec<(FunctionId, RuleNode)>),
+}
+
+/// The variables that updates and turbo returns inside a rule write to.
+pub(crate) fn updated_variables(rule: &ast::Rule) -> BTreeSet<String> {
+    let targets = rule.syntax().descendants().filter_map(|node| match node.kind() {
+        SyntaxKind::UPDATE_RULE => ast::UpdateRule::cast(node)?.target(),
+        SyntaxKind::RETURN_RULE => ast::ReturnRule::cast(node)?.target(),
+        _ => None,
+    });
+    let variables = targets.filter_map(|target| match target {
+        ast::Term::Variable(variable) => variable.token(),
+        _ => None,
+    });
+    variables.map(|token| token.text().to_string()).collect()
 }

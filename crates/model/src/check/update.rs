@@ -104,10 +104,18 @@ impl Body<'_> {
     fn variable_place(&mut self, variable: &ast::VariableTerm) -> Option<Place> {
         let token = variable.token()?;
         let term = self.resolve_variable(&token);
-        let TermKind::Variable(id) = term.kind else { return None };
+        let name = token.text().to_string();
+        let id = match term.kind {
+            TermKind::Variable(id) => id,
+            TermKind::Apply { function, .. } => {
+                let declared = self.site.model.function(function).span;
+                let target = Target::Location { function, arguments: Vec::new(), span: term.span };
+                return Some(Place { target, domain: term.domain, name, declared });
+            }
+            _ => return None,
+        };
         let bound = self.bound[id.0 as usize];
         let declared = self.variable(id).span;
-        let name = token.text().to_string();
         let (what, help) = match bound {
             Bound::MacroParameter => {
                 return Some(Place { target: Target::Parameter(id, term.span), domain: term.domain, name, declared });
