@@ -73,12 +73,15 @@ pub(crate) struct Updates {
     unit: u32,
     units: u32,
     merge: Vec<Overwritten>,
+    /// By location, the last merge that met it.
+    met: Vec<u32>,
+    merges: u32,
 }
 
 impl Updates {
     /// Begins a step; the last one was committed ([`Updates::release`]) or rolled back.
     pub fn begin(&mut self) {
-        if self.units > u32::MAX / 2 {
+        if self.units.max(self.merges) > u32::MAX / 2 {
             self.renumbered();
         }
         // Unit numbers never come again, so that no old stamp can be taken for a new one.
@@ -89,7 +92,8 @@ impl Updates {
     /// Location numbers have changed: no stamp is valid any more.
     pub fn renumbered(&mut self) {
         self.stamps.clear();
-        self.units = 0;
+        self.met.clear();
+        (self.units, self.merges) = (0, 0);
     }
 
     /// How many updates the step has so far.
@@ -213,15 +217,13 @@ impl Updates {
             merge.push(entry); // `before` now holds the value after
         }
         self.forget_intermediate(sequence.created, store);
-        let own = self.stack.len();
+        self.merges += 1;
+        self.met.resize(self.met.len().max(store.len()), 0);
         let mut outcome = Ok(());
         // The last write of a location comes first here; earlier ones are left out.
         for entry in merge.drain(..) {
-            if local(store, entry.location) {
-                continue;
-            }
-            let held = self.stamps.get(entry.location as usize).copied().unwrap_or_default();
-            if held.unit == self.unit && held.index as usize >= own {
+            let met = std::mem::replace(&mut self.met[entry.location as usize], self.merges);
+            if met == self.merges || local(store, entry.location) {
                 continue;
             }
             outcome = self.push(entry.location, entry.before, entry.rule);

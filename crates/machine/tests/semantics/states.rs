@@ -1,0 +1,123 @@
+//! States: initial values, inputs, domains that grow.
+
+use expect_test::expect;
+
+use crate::check;
+
+#[test]
+fn initial_values_are_eager_and_may_use_each_other() {
+    check(
+        "signature:
+            controlled x: Integer
+            controlled y: Integer
+            controlled z: Integer
+        definitions:
+            main rule r_Main = par x := x + 1 if x = 3 then z := y endif endpar
+        default init s: function y = x + 100 function x = 2",
+        2,
+        expect![[r#"
+            1: x=3
+            2: x=4 z=102
+        "#]],
+    );
+}
+
+#[test]
+fn an_input_is_asked_for_once_a_step() {
+    check(
+        "signature:
+            monitored m: Integer
+            controlled a: Integer
+            controlled b: Integer
+            controlled c: Integer
+        definitions:
+            main rule r_Main = par seq a := m a := a + m endseq seq b := m skip endseq c := m endpar",
+        2,
+        expect![[r#"
+            1: a=2 b=1 c=1
+            2: a=4 b=2 c=2
+        "#]],
+    );
+}
+
+#[test]
+fn derived_and_static_functions() {
+    check(
+        "signature:
+            domain Small subsetof Integer
+            static twice: Integer -> Integer
+            derived total: Integer
+            controlled f: Small -> Integer
+            controlled x: Integer
+        definitions:
+            domain Small = {1:3}
+            function twice($n in Integer) = $n * 2
+            function total = sum({$i in Small: f($i)})
+            main rule r_Main = par x := twice(total) forall $i in Small do f($i) := f($i) + $i endpar
+        default init s: function f($i in Small) = $i * 10",
+        2,
+        expect![[r#"
+            1: f(1)=11 f(2)=22 f(3)=33 x=120
+            2: f(1)=12 f(2)=24 f(3)=36 x=132
+        "#]],
+    );
+}
+
+#[test]
+fn locations_outside_the_declared_arguments_are_locations() {
+    check(
+        "signature:
+            domain Small subsetof Integer
+            controlled f: Small -> Integer
+            controlled g: Prod(Integer, String) -> Integer
+        definitions:
+            domain Small = {1:3}
+            main rule r_Main = par f(100) := 1 g(7, \"a\") := 2 f(undef) := 3 endpar",
+        1,
+        expect![[r#"
+            1: f(undef)=3 f(100)=1 g(7,"a")=2
+        "#]],
+    );
+}
+
+#[test]
+fn kleene_logic() {
+    check(
+        "signature:
+            controlled u: Boolean
+            controlled a: Boolean
+            controlled b: Boolean
+            controlled c: Boolean
+            controlled d: Boolean
+            controlled e: Boolean
+        definitions:
+            main rule r_Main = par
+                a := u and false
+                b := u or true
+                c := u and true
+                d := implies(u, true)
+                e := (u = undef)
+            endpar",
+        1,
+        expect![[r#"
+            1: a=false b=true d=true e=true
+        "#]],
+    );
+}
+
+#[test]
+fn pre_reads_the_state_before_the_step() {
+    check(
+        "signature:
+            controlled x: Integer
+            controlled y: Integer
+        definitions:
+            main rule r_Main = seq x := x + 1 y := pre(x) endseq
+        default init s: function x = 5",
+        2,
+        expect![[r#"
+            1: x=6 y=5
+            2: x=7 y=6
+        "#]],
+    );
+}
