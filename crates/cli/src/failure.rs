@@ -1,0 +1,123 @@
+//! What the world, or whoever typed the command, can do wrong: a closed set, each with a sentence.
+
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A failure that is not the model's.
+#[derive(Debug)]
+pub enum Failure {
+    /// The path leads nowhere.
+    Missing(PathBuf),
+    /// A folder where a file is needed.
+    Folder(PathBuf),
+    /// Not text.
+    NotUtf8 {
+        /// The file.
+        path: PathBuf,
+        /// How many bytes before the first wrong one.
+        offset: usize,
+    },
+    /// More than `--max-file-size`.
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// The limit in bytes.
+        limit: u64,
+    },
+    /// Any other trouble with a file.
+    File {
+        /// What was to be done: `read`, `write`.
+        verb: &'static str,
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        error: io::Error,
+    },
+    /// The reader of our output has closed it.
+    BrokenPipe,
+    /// Our output cannot be written.
+    Output(io::Error),
+    /// Arguments that fit neither each other nor the model.
+    Usage {
+        /// What is wrong.
+        message: String,
+        /// What to do.
+        help: Option<String>,
+    },
+}
+
+impl Failure {
+    /// Wrong usage.
+    pub fn usage(message: impl Into<String>) -> Self {
+        Failure::Usage { message: message.into(), help: None }
+    }
+
+    /// Wrong usage, and what to do.
+    pub fn usage_with_help(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Failure::Usage { message: message.into(), help: Some(help.into()) }
+    }
+
+    /// Sorts what the system says of a file.
+    pub fn of_file(verb: &'static str, path: &Path, error: io::Error) -> Self {
+        let path = path.to_path_buf();
+        match error.kind() {
+            io::ErrorKind::NotFound if verb == "read" => Failure::Missing(path),
+            io::ErrorKind::IsADirectory => Failure::Folder(path),
+            _ => Failure::File { verb, path, error },
+        }
+    }
+
+    /// What to do about it.
+    pub fn help(&self) -> Option<String> {
+        match self {
+            Failure::Usage { help, .. } => help.clone(),
+            Failure::TooLarge { .. } => Some("raise the limit with --max-file-size BYTES".to_string()),
+            Failure::NotUtf8 { .. } => Some("save it as UTF-8".to_string()),
+            _ => None,
+        }
+    }
+
+    /// The kebab-case name, for JSON.
+    pub fn id(&self) -> &'static str {
+        match self {
+            Failure::Missing(_) => "file-missing",
+            Failure::Folder(_) => "file-is-folder",
+            Failure::NotUtf8 { .. } => "file-not-utf8",
+            Failure::TooLarge { .. } => "file-too-large",
+            Failure::File { .. } => "file-trouble",
+            Failure::BrokenPipe => "broken-pipe",
+            Failure::Output(_) => "output-trouble",
+            Failure::Usage { .. } => "usage",
+        }
+    }
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        if error.kind() == io::ErrorKind::BrokenPipe { Failure::BrokenPipe } else { Failure::Output(error) }
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Failure::Missing(path) => write!(f, "there is no file {}", path.display()),
+            Failure::Folder(path) => write!(f, "{} is a folder, a file is needed", path.display()),
+            Failure::NotUtf8 { path, offset } => {
+                write!(f, "{} is not UTF-8 text: byte {offset} does not belong to a character", path.display())
+            }
+            Failure::TooLarge { path, limit } => write!(f, "{} is larger than {limit} bytes", path.display()),
+            Failure::File { verb, path, error } => write!(f, "cannot {verb} {}: {}", path.display(), reason(error)),
+            Failure::BrokenPipe => f.write_str("the output was closed"),
+            Failure::Output(error) => write!(f, "cannot write the output: {}", reason(error)),
+            Failure::Usage { message, .. } => f.write_str(message),
+        }
+    }
+}
+
+/// The system's words without its error number, which differs between systems.
+fn reason(error: &io::Error) -> String {
+    let text = error.to_string();
+    text.split(" (os error").next().unwrap_or_default().to_lowercase()
+}

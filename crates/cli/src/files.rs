@@ -1,0 +1,171 @@
+//! Reading and writing files: bounded, UTF-8 only, never half written.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Read, Write};
+use std::path::{Path, PathBuf};
+
+use syntax::SourceFile;
+
+use crate::failure::Failure;
+
+/// Reads a text file of at most `limit` bytes.
+pub fn read_text(path: &Path, limit: u64) -> Result<String, Failure> {
+    let wrap = |error| Failure::of_file("read", path, error);
+    let file = File::open(path).map_err(wrap)?;
+    if file.metadata().map_err(wrap)?.is_dir() {
+        return Err(Failure::Folder(path.to_path_buf()));
+    }
+    let mut bytes = Vec::new();
+    // One byte more than allowed tells a file at the limit from one beyond it, whatever its length claims to be.
+    file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(wrap)?;
+    if bytes.len() as u64 > limit {
+        return Err(Failure::TooLarge { path: path.to_path_buf(), limit });
+    }
+    String::from_utf8(bytes)
+        .map_err(|error| Failure::NotUtf8 { path: path.to_path_buf(), offset: error.utf8_error().valid_up_to() })
+}
+
+/// Finds imported files on the disk, relative to the importing file and then to the working folder.
+#[derive(Debug)]
+pub struct Disk {
+    /// The most bytes a file may have.
+    pub limit: u64,
+}
+
+impl Disk {
+    /// The root file, under the name it was given.
+    pub fn root(&self, path: &Path) -> Result<SourceFile, Failure> {
+        Ok(SourceFile::new(path.display().to_string(), read_text(path, self.limit)?))
+    }
+}
+
+impl model::Loader for Disk {
+    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        let written = path.replace('\\', "/");
+        let written =
+            if written.ends_with(".asm") || written.ends_with(".avalla") { written } else { written + ".asm" };
+        let folder = Path::new(&importer.name).parent().unwrap_or(Path::new(""));
+        let beside = tidy(&folder.join(&written));
+        let found = if beside.exists() { beside } else { PathBuf::from(&written) };
+        match read_text(&found, self.limit) {
+            Ok(text) => Ok(SourceFile::new(found.display().to_string(), text)),
+            Err(Failure::Missing(_)) => Err(format!("there is no file {}", tidy(&folder.join(&written)).display())),
+            Err(failure) => Err(failure.to_string()),
+        }
+    }
+}
+
+/// `a/b/../c` as `a/c`, so that one file has one name however it is reached.
+fn tidy(path: &Path) -> PathBuf {
+    use std::path::Component;
+    let mut tidied = PathBuf::new();
+    for component in path.components() {
+        match component {
+            Component::CurDir => {}
+            Component::ParentDir if matches!(tidied.components().next_back(), Some(Component::Normal(_))) => {
+                tidied.pop();
+            }
+            other => tidied.push(other),
+        }
+    }
+    tidied
+}
+
+/// A file being written: it takes its name when it is complete and does not exist before.
+#[derive(Debug)]
+pub struct Unfinished {
+    path: PathBuf,
+    writer: BufWriter<tempfile::NamedTempFile>,
+}
+
+impl Unfinished {
+    /// Begins a file.
+    pub fn create(path: &Path) -> Result<Self, Failure> {
+        if path.is_dir() {
+            return Err(Failure::Folder(path.to_path_buf()));
+        }
+        let folder = match path.parent() {
+            Some(folder) if folder != Path::new("") => folder,
+            _ => Path::new("."),
+        };
+        let file = tempfile::Builder::new()
+            .prefix(".groundstate-")
+            .tempfile_in(folder)
+            .map_err(|error| Failure::of_file("write", path, error))?;
+        Ok(Unfinished { path: path.to_path_buf(), writer: BufWriter::new(file) })
+    }
+
+    /// Gives the file its name.
+    pub fn finish(self) -> Result<(), Failure> {
+        let Unfinished { path, writer } = self;
+        let wrap = |error| Failure::of_file("write", &path, error);
+        let file = writer.into_inner().map_err(|error| wrap(error.into_error()))?;
+        allow_reading(file.as_file()).map_err(wrap)?;
+        file.persist(&path).map_err(|error| wrap(error.error))?;
+        Ok(())
+    }
+}
+
+/// Temporary files are private; the finished one is an ordinary file.
+#[cfg(unix)]
+fn allow_reading(file: &File) -> io::Result<()> {
+    use std::os::unix::fs::PermissionsExt;
+    file.set_permissions(std::fs::Permissions::from_mode(0o644))
+}
+
+#[cfg(not(unix))]
+fn allow_reading(_file: &File) -> io::Result<()> {
+    Ok(())
+}
+
+impl Write for Unfinished {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.writer.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.writer.flush()
+    }
+}
+
+/// Writes a whole text file.
+pub fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
+    let mut file = Unfinished::create(path)?;
+    file.write_all(text.as_bytes()).map_err(|error| Failure::of_file("write", path, error))?;
+    file.finish()
+}
+
+/// The files that paths mean: a file is itself, a folder all files below it with one of the extensions, by name.
+pub fn collect(paths: &[PathBuf], extensions: &[&str]) -> Result<Vec<PathBuf>, Failure> {
+    let mut files = Vec::new();
+    for path in paths {
+        if path.is_dir() {
+            let before = files.len();
+            collect_folder(path, extensions, &mut files)?;
+            if files.len() == before {
+                let wanted: Vec<_> = extensions.iter().map(|extension| format!("*.{extension}")).collect();
+                return Err(Failure::usage(format!("{} holds no {}", path.display(), wanted.join(" nor "))));
+            }
+        } else {
+            files.push(path.clone());
+        }
+    }
+    Ok(files)
+}
+
+fn collect_folder(folder: &Path, extensions: &[&str], files: &mut Vec<PathBuf>) -> Result<(), Failure> {
+    let wrap = |error| Failure::of_file("read", folder, error);
+    let entries = std::fs::read_dir(folder).map_err(wrap)?;
+    let mut paths =
+        entries.map(|entry| entry.map(|entry| entry.path())).collect::<io::Result<Vec<_>>>().map_err(wrap)?;
+    paths.sort();
+    for path in paths {
+        // A link to a folder may lead back here.
+        if path.is_dir() && !path.is_symlink() {
+            collect_folder(&path, extensions, files)?;
+        } else if path.extension().is_some_and(|found| extensions.iter().any(|extension| found == *extension)) {
+            files.push(path);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,52 @@
+//! The `--max-…` options: what a model may take before it is told so.
+
+use clap::Args;
+
+/// Limits, with the defaults of [`machine::Limits`].
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Limits")]
+pub struct Limits {
+    /// Largest file that is read, in bytes
+    #[arg(long, global = true, value_name = "BYTES", default_value_t = 16 << 20, hide_short_help = true)]
+    pub max_file_size: u64,
+    /// Rounds of while, whilerec and iterate in one step, all together
+    #[arg(long, global = true, value_name = "N", default_value_t = machine::Limits::default().iterations, hide_short_help = true)]
+    max_iterations: u64,
+    /// Calls of rules and functions inside each other
+    #[arg(long, global = true, value_name = "N", default_value_t = machine::Limits::default().call_depth, hide_short_help = true)]
+    max_depth: u64,
+    /// Elements of one collection, enumeration or choice
+    #[arg(long, global = true, value_name = "N", default_value_t = machine::Limits::default().collection, hide_short_help = true)]
+    max_collection: u64,
+    /// Updates in one step
+    #[arg(long, global = true, value_name = "N", default_value_t = machine::Limits::default().updates, hide_short_help = true)]
+    max_updates: u64,
+    /// Locations that have a value, and elements made by extend
+    #[arg(long, global = true, value_name = "N", default_value_t = machine::Limits::default().locations, hide_short_help = true)]
+    max_locations: u64,
+}
+
+impl Limits {
+    /// The machine's part.
+    pub fn machine(&self) -> machine::Limits {
+        machine::Limits {
+            iterations: self.max_iterations,
+            call_depth: self.max_depth,
+            collection: self.max_collection,
+            updates: self.max_updates,
+            locations: self.max_locations,
+        }
+    }
+
+    /// The option that raises a limit of the machine.
+    pub fn option_for(limit: &str) -> Option<&'static str> {
+        match limit {
+            "iterations" => Some("--max-iterations"),
+            "call depth" | "call_depth" | "calls" | "depth" => Some("--max-depth"),
+            "collection" | "elements" => Some("--max-collection"),
+            "updates" => Some("--max-updates"),
+            "locations" => Some("--max-locations"),
+            _ => None,
+        }
+    }
+}

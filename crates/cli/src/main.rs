@@ -1,0 +1,124 @@
+//! The `groundstate` command: arguments in, exit code out.
+//!
+//! One file a command; each takes its arguments and a [`Shell`](shell::Shell) and gives an [`Exit`](exit::Exit).
+//! Shells do all I/O: files, terminal, clock and signals are touched in this crate and nowhere below it. The work
+//! runs on a thread with a large stack, a second belt beside the limits of the crates below.
+
+#![allow(
+    clippy::disallowed_methods,
+    clippy::disallowed_macros,
+    reason = "a shell: files, clock, environment and printing are its work"
+)]
+
+mod bench;
+mod check;
+mod coverage;
+mod dump;
+mod exit;
+mod explain;
+mod failure;
+mod files;
+mod fmt;
+mod inputs;
+mod interrupt;
+mod junit;
+mod limits;
+mod load;
+mod narrate;
+mod progress;
+mod render;
+mod replay;
+mod run;
+mod shell;
+mod test;
+mod tracefile;
+mod wire;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::shell::{Global, Shell};
+
+/// Checks, runs and tests Abstract State Machines written in AsmetaL.
+#[derive(Debug, Parser)]
+#[command(name = "groundstate", version, max_term_width = 100, after_help = EXIT_CODES)]
+struct Arguments {
+    #[command(flatten)]
+    global: Global,
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXIT_CODES: &str = "Exit codes: 0 good; 1 the model is at fault, an invariant is violated or a scenario fails; \
+                          2 wrong usage or the world (a missing file); 3 not known (interrupted).";
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Report the faults of models and scenarios, run nothing
+    Check(check::Arguments),
+    /// Run a model
+    Run(Box<run::Arguments>),
+    /// Run scenarios and report which fail
+    Test(test::Arguments),
+    /// Run a recorded trace again and compare
+    Replay(replay::Arguments),
+    /// Show what a stage hands to the next
+    Dump(dump::Arguments),
+    /// Explain a kind of fault by its name
+    Explain(explain::Arguments),
+    /// Measure steps per second and memory
+    Bench(bench::Arguments),
+    /// Format files
+    Fmt(fmt::Arguments),
+}
+
+/// The size of the working thread's stack.
+const STACK_BYTES: usize = 256 << 20;
+
+fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version are no failures and go to stdout; clap knows which is which.
+            let code = if error.use_stderr() { Exit::World } else { Exit::Good };
+            let _ = error.print();
+            return code.into();
+        }
+    };
+    let worker = std::thread::Builder::new().name("groundstate".to_string()).stack_size(STACK_BYTES);
+    match worker.spawn(move || work(arguments)).map(std::thread::JoinHandle::join) {
+        Ok(Ok(exit)) => exit.into(),
+        // A panic is our bug; its message is printed already.
+        Ok(Err(_)) => ExitCode::from(101),
+        Err(error) => {
+            eprintln!("error: cannot start: {error}");
+            Exit::World.into()
+        }
+    }
+}
+
+fn work(arguments: Arguments) -> Exit {
+    let mut shell = Shell::new(arguments.global);
+    let outcome = match arguments.command {
+        Command::Check(arguments) => check::run(&mut shell, &arguments),
+        Command::Run(arguments) => run::run(&mut shell, &arguments),
+        Command::Test(arguments) => test::run(&mut shell, &arguments),
+        Command::Replay(arguments) => replay::run(&mut shell, &arguments),
+        Command::Dump(arguments) => dump::run(&mut shell, &arguments),
+        Command::Explain(arguments) => explain::run(&mut shell, &arguments),
+        Command::Bench(arguments) => bench::run(&mut shell, &arguments),
+        Command::Fmt(arguments) => fmt::run(&mut shell, &arguments),
+    };
+    let outcome = outcome.and_then(|exit| shell.flush().map(|()| exit));
+    outcome.unwrap_or_else(|failure| match failure {
+        // Whoever read our output has seen enough.
+        Failure::BrokenPipe => Exit::Good,
+        failure => {
+            shell.report_failure(&failure);
+            Exit::World
+        }
+    })
+}

@@ -1,0 +1,165 @@
+//! A run as text for people: what came in, what was chosen, what changed.
+//!
+//! INVARIANT: what is written depends on the records alone, so that a replay writes the same bytes.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+
+use clap::ValueEnum;
+use groundstate::simulate::{ChoiceMade, End, Record, StepRecord};
+use machine::{Location, Machine, Show, Value};
+use program::Program;
+use syntax::Span;
+
+use crate::check::plural;
+
+/// How much of the state is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Detail {
+    /// The whole state after every step
+    All,
+    /// The initial state, then what changed
+    Changed,
+    /// Only how the run ended
+    None,
+}
+
+/// Writes records.
+pub struct Narrator<'a> {
+    pub detail: Detail,
+    pub color: bool,
+    pub program: &'a Program,
+    /// The variables that each choose rule binds, by its place.
+    pub binders: BTreeMap<Span, Vec<String>>,
+    pub until: Option<String>,
+}
+
+const BOLD: &str = "\x1b[1m";
+const DIM: &str = "\x1b[2m";
+const CYAN: &str = "\x1b[36m";
+const GREEN: &str = "\x1b[32m";
+const RED: &str = "\x1b[31m";
+const RESET: &str = "\x1b[0m";
+
+impl Narrator<'_> {
+    /// Writes a record; the machine is in the state after it.
+    pub fn record(&self, out: &mut impl Write, record: &Record, machine: &Machine) -> io::Result<()> {
+        if self.detail == Detail::None && !matches!(record, Record::End(_)) {
+            return Ok(());
+        }
+        match record {
+            Record::Initial { inputs, values, violations, .. } => {
+                writeln!(out, "{}", self.paint(BOLD, "state 0"))?;
+                self.values(out, "in", CYAN, inputs)?;
+                self.values(out, "", "", values)?;
+                self.violations(out, violations)
+            }
+            Record::Step(step) => {
+                writeln!(out, "{}", self.paint(BOLD, &format!("step {}", step.step)))?;
+                self.taken(out, step)?;
+                self.changes(out, step, machine)?;
+                self.violations(out, &step.violations)
+            }
+            Record::Attempt(step) => {
+                writeln!(out, "{}", self.paint(BOLD, &format!("step {}, not made", step.step)))?;
+                self.taken(out, step)?;
+                self.violations(out, &step.violations)
+            }
+            Record::Back { step } => writeln!(out, "{}", self.paint(DIM, &format!("back to before step {step}"))),
+            Record::End(end) => {
+                let steps = plural(machine.steps() as usize, "step");
+                writeln!(out, "{} {}", self.paint(BOLD, &format!("end after {steps}:")), self.reason(end, machine))
+            }
+        }
+    }
+
+    /// What a step took from outside.
+    fn taken(&self, out: &mut impl Write, step: &StepRecord) -> io::Result<()> {
+        self.values(out, "in", CYAN, &step.inputs)?;
+        self.values(out, "in", CYAN, &step.writes)?;
+        for choice in &step.choices {
+            writeln!(out, "  {} {}", self.paint(CYAN, "choose"), self.choice(choice))?;
+        }
+        Ok(())
+    }
+
+    fn choice(&self, choice: &ChoiceMade) -> String {
+        let values: Vec<String> = choice.values.iter().map(|value| value.show(self.program).to_string()).collect();
+        let shown = match self.binders.get(&choice.span) {
+            Some(names) if names.len() == values.len() => {
+                let pairs: Vec<String> =
+                    names.iter().zip(&values).map(|(name, value)| format!("{name} = {value}")).collect();
+                pairs.join(", ")
+            }
+            _ => values.join(", "),
+        };
+        format!("{shown} ({} of {})", choice.index + 1, choice.of)
+    }
+
+    fn changes(&self, out: &mut impl Write, step: &StepRecord, machine: &Machine) -> io::Result<()> {
+        if self.detail == Detail::All {
+            let changed: Vec<&Location> = step.changes.iter().map(|change| &change.location).collect();
+            for (location, value) in machine.locations() {
+                let color = if changed.contains(&&location) { GREEN } else { "" };
+                self.value(out, "", color, &location, &value)?;
+            }
+            return Ok(());
+        }
+        for change in &step.changes {
+            let (before, after) = (change.before.show(self.program), change.after.show(self.program));
+            let location = change.location.show(self.program);
+            writeln!(
+                out,
+                "  {location}: {before} {} {}",
+                self.paint(DIM, "->"),
+                self.paint(GREEN, &after.to_string())
+            )?;
+        }
+        if step.changes.is_empty() {
+            let what = match (step.updates, step.changed) {
+                (0, false) => "no updates",
+                (_, false) => "no change",
+                // A domain grew.
+                (_, true) => "new elements only",
+            };
+            writeln!(out, "  {}", self.paint(DIM, what))?;
+        }
+        Ok(())
+    }
+
+    fn values(&self, out: &mut impl Write, word: &str, color: &str, values: &[(Location, Value)]) -> io::Result<()> {
+        values.iter().try_for_each(|(location, value)| self.value(out, word, color, location, value))
+    }
+
+    fn value(&self, out: &mut impl Write, word: &str, color: &str, at: &Location, value: &Value) -> io::Result<()> {
+        let line = format!("{} = {}", at.show(self.program), value.show(self.program));
+        match word {
+            "" => writeln!(out, "  {}", self.paint(color, &line)),
+            word => writeln!(out, "  {} {line}", self.paint(color, word)),
+        }
+    }
+
+    fn violations(&self, out: &mut impl Write, violations: &[groundstate::simulate::Violation]) -> io::Result<()> {
+        let word = self.paint(RED, "violated");
+        violations.iter().try_for_each(|violation| writeln!(out, "  {word} {}", violation.name))
+    }
+
+    fn reason(&self, end: &End, machine: &Machine) -> String {
+        let until = self.until.as_deref().unwrap_or("the condition");
+        match end {
+            End::Steps if self.until.is_some() => format!("`{until}` did not hold within them"),
+            End::Steps => "as many as asked for".to_string(),
+            End::Empty => "the update set is empty".to_string(),
+            End::Trivial => "nothing changes any more".to_string(),
+            End::Until => format!("`{until}` holds"),
+            End::Violation => self.paint(RED, "an invariant does not hold"),
+            End::Fault(_) => self.paint(RED, &format!("step {} cannot be made", machine.steps() + 1)),
+            End::Interrupted => "interrupted".to_string(),
+            End::Quit => "stopped at the prompt".to_string(),
+        }
+    }
+
+    fn paint(&self, color: &str, text: &str) -> String {
+        if self.color && !color.is_empty() { format!("{color}{text}{RESET}") } else { text.to_string() }
+    }
+}

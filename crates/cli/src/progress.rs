@@ -1,0 +1,56 @@
+//! Progress of a long run, on stderr, only on a terminal, only after a moment.
+
+use std::io::IsTerminal;
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+/// A bar that may never appear.
+pub struct Progress {
+    began: Instant,
+    total: Option<u64>,
+    bar: Option<ProgressBar>,
+    wanted: bool,
+}
+
+/// Shorter runs show nothing.
+const PATIENCE: Duration = Duration::from_millis(700);
+
+impl Progress {
+    /// For so many steps, if that is known; `busy` says that the terminal is used for something else.
+    pub fn new(total: Option<u64>, busy: bool) -> Progress {
+        Progress { began: Instant::now(), total, bar: None, wanted: !busy && std::io::stderr().is_terminal() }
+    }
+
+    /// So many steps are made; cheap enough to be called every step.
+    pub fn at(&mut self, steps: u64) {
+        if !self.wanted || steps % 256 != 0 {
+            return;
+        }
+        if self.bar.is_none() && self.began.elapsed() > PATIENCE {
+            self.bar = Some(bar(self.total));
+        }
+        if let Some(bar) = &self.bar {
+            bar.set_position(steps);
+        }
+    }
+
+    /// Removes the bar.
+    pub fn done(&mut self) {
+        if let Some(bar) = self.bar.take() {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+fn bar(total: Option<u64>) -> ProgressBar {
+    let (bar, template) = match total {
+        Some(total) => (ProgressBar::new(total), "{wide_bar} {human_pos}/{human_len} steps, {per_sec}, {eta} left"),
+        None => (ProgressBar::no_length(), "{spinner} {human_pos} steps, {per_sec}, {elapsed}"),
+    };
+    bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(10));
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    bar
+}

@@ -1,0 +1,163 @@
+//! What every command shares: the global options and where output goes.
+//!
+//! Text: results on stdout, faults and failures on stderr. JSON: everything on stdout, one object a line, in order.
+
+use std::io::{self, BufWriter, IsTerminal, Write};
+
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+use syntax::{Diagnostic, Sources};
+
+use crate::failure::Failure;
+use crate::files::Disk;
+use crate::limits::Limits;
+use crate::render;
+
+/// Options of every command.
+#[derive(Debug, Clone, Args)]
+pub struct Global {
+    /// How results and faults are written
+    #[arg(long, global = true, value_enum, default_value_t = Format::Text)]
+    pub format: Format,
+    /// When to colour the output
+    #[arg(long, global = true, value_enum, default_value_t = Color::Auto)]
+    pub color: Color,
+    /// Write faults only
+    #[arg(long, short, global = true)]
+    pub quiet: bool,
+    #[command(flatten)]
+    pub limits: Limits,
+}
+
+/// How results are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// For people
+    Text,
+    /// One JSON object a line
+    Json,
+}
+
+/// When to colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Color {
+    /// On a terminal, unless NO_COLOR is set
+    Auto,
+    /// Always
+    Always,
+    /// Never
+    Never,
+}
+
+/// Output and options.
+#[derive(Debug)]
+pub struct Shell {
+    pub global: Global,
+    out: BufWriter<io::Stdout>,
+    color_out: bool,
+    color_err: bool,
+}
+
+/// At most so many faults are shown at once.
+const SHOWN: usize = 100;
+
+impl Shell {
+    pub fn new(global: Global) -> Shell {
+        let wanted = |terminal: bool| match global.color {
+            Color::Always => true,
+            Color::Never => false,
+            Color::Auto => {
+                terminal
+                    && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+                    && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
+            }
+        };
+        let (color_out, color_err) = (wanted(io::stdout().is_terminal()), wanted(io::stderr().is_terminal()));
+        Shell { global, out: BufWriter::with_capacity(1 << 16, io::stdout()), color_out, color_err }
+    }
+
+    pub fn json(&self) -> bool {
+        self.global.format == Format::Json
+    }
+
+    /// Results for people are wanted.
+    pub fn talks(&self) -> bool {
+        !self.json() && !self.global.quiet
+    }
+
+    pub fn color_out(&self) -> bool {
+        self.color_out
+    }
+
+    pub fn disk(&self) -> Disk {
+        Disk { limit: self.global.limits.max_file_size }
+    }
+
+    /// Where results go.
+    pub fn out(&mut self) -> &mut impl Write {
+        &mut self.out
+    }
+
+    pub fn flush(&mut self) -> Result<(), Failure> {
+        Ok(self.out.flush()?)
+    }
+
+    /// Writes an object on its own line.
+    pub fn object(&mut self, object: &impl Serialize) -> Result<(), Failure> {
+        write_object(&mut self.out, object)
+    }
+
+    /// Writes faults, the first hundred of them.
+    pub fn diagnostics(&mut self, sources: &Sources, diagnostics: &[Diagnostic]) -> Result<(), Failure> {
+        for diagnostic in diagnostics.iter().take(SHOWN) {
+            self.diagnostic(sources, diagnostic)?;
+        }
+        if diagnostics.len() > SHOWN {
+            let more = diagnostics.len() - SHOWN;
+            if self.json() {
+                self.object(&serde_json::json!({ "type": "more", "faults": more }))?;
+            } else {
+                self.note(&format!("and {more} more"))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes one fault.
+    pub fn diagnostic(&mut self, sources: &Sources, diagnostic: &Diagnostic) -> Result<(), Failure> {
+        if self.json() {
+            return self.object(&crate::wire::Fault::new(sources, diagnostic));
+        }
+        // Results written before the fault come before it on a terminal, too.
+        self.out.flush()?;
+        let text = render::diagnostic(sources, diagnostic, self.color_err);
+        writeln!(io::stderr(), "{text}\n")?;
+        Ok(())
+    }
+
+    /// Writes a remark on stderr.
+    pub fn note(&mut self, text: &str) -> Result<(), Failure> {
+        self.out.flush()?;
+        writeln!(io::stderr(), "{text}")?;
+        Ok(())
+    }
+
+    /// Writes a failure; there is nobody left to tell if that fails.
+    pub fn report_failure(&mut self, failure: &Failure) {
+        if self.json() {
+            let object = crate::wire::WorldFailure::new(failure);
+            let _ = write_object(&mut self.out, &object);
+            let _ = self.out.flush();
+            return;
+        }
+        let _ = self.out.flush();
+        let _ = writeln!(io::stderr(), "{}", render::failure(failure, self.color_err));
+    }
+}
+
+/// An object on its own line.
+pub fn write_object(out: &mut impl Write, object: &impl Serialize) -> Result<(), Failure> {
+    serde_json::to_writer(&mut *out, object).map_err(|error| Failure::from(io::Error::from(error)))?;
+    out.write_all(b"\n")?;
+    Ok(())
+}

@@ -1,0 +1,52 @@
+//! A trace file being written. It has its name only when the run has ended; a step taken back leaves no line.
+
+use std::path::{Path, PathBuf};
+
+use crate::failure::Failure;
+use crate::files::Unfinished;
+use crate::shell::write_object;
+use crate::wire::Line;
+
+/// See the module.
+pub struct TraceFile {
+    path: PathBuf,
+    file: Unfinished,
+    /// At a prompt lines are held back, since a step may be taken back.
+    held: Option<Vec<Line>>,
+}
+
+impl TraceFile {
+    pub fn create(path: &Path, interactive: bool) -> Result<Self, Failure> {
+        Ok(TraceFile { path: path.to_path_buf(), file: Unfinished::create(path)?, held: interactive.then(Vec::new) })
+    }
+
+    pub fn write(&mut self, line: &Line) -> Result<(), Failure> {
+        match (&mut self.held, line) {
+            (None, line) => put(&mut self.file, &self.path, line),
+            (Some(held), Line::Back { .. }) => {
+                if matches!(held.last(), Some(Line::Step(_))) {
+                    held.pop();
+                }
+                Ok(())
+            }
+            (Some(held), line) => {
+                held.push(line.clone());
+                Ok(())
+            }
+        }
+    }
+
+    pub fn finish(mut self) -> Result<(), Failure> {
+        for line in self.held.take().into_iter().flatten() {
+            put(&mut self.file, &self.path, &line)?;
+        }
+        self.file.finish()
+    }
+}
+
+fn put(file: &mut Unfinished, path: &Path, line: &Line) -> Result<(), Failure> {
+    write_object(file, line).map_err(|failure| match failure {
+        Failure::Output(error) => Failure::of_file("write", path, error),
+        other => other,
+    })
+}

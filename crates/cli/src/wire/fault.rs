@@ -1,0 +1,96 @@
+//! Faults and failures as JSON objects.
+
+use serde::Serialize;
+use syntax::{Diagnostic, Severity, Sources, Span};
+
+use crate::failure::Failure;
+
+/// A range of a source text; lines and columns count from 1, columns in characters, the end is the first
+/// character behind the range.
+#[derive(Debug, Serialize)]
+pub struct Place {
+    file: String,
+    line: u32,
+    column: u32,
+    end_line: u32,
+    end_column: u32,
+}
+
+impl Place {
+    pub fn new(sources: &Sources, span: Span) -> Place {
+        let file = sources.file(span.file);
+        let (start, end) = (file.line_column(span.start), file.line_column(span.end));
+        Place {
+            file: file.name.clone(),
+            line: start.line,
+            column: start.column,
+            end_line: end.line,
+            end_column: end.column,
+        }
+    }
+}
+
+#[derive(Debug, Serialize)]
+struct Label<'a> {
+    #[serde(flatten)]
+    place: Place,
+    text: &'a str,
+}
+
+/// `{"type":"fault",…}`
+#[derive(Debug, Serialize)]
+pub struct Fault<'a> {
+    r#type: &'static str,
+    id: &'static str,
+    severity: &'static str,
+    message: &'a str,
+    #[serde(flatten)]
+    place: Place,
+    reason: &'a str,
+    labels: Vec<Label<'a>>,
+    help: Option<&'a str>,
+}
+
+impl<'a> Fault<'a> {
+    pub fn new(sources: &Sources, diagnostic: &'a Diagnostic) -> Fault<'a> {
+        let label = |label: &'a syntax::Label| Label { place: Place::new(sources, label.span), text: &label.text };
+        Fault {
+            r#type: "fault",
+            id: diagnostic.id,
+            severity: match diagnostic.severity {
+                Severity::Error => "error",
+                Severity::Warning => "warning",
+                Severity::Note => "note",
+            },
+            message: &diagnostic.message,
+            place: Place::new(sources, diagnostic.primary.span),
+            reason: &diagnostic.primary.text,
+            labels: diagnostic.secondary.iter().map(label).collect(),
+            help: diagnostic.help.as_deref(),
+        }
+    }
+}
+
+/// `{"type":"failure",…}`: not the model's.
+#[derive(Debug, Serialize)]
+pub struct WorldFailure {
+    r#type: &'static str,
+    id: &'static str,
+    message: String,
+    help: Option<String>,
+}
+
+impl WorldFailure {
+    pub fn new(failure: &Failure) -> Self {
+        WorldFailure { r#type: "failure", id: failure.id(), message: failure.to_string(), help: failure.help() }
+    }
+}
+
+/// `{"type":"summary",…}`: the last object of `check`.
+#[derive(Debug, Serialize)]
+pub struct Summary {
+    pub r#type: &'static str,
+    pub files: usize,
+    pub errors: usize,
+    pub warnings: usize,
+}

@@ -1,0 +1,7 @@
+//! Wire types: what is written as JSON, and read back. Versioned; documented in docs/cli.md and spec/trace.md.
+
+mod fault;
+mod trace;
+
+pub use fault::{Fault, Place, Summary, WorldFailure};
+pub use trace::{Line, Reader, Wire};

@@ -1,0 +1,97 @@
+//! The whole flow in one place: text → checked model → program → a run, a verdict.
+//!
+//! In: the root file's text and a [`model::Loader`] that finds the others. Out: what each stage hands over, with all
+//! faults as [`syntax::Diagnostic`]s, run-time ones included. Shells build on this crate and on nothing else below
+//! it but the types; it must not know files, terminals or wire formats.
+
+mod diagnose;
+mod fingerprint;
+
+use std::collections::BTreeMap;
+
+use model::{Checked, Loader, Model};
+use program::{Expression, Program, Rule, RuleId};
+use syntax::{Diagnostic, Severity, SourceFile, Sources, Span};
+
+pub use diagnose::{diagnose_fault, diagnose_violation};
+pub use fingerprint::fingerprint;
+pub use {scenario, simulate};
+
+/// A model that is ready to run.
+#[derive(Debug, Clone)]
+pub struct Loaded {
+    /// All texts read.
+    pub sources: Sources,
+    /// The checked model.
+    pub model: Model,
+    /// What the machine runs.
+    pub program: Program,
+    /// Warnings and notes.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// What is wrong with a text that cannot be used.
+#[derive(Debug, Clone)]
+pub struct Faulty {
+    /// All texts read.
+    pub sources: Sources,
+    /// The faults, at least one of them an error.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Checks a model.
+pub fn check(root: SourceFile, loader: &mut dyn Loader) -> Checked {
+    model::check(root, loader)
+}
+
+/// Whether any of these stops the flow.
+pub fn has_errors(diagnostics: &[Diagnostic]) -> bool {
+    diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
+}
+
+/// Checks a model and lowers it.
+///
+/// # Errors
+/// The model has errors.
+pub fn load(root: SourceFile, loader: &mut dyn Loader) -> Result<Loaded, Box<Faulty>> {
+    let Checked { sources, model, diagnostics } = check(root, loader);
+    if has_errors(&diagnostics) {
+        return Err(Box::new(Faulty { sources, diagnostics }));
+    }
+    match program::lower(&model) {
+        Ok(program) => Ok(Loaded { sources, model, program, diagnostics }),
+        Err(faults) => Err(Box::new(Faulty { sources, diagnostics: faults })),
+    }
+}
+
+impl Loaded {
+    /// A term over the model, such as that of `--until`, as a program that also holds it.
+    ///
+    /// # Errors
+    /// The faults of the text.
+    pub fn term(&mut self, name: &str, text: &str) -> Result<Expression, Vec<Diagnostic>> {
+        todo!()
+    }
+}
+
+/// Checks a scenario, and the model that it loads.
+pub fn check_scenario(root: SourceFile, loader: &mut dyn Loader) -> Checked {
+    todo!()
+}
+
+/// The variables that each choose rule binds, by the rule's place.
+pub fn choice_variables(program: &Program) -> BTreeMap<Span, Vec<String>> {
+    let mut found = BTreeMap::new();
+    for procedure in &program.procedures {
+        let mut open: Vec<RuleId> = vec![procedure.body];
+        while let Some(id) = open.pop() {
+            if let Rule::Choose { binders, .. } = program.rule(id) {
+                let slots = program.binder_list(*binders).iter().map(|binder| binder.slot.0 as usize);
+                let names = slots.map(|slot| procedure.names[slot].clone()).collect();
+                found.insert(program.rule_span(id), names);
+            }
+            program.each_child_of_rule(id, &mut |child| open.push(child));
+        }
+    }
+    found
+}

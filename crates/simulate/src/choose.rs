@@ -1,0 +1,81 @@
+//! The policy for choices: which candidate a `choose` rule or a `chooseone` takes.
+
+use std::cell::RefCell;
+use std::collections::VecDeque;
+use std::rc::Rc;
+
+use machine::{Choice, Value};
+use program::Program;
+use syntax::Span;
+
+use crate::random::{SplitMix, StableHash};
+
+/// A choice as it was made.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ChoiceMade {
+    /// The choose rule or the term.
+    pub span: Span,
+    /// How many candidates there were.
+    pub of: usize,
+    /// Which was taken, from 0.
+    pub index: usize,
+    /// The values of the variables bound.
+    pub values: Vec<Value>,
+}
+
+/// The choices of one recorded step that are still to be made: how many candidates, which was taken.
+pub(crate) type Played = Rc<RefCell<VecDeque<(usize, usize)>>>;
+
+/// How choices are made.
+#[derive(Debug, Clone)]
+pub enum Choices {
+    /// Always the first candidate, in canonical order.
+    First,
+    /// Each candidate as likely as the others.
+    Random {
+        /// The seed.
+        seed: u64,
+        /// The step being made.
+        step: u64,
+        /// How many choices the step has made so far.
+        made: u64,
+    },
+    /// As a trace has it: how many candidates there were and which was taken, in the order of the step.
+    Recorded(Played),
+}
+
+impl Choices {
+    /// Random choices from a seed.
+    pub fn random(seed: u64) -> Self {
+        Choices::Random { seed, step: 0, made: 0 }
+    }
+
+    pub(crate) fn begin(&mut self, now: u64) {
+        if let Choices::Random { step, made, .. } = self {
+            *step = now;
+            *made = 0;
+        }
+    }
+
+    /// Makes a choice. An error is a sentence for the user.
+    pub(crate) fn choose(&mut self, _program: &Program, choice: &Choice<'_>) -> Result<usize, String> {
+        match self {
+            Choices::First => Ok(0),
+            Choices::Random { seed, step, made } => {
+                use std::hash::Hasher;
+                let mut key = StableHash::new().text("choose");
+                key.write(&made.to_le_bytes());
+                *made += 1;
+                let mut stream = SplitMix::stream(*seed, *step, key.finish());
+                Ok(stream.below(choice.candidates() as u64) as usize)
+            }
+            Choices::Recorded(recorded) => match recorded.borrow_mut().pop_front() {
+                Some((of, index)) if of == choice.candidates() => Ok(index),
+                Some((of, _)) => {
+                    Err(format!("the trace chose among {of} candidates here, now there are {}", choice.candidates()))
+                }
+                None => Err("the trace made no choice here".to_string()),
+            },
+        }
+    }
+}

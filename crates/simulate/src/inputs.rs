@@ -1,0 +1,206 @@
+//! Where a run takes its inputs, choices and clock from.
+//!
+//! [`Inputs`] is the machine's [`Environment`]: layers of [`Source`]s, the first that has a value for a location
+//! gives it; a policy for choices; a clock. It notes what it gave, so that the run's record is complete.
+
+use machine::{Choice, Environment, Location, Machine, TimeUnit, Value};
+use program::{DomainId, Program};
+
+use crate::choose::{ChoiceMade, Choices};
+use crate::clock::{Clock, StepClock};
+use crate::draw::Carriers;
+
+/// A question for an input.
+#[derive(Debug)]
+pub struct Ask<'a> {
+    /// The program.
+    pub program: &'a Program,
+    /// The step that is being made, from 1; 0 while the initial state is set.
+    pub step: u64,
+    /// What is asked for.
+    pub location: &'a Location,
+    /// The domain of its values.
+    pub codomain: DomainId,
+    /// It is the clock of a time library: whoever has no value for it by name leaves it to the run's clock.
+    pub clock: bool,
+    /// The elements of the domains that inputs range over.
+    pub carriers: &'a Carriers,
+}
+
+/// One source of input values.
+pub trait Source {
+    /// The value, or none if this source has none and the next layer is to be asked. An error is a sentence for
+    /// the user and ends the run.
+    fn input(&mut self, ask: &Ask<'_>) -> Result<Option<Value>, String>;
+
+    /// Values that the environment writes to shared locations before a step.
+    fn writes(&mut self, _step: u64) -> Vec<(Location, Value)> {
+        Vec::new()
+    }
+
+    /// After an error: what the user wanted instead of giving a value.
+    fn signal(&mut self) -> Option<Signal> {
+        None
+    }
+
+    /// The step is over: it counted, or (stepping back) it is to be asked again.
+    fn after_step(&mut self, _step: u64, _back: bool) {}
+}
+
+/// What a user at a prompt may want instead of giving a value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Signal {
+    /// To take the last step back.
+    Back,
+    /// To end the run.
+    Quit,
+}
+
+/// The environment of a run.
+pub struct Inputs {
+    layers: Vec<Box<dyn Source>>,
+    choices: Choices,
+    clock: Box<dyn Clock>,
+    carriers: Carriers,
+    pub(crate) step: u64,
+    pub(crate) chosen: Vec<ChoiceMade>,
+    pub(crate) times: Vec<(TimeUnit, i64)>,
+    pub(crate) keep: bool,
+    pub(crate) signal: Option<Signal>,
+}
+
+impl std::fmt::Debug for Inputs {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Inputs").field("layers", &self.layers.len()).field("choices", &self.choices).finish()
+    }
+}
+
+impl Default for Inputs {
+    fn default() -> Self {
+        Inputs::new()
+    }
+}
+
+impl Inputs {
+    /// No source at all: an input that is asked for is an error; the first candidate is chosen.
+    pub fn new() -> Self {
+        Inputs {
+            layers: Vec::new(),
+            choices: Choices::First,
+            clock: Box::new(StepClock::default()),
+            carriers: Carriers::default(),
+            step: 0,
+            chosen: Vec::new(),
+            times: Vec::new(),
+            keep: true,
+            signal: None,
+        }
+    }
+
+    /// Adds a source, to be asked after those already there.
+    pub fn with(mut self, source: impl Source + 'static) -> Self {
+        self.layers.push(Box::new(source));
+        self
+    }
+
+    /// Sets the policy for choices.
+    pub fn choosing(mut self, choices: Choices) -> Self {
+        self.choices = choices;
+        self
+    }
+
+    /// Sets the clock.
+    pub fn timed_by(mut self, clock: impl Clock + 'static) -> Self {
+        self.clock = Box::new(clock);
+        self
+    }
+
+    pub(crate) fn prepare(&mut self, machine: &mut Machine) {
+        self.carriers = Carriers::of_inputs(machine.program());
+        self.carriers.fill(machine);
+    }
+
+    /// Begins a step: what was noted of the last one is forgotten, what the environment writes is written.
+    pub(crate) fn begin(&mut self, step: u64, machine: &mut Machine) -> Result<Vec<(Location, Value)>, machine::Fault> {
+        self.step = step;
+        self.chosen.clear();
+        self.times.clear();
+        self.clock.begin(step);
+        self.choices.begin(step);
+        self.carriers.refresh(machine);
+        let mut written: Vec<(Location, Value)> = Vec::new();
+        for layer in &mut self.layers {
+            for (location, value) in layer.writes(step) {
+                if !written.iter().any(|(earlier, _)| *earlier == location) {
+                    machine.set(&location, value.clone())?;
+                    written.push((location, value));
+                }
+            }
+        }
+        Ok(written)
+    }
+
+    pub(crate) fn finish(&mut self, step: u64, back: bool) {
+        for layer in &mut self.layers {
+            layer.after_step(step, back);
+        }
+    }
+}
+
+impl Environment for Inputs {
+    fn monitored(&mut self, program: &Program, location: &Location, codomain: DomainId) -> Result<Value, String> {
+        let time = crate::clock::library_time(program, location);
+        match (self.ask(program, location, codomain, time.is_some())?, time) {
+            (Some(value), _) => Ok(value),
+            (None, Some(time)) => Ok(Value::Integer(time.of(&mut *self.clock)?)),
+            (None, None) if self.step == 0 => {
+                Err(format!("no value is given for {} in the initial state", location.show(program)))
+            }
+            (None, None) => Err(format!("no value is given for {} in step {}", location.show(program), self.step)),
+        }
+    }
+
+    fn choose(&mut self, program: &Program, choice: &Choice<'_>) -> Result<usize, String> {
+        let index = self.choices.choose(program, choice)?;
+        if self.keep {
+            self.chosen.push(ChoiceMade {
+                span: choice.span,
+                of: choice.candidates(),
+                index,
+                values: choice.candidate(index).to_vec(),
+            });
+        }
+        Ok(index)
+    }
+
+    fn time(&mut self, unit: TimeUnit) -> Result<i64, String> {
+        let now = self.clock.now(unit)?;
+        if self.keep && self.times.last() != Some(&(unit, now)) {
+            self.times.push((unit, now));
+        }
+        Ok(now)
+    }
+}
+
+impl Inputs {
+    fn ask(
+        &mut self,
+        program: &Program,
+        location: &Location,
+        codomain: DomainId,
+        clock: bool,
+    ) -> Result<Option<Value>, String> {
+        let ask = Ask { program, step: self.step, location, codomain, clock, carriers: &self.carriers };
+        for layer in &mut self.layers {
+            match layer.input(&ask) {
+                Ok(Some(value)) => return Ok(Some(value)),
+                Ok(None) => {}
+                Err(reason) => {
+                    self.signal = layer.signal();
+                    return Err(reason);
+                }
+            }
+        }
+        Ok(None)
+    }
+}

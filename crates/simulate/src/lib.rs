@@ -1,0 +1,32 @@
+//! Runs: a machine stepped with inputs and choices from somewhere, until something says stop.
+//!
+//! In: a [`program::Program`], [`Inputs`] (layers of sources of input values, a policy for choices, a clock) and
+//! [`Options`]. Out: one [`Record`] at a time from a [`Run`], so that nothing here grows with the number of steps;
+//! the records of a run are its trace, and [`Recorded`] plays one back. It must not know files, terminals or the
+//! real clock: shells hand in what they read, as data or behind [`Source`] and [`Clock`].
+
+mod choose;
+mod clock;
+mod constants;
+mod draw;
+mod inputs;
+mod named;
+mod positional;
+mod random;
+mod read;
+mod recorded;
+mod run;
+mod trace;
+
+pub use choose::{ChoiceMade, Choices};
+pub use clock::{Clock, StepClock};
+pub use constants::Constants;
+pub use draw::{Bounds, Carriers};
+pub use inputs::{Ask, Inputs, Signal, Source};
+pub use named::{Given, Named, Problem, Steps};
+pub use positional::Positional;
+pub use random::{RandomSource, SplitMix};
+pub use read::{Written, expected, read_location, read_value, read_written};
+pub use recorded::{Parted, Recorded};
+pub use run::{Invariants, Options, Run};
+pub use trace::{End, Header, Record, StepRecord, Violation};
