@@ -41,6 +41,8 @@ pub(crate) struct Body<'a> {
     scope: Vec<(String, Meaning)>,
     /// The variables that some update in this declaration writes to.
     pub(crate) updated: BTreeSet<String>,
+    /// The local functions that stand for variables, and what bound those.
+    local_variables: Vec<(FunctionId, Bound)>,
     /// The local functions declared here, the innermost last.
     pub(crate) locals: Vec<(String, FunctionId)>,
     /// The domain of the result, in a turbo rule that declares one.
@@ -54,7 +56,7 @@ pub(crate) struct Body<'a> {
 pub(crate) enum Meaning {
     /// A logical variable: a value.
     Variable(VariableId),
-    /// A `let` variable that is updated in its scope: a local function without arguments.
+    /// A variable that is updated in its scope: a local function without arguments.
     Local(FunctionId),
 }
 
@@ -75,6 +77,7 @@ impl<'a> Body<'a> {
             bound: vec![bound; parameters.len()],
             scope,
             updated: BTreeSet::new(),
+            local_variables: Vec::new(),
             locals: Vec::new(),
             result: None,
             as_environment: false,
@@ -99,9 +102,8 @@ impl<'a> Body<'a> {
         id
     }
 
-    /// Binds a name to a local function from here on.
-    pub(crate) fn bind_local(&mut self, token: &SyntaxToken, codomain: DomainId) -> FunctionId {
-        let (name, span) = (token.text().to_string(), self.site.token_span(token));
+    /// Binds a name to a local function from here on, in the place of a variable bound by `bound`.
+    pub(crate) fn bind_local(&mut self, name: String, codomain: DomainId, span: Span, bound: Bound) -> FunctionId {
         let id = self.site.model.add_function(Function {
             name: name.clone(),
             kind: FunctionKind::Local,
@@ -111,8 +113,14 @@ impl<'a> Body<'a> {
             library: false,
             span,
         });
+        self.local_variables.push((id, bound));
         self.scope.push((name, Meaning::Local(id)));
         id
+    }
+
+    /// What bound the variable that a local function stands for.
+    pub(crate) fn bound_of_local(&self, function: FunctionId) -> Option<Bound> {
+        self.local_variables.iter().find(|(id, _)| *id == function).map(|(_, bound)| *bound)
     }
 
     /// A variable that no text names.

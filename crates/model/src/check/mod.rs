@@ -11,6 +11,7 @@ mod collection;
 mod definition;
 mod init;
 mod literal;
+mod local_state;
 mod property;
 mod rule;
 mod term;
@@ -25,13 +26,14 @@ use crate::domain::{DomainKind, Domains};
 use crate::fault::{self, Faults};
 use crate::imports::{self, Import, Unit};
 use crate::library;
-use crate::model::{Checked, FunctionKind, Loader, Model, RuleId};
+use crate::model::{Checked, FunctionKind, Loader, Model, RuleId, VariableId};
 use crate::names::{Names, Selection};
 use crate::site::{Site, kind_word};
 use crate::suggest::nearest;
 use crate::{declare, macros};
 use body::{Body, Bound};
 use definition::Defined;
+use local_state::UpdatedParameters;
 
 /// Checks a model: reads what it imports, resolves every name, gives every term a domain.
 ///
@@ -48,6 +50,7 @@ pub fn check(root: SourceFile, loader: &mut dyn Loader) -> Checked {
         faults,
         exported: Vec::new(),
         defined: Defined::default(),
+        updated: UpdatedParameters::new(),
     };
     for index in 0..units.len() {
         checker.unit(index);
@@ -66,6 +69,8 @@ struct Checker<'a> {
     /// What each checked unit exports; none without an export clause.
     exported: Vec<Option<Names>>,
     defined: Defined,
+    /// Parameters of macro rules that stand for locations.
+    updated: UpdatedParameters,
 }
 
 impl Checker<'_> {
@@ -202,6 +207,7 @@ impl Checker<'_> {
             definition::function(self.site(names, unit.file), &def, &mut defined);
             self.defined = defined;
         }
+        local_state::add_updated_parameters(rules.iter().map(|(decl, _)| decl), &mut self.updated);
         for (decl, id) in rules {
             self.rule(unit, names, decl, *id);
         }
@@ -215,10 +221,15 @@ impl Checker<'_> {
         let rule = self.model.rule(id);
         let (parameters, result, place) = (rule.variables.clone(), rule.result, Span::new(unit.file, decl.range()));
         let bound = if rule.turbo { Bound::Parameter } else { Bound::MacroParameter };
+        let updated = decl.body().map(|rule| local_state::updated_variables(&rule, &self.updated)).unwrap_or_default();
         let mut body = Body::new(self.site(names, unit.file), &parameters, bound);
         body.result = result;
-        body.updated = decl.body().map(|rule| rule::updated_variables(&rule)).unwrap_or_default();
-        let checked = body.optional_rule(decl.body(), place);
+        body.updated = updated;
+        let by_value: Vec<VariableId> = match bound {
+            Bound::Parameter => (0..parameters.len() as u32).map(VariableId).collect(),
+            _ => Vec::new(),
+        };
+        let checked = body.with_local_state(&by_value, decl.body(), place);
         let variables = body.variables;
         let rule = &mut self.model.rules[id.0 as usize];
         rule.body = checked;

@@ -4,18 +4,16 @@
 //! INVARIANT: safe on any tree, however deep. That macro rules are not recursive, and that location parameters get
 //! locations, is seen only when all rules are known: see `macros.rs`.
 
-use std::collections::BTreeSet;
-
-use syntax::ast::{self, AstNode};
-use syntax::{Span, SyntaxKind};
+use syntax::Span;
+use syntax::ast;
 
 use super::body::{Body, Bound};
 use crate::coerce::can_coerce;
 use crate::domain::{DomainId, DomainKind, Domains};
 use crate::fault;
-use crate::model::{Function, FunctionId, FunctionKind, VariableId};
-use crate::rule::{RuleKind, RuleNode, Target};
-use crate::term::{Term, TermKind};
+use crate::model::{Function, FunctionKind, VariableId};
+use crate::rule::{RuleKind, RuleNode};
+use crate::term::{Binder, Term, TermKind};
 
 impl Body<'_> {
     /// A rule that may be missing after a syntax fault at `place`.
@@ -60,7 +58,7 @@ impl Body<'_> {
                 let mark = self.mark();
                 let binders = self.binders(rule.binders());
                 let condition = rule.condition().map(|c| self.condition(Some(c), span, "the condition of `choose`"));
-                let body = self.boxed(rule.body(), span);
+                let body = Box::new(self.with_local_state(&ranging(&binders), rule.body(), span));
                 self.release(mark);
                 let if_none = rule.if_none().map(|rule| Box::new(self.rule(&rule)));
                 RuleKind::Choose { binders, condition, body, if_none }
@@ -69,7 +67,7 @@ impl Body<'_> {
                 let mark = self.mark();
                 let binders = self.binders(rule.binders());
                 let condition = rule.condition().map(|c| self.condition(Some(c), span, "the condition of `forall`"));
-                let body = self.boxed(rule.body(), span);
+                let body = Box::new(self.with_local_state(&ranging(&binders), rule.body(), span));
                 self.release(mark);
                 RuleKind::Forall { binders, condition, body }
             }
@@ -113,40 +111,6 @@ impl Body<'_> {
         RuleKind::Switch { subject, cases, otherwise }
     }
 
-    /// `let`: variables stand for values, but one that an update writes to is local state: a local function.
-    fn let_rule(&mut self, rule: &ast::LetRule, span: Span) -> RuleKind {
-        let mark = self.mark();
-        let mut wrappers: Vec<Wrapper> = Vec::new();
-        for binding in rule.bindings() {
-            let place = self.site.span(&binding);
-            let term = self.optional_term(binding.term(), place);
-            let Some(token) = binding.variable() else { continue };
-            if self.updated.contains(token.text()) {
-                let function = self.bind_local(&token, term.domain);
-                let target = Target::Location { function, arguments: Vec::new(), span: self.site.token_span(&token) };
-                let first = RuleNode { kind: RuleKind::Update { target, value: term }, span: place };
-                wrappers.push(Wrapper::Local(vec![(function, first)]));
-                continue;
-            }
-            let bound = (self.bind(&token, term.domain, Bound::Let), term);
-            match wrappers.last_mut() {
-                Some(Wrapper::Let(bindings)) => bindings.push(bound),
-                _ => wrappers.push(Wrapper::Let(vec![bound])),
-            }
-        }
-        let body = self.optional_rule(rule.body(), span);
-        self.release(mark);
-        let wrap = |body: RuleNode, wrapper| {
-            let body = Box::new(body);
-            let kind = match wrapper {
-                Wrapper::Let(bindings) => RuleKind::Let { bindings, body },
-                Wrapper::Local(locals) => RuleKind::Local { locals, body },
-            };
-            RuleNode { kind, span }
-        };
-        wrappers.into_iter().rev().fold(body, wrap).kind
-    }
-
     fn extend(&mut self, rule: &ast::ExtendRule, span: Span) -> RuleKind {
         let mark = self.mark();
         let domain = match rule.domain() {
@@ -158,8 +122,9 @@ impl Body<'_> {
             }
             None => Domains::ERROR,
         };
-        let variables = rule.variables().map(|token| self.bind(&token, domain, Bound::Extend)).collect();
-        let body = self.boxed(rule.body(), span);
+        let variables: Vec<VariableId> =
+            rule.variables().map(|token| self.bind(&token, domain, Bound::Extend)).collect();
+        let body = Box::new(self.with_local_state(&variables, rule.body(), span));
         self.release(mark);
         RuleKind::Extend { domain, variables, body }
     }
@@ -279,22 +244,6 @@ impl Body<'_> {
     }
 }
 
-/// What stands around the body of a `let`, from the outside in.
-enum Wrapper {
-    Let(Vec<(VariableId, Term)>),
-    Local(Vec<(FunctionId, RuleNode)>),
-}
-
-/// The variables that updates and turbo returns inside a rule write to.
-pub(crate) fn updated_variables(rule: &ast::Rule) -> BTreeSet<String> {
-    let targets = rule.syntax().descendants().filter_map(|node| match node.kind() {
-        SyntaxKind::UPDATE_RULE => ast::UpdateRule::cast(node)?.target(),
-        SyntaxKind::RETURN_RULE => ast::ReturnRule::cast(node)?.target(),
-        _ => None,
-    });
-    let variables = targets.filter_map(|target| match target {
-        ast::Term::Variable(variable) => variable.token(),
-        _ => None,
-    });
-    variables.map(|token| token.text().to_string()).collect()
+fn ranging(binders: &[Binder]) -> Vec<VariableId> {
+    binders.iter().map(|binder| binder.variable).collect()
 }

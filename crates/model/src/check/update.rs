@@ -105,31 +105,38 @@ impl Body<'_> {
         let token = variable.token()?;
         let term = self.resolve_variable(&token);
         let name = token.text().to_string();
-        let id = match term.kind {
-            TermKind::Variable(id) => id,
+        match term.kind {
             TermKind::Apply { function, .. } => {
                 let declared = self.site.model.function(function).span;
+                self.report_copy(&name, function, term.span, declared);
                 let target = Target::Location { function, arguments: Vec::new(), span: term.span };
-                return Some(Place { target, domain: term.domain, name, declared });
+                Some(Place { target, domain: term.domain, name, declared })
             }
-            _ => return None,
-        };
-        let bound = self.bound[id.0 as usize];
-        let declared = self.variable(id).span;
-        let (what, help) = match bound {
-            Bound::MacroParameter => {
-                return Some(Place { target: Target::Parameter(id, term.span), domain: term.domain, name, declared });
+            TermKind::Variable(id) if self.bound[id.0 as usize] == Bound::MacroParameter => {
+                let declared = self.variable(id).span;
+                Some(Place { target: Target::Parameter(id, term.span), domain: term.domain, name, declared })
             }
-            Bound::Parameter => (
+            TermKind::Variable(_) => {
+                let message = format!("`{name}` is a value, not a location, so it cannot be updated");
+                self.site.faults.push(fault::rule::not_a_location(term.span, &message, None));
+                None
+            }
+            _ => None,
+        }
+    }
+
+    /// Warns where an update of a variable likely means an update of what the variable was taken from.
+    fn report_copy(&mut self, name: &str, function: FunctionId, span: Span, declared: Span) {
+        let (what, help) = match self.bound_of_local(function) {
+            Some(Bound::Range) => ("ranges over values here", "update a function of the variable: `f($x) := …`"),
+            Some(Bound::Extend) => ("a fresh element", "update a function of the variable: `f($x) := …`"),
+            Some(Bound::Parameter) => (
                 "a parameter called by value",
-                "update a function, or make the rule a macro rule and give it a location",
+                "to change what the caller gave, make the rule a macro rule, called with `[]`",
             ),
-            Bound::Let => ("bound to a value here", "update the function itself instead of the variable"),
-            Bound::Range => ("ranges over values here", "update a function of the variable: `f($x) := …`"),
-            Bound::Extend => ("a fresh element", "update a function of the variable: `f($x) := …`"),
+            _ => return,
         };
-        self.site.faults.push(fault::rule::update_of_variable(term.span, &name, declared, what, help));
-        None
+        self.site.faults.push(fault::rule::update_of_variable(span, name, declared, what, help));
     }
 
     fn may_update(&mut self, id: FunctionId, target: &ast::Term) -> bool {

@@ -28,12 +28,15 @@ pub(crate) fn update_not_allowed(
         .with_help(help)
 }
 
-/// An update of a variable that names no location.
+/// An update of a variable that changes nothing but the variable.
 pub(crate) fn update_of_variable(span: Span, name: &str, bound: Span, what: &str, help: &str) -> Diagnostic {
-    Diagnostic::error("update-of-variable", span, format!("`{name}` names no location, so it cannot be updated"))
-        .because("a value, not a location")
-        .with_label(bound, what.to_string())
-        .with_help(help)
+    Diagnostic::warning(
+        "update-of-variable",
+        span,
+        format!("this changes `{name}` for the rest of its scope, and nothing else"),
+    )
+    .with_label(bound, what.to_string())
+    .with_help(help)
 }
 
 /// An update of a term that is no location at all.
