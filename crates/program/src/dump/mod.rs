@@ -138,6 +138,9 @@ impl<'p> Dump<'p> {
     fn optional_expression(&mut self, expression: Option<&'p Expression>) -> Written {
         if let Some(expression) = expression {
             self.names = &expression.names;
+            if !expression.parameters.is_empty() {
+                self.text.push(' ');
+            }
             self.parameters(expression.parameters.len())?;
             self.text.push_str(" = ");
             self.term(expression.body)?;

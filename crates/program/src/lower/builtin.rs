@@ -309,3 +309,41 @@ fn temporal(name: &str, kinds: &[Kind]) -> Option<T> {
         _ => return None,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use model::{FunctionKind, Loader};
+    use syntax::SourceFile;
+
+    use super::*;
+
+    struct NoFiles;
+
+    impl Loader for NoFiles {
+        fn load(&mut self, _importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+            Err(format!("there is no file {path}"))
+        }
+    }
+
+    #[test]
+    fn every_library_function_has_a_meaning() {
+        for library in ["StandardLibrary", "CTLLibrary", "LTLLibrary", "TimeLibrary", "TimeLibrarySimple"] {
+            let text = format!("asm x\nimport {library}\nsignature:\ndefinitions:\nmain rule r_Main = skip\n");
+            let model = model::check(SourceFile::new("x.asm", text), &mut NoFiles).model;
+            let fixed = |function: &&Function| function.kind == FunctionKind::Static && function.definition.is_none();
+            let mut count = 0;
+            for function in model.functions.iter().filter(fixed) {
+                let arity = function.parameters.len();
+                match resolve(&model, function) {
+                    Some(Meaning::Builtin(builtin)) => {
+                        assert!(builtin.arity().is_none_or(|takes| takes == arity), "{} as {builtin:?}", function.name);
+                    }
+                    Some(Meaning::Argument(index)) => assert!(index < arity, "{}", function.name),
+                    other => panic!("{}/{arity} of {library} is {other:?}", function.name),
+                }
+                count += 1;
+            }
+            assert!(count > 0, "{library} is empty");
+        }
+    }
+}

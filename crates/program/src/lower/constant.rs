@@ -48,11 +48,16 @@ impl Lowering<'_, '_> {
         self.term(ir::Term::Constant(index), domain, span)
     }
 
-    /// Where a literal stands in the pool.
+    /// Where a literal stands in the pool. Adding zero keeps a negative zero out.
     pub(super) fn constant_index(&mut self, literal: &Literal) -> u32 {
+        let literal = match literal {
+            Literal::Real(number) => Literal::Real(number + 0.0),
+            Literal::Complex(re, im) => Literal::Complex(re + 0.0, im + 0.0),
+            other => other.clone(),
+        };
         let constants = &mut self.program.constants;
-        *self.constants.entry(ConstantKey::of(literal)).or_insert_with(|| {
-            constants.push(literal.clone());
+        *self.constants.entry(ConstantKey::of(&literal)).or_insert_with(|| {
+            constants.push(literal);
             constants.len() as u32 - 1
         })
     }
@@ -79,12 +84,11 @@ impl Lowering<'_, '_> {
     }
 }
 
-/// Adding zero keeps a negative zero out.
 fn negated(literal: &Literal) -> Option<Literal> {
     match literal {
         Literal::Integer(number) => number.checked_neg().map(Literal::Integer),
-        Literal::Real(number) => Some(Literal::Real(-number + 0.0)),
-        Literal::Complex(re, im) => Some(Literal::Complex(-re + 0.0, -im + 0.0)),
+        Literal::Real(number) => Some(Literal::Real(-number)),
+        Literal::Complex(re, im) => Some(Literal::Complex(-re, -im)),
         _ => None,
     }
 }

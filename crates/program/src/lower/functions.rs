@@ -3,7 +3,7 @@
 //! INVARIANT: a function has the model's id. The 0-ary static functions without definition that are declared in an
 //! abstract domain, or in a subset of one, are its elements, numbered from 0 in order of declaration.
 
-use model::{DomainId, FunctionId, FunctionKind, Init};
+use model::{Definition, DomainId, FunctionId, FunctionKind, Init};
 
 use crate::builtin::Builtin;
 use crate::ir::{DomainKind, Function, Initial};
@@ -31,7 +31,7 @@ impl<'m> Lowering<'m, '_> {
         let function = self.model.function(id);
         let meaning = match function.kind {
             FunctionKind::Static | FunctionKind::Derived => {
-                if function.definition.is_some() {
+                if definition(function).is_some() {
                     Meaning::Define
                 } else if function.library {
                     builtin::resolve(self.model, function).unwrap_or(Meaning::Read)
@@ -78,7 +78,7 @@ impl<'m> Lowering<'m, '_> {
     pub(super) fn lower_function_definitions(&mut self, from: usize) {
         let model = self.model;
         for (id, function) in model.functions().skip(from) {
-            if let Some(definition) = &function.definition {
+            if let Some(definition) = definition(function) {
                 let lowered = self.lower_expression(&definition.variables, &definition.parameters, &definition.body);
                 self.program.functions[id.0 as usize].definition = Some(lowered);
             }
@@ -89,6 +89,9 @@ impl<'m> Lowering<'m, '_> {
     pub(super) fn lower_initial_values(&mut self, init: &'m Init) {
         for initial in &init.functions {
             let definition = &initial.definition;
+            if definition.parameters.len() != self.model.function(initial.function).parameters.len() {
+                continue;
+            }
             let value = self.lower_expression(&definition.variables, &definition.parameters, &definition.body);
             self.program.initials.push(Initial { function: initial.function, value, span: initial.span });
         }
@@ -118,4 +121,11 @@ impl<'m> Lowering<'m, '_> {
     fn domain_kind(&mut self, id: DomainId) -> &mut DomainKind {
         &mut self.program.domains[id.0 as usize].kind
     }
+}
+
+/// The definition of a static or derived function, unless it is the remains of a reported fault.
+fn definition(function: &model::Function) -> Option<&Definition> {
+    let defined = matches!(function.kind, FunctionKind::Static | FunctionKind::Derived);
+    let fits = |definition: &&Definition| definition.parameters.len() == function.parameters.len();
+    function.definition.as_ref().filter(fits).filter(|_| defined)
 }

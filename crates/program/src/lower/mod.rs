@@ -38,10 +38,13 @@ use constant::ConstantKey;
 use environment::{Environment, Frame};
 use functions::Meaning;
 
+/// The ids of the faults that lowering may report; each has a page `spec/faults/<id>.md`.
+pub const IDS: &[&str] = &["model-too-large", "not-a-location"];
+
 /// LIMIT: how many procedures, each a rule specialised on its arguments.
 const MAX_PROCEDURES: usize = 100_000;
 /// LIMIT: how many terms and rules.
-const MAX_NODES: usize = 5_000_000;
+const MAX_NODES: usize = 2_000_000;
 /// LIMIT: how deep the lowering nests. An application can add a coercion, hence half of what the IR allows.
 const MAX_NESTING: u32 = MAX_DEPTH / 2;
 /// Stack kept free for one level, and how much is added when it is not.

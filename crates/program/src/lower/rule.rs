@@ -3,7 +3,7 @@
 //! An update of a parameter is an update of the location that the caller's argument names, through as many calls
 //! as it was passed on.
 
-use model::{Call, FunctionId, FunctionKind, RuleKind, RuleNode, Target, TermKind, VariableId};
+use model::{Call, DomainKind, FunctionId, FunctionKind, RuleKind, RuleNode, Target, TermKind, VariableId};
 use syntax::{Diagnostic, Span};
 
 use crate::ir::{self, RuleId, RuleList, TermList};
@@ -28,6 +28,7 @@ impl<'m> Lowering<'m, '_> {
         let span = rule.span;
         let lowered = match &rule.kind {
             RuleKind::Skip | RuleKind::Error => ir::Rule::Skip,
+            _ if !self.is_whole(rule) => ir::Rule::Skip,
             RuleKind::Update { target, value } => match self.lower_target(target) {
                 Some((function, arguments)) => ir::Rule::Update { function, arguments, value: self.lower_term(value) },
                 None => ir::Rule::Skip,
@@ -87,6 +88,19 @@ impl<'m> Lowering<'m, '_> {
         self.rule(lowered, span)
     }
 
+    /// Whether a rule is more than the remains of a reported fault.
+    fn is_whole(&self, rule: &RuleNode) -> bool {
+        match &rule.kind {
+            RuleKind::Choose { binders, .. } | RuleKind::Forall { binders, .. } => !binders.is_empty(),
+            RuleKind::Extend { domain, .. } => matches!(
+                self.model.domains.kind(*domain),
+                DomainKind::Abstract { dynamic: true } | DomainKind::Concrete { dynamic: true, .. }
+            ),
+            RuleKind::Return { call, .. } => self.model.rule(call.rule).turbo,
+            _ => true,
+        }
+    }
+
     fn lower_call_rule(&mut self, call: &'m Call, span: Span) -> ir::Rule {
         let turbo = self.model.rule(call.rule).turbo;
         let (procedure, arguments) = self.lower_call(call.rule, &call.arguments, span);
@@ -114,7 +128,10 @@ impl<'m> Lowering<'m, '_> {
     /// The location written to; none where the parameter is no location here, which is reported.
     fn lower_target(&mut self, target: &'m Target) -> Option<(FunctionId, TermList)> {
         match target {
-            Target::Location { function, arguments, .. } => Some((*function, self.lower_terms(arguments))),
+            Target::Location { function, arguments, .. } => {
+                let is_location = self.is_location(*function, arguments);
+                is_location.then(|| (*function, self.lower_terms(arguments)))
+            }
             Target::Parameter(variable, span) => self.lower_parameter_target(*variable, *span),
         }
     }
@@ -142,12 +159,16 @@ impl<'m> Lowering<'m, '_> {
     pub(super) fn location(&self, term: &'m model::Term) -> Option<(FunctionId, &'m [model::Term])> {
         match &term.kind {
             TermKind::Apply { function, arguments } => {
-                let kind = self.model.function(*function).kind;
-                let dynamic = !matches!(kind, FunctionKind::Static | FunctionKind::Derived);
-                dynamic.then_some((*function, arguments))
+                self.is_location(*function, arguments).then_some((*function, arguments))
             }
             _ => None,
         }
+    }
+
+    fn is_location(&self, function: FunctionId, arguments: &[model::Term]) -> bool {
+        let function = self.model.function(function);
+        !matches!(function.kind, FunctionKind::Static | FunctionKind::Derived)
+            && function.parameters.len() == arguments.len()
     }
 
     fn report_no_location(&mut self, name: &str, span: Span, argument: Option<Span>) {

@@ -38,6 +38,9 @@ impl<'m> Lowering<'m, '_> {
             TermKind::Let { bindings, body } => return self.lower_let_term(bindings, body, term),
             TermKind::Coerce(operand) => return self.lower_coercion(operand, term),
             TermKind::Error => return self.undef(term.domain, term.span),
+            TermKind::Comprehension { binders, .. } | TermKind::Quantified { binders, .. } if binders.is_empty() => {
+                return self.undef(term.domain, term.span);
+            }
             TermKind::Domain(domain) => ir::Term::Domain(*domain),
             TermKind::Tuple(components) => ir::Term::Tuple(self.lower_terms(components)),
             TermKind::Project { tuple, index } => ir::Term::Project { tuple: self.lower_term(tuple), index: *index },
@@ -93,6 +96,9 @@ impl<'m> Lowering<'m, '_> {
     ) -> TermId {
         if let Some(literal) = self.folded(term) {
             return self.constant(&literal, term.domain, term.span);
+        }
+        if self.model.function(function).parameters.len() != arguments.len() {
+            return self.undef(term.domain, term.span);
         }
         let lowered = match self.meaning(function) {
             Meaning::Read => ir::Term::Read { function, arguments: self.lower_terms(arguments) },
