@@ -54,7 +54,7 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn read(&mut self, source: SourceFile) -> usize {
+    fn read(&mut self, source: SourceFile) -> Option<usize> {
         let (name, identity) = (source.name.clone(), identity(&source.name));
         self.seen.insert(identity.clone(), None);
         self.open.push((identity.clone(), name.clone()));
@@ -74,11 +74,9 @@ impl Reader<'_> {
         }
         self.open.pop();
         let unit = self.units.len();
+        self.units.push(Unit { file, tree: tree?, imports, library: library::is_library(&name), broken });
         self.seen.insert(identity, Some(unit));
-        if let Some(tree) = tree {
-            self.units.push(Unit { file, tree, imports, library: library::is_library(&name), broken });
-        }
-        unit
+        Some(unit)
     }
 
     fn follow(&mut self, importer: &SourceFile, file: FileId, clause: &ast::Import) -> Option<usize> {
@@ -110,7 +108,7 @@ impl Reader<'_> {
                 self.faults.push(fault::import::circular(span, &cycle));
                 None
             }
-            None => Some(self.read(source)),
+            None => self.read(source),
         }
     }
 }

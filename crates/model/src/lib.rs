@@ -16,7 +16,9 @@ mod coerce;
 mod compat;
 mod constant;
 mod declare;
+mod dump;
 mod fault;
+mod fragment;
 mod imports;
 mod library;
 mod macros;
@@ -31,6 +33,7 @@ pub use check::check;
 
 pub use domain::{Basic, Domain, DomainId, DomainKind, Domains};
 pub use fault::IDS;
+pub use fragment::Fragment;
 pub use model::{
     AgentProgram, Checked, Definition, Function, FunctionId, FunctionKind, Init, InitialFunction, Loader, Model,
     Property, PropertyKind, Rule, RuleId, Variable, VariableId,

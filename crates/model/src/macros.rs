@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 
 use syntax::Span;
 
+use crate::check::local_state::UpdatedParameters;
 use crate::fault::{self, Faults};
 use crate::model::{FunctionKind, Model, RuleId, VariableId};
 use crate::rule::{Call, RuleKind, RuleNode, Target};
@@ -20,9 +21,23 @@ pub(crate) fn check(model: &Model, faults: &mut Faults) {
     for (index, _) in model.rules.iter().enumerate() {
         let caller = RuleId(index as u32);
         for (call, _) in calls(&model.rule(caller).body) {
-            report_arguments(model, caller, call, &updated, faults);
+            report_arguments(model, Some(caller), call, &updated, faults);
         }
     }
+}
+
+/// As [`check`], for a rule that is not one of the model's.
+pub(crate) fn check_fragment(model: &Model, rule: &RuleNode, faults: &mut Faults) {
+    let updated = updated_parameters(model);
+    for (call, _) in calls(rule) {
+        report_arguments(model, None, call, &updated, faults);
+    }
+}
+
+/// The parameters that macro rules update, by the rule's name and the parameter's place.
+pub(crate) fn updated_by_name(model: &Model) -> UpdatedParameters {
+    let updated = updated_parameters(model).into_iter();
+    updated.map(|(rule, parameter)| (model.rule(rule).name.clone(), parameter.0 as usize)).collect()
 }
 
 /// All macro calls inside a rule, with their places.
@@ -108,7 +123,7 @@ fn is_macro_parameter(model: &Model, rule: RuleId, variable: VariableId) -> bool
 
 fn report_arguments(
     model: &Model,
-    caller: RuleId,
+    caller: Option<RuleId>,
     call: &Call,
     updated: &BTreeSet<(RuleId, VariableId)>,
     faults: &mut Faults,
@@ -125,13 +140,13 @@ fn report_arguments(
     }
 }
 
-fn is_location(model: &Model, caller: RuleId, argument: &Term) -> bool {
+fn is_location(model: &Model, caller: Option<RuleId>, argument: &Term) -> bool {
     match &argument.kind {
         TermKind::Apply { function, .. } => matches!(
             model.function(*function).kind,
             FunctionKind::Controlled | FunctionKind::Shared | FunctionKind::Out | FunctionKind::Local
         ),
-        TermKind::Variable(id) => is_macro_parameter(model, caller, *id),
+        TermKind::Variable(id) => caller.is_some_and(|caller| is_macro_parameter(model, caller, *id)),
         TermKind::Error => true,
         _ => false,
     }

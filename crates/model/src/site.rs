@@ -41,11 +41,6 @@ impl Site<'_> {
         self.model.domains.display(domain)
     }
 
-    /// The place where a domain is declared, if it is one with a declaration.
-    pub(crate) fn declared(&self, domain: DomainId) -> Option<Span> {
-        self.model.domains.get(domain).span
-    }
-
     /// What to say of a term of domain `found` where `expected` is.
     pub(crate) fn mismatch(&self, expected: DomainId, found: DomainId) -> Mismatch {
         let domains = &self.model.domains;

@@ -84,6 +84,11 @@ impl<'a> Body<'a> {
         }
     }
 
+    /// The place of a node of the file.
+    pub(crate) fn place(&self, node: &impl syntax::ast::AstNode) -> Span {
+        self.site.span(node)
+    }
+
     /// Where the scope stands now.
     pub(crate) fn mark(&self) -> Mark {
         Mark(self.scope.len())

@@ -11,7 +11,7 @@ mod collection;
 mod definition;
 mod init;
 mod literal;
-mod local_state;
+pub(crate) mod local_state;
 mod property;
 mod rule;
 mod term;

@@ -28,21 +28,34 @@ struct Place {
 impl Body<'_> {
     /// `target := value`
     pub(crate) fn update(&mut self, rule: &ast::UpdateRule, span: Span) -> RuleKind {
-        let place = rule.target().and_then(|target| self.place(&target));
-        let value = self.optional_term(rule.value(), span);
-        let Some(place) = place else { return RuleKind::Error };
+        match self.update_of(rule.target(), rule.value(), span) {
+            Some((target, value)) => RuleKind::Update { target, value },
+            None => RuleKind::Error,
+        }
+    }
+
+    /// The parts of an update; none after a fault.
+    pub(crate) fn update_of(
+        &mut self,
+        target: Option<ast::Term>,
+        value: Option<ast::Term>,
+        span: Span,
+    ) -> Option<(Target, Term)> {
+        let place = target.and_then(|target| self.target(&target));
+        let value = self.optional_term(value, span);
+        let place = place?;
         if !can_coerce(self.site.model, &value, place.domain) {
             let mismatch = self.site.mismatch(place.domain, value.domain);
             self.site.faults.push(fault::rule::update_domain(value.span, &place.name, &mismatch, place.declared));
-            return RuleKind::Error;
+            return None;
         }
         let value = self.coerce(value, place.domain);
-        RuleKind::Update { target: place.target, value }
+        Some((place.target, value))
     }
 
     /// `target <- r_x(…)`
     pub(crate) fn return_rule(&mut self, rule: &ast::ReturnRule, span: Span) -> RuleKind {
-        let place = rule.target().and_then(|target| self.place(&target));
+        let place = rule.target().and_then(|target| self.target(&target));
         let call = rule.call().and_then(|call| {
             let span = self.site.span(&call);
             self.call(call.name(), call.arguments(), true, span)
@@ -68,12 +81,7 @@ impl Body<'_> {
         RuleKind::Return { target: place.target, call }
     }
 
-    /// The location that `set` of a scenario writes to, and the domain it takes.
-    pub(crate) fn location(&mut self, term: &ast::Term) -> Option<(Target, DomainId, String, Span)> {
-        self.place(term).map(|place| (place.target, place.domain, place.name, place.declared))
-    }
-
-    fn place(&mut self, target: &ast::Term) -> Option<Place> {
+    fn target(&mut self, target: &ast::Term) -> Option<Place> {
         if let ast::Term::Variable(variable) = target {
             return self.variable_place(variable);
         }
