@@ -1,0 +1,205 @@
+//! From the values of terms, state by state, to a [`Report`].
+//!
+//! In: a [`Spec`], then in each state the terms whose text changed. Out: the report, to which the shell adds what it
+//! knows from elsewhere. A tick is a step: what the state after the t-th step shows (t from 0) went on in tick t, and
+//! what changed in it happened at the beginning of tick t. Work in a tick does not depend on the number of ticks seen;
+//! memory grows with the ticks shown only, see [`ReportBuilder::show_ticks`].
+
+mod buffer;
+mod reading;
+mod task;
+
+use crate::flow::Flow;
+use crate::report::{Queue, Report, Series};
+use crate::spec::{CounterSpec, QueueSpec, SeriesSpec, Spec};
+use crate::tally::Tally;
+use crate::time::TimeBase;
+use crate::track::{Curve, Kind};
+
+use buffer::BufferWatch;
+use reading::{Readings, Slot};
+use task::TaskWatch;
+
+/// LIMIT: lanes show so many ticks unless told otherwise; figures always cover the whole run.
+pub const SHOWN_TICKS: u64 = 50_000;
+
+/// Collects a run.
+#[derive(Debug)]
+pub struct ReportBuilder {
+    spec: Spec,
+    readings: Readings,
+    tick: u64,
+    shown: u64,
+    begun: bool,
+    activities: Vec<Kind>,
+    tasks: Vec<TaskWatch>,
+    buffers: Vec<BufferWatch>,
+    queues: Vec<(Slot, Queue)>,
+    series: Vec<(Slot, Series)>,
+    flow: Option<(Vec<Slot>, Flow)>,
+}
+
+/// What all watches share while they look at a state.
+struct Moment<'a> {
+    readings: &'a Readings,
+    tick: u64,
+    /// Lanes are still recorded.
+    shown: bool,
+}
+
+impl ReportBuilder {
+    /// A builder for a run that has not begun.
+    pub fn new(spec: Spec) -> ReportBuilder {
+        let mut readings = Readings::new(spec.terms());
+        let activities = spec.activities.iter().map(|a| Kind { label: a.label.clone(), tone: a.tone }).collect();
+        let values: Vec<_> = spec.activities.iter().map(|activity| readings.read(&activity.value)).collect();
+        let tasks = spec.tasks.iter().map(|task| TaskWatch::new(task, &values, &readings)).collect();
+        let buffers = spec.buffers.iter().map(|buffer| BufferWatch::new(buffer, &readings)).collect();
+        let queues = spec.queues.iter().map(|queue| (readings.slot(&queue.length), new_queue(queue))).collect();
+        let series = spec.series.iter().map(|series| (readings.slot(&series.value), new_series(series))).collect();
+        let flow = spec.flow.as_ref().map(|flow| {
+            let slots = flow.hops.iter().map(|hop| readings.slot(&hop.value)).collect();
+            let hops = flow.hops.iter().map(|hop| (hop.task.clone(), hop.event.clone())).collect();
+            (slots, Flow::new(flow.noun.clone(), hops))
+        });
+        let (tick, shown, begun) = (0, SHOWN_TICKS, false);
+        ReportBuilder { spec, readings, tick, shown, begun, activities, tasks, buffers, queues, series, flow }
+    }
+
+    /// Lets the lanes show so many ticks of the run.
+    pub fn show_ticks(mut self, ticks: u64) -> ReportBuilder {
+        self.shown = ticks.max(1);
+        self
+    }
+
+    /// The terms to be evaluated in each state; [`ReportBuilder::set`] takes their index.
+    pub fn terms(&self) -> &[String] {
+        self.readings.terms()
+    }
+
+    /// From now on a term has this value. A term never set is undef.
+    ///
+    /// # Panics
+    /// An index beyond the [`ReportBuilder::terms`].
+    pub fn set(&mut self, term: usize, value: &str) {
+        self.readings.set(term, value);
+    }
+
+    /// The values set are those of the initial state. Without it the first step counts as such as well.
+    pub fn begin(&mut self) {
+        let moment = Moment { readings: &self.readings, tick: 0, shown: true };
+        self.tasks.iter_mut().for_each(|task| task.begin(&moment));
+        self.buffers.iter_mut().for_each(|buffer| buffer.begin(&moment));
+        for ((_, queue), spec) in self.queues.iter_mut().zip(&self.spec.queues) {
+            queue.capacity = self.readings.number(spec.capacity.as_ref()).and_then(|n| u64::try_from(n).ok());
+        }
+        for ((_, series), spec) in self.series.iter_mut().zip(&self.spec.series) {
+            series.bound = self.readings.number(spec.bound.as_ref());
+        }
+        self.readings.settle();
+        self.begun = true;
+    }
+
+    /// The values set are those of the state after the next step.
+    pub fn step(&mut self) {
+        if !self.begun {
+            self.begin();
+        }
+        let (tick, shown) = (self.tick, self.tick < self.shown);
+        for task in &mut self.tasks {
+            task.step(&Moment { readings: &self.readings, tick, shown }, &mut self.activities);
+        }
+        let moment = Moment { readings: &self.readings, tick, shown };
+        self.buffers.iter_mut().for_each(|buffer| buffer.step(&moment));
+        for (slot, queue) in &mut self.queues {
+            watch(*slot, &moment, &mut queue.length, &mut queue.lengths);
+        }
+        for (slot, series) in &mut self.series {
+            watch(*slot, &moment, &mut series.curve, &mut series.values);
+        }
+        if let Some((slots, flow)) = &mut self.flow {
+            // From the sink backwards: what a hop hands on in the step in which it gets something new is the old one.
+            for (hop, slot) in slots.iter().enumerate().rev() {
+                if let Some(datum) = self.readings.changed(*slot).then(|| self.readings.integer(*slot)).flatten() {
+                    flow.reach(hop, datum, tick, self.shown);
+                }
+            }
+        }
+        self.readings.settle();
+        self.tick += 1;
+    }
+
+    /// The run is over.
+    pub fn finish(self, model: &str) -> Report {
+        let ReportBuilder { spec, readings, tick, shown, activities, tasks, buffers, queues, series, flow, .. } = self;
+        let now = |counters: &[CounterSpec]| -> Vec<(String, Option<i64>)> {
+            counters.iter().map(|c| (c.label.clone(), readings.number(Some(&c.term)))).collect()
+        };
+        let moment = Moment { readings: &readings, tick, shown: false };
+        let time = spec.tick_ns.map_or(TimeBase::steps(), TimeBase::new);
+        let window = if spec.window == 0 { tick.min(400) } else { spec.window.min(tick) };
+        Report {
+            title: if spec.title.is_empty() { model.to_owned() } else { spec.title.clone() },
+            note: spec.note.clone(),
+            model: model.to_owned(),
+            time,
+            ticks: tick,
+            shown: shown.min(tick),
+            window: window.clamp(1, shown.max(1)),
+            tasks: tasks.into_iter().map(|task| task.finish(&moment, &activities)).collect(),
+            activities,
+            buffers: buffers
+                .into_iter()
+                .zip(&spec.buffers)
+                .map(|(buffer, spec)| buffer.finish(&moment, now(&spec.counters)))
+                .collect(),
+            queues: queues
+                .into_iter()
+                .zip(&spec.queues)
+                .map(|((_, queue), spec)| Queue { counters: now(&spec.counters), ..queue })
+                .collect(),
+            series: series.into_iter().map(|(_, series)| series).collect(),
+            flow: flow.map(|(_, mut flow)| {
+                flow.finish(shown);
+                flow
+            }),
+            invariants: Vec::new(),
+            stopped: None,
+            scenarios: Vec::new(),
+            coverage: None,
+            facts: Vec::new(),
+        }
+    }
+}
+
+fn watch(slot: Slot, moment: &Moment, curve: &mut Curve, values: &mut Tally) {
+    let value = moment.readings.integer(slot);
+    if moment.shown {
+        curve.push(moment.tick, value);
+    }
+    if let Some(value) = value {
+        values.add(value.max(0) as u64, moment.tick);
+    }
+}
+
+fn new_queue(spec: &QueueSpec) -> Queue {
+    Queue {
+        from: spec.from.clone(),
+        to: spec.to.clone(),
+        length: Curve::default(),
+        lengths: Tally::default(),
+        capacity: None,
+        counters: Vec::new(),
+    }
+}
+
+fn new_series(spec: &SeriesSpec) -> Series {
+    Series {
+        name: spec.name.clone(),
+        caption: spec.caption.clone(),
+        curve: Curve::default(),
+        values: Tally::default(),
+        ticks: spec.ticks,
+        bound: None,
+    }
+}

@@ -1,0 +1,188 @@
+// Moves the window over the run: by pointer, wheel, keyboard, buttons, links and the address. Reads off what is where.
+const stage = document.getElementById("stage"), detail = document.getElementById("detail");
+const strip = document.getElementById("overview"), tip = document.getElementById("tip");
+const where = document.getElementById("where"), described = detail.querySelector("desc");
+const LEAST = Math.min(20, run.shown);
+let from = 0, to = run.window, view = null, waiting = 0, moved = false;
+
+function show(start, end) {
+  const length = Math.min(Math.max(end - start, LEAST), run.shown), middle = (start + end) / 2;
+  from = Math.min(Math.max(middle - length / 2, 0), run.shown - length);
+  to = from + length;
+  if (!waiting) waiting = requestAnimationFrame(draw);
+}
+
+function draw() {
+  waiting = 0;
+  const width = Math.max(stage.clientWidth, 280);
+  view = viewOf(from, to, width);
+  detail.setAttribute("viewBox", `0 0 ${width} ${run.height + HEAD}`);
+  detail.setAttribute("width", width);
+  detail.setAttribute("height", run.height + HEAD);
+  detail.querySelectorAll(":scope > g").forEach((group) => group.remove());
+  described.insertAdjacentHTML("afterend", drawTimeline(view));
+  const scale = overview(width), frame = strip.querySelector(".brush");
+  frame.setAttribute("x", scale.x(from));
+  frame.setAttribute("width", Math.max(3, (to - from) * scale.scale));
+  const spare = to - from < 50 ? 1 : 0;
+  where.textContent = `${time(from, spare)}\u2013${timed(to, spare)}`;
+  if (moved) history.replaceState(null, "", `#t=${from.toFixed(1)}-${to.toFixed(1)}`);
+}
+
+/** The overview has a drawing of its own width; the script uses its units. */
+const overview = () => viewOf(0, run.shown, strip.viewBox.baseVal.width);
+const zoom = (factor, at) => { moved = true; show(at - (at - from) * factor, at + (to - at) * factor); };
+const move = (ticks) => { moved = true; show(from + ticks, to + ticks); };
+const jump = (tick, length) => { moved = true; show(tick - length / 2, tick + length / 2); };
+const tickAt = (x) => from + (x - view.left) / view.scale;
+
+/** The first tick after the middle at which something of this kind begins, in any task's lane. */
+function next(kind) {
+  const after = (from + to) / 2 + 0.5;
+  let found = Infinity;
+  for (const lane of run.lanes) {
+    if (kind === "miss") {
+      const index = lower(lane.crosses, after);
+      if (index < lane.crosses.length) found = Math.min(found, lane.crosses[index]);
+      continue;
+    }
+    for (const { starts, kinds } of lane.s) {
+      for (let i = lower(starts, after); i < starts.length && starts[i] < found; i++) {
+        if (run.kinds[kinds[i]][1] === kind) found = starts[i];
+      }
+    }
+  }
+  return found;
+}
+
+function seek(kind) {
+  let found = next(kind);
+  if (found === Infinity) { const [a, b] = [from, to]; from = to = -1; found = next(kind); [from, to] = [a, b]; }
+  if (found !== Infinity) jump(found, Math.min(to - from, run.window));
+}
+
+const actions = {
+  back: () => move((from - to) / 4),
+  forth: () => move((to - from) / 4),
+  out: () => zoom(1.6, (from + to) / 2),
+  in: () => zoom(1 / 1.6, (from + to) / 2),
+  first: () => { moved = true; show(0, run.window); },
+  all: () => { moved = true; show(0, run.shown); },
+  wait: () => seek("wait"),
+  miss: () => seek("miss"),
+};
+const keys = { ArrowLeft: "back", ArrowRight: "forth", "+": "in", "=": "in", "-": "out", Home: "first", 0: "all", w: "wait" };
+
+/** What stands at a place of the drawing, as markup. */
+function read(tick, y) {
+  const lane = run.lanes.find((lane) => y >= lane.y - 4 && y <= lane.y + lane.h + 4);
+  if (!lane) return `<span>${timed(tick, 1)}</span>`;
+  let out = `<b>${escaped(lane.n)}${lane.c.startsWith("\u2192") ? " " + escaped(lane.c) : ""}</b>`;
+  lane.s.forEach((strip, row) => {
+    const i = lower(strip.ends, tick + 1e-9);
+    if (!(strip.starts[i] <= tick)) return;
+    const [label, tone] = run.kinds[strip.kinds[i]], [a, b] = [strip.starts[i], strip.ends[i]];
+    const array = strip.f && tone !== "hold" ? `array ${row} ` : "";
+    out += `<span><i class="${tone}"></i>${array}${escaped(label)}, ${timed(b - a)}, from ${time(a)} to ${time(b)}</span>`;
+  });
+  if (lane.g) {
+    const p = lane.g.p;
+    for (let i = 0; i < p.length; i += 4) {
+      if (p[i] <= tick && tick < p[i + 2]) {
+        const value = p[i + 1] + (p[i + 3] - p[i + 1]) * (tick - p[i]) / (p[i + 2] - p[i]);
+        out += `<span>${lane.g.ticks ? timed(value) : Math.round(value)}</span>`;
+      }
+    }
+  }
+  return out + `<span>at ${timed(tick, 1)}</span>`;
+}
+
+function point(event) {
+  const box = detail.getBoundingClientRect(), x = event.clientX - box.left, y = event.clientY - box.top - HEAD;
+  const cursor = document.getElementById("cursor");
+  const inside = x >= view.left && x <= view.right && y > -HEAD;
+  tip.hidden = !inside;
+  cursor.setAttribute("d", inside ? `M${px(x)} -4V${run.height}` : "");
+  if (!inside) return;
+  tip.innerHTML = read(tickAt(x), y);
+  const width = tip.offsetWidth, room = stage.clientWidth;
+  tip.style.left = `${Math.max(0, x + 14 + width > room ? x - 14 - width : x + 14)}px`;
+  tip.style.top = `${y + HEAD + 16}px`;
+}
+
+const fingers = new Map();
+detail.addEventListener("pointerdown", (event) => {
+  if (event.button) return;
+  fingers.set(event.pointerId, event.clientX);
+  detail.setPointerCapture(event.pointerId);
+  detail.classList.add("moving");
+});
+detail.addEventListener("pointermove", (event) => {
+  if (!fingers.has(event.pointerId)) return point(event);
+  tip.hidden = true;
+  const before = [...fingers.values()];
+  fingers.set(event.pointerId, event.clientX);
+  const now = [...fingers.values()];
+  if (before.length === 1) return move((before[0] - now[0]) / view.scale);
+  const spread = Math.abs(before[0] - before[1]) / Math.max(20, Math.abs(now[0] - now[1]));
+  zoom(spread, tickAt((now[0] + now[1]) / 2 - detail.getBoundingClientRect().left));
+});
+for (const name of ["pointerup", "pointercancel"]) {
+  detail.addEventListener(name, (event) => { fingers.delete(event.pointerId); detail.classList.remove("moving"); });
+}
+detail.addEventListener("pointerleave", () => { tip.hidden = true; document.getElementById("cursor").setAttribute("d", ""); });
+detail.addEventListener("dblclick", (event) => zoom(0.5, tickAt(event.clientX - detail.getBoundingClientRect().left)));
+detail.addEventListener("wheel", (event) => {
+  const sideways = event.shiftKey ? event.deltaY || event.deltaX : event.deltaX;
+  if (event.ctrlKey || event.metaKey) zoom(Math.exp(event.deltaY * 0.002), tickAt(event.clientX - detail.getBoundingClientRect().left));
+  else if (sideways) move(sideways / view.scale);
+  else return;
+  event.preventDefault();
+}, { passive: false });
+
+let grip = null;
+strip.addEventListener("pointerdown", (event) => {
+  strip.setPointerCapture(event.pointerId);
+  const tick = stripTick(event);
+  if (tick < from || tick > to) jump(tick, to - from);
+  grip = tick - Math.min(Math.max(tick - (to - from) / 2, 0), run.shown - to + from);
+  if (tick >= from && tick <= to) grip = tick - from;
+});
+strip.addEventListener("pointermove", (event) => { if (grip !== null) move(stripTick(event) - grip - from); });
+for (const name of ["pointerup", "pointercancel"]) strip.addEventListener(name, () => { grip = null; });
+function stripTick(event) {
+  const box = strip.getBoundingClientRect(), scale = overview();
+  return ((event.clientX - box.left) * scale.width / box.width - scale.left) / scale.scale;
+}
+
+detail.tabIndex = 0;
+detail.addEventListener("keydown", (event) => {
+  const action = actions[keys[event.key]];
+  if (!action || event.ctrlKey || event.metaKey || event.altKey) return;
+  action();
+  event.preventDefault();
+});
+document.addEventListener("click", (event) => {
+  const button = event.target.closest("[data-do]"), link = event.target.closest("[data-at]");
+  if (button) actions[button.dataset.do]();
+  if (link) {
+    jump(Number(link.dataset.at), run.window);
+    document.getElementById("timeline").scrollIntoView();
+    event.preventDefault();
+  }
+});
+function follow() {
+  const found = location.hash.match(/^#t=([\d.]+)-([\d.]+)$/);
+  if (found) { moved = true; show(Number(found[1]), Number(found[2])); } else show(from, to);
+}
+
+for (const kind of ["wait", "miss"]) {
+  [from, to] = [-1, -1];
+  if (next(kind) === Infinity) document.querySelector(`[data-do="${kind}"]`).hidden = true;
+}
+[from, to] = [0, run.window];
+document.body.classList.add("live");
+document.getElementById("controls").hidden = false;
+new ResizeObserver(() => show(from, to)).observe(stage);
+addEventListener("hashchange", follow);
+follow();

@@ -1,0 +1,62 @@
+//! The page: one file, style and script inside, nothing fetched.
+//!
+//! Everything can be read without the script: the first window of the timeline as a still drawing, the whole run to
+//! scroll through, every figure in a table. The script adds zooming, moving and reading off. The markup is well-formed
+//! XML as well, but for the doctype and what stands in `style` and `script`.
+
+mod data;
+mod figures;
+mod lanes;
+mod tables;
+mod verdicts;
+
+use crate::markup::{Text, put};
+use crate::report::Report;
+use crate::svg::svg_css;
+
+/// The report as a page.
+///
+/// ```
+/// let mut builder = report::ReportBuilder::new(report::Spec::default());
+/// builder.step();
+/// let page = report::render_html(&builder.finish("Small"));
+/// assert!(page.starts_with("<!DOCTYPE html>") && page.contains("<h1>Small</h1>"));
+/// ```
+pub fn render_html(report: &Report) -> String {
+    let mut out = String::new();
+    out.push_str("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n");
+    out.push_str("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n");
+    out.push_str("<meta name=\"color-scheme\" content=\"light dark\"/>\n<meta name=\"generator\" content=\"Groundstate\"/>\n");
+    put!(out, "<title>{}</title>\n", Text(&report.title));
+    put!(out, "<style>\n{}{}</style>\n</head>\n<body>\n", include_str!("page.css"), svg_css());
+    figures::header(&mut out, report);
+    out.push_str("<main>\n");
+    lanes::timeline_section(&mut out, report);
+    tables::tasks(&mut out, report);
+    tables::waiting(&mut out, report);
+    tables::ages(&mut out, report);
+    tables::channels(&mut out, report);
+    verdicts::invariants(&mut out, report);
+    verdicts::scenarios(&mut out, report);
+    verdicts::coverage(&mut out, report);
+    verdicts::facts(&mut out, report);
+    out.push_str("</main>\n");
+    put!(out, "<footer>Written by Groundstate from a run of {}. This page is complete: it loads nothing.</footer>\n", Text(&report.model));
+    put!(out, "<script type=\"application/json\" id=\"run\">\n{}</script>\n", data::run_data(report));
+    put!(out, "<script>\n{}{}</script>\n", include_str!("draw.js"), include_str!("explore.js"));
+    out.push_str("</body>\n</html>\n");
+    out
+}
+
+/// A link that moves the timeline to a tick; without the script it leads to the timeline.
+fn go(tick: u64, text: &str) -> String {
+    format!("<a class=\"go\" href=\"#timeline\" data-at=\"{tick}\">{}</a>", Text(text))
+}
+
+/// The head of a section.
+fn section(out: &mut String, id: &str, title: &str, lead: &str) {
+    put!(out, "<section id=\"{id}\" aria-labelledby=\"{id}-title\">\n<h2 id=\"{id}-title\">{}</h2>\n", Text(title));
+    if !lead.is_empty() {
+        put!(out, "<p class=\"lead\">{}</p>\n", Text(lead));
+    }
+}

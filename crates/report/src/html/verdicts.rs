@@ -1,0 +1,98 @@
+//! Invariants, scenarios, coverage, and the facts of the run.
+
+use crate::html::section;
+use crate::markup::{Px, Text, put};
+use crate::report::{Measure, Report, Scenario, Verdict};
+use crate::time::count;
+
+/// Writes the invariants.
+pub(super) fn invariants(out: &mut String, report: &Report) {
+    if report.invariants.is_empty() {
+        return;
+    }
+    let lead = format!("Evaluated in every one of the {} states.", count(report.ticks + 1));
+    section(out, "invariants", "Invariants", &lead);
+    out.push_str("<ul class=\"checks\">\n");
+    for invariant in &report.invariants {
+        let (class, mark, what) = match &invariant.violated {
+            None => ("good", '\u{2713}', "held".to_owned()),
+            Some(place) => ("bad", '\u{2717}', format!("violated: {place}")),
+        };
+        put!(out, "<li class=\"{class}\"><span class=\"mark\" aria-hidden=\"true\">{mark}</span><b>{}</b> <span>{}</span> <small>{}</small></li>\n", Text(&invariant.name), Text(what), Text(&invariant.position));
+    }
+    out.push_str("</ul>\n</section>\n");
+}
+
+/// Writes the scenarios: those that failed first.
+pub(super) fn scenarios(out: &mut String, report: &Report) {
+    if report.scenarios.is_empty() {
+        return;
+    }
+    let caught = report.scenarios.iter().filter(|s| s.verdict == Verdict::FailedAsExpected).count();
+    let mut lead = format!("{} of {} ended as they should.", report.passed(), report.scenarios.len());
+    if caught > 0 {
+        put!(lead, " {caught} of them had to fail, and did: a seeded fault was caught.");
+    }
+    section(out, "scenarios", "Scenarios", &lead);
+    let failed = |scenario: &&Scenario| matches!(scenario.verdict, Verdict::Failed(_));
+    out.push_str("<ul class=\"checks columns\">\n");
+    for scenario in report.scenarios.iter().filter(failed) {
+        scenario_item(out, scenario);
+    }
+    for scenario in report.scenarios.iter().filter(|scenario| !failed(scenario)) {
+        scenario_item(out, scenario);
+    }
+    out.push_str("</ul>\n</section>\n");
+}
+
+fn scenario_item(out: &mut String, scenario: &Scenario) {
+    let (class, mark, what) = match &scenario.verdict {
+        Verdict::Passed => ("good", '\u{2713}', ""),
+        Verdict::FailedAsExpected => ("good", '\u{2713}', "fault caught"),
+        Verdict::Failed(why) => ("bad", '\u{2717}', why.as_str()),
+    };
+    put!(out, "<li class=\"{class}\"><span class=\"mark\" aria-hidden=\"true\">{mark}</span><b title=\"{}\">{}</b> ", Text(&scenario.file), Text(&scenario.name));
+    if !what.is_empty() {
+        put!(out, "<span>{}</span> ", Text(what));
+    }
+    put!(out, "<small>{} checks, {} steps</small></li>\n", count(scenario.checks), count(scenario.steps));
+}
+
+/// Writes what was executed and what was not.
+pub(super) fn coverage(out: &mut String, report: &Report) {
+    let Some(coverage) = &report.coverage else { return };
+    section(out, "coverage", "Coverage", &coverage.scope);
+    for measure in &coverage.measures {
+        bar(out, measure);
+    }
+    out.push_str("</section>\n");
+}
+
+fn bar(out: &mut String, measure: &Measure) {
+    let part = 320.0 * measure.percent() / 100.0;
+    put!(out, "<div class=\"measure\"><h3>{}</h3>", Text(&measure.what));
+    put!(out, "<svg class=\"bar\" viewBox=\"0 0 320 12\" width=\"320\" height=\"12\" role=\"img\"><title>{:.1} % covered</title><rect class=\"rail\" y=\"2\" width=\"320\" height=\"8\"/><rect class=\"read\" y=\"2\" width=\"{}\" height=\"8\"/></svg>", measure.percent(), Px(part));
+    put!(out, "<p>{} of {}, {:.1}\u{202f}%</p>", count(measure.covered), count(measure.total), measure.percent());
+    if measure.missed.is_empty() {
+        out.push_str("</div>\n");
+        return;
+    }
+    put!(out, "<details><summary>{} not covered</summary><ul class=\"missed\">\n", count(measure.missed.len() as u64));
+    for (name, position) in &measure.missed {
+        put!(out, "<li><code>{}</code> <small>{}</small></li>\n", Text(name), Text(position));
+    }
+    out.push_str("</ul></details></div>\n");
+}
+
+/// Writes the facts of the run.
+pub(super) fn facts(out: &mut String, report: &Report) {
+    if report.facts.is_empty() {
+        return;
+    }
+    section(out, "facts", "The run", "");
+    out.push_str("<dl class=\"facts\">\n");
+    for fact in &report.facts {
+        put!(out, "<div><dt>{}</dt><dd>{}</dd></div>\n", Text(&fact.label), Text(&fact.value));
+    }
+    out.push_str("</dl>\n</section>\n");
+}

@@ -1,0 +1,38 @@
+//! A validated run as one page: timeline, deadlines, waiting, age of data, scenarios, coverage.
+//!
+//! In: a [`Spec`] that says which terms of a model make which lane, their values state by state
+//! ([`ReportBuilder`]), and what a shell adds from elsewhere. Out: [`render_html`], a page in a single file that
+//! needs nothing else; [`render_svg`], a still picture; [`summarise`], the same in short for a terminal.
+//!
+//! It must not know what a task or a buffer of any model is called, how a model is executed, or a file; the same
+//! report gives the same bytes.
+
+mod builder;
+mod flow;
+mod html;
+mod lanes;
+mod markup;
+mod report;
+mod spec;
+mod svg;
+mod tally;
+mod text;
+mod time;
+mod tone;
+mod track;
+
+pub use builder::{ReportBuilder, SHOWN_TICKS};
+pub use flow::{Flow, Journey};
+pub use html::render_html;
+pub use report::{
+    Buffer, Coverage, Fact, Invariant, Measure, Queue, Report, Scenario, Series, Task, Verdict,
+};
+pub use spec::{
+    ActivitySpec, BufferSpec, CounterSpec, FlowSpec, HopSpec, QueueSpec, SeriesSpec, Spec, TaskSpec, TermText,
+};
+pub use svg::{SvgOptions, render_svg};
+pub use tally::Tally;
+pub use text::{SummaryOptions, summarise};
+pub use time::TimeBase;
+pub use tone::Tone;
+pub use track::{Curve, Kind, Segment, Span, Track};

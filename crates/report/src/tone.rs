@@ -1,0 +1,123 @@
+//! Colours by meaning.
+//!
+//! A [`Tone`] is what a span means to the eye; a report specification gives one to each value. The palette follows
+//! Okabe and Ito, so that people who confuse red and green still tell the tones apart, and meaning never hangs on
+//! colour alone: tones also differ in height, and words stand where there is room.
+//!
+//! INVARIANT: every tone has one CSS class, its name, in every drawing.
+
+use std::fmt::Write;
+
+/// What a span means to the eye.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Tone {
+    /// Nothing is going on; drawn as the bare line.
+    Idle,
+    /// Own work.
+    Work,
+    /// Reading shared data.
+    Read,
+    /// Writing shared data.
+    Write,
+    /// Inside a critical section.
+    Hold,
+    /// Passing messages.
+    Message,
+    /// Anything else.
+    Other,
+    /// Waiting for somebody else: what a reader looks for first.
+    Wait,
+    /// The place where the next reading will happen.
+    ReadPlace,
+    /// The place where the next writing will happen.
+    WritePlace,
+}
+
+/// Fill and ink on light and on dark paper.
+struct Paint {
+    light: (&'static str, &'static str),
+    dark: (&'static str, &'static str),
+}
+
+impl Tone {
+    /// All tones, from the bottom of a stacked drawing to its top.
+    pub const ALL: [Tone; 10] = [
+        Tone::Idle,
+        Tone::Work,
+        Tone::Read,
+        Tone::Write,
+        Tone::Hold,
+        Tone::Message,
+        Tone::Other,
+        Tone::Wait,
+        Tone::ReadPlace,
+        Tone::WritePlace,
+    ];
+
+    /// The tone that a report specification calls by this name.
+    pub fn named(name: &str) -> Option<Tone> {
+        Tone::ALL.into_iter().find(|tone| tone.name() == name)
+    }
+
+    /// Its name, which is its CSS class as well.
+    pub fn name(self) -> &'static str {
+        match self {
+            Tone::Idle => "idle",
+            Tone::Work => "work",
+            Tone::Read => "read",
+            Tone::Write => "write",
+            Tone::Hold => "hold",
+            Tone::Message => "message",
+            Tone::Other => "other",
+            Tone::Wait => "wait",
+            Tone::ReadPlace => "readplace",
+            Tone::WritePlace => "writeplace",
+        }
+    }
+
+    /// The tone for the n-th value that no specification speaks of.
+    pub fn by_order(n: usize) -> Tone {
+        [Tone::Work, Tone::Read, Tone::Write, Tone::Hold, Tone::Message, Tone::Other][n % 6]
+    }
+
+    /// The part of a strip's height that a span of this tone fills, from the middle.
+    pub fn height(self) -> f64 {
+        match self {
+            Tone::Idle => 0.0,
+            Tone::Work => 0.72,
+            Tone::Hold => 0.72,
+            Tone::Wait => 1.0,
+            _ => 0.86,
+        }
+    }
+
+    fn paint(self) -> Paint {
+        let (light, dark) = match self {
+            Tone::Idle => (("none", "#1c2227"), ("none", "#e4e7ea")),
+            Tone::Work => (("#b4c6da", "#26405c"), ("#40597a", "#d6e2f0")),
+            Tone::Read => (("#12967a", "#ffffff"), ("#2fb796", "#06211a")),
+            Tone::Write => (("#1769aa", "#ffffff"), ("#58aee8", "#06192a")),
+            Tone::Hold => (("#e5b13a", "#3a2a00"), ("#c99a2e", "#1f1600")),
+            Tone::Message => (("#a768a4", "#ffffff"), ("#c78cc4", "#26102a")),
+            Tone::Other => (("#8b8f94", "#ffffff"), ("#868c93", "#0c0e10")),
+            Tone::Wait => (("#d4500c", "#ffffff"), ("#ff7d3b", "#2b0f00")),
+            Tone::ReadPlace => (("#d8ece6", "#0b5a49"), ("#1b3a34", "#9ed8c8")),
+            Tone::WritePlace => (("#d9e6f2", "#0f4570"), ("#1c3449", "#a5cdf0")),
+        };
+        Paint { light, dark }
+    }
+}
+
+/// The style sheet of the tones: `.work` fills, `.on-work` is ink on it.
+pub(crate) fn tone_css() -> String {
+    let mut light = String::new();
+    let mut dark = String::new();
+    for tone in Tone::ALL {
+        let (name, paint) = (tone.name(), tone.paint());
+        for (out, (fill, ink)) in [(&mut light, paint.light), (&mut dark, paint.dark)] {
+            let _ = write!(out, ".{name}{{fill:{fill};background-color:{}}}", fill.replace("none", "transparent"));
+            let _ = writeln!(out, ".on-{name}{{fill:{ink}}}");
+        }
+    }
+    format!("{light}@media (prefers-color-scheme: dark) {{\n{dark}}}\n")
+}
