@@ -31,7 +31,7 @@ signature:
 	controlled blanksIn: Integer
 	controlled platesOut: Integer
 
-	derived occupied: Item -> Integer
+	static occupied: Item -> Integer
 	derived inCell: Integer
 
 definitions:
