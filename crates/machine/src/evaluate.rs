@@ -17,15 +17,32 @@ use crate::fault::FaultKind;
 use crate::value::{Real, Value};
 
 impl<'a> Executor<'a> {
-    /// The value of a term.
+    /// The value of a term. What most terms are stands here; the rest in [`Executor::evaluate_other`], so that
+    /// this stays small.
     pub fn evaluate(&mut self, id: TermId) -> Outcome<Value> {
         let program = self.program;
         match program.term(id) {
-            Term::Constant(index) => Ok(constant(&program.constants[*index as usize])),
+            Term::Constant(index) => Ok(self.core.constants[*index as usize].clone()),
             Term::Slot(slot) => Ok(self.slot(*slot).clone()),
             Term::Read { function, arguments } => self.evaluate_read(*function, *arguments, id),
             Term::Define { function, arguments } => self.evaluate_definition(*function, *arguments, id),
             Term::Builtin { builtin, arguments } => self.evaluate_builtin(*builtin, program.term_list(*arguments), id),
+            Term::If { branches, otherwise } => {
+                for branch in program.term_list(*branches).chunks_exact(2) {
+                    if self.holds(branch[0])? {
+                        return self.evaluate(branch[1]);
+                    }
+                }
+                otherwise.map_or(Ok(Value::Undef), |otherwise| self.evaluate(otherwise))
+            }
+            _ => self.evaluate_other(id),
+        }
+    }
+
+    #[inline(never)]
+    fn evaluate_other(&mut self, id: TermId) -> Outcome<Value> {
+        let program = self.program;
+        match program.term(id) {
             Term::Domain(domain) => {
                 let elements = self.listed(*domain, program.term_span(id))?;
                 Ok(Value::Set(elements))
@@ -51,14 +68,6 @@ impl<'a> Executor<'a> {
             Term::Quantified { quantifier, binders, condition } => {
                 self.evaluate_quantified(*quantifier, *binders, *condition)
             }
-            Term::If { branches, otherwise } => {
-                for branch in program.term_list(*branches).chunks_exact(2) {
-                    if self.holds(branch[0])? {
-                        return self.evaluate(branch[1]);
-                    }
-                }
-                otherwise.map_or(Ok(Value::Undef), |otherwise| self.evaluate(otherwise))
-            }
             Term::Switch { subject, cases, otherwise } => {
                 let subject = self.evaluate(*subject)?;
                 for case in program.term_list(*cases).chunks_exact(2) {
@@ -78,6 +87,12 @@ impl<'a> Executor<'a> {
                 let value = self.evaluate(*operand)?;
                 Ok(self.coerce(value, &program.domain(program.term_domain(id)).kind))
             }
+            Term::Constant(_)
+            | Term::Slot(_)
+            | Term::Read { .. }
+            | Term::Define { .. }
+            | Term::Builtin { .. }
+            | Term::If { .. } => self.evaluate(id),
         }
     }
 
@@ -95,13 +110,13 @@ impl<'a> Executor<'a> {
         self.program.term_list(list).iter().map(|term| self.evaluate(*term)).collect()
     }
 
-    /// Puts the values of a list of terms on the scratch stack; gives where they start.
+    /// Puts the values of a list of terms on the frame stack; gives where they start.
     #[inline]
     pub fn gather(&mut self, list: TermList) -> Outcome<usize> {
-        let start = self.core.scratch.len();
+        let start = self.core.frames.len();
         for term in self.program.term_list(list) {
             let value = self.evaluate(*term)?;
-            self.core.scratch.push(value);
+            self.core.frames.push(value);
         }
         Ok(start)
     }
@@ -111,11 +126,11 @@ impl<'a> Executor<'a> {
         let kind = self.program.functions[function.0 as usize].kind;
         let plain = matches!(kind, FunctionKind::Controlled | FunctionKind::Out | FunctionKind::Local);
         if plain && self.core.initials[function.0 as usize].is_none() {
-            let found = self.core.store.find(function, &self.core.scratch[start..]);
-            self.core.scratch.truncate(start);
+            let found = self.core.store.find(function, &self.core.frames[start..]);
+            self.core.frames.truncate(start);
             return Ok(found.map_or(Value::Undef, |index| self.core.store.values[index as usize].clone()));
         }
-        let arguments: Vec<Value> = self.core.scratch.drain(start..).collect();
+        let arguments: Vec<Value> = self.core.frames.drain(start..).collect();
         self.read(function, &arguments, self.program.term_span(id))
     }
 
@@ -123,10 +138,21 @@ impl<'a> Executor<'a> {
         let start = self.gather(arguments)?;
         let program = self.program;
         let Some(definition) = &program.functions[function.0 as usize].definition else {
-            self.core.scratch.truncate(start);
+            self.core.frames.truncate(start);
             return Ok(Value::Undef);
         };
-        self.in_frame(start, definition.frame, program.term_span(id), |this| this.evaluate(definition.body))
+        let place = self.core.memo.place(function, &self.core.frames[start..]);
+        if let Some(value) = place.and_then(|place| self.core.memo.get(place)) {
+            let value = value.clone();
+            self.core.frames.truncate(start);
+            return Ok(value);
+        }
+        let value =
+            self.in_frame(start, definition.frame, program.term_span(id), |this| this.evaluate(definition.body))?;
+        if let Some(place) = place {
+            self.core.memo.keep(place, value.clone());
+        }
+        Ok(value)
     }
 
     fn evaluate_comprehension(
@@ -182,35 +208,50 @@ impl<'a> Executor<'a> {
 
     /// The connectives, which do not evaluate all their operands; every other builtin is applied to values.
     fn evaluate_builtin(&mut self, builtin: Builtin, arguments: &'a [TermId], id: TermId) -> Outcome<Value> {
-        let decides = match builtin {
-            Builtin::And => Some(false),
-            Builtin::Or => Some(true),
-            Builtin::Implies => return self.evaluate_implication(arguments[0], arguments[1], id),
-            Builtin::Pre => return self.evaluate_before(arguments[0]),
-            _ => None,
-        };
-        if let Some(deciding) = decides {
-            let left = self.evaluate(arguments[0])?;
-            if left == Value::Boolean(deciding) {
-                return Ok(left);
+        use Value::{Boolean, Integer};
+        match (builtin, arguments) {
+            (Builtin::And | Builtin::Or, [left, right]) => {
+                let deciding = Boolean(builtin == Builtin::Or);
+                let left = self.evaluate(*left)?;
+                if left == deciding {
+                    return Ok(left);
+                }
+                let right = self.evaluate(*right)?;
+                Ok(if right == deciding || !left.is_undef() { right } else { left })
             }
-            let right = self.evaluate(arguments[1])?;
-            return Ok(if right == Value::Boolean(deciding) || left == Value::Boolean(!deciding) {
-                right
-            } else {
-                left
-            });
-        }
-        match arguments {
-            [operand] => {
-                let operand = self.evaluate(*operand)?;
-                self.apply(builtin, &[operand], id)
-            }
-            [left, right] => {
+            (Builtin::Implies, [premise, conclusion]) => self.evaluate_implication(*premise, *conclusion),
+            (Builtin::Pre, [term]) => self.evaluate_before(*term),
+            (_, [left, right]) => {
                 let left = self.evaluate(*left)?;
                 let right = self.evaluate(*right)?;
+                // The operations that most models spend their time in.
+                match (builtin, &left, &right) {
+                    (Builtin::Eq, a, b) => return Ok(Boolean(a == b)),
+                    (Builtin::Neq, a, b) => return Ok(Boolean(a != b)),
+                    (Builtin::Lt, Integer(a), Integer(b)) => return Ok(Boolean(a < b)),
+                    (Builtin::Le, Integer(a), Integer(b)) => return Ok(Boolean(a <= b)),
+                    (Builtin::Gt, Integer(a), Integer(b)) => return Ok(Boolean(a > b)),
+                    (Builtin::Ge, Integer(a), Integer(b)) => return Ok(Boolean(a >= b)),
+                    (Builtin::IntAdd, Integer(a), Integer(b)) => {
+                        if let Some(sum) = a.checked_add(*b) {
+                            return Ok(Integer(sum));
+                        }
+                    }
+                    (Builtin::IntSub, Integer(a), Integer(b)) => {
+                        if let Some(difference) = a.checked_sub(*b) {
+                            return Ok(Integer(difference));
+                        }
+                    }
+                    _ => {}
+                }
                 self.apply(builtin, &[left, right], id)
             }
+            (_, [operand]) => match (builtin, self.evaluate(*operand)?) {
+                (Builtin::Not, Boolean(truth)) => Ok(Boolean(!truth)),
+                (Builtin::IsUndef, operand) => Ok(Boolean(operand.is_undef())),
+                (Builtin::IsDef, operand) => Ok(Boolean(!operand.is_undef())),
+                (_, operand) => self.apply(builtin, &[operand], id),
+            },
             _ => {
                 let operands: Vec<Value> = arguments.iter().map(|term| self.evaluate(*term)).collect::<Outcome<_>>()?;
                 self.apply(builtin, &operands, id)
@@ -219,7 +260,7 @@ impl<'a> Executor<'a> {
     }
 
     /// Kleene's implication: `false` implies anything, anything implies `true`.
-    fn evaluate_implication(&mut self, premise: TermId, conclusion: TermId, _id: TermId) -> Outcome<Value> {
+    fn evaluate_implication(&mut self, premise: TermId, conclusion: TermId) -> Outcome<Value> {
         let premise = self.evaluate(premise)?;
         if premise == Value::Boolean(false) {
             return Ok(Value::Boolean(true));
@@ -234,9 +275,12 @@ impl<'a> Executor<'a> {
 
     /// `pre(t)`: the value of a term in the state before the step.
     fn evaluate_before(&mut self, term: TermId) -> Outcome<Value> {
+        let version = self.core.memo.version();
+        self.core.memo.changed();
         self.core.updates.swap_original(&mut self.core.store, false);
         let value = self.evaluate(term);
         self.core.updates.swap_original(&mut self.core.store, true);
+        self.core.memo.back_to(version);
         value
     }
 

@@ -11,6 +11,7 @@ use crate::environment::{Environment, TimeUnit};
 use crate::fault::{Fault, FaultKind};
 use crate::limits::Limits;
 use crate::membership::Membership;
+use crate::memo::Memo;
 use crate::store::Store;
 use crate::update::Updates;
 use crate::value::Value;
@@ -23,12 +24,11 @@ pub(crate) type Outcome<T> = Result<T, Box<Fault>>;
 pub(crate) struct Core {
     pub store: Store,
     pub updates: Updates,
-    /// Frames of the running procedures and definitions, one on top of the other.
+    /// Frames of the running procedures and definitions, one on top of the other; above the running frame the
+    /// values of arguments being gathered and of candidates.
     pub frames: Vec<Value>,
     /// Start of the running frame.
     pub base: usize,
-    /// Values of arguments being gathered.
-    pub scratch: Vec<Value>,
     /// The epoch of inputs: advances when they are forgotten.
     pub epoch: u32,
     /// Locations the environment gave values for in this epoch, in the order asked.
@@ -41,6 +41,10 @@ pub(crate) struct Core {
     pub depth: u64,
     /// Calls being made, for the fault's report.
     pub calls: Vec<Span>,
+    /// The values of the constant pool.
+    pub constants: Vec<Value>,
+    /// The values of derived and static functions in this state.
+    pub memo: Memo,
     /// The contents of static concrete domains, evaluated once.
     pub contents: Vec<Option<std::sync::Arc<Vec<Value>>>>,
     /// What the values of each function must be checked for, by function.
@@ -90,7 +94,7 @@ impl Executor<'_> {
         self.core.frames[index] = value;
     }
 
-    /// Runs `body` in a new frame whose first slots are the values on the scratch stack from `arguments` on.
+    /// Runs `body` in a new frame whose first slots are the values that stand on the frame stack from `arguments` on.
     pub fn in_frame<T>(
         &mut self,
         arguments: usize,
@@ -99,20 +103,17 @@ impl Executor<'_> {
         body: impl FnOnce(&mut Self) -> Outcome<T>,
     ) -> Outcome<T> {
         if self.core.depth >= self.limits.call_depth {
-            self.core.scratch.truncate(arguments);
             return self.fault(span, FaultKind::Limit { limit: "nested calls", value: self.limits.call_depth });
         }
-        let (base, top) = (self.core.base, self.core.frames.len());
-        self.core.frames.extend(self.core.scratch.drain(arguments..));
-        self.core.frames.resize(top + frame as usize, Value::Undef);
-        self.core.base = top;
+        let base = std::mem::replace(&mut self.core.base, arguments);
+        self.core.frames.resize(arguments + frame as usize, Value::Undef);
         self.core.depth += 1;
         self.core.calls.push(span);
         // LIMIT: terms of one body nest no deeper than the parser allows, which a megabyte holds.
         let result = stacker::maybe_grow(1 << 20, 8 << 20, || body(self));
         self.core.calls.pop();
         self.core.depth -= 1;
-        self.core.frames.truncate(top);
+        self.core.frames.truncate(arguments);
         self.core.base = base;
         result
     }

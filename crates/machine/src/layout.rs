@@ -83,22 +83,30 @@ pub(crate) fn lay_out(program: &Program, contents: &dyn Fn(DomainId) -> Option<V
             next += 1;
             return Layout::Single(next - 1);
         }
-        let dimensions: Option<Box<[Dimension]>> =
-            function.parameters.iter().map(|domain| dimension(program, *domain, contents)).collect();
-        let Some(dimensions) = dimensions else { return Layout::Sparse };
-        let mut len = 1u64;
-        for dimension in &dimensions {
-            len = len.saturating_mul(u64::from(dimension.size));
-        }
-        if len == 0 || len > DENSE_LIMIT || u64::from(next) + len > u64::from(u32::MAX / 2) {
+        let Some((dimensions, len)) = dimensions_of(program, &function.parameters, contents) else {
+            return Layout::Sparse;
+        };
+        if next > u32::MAX / 2 {
             return Layout::Sparse;
         }
         let base = next;
-        next += len as u32;
-        Layout::Dense { base, len: len as u32, dimensions }
+        next += len;
+        Layout::Dense { base, len, dimensions }
     });
     let layouts = layouts.collect();
     (layouts, next)
+}
+
+/// The dimensions of an array over these domains and its length, if they are finite and small.
+pub(crate) fn dimensions_of(
+    program: &Program,
+    domains: &[DomainId],
+    contents: &dyn Fn(DomainId) -> Option<Vec<Value>>,
+) -> Option<(Box<[Dimension]>, u32)> {
+    let dimensions: Box<[Dimension]> =
+        domains.iter().map(|domain| dimension(program, *domain, contents)).collect::<Option<_>>()?;
+    let len = dimensions.iter().fold(1u64, |len, dimension| len.saturating_mul(u64::from(dimension.size)));
+    (1..=DENSE_LIMIT).contains(&len).then_some((dimensions, len as u32))
 }
 
 fn has_locations(function: &Function) -> bool {

@@ -17,6 +17,7 @@ mod limits;
 mod location;
 mod machine;
 mod membership;
+mod memo;
 mod perform;
 mod print;
 mod start;

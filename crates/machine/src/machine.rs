@@ -78,7 +78,6 @@ impl Machine {
     ) -> Result<T, Fault> {
         let program = Arc::clone(&self.program);
         let core = &mut self.core;
-        core.scratch.clear();
         core.frames.clear();
         core.calls.clear();
         (core.base, core.depth) = (0, 0);
@@ -180,6 +179,7 @@ impl Machine {
             }
         }
         core.updates.release();
+        core.memo.changed();
         self.stale = true;
         self.steps += 1;
         step
@@ -188,7 +188,9 @@ impl Machine {
     /// Drops the update set prepared.
     pub fn discard(&mut self) {
         let core = &mut self.core;
-        core.updates.roll_back(&mut core.store);
+        if core.updates.roll_back(&mut core.store) {
+            core.memo.changed();
+        }
         for carrier in &mut core.store.carriers {
             carrier.fresh = carrier.count;
         }
@@ -221,6 +223,7 @@ impl Machine {
         self.stale = false;
         let core = &mut self.core;
         core.epoch += 1;
+        core.memo.changed();
         core.clock = [None; 3];
         for index in std::mem::take(&mut core.inputs) {
             let function = core.store.function_of(index);
@@ -261,6 +264,7 @@ impl Machine {
             }
             let index = executor.core.store.number(*function, arguments);
             executor.core.store.values[index as usize] = value;
+            executor.core.memo.changed();
             executor.core.store.given[index as usize] = executor.core.epoch;
             if program.function(*function).kind == FunctionKind::Monitored && !executor.core.inputs.contains(&index) {
                 executor.core.inputs.push(index);
@@ -321,6 +325,7 @@ impl Machine {
         self.core.epoch += 1;
         self.core.clock = [None; 3];
         self.core.updates.renumbered();
+        self.core.memo.changed();
         self.steps = snapshot.steps;
         self.overwritten.clear();
     }

@@ -131,17 +131,17 @@ impl<'a> Executor<'a> {
         let start = self.gather(arguments)?;
         if self.core.initials[function.0 as usize].is_some() {
             // An initial value that is due only when read must be there before it is overwritten.
-            let arguments = self.core.scratch[start..].to_vec();
+            let arguments = self.core.frames[start..].to_vec();
             self.read(function, &arguments, self.program.rule_span(id))?;
         }
         if !self.is_member(function, &value) {
-            let location = Location { function, arguments: self.core.scratch.split_off(start) };
+            let location = Location { function, arguments: self.core.frames.split_off(start) };
             let domain = self.program.function(function).codomain;
             return self.fault(self.program.rule_span(id), FaultKind::OutOfDomain { location, value, domain });
         }
         let core = &mut *self.core;
-        let index = core.store.number(function, &core.scratch[start..]);
-        core.scratch.truncate(start);
+        let index = core.store.number(function, &core.frames[start..]);
+        core.frames.truncate(start);
         if let Some(coverage) = &mut core.coverage {
             coverage.went(id, usize::from(core.store.values[index as usize] != value));
         }
@@ -185,7 +185,7 @@ impl<'a> Executor<'a> {
         self.enter(procedure, start, self.program.rule_span(id))
     }
 
-    /// Runs a procedure on the arguments that stand on the scratch stack from `start` on.
+    /// Runs a procedure on the arguments that stand on the frame stack from `start` on.
     pub fn enter(&mut self, procedure: ProcedureId, start: usize, span: Span) -> Outcome<()> {
         let procedure = self.program.procedure(procedure);
         self.in_frame(start, procedure.frame, span, |this| this.perform(procedure.body))
@@ -235,11 +235,11 @@ impl<'a> Executor<'a> {
             return self.fault(span, FaultKind::NotARule { value: agent });
         };
         let Some(function) = self.program.self_function else {
-            return self.enter(procedure, self.core.scratch.len(), span);
+            return self.enter(procedure, self.core.frames.len(), span);
         };
         let index = self.core.store.number(function, &[]) as usize;
         let former = std::mem::replace(&mut self.core.store.values[index], agent);
-        let outcome = self.enter(procedure, self.core.scratch.len(), span);
+        let outcome = self.enter(procedure, self.core.frames.len(), span);
         self.core.store.values[index] = former;
         outcome
     }
@@ -265,9 +265,11 @@ impl<'a> Executor<'a> {
         locals: &[FunctionId],
         parts: impl FnOnce(&mut Self) -> Outcome<()>,
     ) -> Outcome<()> {
+        let version = self.core.memo.version();
         let sequence = self.core.updates.begin_sequence();
         parts(self)?;
         let core = &mut *self.core;
+        core.memo.back_to(version);
         let ended = core.updates.end_sequence(sequence, &mut core.store, &|store, index| {
             !locals.is_empty() && locals.contains(&store.function_of(index))
         });
@@ -280,6 +282,9 @@ impl<'a> Executor<'a> {
         self.perform(rule)?;
         let any = !self.core.updates.is_empty(unit);
         self.core.updates.apply(unit, &mut self.core.store);
+        if any {
+            self.core.memo.changed();
+        }
         Ok(any)
     }
 
@@ -293,6 +298,8 @@ impl<'a> Executor<'a> {
     ) -> Outcome<()> {
         debug_assert!(locals.iter().all(|f| self.program.function(*f).kind == FunctionKind::Local));
         let mut outer = Vec::new();
+        let version = self.core.memo.version();
+        self.core.memo.changed();
         for function in locals {
             for index in self.core.store.indices_of(*function) {
                 let value = std::mem::take(&mut self.core.store.values[index as usize]);
@@ -311,6 +318,7 @@ impl<'a> Executor<'a> {
         for (index, value) in outer {
             self.core.store.values[index as usize] = value;
         }
+        self.core.memo.back_to(version);
         outcome
     }
 
@@ -351,7 +359,7 @@ impl<'a> Executor<'a> {
         let program = self.program;
         let binders = program.binder_list(binders);
         let span = program.rule_span(id);
-        let start = self.core.scratch.len();
+        let start = self.core.frames.len();
         let _ = self.for_each_binding(binders, &mut |this| {
             let fits = match condition {
                 Some(condition) => this.holds(condition)?,
@@ -360,20 +368,20 @@ impl<'a> Executor<'a> {
             if fits {
                 for binder in binders {
                     let value = this.slot(binder.slot).clone();
-                    this.core.scratch.push(value);
+                    this.core.frames.push(value);
                 }
-                this.check_size((this.core.scratch.len() - start) as u64, span)?;
+                this.check_size((this.core.frames.len() - start) as u64, span)?;
             }
             Ok(ControlFlow::Continue(()))
         })?;
-        let candidates = (self.core.scratch.len() - start) / binders.len().max(1);
+        let candidates = (self.core.frames.len() - start) / binders.len().max(1);
         if let Some(coverage) = &mut self.core.coverage {
             coverage.went(id, candidates.min(2));
         }
         if candidates == 0 {
             return if_none.map_or(Ok(()), |rule| self.perform(rule));
         }
-        let choice = Choice { span, values: &self.core.scratch[start..], variables: binders.len() };
+        let choice = Choice { span, values: &self.core.frames[start..], variables: binders.len() };
         let chosen = match self.environment.choose(program, &choice) {
             Ok(chosen) if chosen < candidates => chosen,
             Ok(chosen) => {
@@ -383,10 +391,10 @@ impl<'a> Executor<'a> {
             Err(reason) => return self.fault(span, FaultKind::Environment { reason }),
         };
         for (offset, binder) in binders.iter().enumerate() {
-            let value = std::mem::take(&mut self.core.scratch[start + chosen * binders.len() + offset]);
+            let value = std::mem::take(&mut self.core.frames[start + chosen * binders.len() + offset]);
             self.bind(binder.slot, value);
         }
-        self.core.scratch.truncate(start);
+        self.core.frames.truncate(start);
         self.perform(body)
     }
 

@@ -10,10 +10,12 @@ use program::{DomainId, DomainKind, FunctionId, Program};
 use syntax::Span;
 
 use crate::environment::Closed;
+use crate::evaluate::constant;
 use crate::execute::{Core, Executor, Outcome};
 use crate::fault::FaultKind;
 use crate::limits::Limits;
 use crate::membership::membership;
+use crate::memo::Memo;
 use crate::store::Store;
 use crate::update::Updates;
 use crate::value::Value;
@@ -29,13 +31,14 @@ impl Core {
             updates: Updates::default(),
             frames: Vec::new(),
             base: 0,
-            scratch: Vec::new(),
             epoch: 1,
             inputs: Vec::new(),
             clock: [None; 3],
             iterations: 0,
             depth: 0,
             calls: Vec::new(),
+            constants: program.constants.iter().map(constant).collect(),
+            memo: Memo::new(program),
             contents: vec![None; program.domains.len()],
             codomains: Vec::new(),
             coverage: None,
@@ -47,6 +50,7 @@ impl Core {
         let contents = |domain: DomainId| core.contents[domain.0 as usize].as_ref().map(|elements| elements.to_vec());
         let store = Store::new(program, &contents);
         let codomains = program.functions.iter().map(|f| membership(program, f.codomain, &contents)).collect();
+        core.memo.lay_out(program, &contents);
         core.store = store;
         core.codomains = codomains;
         core.reset_carriers(program);
@@ -89,7 +93,9 @@ impl<'a> Executor<'a> {
                     Some(expression) => match self.closed(expression) {
                         Ok(Value::Set(defined) | Value::Seq(defined)) => values.extend(defined.iter().cloned()),
                         _ => {
-                            self.core.scratch.clear();
+                            self.core.frames.clear();
+                            self.core.calls.clear();
+                            (self.core.base, self.core.depth) = (0, 0);
                             continue;
                         }
                     },
@@ -110,7 +116,7 @@ impl<'a> Executor<'a> {
     /// Evaluates an expression without parameters in a frame of its own.
     pub fn closed(&mut self, expression: &'a program::Expression) -> Outcome<Value> {
         let span = self.program.term_span(expression.body);
-        let start = self.core.scratch.len();
+        let start = self.core.frames.len();
         self.in_frame(start, expression.frame, span, |this| this.evaluate(expression.body))
     }
 
@@ -139,6 +145,7 @@ impl<'a> Executor<'a> {
                 eager.push(initial.function);
             }
         }
+        self.core.memo.changed();
         for function in eager {
             self.core.initials[function.0 as usize] = None;
         }
@@ -180,8 +187,8 @@ impl<'a> Executor<'a> {
             return Ok(self.core.store.values[index].clone());
         };
         let initial = &program.initials[initial as usize];
-        let start = self.core.scratch.len();
-        self.core.scratch.extend(arguments.iter().cloned());
+        let start = self.core.frames.len();
+        self.core.frames.extend(arguments.iter().cloned());
         let value = self.in_frame(start, initial.value.frame, span, |this| this.evaluate(initial.value.body))?;
         if !self.is_member(function, &value) {
             let location = crate::location::Location { function, arguments: arguments.to_vec() };

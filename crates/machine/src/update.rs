@@ -235,13 +235,15 @@ impl Updates {
         outcome
     }
 
-    /// Takes back every intermediate state: the step is given up.
-    pub fn roll_back(&mut self, store: &mut Store) {
+    /// Takes back every intermediate state and empties the update set; tells whether there was anything.
+    pub fn roll_back(&mut self, store: &mut Store) -> bool {
+        let any = !(self.stack.is_empty() && self.log.is_empty() && self.created.is_empty());
         while let Some(entry) = self.log.pop() {
             store.values[entry.location as usize] = entry.before;
         }
         self.forget_intermediate(0, store);
         self.release();
+        any
     }
 
     fn forget_intermediate(&self, from: usize, store: &mut Store) {

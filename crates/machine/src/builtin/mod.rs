@@ -32,36 +32,12 @@ pub(crate) type Result<T = Value> = std::result::Result<T, Trouble>;
 
 impl<'a> Executor<'a> {
     /// Applies a builtin to values.
-    #[inline]
+    #[inline(never)]
     pub fn apply(&mut self, builtin: Builtin, operands: &[Value], id: TermId) -> Outcome<Value> {
-        use Value::{Boolean, Integer};
-        // The operations that most models spend their time in.
-        match (builtin, operands) {
-            (Builtin::Eq, [a, b]) => return Ok(Boolean(a == b)),
-            (Builtin::Neq, [a, b]) => return Ok(Boolean(a != b)),
-            (Builtin::Lt, [Integer(a), Integer(b)]) => return Ok(Boolean(a < b)),
-            (Builtin::Le, [Integer(a), Integer(b)]) => return Ok(Boolean(a <= b)),
-            (Builtin::Gt, [Integer(a), Integer(b)]) => return Ok(Boolean(a > b)),
-            (Builtin::Ge, [Integer(a), Integer(b)]) => return Ok(Boolean(a >= b)),
-            (Builtin::Not, [Boolean(a)]) => return Ok(Boolean(!a)),
-            (Builtin::IntAdd, [Integer(a), Integer(b)]) => {
-                if let Some(sum) = a.checked_add(*b) {
-                    return Ok(Integer(sum));
-                }
-            }
-            (Builtin::IntSub, [Integer(a), Integer(b)]) => {
-                if let Some(difference) = a.checked_sub(*b) {
-                    return Ok(Integer(difference));
-                }
-            }
-            _ => {}
-        }
-        self.apply_any(builtin, operands, id)
-    }
-
-    fn apply_any(&mut self, builtin: Builtin, operands: &[Value], id: TermId) -> Outcome<Value> {
         let span = self.program.term_span(id);
         let outcome = match builtin {
+            Builtin::Eq => Ok(Value::Boolean(operands[0] == operands[1])),
+            Builtin::Neq => Ok(Value::Boolean(operands[0] != operands[1])),
             Builtin::IsDef => Ok(Value::Boolean(!operands[0].is_undef())),
             Builtin::IsUndef => Ok(Value::Boolean(operands[0].is_undef())),
             // Printing is the shells' business; the value of `print` is irrelevant.

@@ -1,0 +1,181 @@
+//! Values of derived and static functions, kept while the state stays the same.
+//!
+//! A definition that reads neither `self` nor anything that a second evaluation could answer differently (a
+//! choice, `pre`) has one value a state. It is kept by an array like a dense function's locations, marked with the
+//! *version* of the state it was evaluated in. INVARIANT: two moments with the same version have the same
+//! (intermediate) state; a `seq` that ends brings back the version it began with. Values of static functions
+//! that depend on static functions alone are kept for good.
+
+use program::{Builtin, DomainId, DomainKind, FunctionId, FunctionKind, Program, Term, TermId};
+
+use crate::layout::{Dimension, dimensions_of};
+use crate::value::Value;
+
+/// LIMIT: definitions of fewer terms are evaluated each time.
+const WORTH_KEEPING: u32 = 5;
+
+/// The version of values that are kept for good.
+const ALWAYS: u64 = 0;
+
+/// A version of the state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Version(u64);
+
+/// Where the values of one function are kept.
+#[derive(Debug, Clone)]
+struct Shelf {
+    base: u32,
+    dimensions: Box<[Dimension]>,
+    for_good: bool,
+}
+
+/// The values kept.
+#[derive(Debug)]
+pub(crate) struct Memo {
+    shelves: Vec<Option<Shelf>>,
+    values: Vec<Value>,
+    /// By value: 1 + the version it holds in; 0 where there is none.
+    versions: Vec<u64>,
+    current: u64,
+    last: u64,
+}
+
+impl Memo {
+    /// Keeps nothing until it is laid out.
+    pub fn new(program: &Program) -> Memo {
+        let shelves = vec![None; program.functions.len()];
+        Memo { shelves, values: Vec::new(), versions: Vec::new(), current: 1, last: 1 }
+    }
+
+    /// Decides which functions' values are kept.
+    pub fn lay_out(&mut self, program: &Program, contents: &dyn Fn(DomainId) -> Option<Vec<Value>>) {
+        let repeatable = closed_under(program, &|term| is_repeatable(program, term));
+        let fixed = closed_under(program, &|term| is_repeatable(program, term) && is_fixed(program, term));
+        let mut next = 0u32;
+        for (index, function) in program.functions.iter().enumerate() {
+            let Some(definition) = &function.definition else { continue };
+            if !repeatable[index] || size(program, definition.body, WORTH_KEEPING) < WORTH_KEEPING {
+                continue;
+            }
+            let Some((dimensions, len)) = dimensions_of(program, &function.parameters, contents) else { continue };
+            self.shelves[index] = Some(Shelf { base: next, dimensions, for_good: fixed[index] });
+            next += len;
+        }
+        self.values = vec![Value::Undef; next as usize];
+        self.versions = vec![0; next as usize];
+    }
+
+    /// Where the value of a function at arguments is kept, and the mark of a value that holds now.
+    #[inline]
+    pub fn place(&self, function: FunctionId, arguments: &[Value]) -> Option<(u32, u64)> {
+        let shelf = self.shelves[function.0 as usize].as_ref()?;
+        let mut offset = 0;
+        for (dimension, argument) in shelf.dimensions.iter().zip(arguments) {
+            offset = offset * dimension.size + dimension.index(argument)?;
+        }
+        Some((shelf.base + offset, 1 + if shelf.for_good { ALWAYS } else { self.current }))
+    }
+
+    /// The value kept at a place, if it holds now.
+    #[inline]
+    pub fn get(&self, (place, mark): (u32, u64)) -> Option<&Value> {
+        (self.versions[place as usize] == mark).then(|| &self.values[place as usize])
+    }
+
+    /// Keeps a value.
+    #[inline]
+    pub fn keep(&mut self, (place, mark): (u32, u64), value: Value) {
+        self.versions[place as usize] = mark;
+        self.values[place as usize] = value;
+    }
+
+    /// The state has changed to one it never was before.
+    #[inline]
+    pub fn changed(&mut self) {
+        self.last += 1;
+        self.current = self.last;
+    }
+
+    /// The version of the state now.
+    pub fn version(&self) -> Version {
+        Version(self.current)
+    }
+
+    /// The state is again what it was.
+    pub fn back_to(&mut self, version: Version) {
+        self.current = version.0;
+    }
+}
+
+/// How many terms a definition has, counted up to `enough`.
+fn size(program: &Program, term: TermId, enough: u32) -> u32 {
+    let mut count = 1;
+    program.each_child_of_term(term, &mut |child| {
+        if count < enough {
+            count += size(program, child, enough);
+        }
+    });
+    count
+}
+
+/// Evaluated twice in one state, the term itself cannot give two answers.
+fn is_repeatable(program: &Program, term: &Term) -> bool {
+    match term {
+        Term::Read { function, .. } => Some(*function) != program.self_function,
+        Term::Builtin { builtin, .. } => !matches!(
+            builtin,
+            Builtin::ChooseOne
+                | Builtin::Pre
+                | Builtin::Temporal(_)
+                | Builtin::TimeNanoseconds
+                | Builtin::TimeMilliseconds
+                | Builtin::TimeSeconds
+        ),
+        _ => true,
+    }
+}
+
+/// The term itself does not depend on the state.
+fn is_fixed(program: &Program, term: &Term) -> bool {
+    match term {
+        Term::Read { function, .. } => program.function(*function).kind == FunctionKind::Static,
+        Term::Domain(domain) => match &program.domain(*domain).kind {
+            DomainKind::Enum { .. } => true,
+            DomainKind::Concrete { dynamic, base, .. } => {
+                !dynamic && !matches!(program.domain(*base).kind, DomainKind::Abstract { .. })
+            }
+            _ => false,
+        },
+        Term::Builtin { builtin, .. } => *builtin != Builtin::Program,
+        _ => true,
+    }
+}
+
+/// By function: whether `holds` of every term of its definition, and of those of the definitions it uses.
+fn closed_under(program: &Program, holds: &dyn Fn(&Term) -> bool) -> Vec<bool> {
+    let mut closed: Vec<bool> = program.functions.iter().map(|f| f.definition.is_some()).collect();
+    loop {
+        let mut changed = false;
+        for (index, function) in program.functions.iter().enumerate() {
+            let Some(definition) = &function.definition else { continue };
+            if closed[index] && !everywhere(program, definition.body, &closed, holds) {
+                closed[index] = false;
+                changed = true;
+            }
+        }
+        if !changed {
+            return closed;
+        }
+    }
+}
+
+fn everywhere(program: &Program, term: TermId, closed: &[bool], holds: &dyn Fn(&Term) -> bool) -> bool {
+    let mut all = holds(program.term(term));
+    if let Term::Define { function, .. } = program.term(term) {
+        all = all && closed[function.0 as usize];
+    }
+    if all {
+        program.each_child_of_term(term, &mut |child| all = all && everywhere(program, child, closed, holds));
+    }
+    all
+}
