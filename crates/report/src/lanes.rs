@@ -108,8 +108,7 @@ fn channels(report: &Report) -> Vec<Lane<'_>> {
     let buffers = report.buffers.iter().map(buffer_lane);
     let queues = report.queues.iter().map(|queue| {
         let most = queue.lengths.greatest().map_or(1, |(most, _)| most).max(queue.capacity.unwrap_or(1)) as i64;
-        let graph =
-            Graph { curve: &queue.length, top: most, bound: None, ticks: false, bound_label: String::new() };
+        let graph = Graph { curve: &queue.length, top: most, bound: None, ticks: false, bound_label: String::new() };
         let lane = Lane::plain(queue.from.clone(), format!("\u{2192} {}, queue", queue.to), TWO_LINES.max(QUEUE));
         Lane { graph: Some(graph), ..lane }
     });

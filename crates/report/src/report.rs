@@ -251,7 +251,11 @@ impl Report {
                 && greatest > bound
             {
                 let by = series.show(self.time, greatest);
-                troubles.push(format!("{} reached {by}, above its bound {}", series.name, series.show(self.time, bound)));
+                troubles.push(format!(
+                    "{} reached {by}, above its bound {}",
+                    series.name,
+                    series.show(self.time, bound)
+                ));
             }
         }
         for invariant in &self.invariants {

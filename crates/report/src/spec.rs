@@ -159,7 +159,11 @@ impl Spec {
         let mut terms: Vec<&TermText> = Vec::new();
         for task in &self.tasks {
             terms.push(&task.activity);
-            terms.extend([&task.period, &task.release, &task.cycles, &task.met, &task.missed, &task.skipped].into_iter().flatten());
+            terms.extend(
+                [&task.period, &task.release, &task.cycles, &task.met, &task.missed, &task.skipped]
+                    .into_iter()
+                    .flatten(),
+            );
         }
         for buffer in &self.buffers {
             let BufferSpec { arrays, writing, reading, write_index, read_index, lock, swaps, counters, .. } = buffer;
@@ -195,12 +199,17 @@ impl Spec {
             }
             names.push(&task.name);
             if task.activity.trim().is_empty() {
-                faults.push(format!("task `{}` has no `activity`: name the term that says what it is doing", task.name));
+                faults
+                    .push(format!("task `{}` has no `activity`: name the term that says what it is doing", task.name));
             }
         }
         for hop in self.flow.iter().flat_map(|flow| &flow.hops) {
             if !names.contains(&hop.task.as_str()) {
-                faults.push(format!("the flow passes `{}`, which is no task: it must be one of {}", hop.task, names.join(", ")));
+                faults.push(format!(
+                    "the flow passes `{}`, which is no task: it must be one of {}",
+                    hop.task,
+                    names.join(", ")
+                ));
             }
         }
         if self.flow.as_ref().is_some_and(|flow| flow.hops.len() < 2) {

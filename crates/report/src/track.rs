@@ -152,7 +152,8 @@ mod tests {
     #[test]
     fn a_sawtooth_takes_one_segment_a_tooth() {
         let mut curve = Curve::default();
-        for (tick, value) in [None, Some(4), Some(5), Some(6), Some(2), Some(3), Some(3), Some(3)].into_iter().enumerate()
+        for (tick, value) in
+            [None, Some(4), Some(5), Some(6), Some(2), Some(3), Some(3), Some(3)].into_iter().enumerate()
         {
             curve.push(tick as u64, value);
         }

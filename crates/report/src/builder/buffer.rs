@@ -75,7 +75,9 @@ impl BufferWatch {
             self.grow(most);
             for (index, row) in self.buffer.rows.iter_mut().enumerate() {
                 // What happens hides where it would happen next.
-                let kind = [WRITING, READING, WRITE_PLACE, READ_PLACE].into_iter().find(|k| places[*k as usize] == Some(index));
+                let kind = [WRITING, READING, WRITE_PLACE, READ_PLACE]
+                    .into_iter()
+                    .find(|k| places[*k as usize] == Some(index));
                 row.push(moment.tick, kind);
             }
             if self.swaps.is_some_and(|slot| readings.changed(slot)) {

@@ -47,7 +47,14 @@ fn comma(index: usize) -> &'static str {
 }
 
 fn put_lane<'a>(out: &mut String, lane: &Lane<'a>, kinds: &mut Vec<&'a Kind>) {
-    put!(out, "{{\"n\":{},\"c\":{},\"y\":{},\"h\":{}", Json(&lane.name), Json(&lane.caption), Px(lane.y), Px(lane.height));
+    put!(
+        out,
+        "{{\"n\":{},\"c\":{},\"y\":{},\"h\":{}",
+        Json(&lane.name),
+        Json(&lane.caption),
+        Px(lane.y),
+        Px(lane.height)
+    );
     if let Some((heading, y)) = lane.heading {
         put!(out, ",\"hd\":[{},{}]", Json(heading), Px(y));
     }
@@ -55,7 +62,12 @@ fn put_lane<'a>(out: &mut String, lane: &Lane<'a>, kinds: &mut Vec<&'a Kind>) {
     for (index, strip) in lane.strips.iter().enumerate() {
         put_strip(out, strip, kinds, index);
     }
-    put!(out, "],\"lk\":\"{}\",\"l\":\"{}\"", if lane.line == LineKind::Due { "due" } else { "swap" }, differences(lane.lines));
+    put!(
+        out,
+        "],\"lk\":\"{}\",\"l\":\"{}\"",
+        if lane.line == LineKind::Due { "due" } else { "swap" },
+        differences(lane.lines)
+    );
     if !lane.crosses.is_empty() {
         put!(out, ",\"x\":\"{}\"", differences(lane.crosses));
     }
@@ -74,7 +86,14 @@ fn put_strip<'a>(out: &mut String, strip: &Strip<'a>, kinds: &mut Vec<&'a Kind>,
         })
     };
     let letters: Vec<String> = track.kinds.iter().map(|kind| letters(place(kind, kinds))).collect();
-    put!(out, "{}{{\"y\":{},\"h\":{},\"f\":{},\"d\":\"", comma(index), Px(strip.y), Px(strip.height), u8::from(strip.full));
+    put!(
+        out,
+        "{}{{\"y\":{},\"h\":{},\"f\":{},\"d\":\"",
+        comma(index),
+        Px(strip.y),
+        Px(strip.height),
+        u8::from(strip.full)
+    );
     let mut at = 0;
     for span in track.spans() {
         if span.start > at {
@@ -100,7 +119,8 @@ fn put_graph(out: &mut String, graph: &Graph) {
 
 fn differences(ticks: &[u64]) -> String {
     let mut before = 0;
-    let texts: Vec<String> = ticks.iter().map(|tick| base36(tick.saturating_sub(std::mem::replace(&mut before, *tick)))).collect();
+    let texts: Vec<String> =
+        ticks.iter().map(|tick| base36(tick.saturating_sub(std::mem::replace(&mut before, *tick)))).collect();
     texts.join(" ")
 }
 
@@ -133,7 +153,10 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        assert_eq!((base36(0), base36(35), base36(36), base36(9_999)), ("0".into(), "z".into(), "10".into(), "7pr".into()));
+        assert_eq!(
+            (base36(0), base36(35), base36(36), base36(9_999)),
+            ("0".into(), "z".into(), "10".into(), "7pr".into())
+        );
         assert_eq!((letters(0), letters(25), letters(26)), ("A".into(), "Z".into(), "BA".into()));
         assert_eq!(differences(&[3, 3, 40]), "3 0 11");
     }

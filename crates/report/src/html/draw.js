@@ -1,7 +1,7 @@
 // Draws a window of the run as SVG text, as the still drawing of the page is drawn. SYNC(drawing), SYNC(run data)
 "use strict";
 const run = JSON.parse(document.getElementById("run").textContent);
-const HEAD = 22, RIGHT = 14, FINE = 2.2, COLUMN = 3, APART = 78, WAYS_APART = 14;
+const HEAD = 22, RIGHT = 14, FINE = 2.2, COLUMN = 3, APART = 78, WAYS_APART = 14, LINES_APART = 7;
 const HEIGHT = { idle: 0, work: 0.72, hold: 0.72, wait: 1 };
 const TONES = ["idle", "work", "read", "write", "hold", "message", "other", "wait", "readplace", "writeplace"];
 
@@ -84,7 +84,7 @@ function drawAxis(view) {
     lines += `M${x} -4V${px(run.height)}`;
     labels += `<text x="${x}" y="-9">${parseFloat((index * step * run.factor).toFixed(3))}</text>`;
   }
-  return `<path class="grid" d="${lines}"/><g class="ticks">${labels}<text class="unit" x="${px(view.left - 14)}" y="-9">${run.unit}</text></g>`;
+  return `<path class="grid" d="${lines}"/><g class="ticks">${labels}<text class="unit" x="${px(view.left - 26)}" y="-9">${run.unit}</text></g>`;
 }
 
 function drawLabels(lane, view) {
@@ -146,7 +146,7 @@ function visible(items, view, least) {
 }
 
 function drawLane(lane, view) {
-  const lines = visible(lane.lines, view, 4).map((tick) => `M${px(view.x(tick))} ${px(lane.y - 2)}V${px(lane.y + lane.h + 2)}`).join("");
+  const lines = visible(lane.lines, view, LINES_APART).map((tick) => `M${px(view.x(tick))} ${px(lane.y - 2)}V${px(lane.y + lane.h + 2)}`).join("");
   const due = lane.lk === "due", middle = px(lane.y + lane.h / 2);
   let out = due && lane.s.length ? `<path class="base" d="M${px(view.left)} ${middle}H${px(view.right)}"/><path class="due" d="${lines}"/>` : "";
   for (const strip of lane.s) out += drawStrip(strip, view);

@@ -1,6 +1,6 @@
 // Moves the window over the run: by pointer, wheel, keyboard, buttons, links and the address. Reads off what is where.
 const stage = document.getElementById("stage"), detail = document.getElementById("detail");
-const strip = document.getElementById("overview"), tip = document.getElementById("tip");
+const whole = document.getElementById("whole"), strip = document.getElementById("overview"), tip = document.getElementById("tip");
 const where = document.getElementById("where"), described = detail.querySelector("desc");
 const LEAST = Math.min(20, run.shown);
 let from = 0, to = run.window, view = null, waiting = 0, moved = false;
@@ -21,16 +21,15 @@ function draw() {
   detail.setAttribute("height", run.height + HEAD);
   detail.querySelectorAll(":scope > g").forEach((group) => group.remove());
   described.insertAdjacentHTML("afterend", drawTimeline(view));
-  const scale = overview(width), frame = strip.querySelector(".brush");
-  frame.setAttribute("x", scale.x(from));
-  frame.setAttribute("width", Math.max(3, (to - from) * scale.scale));
+  whole.style.gridTemplateColumns = `${view.left}px 1fr ${RIGHT}px`;
+  const scale = strip.viewBox.baseVal.width / run.shown, frame = strip.querySelector(".brush");
+  frame.setAttribute("x", px(from * scale));
+  frame.setAttribute("width", px(Math.max(3, (to - from) * scale)));
   const spare = to - from < 50 ? 1 : 0;
   where.textContent = `${time(from, spare)}\u2013${timed(to, spare)}`;
   if (moved) history.replaceState(null, "", `#t=${from.toFixed(1)}-${to.toFixed(1)}`);
 }
 
-/** The overview has a drawing of its own width; the script uses its units. */
-const overview = () => viewOf(0, run.shown, strip.viewBox.baseVal.width);
 const zoom = (factor, at) => { moved = true; show(at - (at - from) * factor, at + (to - at) * factor); };
 const move = (ticks) => { moved = true; show(from + ticks, to + ticks); };
 const jump = (tick, length) => { moved = true; show(tick - length / 2, tick + length / 2); };
@@ -151,8 +150,8 @@ strip.addEventListener("pointerdown", (event) => {
 strip.addEventListener("pointermove", (event) => { if (grip !== null) move(stripTick(event) - grip - from); });
 for (const name of ["pointerup", "pointercancel"]) strip.addEventListener(name, () => { grip = null; });
 function stripTick(event) {
-  const box = strip.getBoundingClientRect(), scale = overview();
-  return ((event.clientX - box.left) * scale.width / box.width - scale.left) / scale.scale;
+  const box = strip.getBoundingClientRect();
+  return (event.clientX - box.left) / box.width * run.shown;
 }
 
 detail.tabIndex = 0;

@@ -29,8 +29,15 @@ fn verdict(out: &mut String, report: &Report) {
         out.push_str("<p class=\"verdict good\"><span class=\"mark\" aria-hidden=\"true\">\u{2713}</span>Everything that was checked held.</p>\n");
         return;
     }
-    let sentence = if troubles.len() == 1 { "One thing went wrong".to_owned() } else { format!("{} things went wrong", troubles.len()) };
-    put!(out, "<div class=\"verdict bad\"><p><span class=\"mark\" aria-hidden=\"true\">\u{2717}</span>{sentence}:</p>\n<ul>");
+    let sentence = if troubles.len() == 1 {
+        "One thing went wrong".to_owned()
+    } else {
+        format!("{} things went wrong", troubles.len())
+    };
+    put!(
+        out,
+        "<div class=\"verdict bad\"><p><span class=\"mark\" aria-hidden=\"true\">\u{2717}</span>{sentence}:</p>\n<ul>"
+    );
     for trouble in troubles {
         put!(out, "<li>{}</li>", Text(trouble));
     }
@@ -81,7 +88,13 @@ fn age(out: &mut String, report: &Report) {
         put!(remark, ", bound {}", Text(series.show(report.time, bound)));
         bad = most as i64 > bound;
     }
-    figure(out, &Text(format!("{}, most", series.name)).to_string(), &series.show(report.time, most as i64), &remark, bad);
+    figure(
+        out,
+        &Text(format!("{}, most", series.name)).to_string(),
+        &series.show(report.time, most as i64),
+        &remark,
+        bad,
+    );
 }
 
 fn scenarios(out: &mut String, report: &Report) {

@@ -17,11 +17,7 @@ pub(super) fn timeline_section(out: &mut String, report: &Report) {
     section(out, "timeline", "Timeline", "");
     legend(out, report);
     controls(out);
-    let view = View::new(0, report.shown.max(1), WIDTH);
-    let (strip, height) = overview(report, &view);
-    put!(out, "<svg id=\"overview\" viewBox=\"0 -8 {} {}\" role=\"img\" aria-label=\"The whole run\">", Px(WIDTH), Px(height + 14.0));
-    put!(out, "<title>The whole run: how busy each task was, and where it waited</title>\n");
-    put!(out, "<text class=\"caption\" x=\"0\" y=\"{}\">whole run</text>\n{strip}</svg>\n", Px(height / 2.0 + 3.0));
+    put!(out, "<div class=\"run\" id=\"whole\"><span>whole run</span>{}</div>\n", overview(report));
     let window = View::new(0, report.window.min(report.shown).max(1), WIDTH);
     let drawn = timeline(report, &window, &Timeline { titles: true, id: "window" });
     out.push_str("<div class=\"stage\" id=\"stage\">\n");
@@ -31,32 +27,54 @@ pub(super) fn timeline_section(out: &mut String, report: &Report) {
         w = Px(WIDTH),
         h = Px(drawn.height)
     );
-    put!(out, "<title id=\"detail-title\">Timeline</title><desc id=\"detail-desc\">{}</desc>\n", Text(&drawn.description));
+    put!(
+        out,
+        "<title id=\"detail-title\">Timeline</title><desc id=\"detail-desc\">{}</desc>\n",
+        Text(&drawn.description)
+    );
     put!(out, "{}</svg>\n<div id=\"tip\" hidden=\"hidden\"></div>\n</div>\n", drawn.markup);
     scrolled(out, report);
     if report.shown < report.ticks {
-        put!(out, "<p class=\"lead\">The lanes show the first {} of the run; the figures below are of the whole run.</p>\n", report.time.run(report.shown));
+        put!(
+            out,
+            "<p class=\"lead\">The lanes show the first {} of the run; the figures below are of the whole run.</p>\n",
+            report.time.run(report.shown)
+        );
     }
     shares(out, report);
     out.push_str("</section>\n");
 }
 
 fn legend(out: &mut String, report: &Report) {
-    out.push_str("<ul class=\"legend\">\n");
+    let mut activities: Vec<(String, &str)> = Vec::new();
     for kind in &report.activities {
         let outline = if kind.tone == Tone::Idle { " outlined" } else { "" };
-        put!(out, "<li><i class=\"{}{outline}\"></i>{}</li>\n", kind.tone.name(), Text(&kind.label));
+        activities.push((format!("{}{outline}", kind.tone.name()), &kind.label));
     }
+    let mut marks: Vec<(String, &str)> = Vec::new();
     if report.tasks.iter().any(|task| !task.releases.is_empty()) {
-        out.push_str("<li><i class=\"bar\"></i>period begins, deadline of the one before</li>\n");
+        marks.push(("bar".to_owned(), "a period begins, the deadline of the one before"));
+    }
+    let way = report.flow.as_ref().map(|flow| format!("way of a {}, dashed when overtaken", flow.noun.0));
+    if let Some(way) = &way {
+        marks.push(("thread".to_owned(), way));
     }
     if !report.buffers.is_empty() {
-        out.push_str("<li><i class=\"writeplace\"></i>next to be written</li>\n<li><i class=\"readplace\"></i>next to be read</li>\n<li><i class=\"bar strong\"></i>arrays swapped</li>\n");
+        for (class, label) in [
+            ("writeplace", "array next to be written"),
+            ("readplace", "next to be read"),
+            ("bar strong", "arrays swapped"),
+        ] {
+            marks.push((class.to_owned(), label));
+        }
     }
-    if let Some(flow) = &report.flow {
-        put!(out, "<li><i class=\"thread\"></i>way of a {}, dashed when overtaken</li>\n", Text(&flow.noun.0));
+    for list in [activities, marks] {
+        out.push_str("<ul class=\"legend\">\n");
+        for (class, label) in list {
+            put!(out, "<li><i class=\"{class}\"></i>{}</li>\n", Text(label));
+        }
+        out.push_str("</ul>\n");
     }
-    out.push_str("</ul>\n");
 }
 
 fn controls(out: &mut String) {
@@ -67,14 +85,20 @@ fn controls(out: &mut String) {
         ("out", "\u{2212}", "Zoom out"),
         ("in", "+", "Zoom in"),
     ] {
-        put!(out, "<button type=\"button\" data-do=\"{action}\" aria-label=\"{name}\" title=\"{name}\">{sign}</button>");
+        put!(
+            out,
+            "<button type=\"button\" data-do=\"{action}\" aria-label=\"{name}\" title=\"{name}\">{sign}</button>"
+        );
     }
     out.push_str("</span>\n<span class=\"group\">");
-    for (action, name) in [("first", "First view"), ("all", "Whole run"), ("wait", "Next wait"), ("miss", "Next miss")] {
+    for (action, name) in [("first", "First view"), ("all", "Whole run"), ("wait", "Next wait"), ("miss", "Next miss")]
+    {
         put!(out, "<button type=\"button\" data-do=\"{action}\">{name}</button>");
     }
     out.push_str("</span>\n<output id=\"where\" aria-live=\"polite\"></output>\n");
-    out.push_str("<span class=\"hint\">drag to move, Ctrl and wheel to zoom, arrows and +/\u{2212} by keyboard</span>\n</div>\n");
+    out.push_str(
+        "<span class=\"hint\">drag to move, Ctrl and wheel to zoom, arrows and +/\u{2212} by keyboard</span>\n</div>\n",
+    );
 }
 
 /// The whole run at the scale of the first view.
@@ -92,7 +116,12 @@ fn scrolled(out: &mut String, report: &Report) {
     let width = first.left + 14.0 + first.scale() * end as f64;
     let view = View::new(0, end, width);
     let drawn = timeline(report, &view, &Timeline { titles: false, id: "run-to-scroll" });
-    put!(out, "<noscript>\n<details><summary>The run to scroll through</summary>\n<div class=\"stage\"><svg viewBox=\"0 0 {w} {h}\" width=\"{w}\" height=\"{h}\" role=\"img\">", w = Px(width), h = Px(drawn.height));
+    put!(
+        out,
+        "<noscript>\n<details><summary>The run to scroll through</summary>\n<div class=\"stage\"><svg viewBox=\"0 0 {w} {h}\" width=\"{w}\" height=\"{h}\" role=\"img\">",
+        w = Px(width),
+        h = Px(drawn.height)
+    );
     put!(out, "<title>The run to scroll through</title>\n{}</svg></div></details>\n</noscript>\n", drawn.markup);
 }
 

@@ -26,7 +26,9 @@ pub fn render_html(report: &Report) -> String {
     let mut out = String::new();
     out.push_str("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n");
     out.push_str("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n");
-    out.push_str("<meta name=\"color-scheme\" content=\"light dark\"/>\n<meta name=\"generator\" content=\"Groundstate\"/>\n");
+    out.push_str(
+        "<meta name=\"color-scheme\" content=\"light dark\"/>\n<meta name=\"generator\" content=\"Groundstate\"/>\n",
+    );
     put!(out, "<title>{}</title>\n", Text(&report.title));
     put!(out, "<style>\n{}{}</style>\n</head>\n<body>\n", include_str!("page.css"), svg_css());
     figures::header(&mut out, report);
@@ -41,7 +43,11 @@ pub fn render_html(report: &Report) -> String {
     verdicts::coverage(&mut out, report);
     verdicts::facts(&mut out, report);
     out.push_str("</main>\n");
-    put!(out, "<footer>Written by Groundstate from a run of {}. This page is complete: it loads nothing.</footer>\n", Text(&report.model));
+    put!(
+        out,
+        "<footer>Written by Groundstate from a run of {}. This page is complete: it loads nothing.</footer>\n",
+        Text(&report.model)
+    );
     put!(out, "<script type=\"application/json\" id=\"run\">\n{}</script>\n", data::run_data(report));
     put!(out, "<script>\n{}{}</script>\n", include_str!("draw.js"), include_str!("explore.js"));
     out.push_str("</body>\n</html>\n");

@@ -15,7 +15,12 @@ pub(super) fn tasks(out: &mut String, report: &Report) {
     if report.tasks.is_empty() {
         return;
     }
-    section(out, "tasks", "Tasks", "Response is the time from the begin of a period to the end of its cycle; for a task without periods, from one end to the next. The bar shows it within the period: the mean dark, the longest pale.");
+    section(
+        out,
+        "tasks",
+        "Tasks",
+        "Response is the time from the begin of a period to the end of its cycle; for a task without periods, from one end to the next. The bar shows it within the period: the mean dark, the longest pale.",
+    );
     out.push_str("<div class=\"wide\"><table class=\"tasks\">\n<thead><tr><th scope=\"col\">Task</th><th scope=\"col\">Cycles</th><th scope=\"col\">Deadlines met</th><th scope=\"col\">missed</th><th scope=\"col\">Response, mean</th><th scope=\"col\">longest</th><th scope=\"col\" class=\"drawn\">within the period</th><th scope=\"col\">Given up</th><th scope=\"col\" class=\"drawn\">Use of time</th></tr></thead>\n<tbody>\n");
     for task in &report.tasks {
         task_row(out, report, task);
@@ -58,14 +63,30 @@ fn task_row(out: &mut String, report: &Report, task: &Task) {
 fn response_bar(out: &mut String, mean: f64, most: f64) {
     let part = |share: f64| Px(BAR * share.min(1.0));
     let late = if most > 1.0 { " late" } else { "" };
-    put!(out, "<svg class=\"bar\" viewBox=\"0 0 {w} 14\" width=\"{w}\" height=\"14\" role=\"img\"><title>mean {:.0} %, longest {:.0} % of the period</title>", mean * 100.0, most * 100.0, w = Px(BAR));
-    put!(out, "<rect class=\"rail\" y=\"4\" width=\"{}\" height=\"6\"/><rect class=\"most{late}\" y=\"4\" width=\"{}\" height=\"6\"/><rect class=\"mean{late}\" y=\"4\" width=\"{}\" height=\"6\"/>", Px(BAR), part(most), part(mean));
+    put!(
+        out,
+        "<svg class=\"bar\" viewBox=\"0 0 {w} 14\" width=\"{w}\" height=\"14\" role=\"img\"><title>mean {:.0} %, longest {:.0} % of the period</title>",
+        mean * 100.0,
+        most * 100.0,
+        w = Px(BAR)
+    );
+    put!(
+        out,
+        "<rect class=\"rail\" y=\"4\" width=\"{}\" height=\"6\"/><rect class=\"most{late}\" y=\"4\" width=\"{}\" height=\"6\"/><rect class=\"mean{late}\" y=\"4\" width=\"{}\" height=\"6\"/>",
+        Px(BAR),
+        part(most),
+        part(mean)
+    );
     put!(out, "<path class=\"due\" d=\"M{x} 0V14\"/></svg>", x = Px(BAR - 0.5));
 }
 
 /// How a task divides its time.
 fn share_bar(out: &mut String, report: &Report, task: &Task) {
-    put!(out, "<svg class=\"bar\" viewBox=\"0 0 {w} 14\" width=\"{w}\" height=\"14\" role=\"img\"><title>", w = Px(BAR));
+    put!(
+        out,
+        "<svg class=\"bar\" viewBox=\"0 0 {w} 14\" width=\"{w}\" height=\"14\" role=\"img\"><title>",
+        w = Px(BAR)
+    );
     let told: Vec<String> = report
         .activities
         .iter()
@@ -76,10 +97,17 @@ fn share_bar(out: &mut String, report: &Report, task: &Task) {
     put!(out, "{}</title><rect class=\"rail\" y=\"2\" width=\"{}\" height=\"10\"/>", Text(told.join(", ")), Px(BAR));
     let mut x = 0.0;
     for tone in Tone::ALL.into_iter().filter(|tone| *tone != Tone::Idle) {
-        let ticks: u64 = report.activities.iter().zip(&task.shares).filter(|(kind, _)| kind.tone == tone).map(|(_, n)| n).sum();
+        let ticks: u64 =
+            report.activities.iter().zip(&task.shares).filter(|(kind, _)| kind.tone == tone).map(|(_, n)| n).sum();
         if ticks > 0 {
             let width = BAR * ticks as f64 / report.ticks.max(1) as f64;
-            put!(out, "<rect class=\"{}\" x=\"{}\" y=\"2\" width=\"{}\" height=\"10\"/>", tone.name(), Px(x), Px(width));
+            put!(
+                out,
+                "<rect class=\"{}\" x=\"{}\" y=\"2\" width=\"{}\" height=\"10\"/>",
+                tone.name(),
+                Px(x),
+                Px(width)
+            );
             x += width;
         }
     }
@@ -91,7 +119,8 @@ pub(super) fn waiting(out: &mut String, report: &Report) {
     if report.tasks.is_empty() {
         return;
     }
-    let waiting: Vec<&str> = report.activities.iter().filter(|k| k.tone == Tone::Wait).map(|k| k.label.as_str()).collect();
+    let waiting: Vec<&str> =
+        report.activities.iter().filter(|k| k.tone == Tone::Wait).map(|k| k.label.as_str()).collect();
     let (waited, never): (Vec<&Task>, Vec<&Task>) = report.tasks.iter().partition(|task| !task.waits.is_empty());
     let mut lead = match waiting.as_slice() {
         [] => return,
@@ -106,10 +135,30 @@ pub(super) fn waiting(out: &mut String, report: &Report) {
     for task in waited {
         let (most, at) = task.waits.greatest().unwrap_or_default();
         put!(out, "<figure><figcaption>{}</figcaption>\n", Text(&task.name));
-        out.push_str(&histogram(&task.waits, report.time, "wait", &format!("How long {} waited, and how often", task.name)));
-        put!(out, "<p>{} times, mean {}, longest {}, in all {}</p></figure>\n", count(task.waits.count()), report.time.mean(task.waits.mean()), go(at, &report.time.show(most)), report.time.show(task.waits.total()));
+        out.push_str(&histogram(
+            &task.waits,
+            report.time,
+            "wait",
+            &format!("How long {} waited, and how often", task.name),
+        ));
+        put!(
+            out,
+            "<p>{}, mean {}, longest {}, in all {}</p></figure>\n",
+            times(task.waits.count()),
+            report.time.mean(task.waits.mean()),
+            go(at, &report.time.show(most)),
+            report.time.show(task.waits.total())
+        );
     }
     out.push_str("</div>\n</section>\n");
+}
+
+fn times(n: u64) -> String {
+    match n {
+        1 => "once".to_owned(),
+        2 => "twice".to_owned(),
+        n => format!("{} times", count(n)),
+    }
 }
 
 /// Writes the values over time and the way of data.
@@ -120,8 +169,18 @@ pub(super) fn ages(out: &mut String, report: &Report) {
     let Some(flow) = &report.flow else { return };
     let (noun, nouns) = &flow.noun;
     let first = flow.hops.first().map_or("", |(_, event)| event);
-    let counts: Vec<String> = flow.hops.iter().zip(&flow.reached).skip(1).map(|((task, event), n)| format!("{} were {event} by {task}", count(*n))).collect();
-    let lead = format!("Of {} {nouns} {first}, {}. A {noun} that a later one overtakes goes no further. From the least to the longest time of each leg; the dot is the mean.", count(flow.reached[0]), counts.join(", "));
+    let counts: Vec<String> = flow
+        .hops
+        .iter()
+        .zip(&flow.reached)
+        .skip(1)
+        .map(|((task, event), n)| format!("{} were {event} by {task}", count(*n)))
+        .collect();
+    let lead = format!(
+        "Of {} {nouns} {first}, {}. A {noun} that a later one overtakes goes no further. From the least to the longest time of each leg; the dot is the mean.",
+        count(flow.reached[0]),
+        counts.join(", ")
+    );
     section(out, "way", &format!("Way of the {nouns}"), &lead);
     put!(out, "<div class=\"pair\">\n<div class=\"wide\">{}</div>\n", legs(flow, report.time));
     out.push_str("<div class=\"wide\"><table>\n<thead><tr><th scope=\"col\">Leg</th><th scope=\"col\">Times</th><th scope=\"col\">Least</th><th scope=\"col\">Mean</th><th scope=\"col\">Longest</th></tr></thead>\n<tbody>\n");
@@ -132,8 +191,16 @@ pub(super) fn ages(out: &mut String, report: &Report) {
         };
         put!(out, "<tr><th scope=\"row\">{}</th><td>{}</td>", Text(name), count(tally.count()));
         match tally.least().zip(tally.greatest()) {
-            Some((least, (most, at))) => put!(out, "<td>{}</td><td>{}</td><td>{}</td></tr>\n", report.time.show(least), report.time.mean(tally.mean()), go(at, &report.time.show(most))),
-            None => out.push_str("<td class=\"nil\">\u{2013}</td><td class=\"nil\">\u{2013}</td><td class=\"nil\">\u{2013}</td></tr>\n"),
+            Some((least, (most, at))) => put!(
+                out,
+                "<td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                report.time.show(least),
+                report.time.mean(tally.mean()),
+                go(at, &report.time.show(most))
+            ),
+            None => out.push_str(
+                "<td class=\"nil\">\u{2013}</td><td class=\"nil\">\u{2013}</td><td class=\"nil\">\u{2013}</td></tr>\n",
+            ),
         }
     }
     out.push_str("</tbody></table></div>\n</div>\n</section>\n");
@@ -144,7 +211,14 @@ fn series_section(out: &mut String, report: &Report, series: &Series, index: usi
     let mut lead = series.caption.clone();
     if let Some((most, _)) = series.values.greatest() {
         let show = |value: Option<u64>| series.show(time, value.unwrap_or(0) as i64);
-        put!(lead, "{}mean {}, 95 of 100 ticks at most {}, most {}", if lead.is_empty() { "" } else { ": " }, series.show_mean(time), show(series.values.percentile(95)), show(Some(most)));
+        put!(
+            lead,
+            "{}mean {}, 95 of 100 ticks at most {}, most {}",
+            if lead.is_empty() { "" } else { ": " },
+            series.show_mean(time),
+            show(series.values.percentile(95)),
+            show(Some(most))
+        );
         if let Some(bound) = series.bound {
             put!(lead, ", bound {}", series.show(time, bound));
         }
@@ -160,9 +234,15 @@ pub(super) fn channels(out: &mut String, report: &Report) {
         return;
     }
     section(out, "channels", "Channels", "What went through each, and how long its lock was held at a time.");
-    let labels = |counters: &[(String, Option<i64>)]| counters.iter().map(|(label, _)| label.clone()).collect::<Vec<_>>();
+    let labels =
+        |counters: &[(String, Option<i64>)]| counters.iter().map(|(label, _)| label.clone()).collect::<Vec<_>>();
     let mut columns: Vec<String> = Vec::new();
-    for label in report.buffers.iter().flat_map(|buffer| labels(&buffer.counters)).chain(report.queues.iter().flat_map(|queue| labels(&queue.counters))) {
+    for label in report
+        .buffers
+        .iter()
+        .flat_map(|buffer| labels(&buffer.counters))
+        .chain(report.queues.iter().flat_map(|queue| labels(&queue.counters)))
+    {
         if !columns.contains(&label) {
             columns.push(label);
         }
@@ -178,7 +258,9 @@ pub(super) fn channels(out: &mut String, report: &Report) {
     }
     for queue in &report.queues {
         let most = queue.lengths.greatest().map_or(0, |(most, _)| most);
-        let kind = queue.capacity.map_or("queue".to_owned(), |capacity| format!("queue, {most} of {capacity} places used at most"));
+        let kind = queue
+            .capacity
+            .map_or("queue".to_owned(), |capacity| format!("queue, {most} of {capacity} places used at most"));
         channel_head(out, &queue.from, &queue.to, &kind);
         out.push_str("<td class=\"nil\">\u{2013}</td><td class=\"nil\">\u{2013}</td><td class=\"nil\">\u{2013}</td>");
         counters(out, &columns, &queue.counters);
@@ -193,7 +275,9 @@ fn channel_head(out: &mut String, from: &str, to: &str, kind: &str) {
 fn held(out: &mut String, report: &Report, buffer: &Buffer) {
     number(out, buffer.swapped, false);
     match buffer.held.greatest() {
-        Some((most, at)) => put!(out, "<td>{}</td><td>{}</td>", report.time.mean(buffer.held.mean()), go(at, &report.time.show(most))),
+        Some((most, at)) => {
+            put!(out, "<td>{}</td><td>{}</td>", report.time.mean(buffer.held.mean()), go(at, &report.time.show(most)))
+        }
         None => out.push_str("<td class=\"nil\">\u{2013}</td><td class=\"nil\">\u{2013}</td>"),
     }
 }

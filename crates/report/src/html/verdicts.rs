@@ -18,7 +18,13 @@ pub(super) fn invariants(out: &mut String, report: &Report) {
             None => ("good", '\u{2713}', "held".to_owned()),
             Some(place) => ("bad", '\u{2717}', format!("violated: {place}")),
         };
-        put!(out, "<li class=\"{class}\"><span class=\"mark\" aria-hidden=\"true\">{mark}</span><b>{}</b> <span>{}</span> <small>{}</small></li>\n", Text(&invariant.name), Text(what), Text(&invariant.position));
+        put!(
+            out,
+            "<li class=\"{class}\"><span class=\"mark\" aria-hidden=\"true\">{mark}</span><b>{}</b> <span>{}</span> <small>{}</small></li>\n",
+            Text(&invariant.name),
+            Text(what),
+            Text(&invariant.position)
+        );
     }
     out.push_str("</ul>\n</section>\n");
 }
@@ -51,7 +57,12 @@ fn scenario_item(out: &mut String, scenario: &Scenario) {
         Verdict::FailedAsExpected => ("good", '\u{2713}', "fault caught"),
         Verdict::Failed(why) => ("bad", '\u{2717}', why.as_str()),
     };
-    put!(out, "<li class=\"{class}\"><span class=\"mark\" aria-hidden=\"true\">{mark}</span><b title=\"{}\">{}</b> ", Text(&scenario.file), Text(&scenario.name));
+    put!(
+        out,
+        "<li class=\"{class}\"><span class=\"mark\" aria-hidden=\"true\">{mark}</span><b title=\"{}\">{}</b> ",
+        Text(&scenario.file),
+        Text(&scenario.name)
+    );
     if !what.is_empty() {
         put!(out, "<span>{}</span> ", Text(what));
     }
@@ -71,7 +82,12 @@ pub(super) fn coverage(out: &mut String, report: &Report) {
 fn bar(out: &mut String, measure: &Measure) {
     let part = 320.0 * measure.percent() / 100.0;
     put!(out, "<div class=\"measure\"><h3>{}</h3>", Text(&measure.what));
-    put!(out, "<svg class=\"bar\" viewBox=\"0 0 320 12\" width=\"320\" height=\"12\" role=\"img\"><title>{:.1} % covered</title><rect class=\"rail\" y=\"2\" width=\"320\" height=\"8\"/><rect class=\"read\" y=\"2\" width=\"{}\" height=\"8\"/></svg>", measure.percent(), Px(part));
+    put!(
+        out,
+        "<svg class=\"bar\" viewBox=\"0 0 320 12\" width=\"320\" height=\"12\" role=\"img\"><title>{:.1} % covered</title><rect class=\"rail\" y=\"2\" width=\"320\" height=\"8\"/><rect class=\"read\" y=\"2\" width=\"{}\" height=\"8\"/></svg>",
+        measure.percent(),
+        Px(part)
+    );
     put!(out, "<p>{} of {}, {:.1}\u{202f}%</p>", count(measure.covered), count(measure.total), measure.percent());
     if measure.missed.is_empty() {
         out.push_str("</div>\n");

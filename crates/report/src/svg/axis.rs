@@ -41,5 +41,5 @@ pub(crate) fn axis(out: &mut String, view: &View, time: TimeBase, height: f64) {
         index += 1;
     }
     put!(out, "<path class=\"grid\" d=\"{lines}\"/>\n<g class=\"ticks\">{labels}");
-    put!(out, "<text class=\"unit\" x=\"{}\" y=\"-9\">{}</text></g>\n", Px(view.left - 14.0), time.unit());
+    put!(out, "<text class=\"unit\" x=\"{}\" y=\"-9\">{}</text></g>\n", Px(view.left - 26.0), time.unit());
 }

@@ -46,7 +46,12 @@ pub(crate) fn histogram(tally: &Tally, time: TimeBase, tone: &str, title: &str) 
             put!(counts, "<text x=\"{}\" y=\"{}\">{label}</text>", Px(x + bar / 2.0), Px(base - bar_height - 4.0));
         }
     }
-    put!(out, "<path class=\"{tone}\" d=\"{path}\"/>\n<path class=\"base\" d=\"M0 {}H{}\"/>\n", Px(base), Px((slots * pitch).min(width)));
+    put!(
+        out,
+        "<path class=\"{tone}\" d=\"{path}\"/>\n<path class=\"base\" d=\"M0 {}H{}\"/>\n",
+        Px(base),
+        Px((slots * pitch).min(width))
+    );
     put!(out, "<g class=\"counts\">{counts}</g>\n<g class=\"ticks\">");
     let every = ((text_width("00.0", 10.0) + 10.0) / pitch).ceil().max(1.0) as u64;
     for slot in (0..slots as u64).step_by(every as usize) {
@@ -83,7 +88,13 @@ pub(crate) fn legs(flow: &Flow, time: TimeBase) -> String {
         let mean = view.left + tally.mean() * view.scale();
         put!(out, "<path class=\"{class}\" d=\"M{} {y}H{}\"/>", Px(view.x(least)), Px(view.x(greatest)), y = Px(y));
         put!(out, "<circle class=\"mean\" cx=\"{}\" cy=\"{}\" r=\"4\"/>", Px(mean), Px(y));
-        put!(out, "<text class=\"value\" x=\"{}\" y=\"{}\">{}</text>\n", Px(view.x(greatest) + 7.0), Px(y + 4.0), time.bare(greatest as i64));
+        put!(
+            out,
+            "<text class=\"value\" x=\"{}\" y=\"{}\">{}</text>\n",
+            Px(view.x(greatest) + 7.0),
+            Px(y + 4.0),
+            time.bare(greatest as i64)
+        );
     }
     out.push_str("</g></svg>\n");
     out

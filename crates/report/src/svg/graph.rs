@@ -29,12 +29,24 @@ pub(crate) fn graph(out: &mut String, graph: &Graph, view: &View, y: f64, height
     if let Some(bound) = graph.bound {
         let y = place(bound as f64);
         put!(out, "<path class=\"bound\" d=\"M{} {}H{}\"/>\n", Px(view.left), Px(y), Px(view.right()));
-        put!(out, "<text class=\"boundlabel\" x=\"{}\" y=\"{}\">{}</text>\n", Px(view.right()), Px(y + 12.0), Text(&graph.bound_label));
+        put!(
+            out,
+            "<text class=\"boundlabel\" x=\"{}\" y=\"{}\">{}</text>\n",
+            Px(view.right()),
+            Px(y + 12.0),
+            Text(&graph.bound_label)
+        );
     }
     let show = |value: i64| if graph.ticks { time.bare(value) } else { value.to_string() };
     let top = place(graph.top as f64);
     if height > 40.0 {
-        put!(out, "<g class=\"scale\"><text x=\"{x}\" y=\"{}\">{}</text>", Px(top + 8.0), show(graph.top), x = Px(view.left - 6.0));
+        put!(
+            out,
+            "<g class=\"scale\"><text x=\"{x}\" y=\"{}\">{}</text>",
+            Px(top + 8.0),
+            show(graph.top),
+            x = Px(view.left - 6.0)
+        );
         put!(out, "<text x=\"{}\" y=\"{}\">0</text></g>\n", Px(view.left - 6.0), Px(bottom));
     }
 }

@@ -85,7 +85,14 @@ pub fn render_svg(report: &Report, options: &SvgOptions) -> String {
 fn legend(out: &mut String, report: &Report, left: f64, y: f64) {
     let mut x = left;
     for kind in &report.activities {
-        put!(out, "<rect class=\"{}{}\" x=\"{}\" y=\"{}\" width=\"12\" height=\"10\" rx=\"2\"/>", kind.tone.name(), if kind.tone == crate::Tone::Idle { " outline" } else { "" }, Px(x), Px(y - 9.0));
+        put!(
+            out,
+            "<rect class=\"{}{}\" x=\"{}\" y=\"{}\" width=\"12\" height=\"10\" rx=\"2\"/>",
+            kind.tone.name(),
+            if kind.tone == crate::Tone::Idle { " outline" } else { "" },
+            Px(x),
+            Px(y - 9.0)
+        );
         put!(out, "<text class=\"key\" x=\"{}\" y=\"{}\">{}</text>\n", Px(x + 17.0), Px(y), Text(&kind.label));
         x += 17.0 + text_width(&kind.label, 12.0) + 18.0;
     }

@@ -9,21 +9,35 @@ use crate::tone::Tone;
 const ROW: f64 = 5.0;
 const GAP: f64 = 2.0;
 /// Width of a column.
-const COLUMN: f64 = 3.0;
+const COLUMN: f64 = 2.5;
 /// How many shades busy has.
 const SHADES: usize = 4;
 
-/// Draws the strip; returns markup and height.
-pub(crate) fn overview(report: &Report, view: &View) -> (String, f64) {
+/// The strip's own width; the page stretches it.
+pub(crate) const WIDTH: f64 = 1000.0;
+
+/// The strip as an element. Its first view is marked by a frame.
+pub(crate) fn overview(report: &Report) -> String {
+    let view = View::plain(0, report.shown.max(1), WIDTH);
+    let height = report.tasks.len() as f64 * (ROW + GAP) + 6.0;
     let mut out = String::new();
-    let mut y = 0.0;
-    for task in &report.tasks {
-        row(&mut out, task, view, y);
-        y += ROW + GAP;
+    put!(
+        out,
+        "<svg id=\"overview\" viewBox=\"0 -4 {WIDTH} {h}\" height=\"{h}\" preserveAspectRatio=\"none\" role=\"img\">\n",
+        h = Px(height)
+    );
+    out.push_str("<title>The whole run: how busy each task was, and where it waited</title>\n");
+    for (index, task) in report.tasks.iter().enumerate() {
+        row(&mut out, task, &view, index as f64 * (ROW + GAP));
     }
-    let (from, to) = (view.x(0), view.x(report.window.min(report.shown)));
-    put!(out, "<rect class=\"brush\" x=\"{}\" y=\"-3\" width=\"{}\" height=\"{}\" rx=\"2\"/>\n", Px(from), Px((to - from).max(2.0)), Px(y + 4.0));
-    (out, y)
+    let to = view.x(report.window.min(report.shown)).max(2.0);
+    put!(
+        out,
+        "<rect class=\"brush\" x=\"0\" y=\"-3\" width=\"{}\" height=\"{}\"/>\n</svg>\n",
+        Px(to),
+        Px(height - 2.0)
+    );
+    out
 }
 
 fn row(out: &mut String, task: &Task, view: &View, y: f64) {
@@ -45,17 +59,25 @@ fn row(out: &mut String, task: &Task, view: &View, y: f64) {
     for shade in 1..=SHADES {
         let shaded = |share: f64| (share.min(1.0) * SHADES as f64).ceil() as usize == shade;
         let mut path = String::new();
-        runs(&busy, |share| *share > 0.01 && shaded(*share), |from, to| {
-            box_path(&mut path, view.left + from as f64 * COLUMN, y, (to - from) as f64 * COLUMN, ROW);
-        });
+        runs(
+            &busy,
+            |share| *share > 0.01 && shaded(*share),
+            |from, to| {
+                box_path(&mut path, view.left + from as f64 * COLUMN, y, (to - from) as f64 * COLUMN, ROW);
+            },
+        );
         if !path.is_empty() {
             put!(out, "<path class=\"busy b{shade}\" d=\"{path}\"/>\n");
         }
     }
     let mut path = String::new();
-    runs(&waits, |wait| *wait, |from, to| {
-        box_path(&mut path, view.left + from as f64 * COLUMN, y + ROW - 2.0, (to - from) as f64 * COLUMN, 2.0);
-    });
+    runs(
+        &waits,
+        |wait| *wait,
+        |from, to| {
+            box_path(&mut path, view.left + from as f64 * COLUMN, y + ROW - 2.0, (to - from) as f64 * COLUMN, 2.0);
+        },
+    );
     for tick in &task.misses {
         box_path(&mut path, view.x(*tick) - 1.0, y - 1.0, 2.0, ROW + 2.0);
     }

@@ -50,7 +50,15 @@ fn drawn<'a>(strip: &'a Strip, spans: &'a [Span]) -> impl Iterator<Item = (Span,
 fn titled(out: &mut String, strip: &Strip, spans: &[Span], view: &View, lane: &str, time: TimeBase) {
     for (span, tone) in drawn(strip, spans) {
         let (x, y, width, height) = span_box(strip, span, view);
-        put!(out, "<rect class=\"{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">", tone.name(), Px(x), Px(y), Px(width), Px(height));
+        put!(
+            out,
+            "<rect class=\"{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">",
+            tone.name(),
+            Px(x),
+            Px(y),
+            Px(width),
+            Px(height)
+        );
         put!(
             out,
             "<title>{}: {}, {}\u{2013}{}</title></rect>\n",
@@ -111,7 +119,14 @@ fn words(out: &mut String, strip: &Strip, spans: &[Span], view: &View) {
         let (x, _, width, _) = span_box(strip, span, view);
         if width >= text_width(label, WORDS) + 10.0 {
             let y = strip.y + strip.height / 2.0 + 3.6;
-            put!(out, "<text class=\"word on-{}\" x=\"{}\" y=\"{}\">{}</text>\n", tone.name(), Px(x + 5.0), Px(y), Text(label));
+            put!(
+                out,
+                "<text class=\"word on-{}\" x=\"{}\" y=\"{}\">{}</text>\n",
+                tone.name(),
+                Px(x + 5.0),
+                Px(y),
+                Text(label)
+            );
         }
     }
 }

@@ -9,6 +9,8 @@ use crate::svg::{axis, fitted, graph, strip};
 /// Space above the first lane, for the axis.
 pub(crate) const HEAD: f64 = 22.0;
 
+/// The same of the lines of periods and swaps.
+const LINES_APART: f64 = 7.0;
 /// The least distance, on average, of the ways of two data.
 const WAYS_APART: f64 = 14.0;
 
@@ -37,7 +39,14 @@ pub(crate) fn timeline(report: &Report, view: &View, options: &Timeline) -> Draw
     for lane in &lanes {
         labels(&mut out, lane, view);
     }
-    put!(out, "<clipPath id=\"{}\"><rect x=\"{}\" y=\"-6\" width=\"{}\" height=\"{}\"/></clipPath>\n", options.id, Px(view.left - 0.5), Px(view.right() - view.left + 1.0), Px(height + 6.0));
+    put!(
+        out,
+        "<clipPath id=\"{}\"><rect x=\"{}\" y=\"-6\" width=\"{}\" height=\"{}\"/></clipPath>\n",
+        options.id,
+        Px(view.left - 0.5),
+        Px(view.right() - view.left + 1.0),
+        Px(height + 6.0)
+    );
     put!(out, "<g clip-path=\"url(#{})\">\n", options.id);
     for lane in &lanes {
         draw_lane(&mut out, report, lane, view, options);
@@ -82,7 +91,7 @@ fn labels(out: &mut String, lane: &Lane, view: &View) {
 
 fn draw_lane(out: &mut String, report: &Report, lane: &Lane, view: &View, options: &Timeline) {
     let mut lines = String::new();
-    for tick in view.visible(lane.lines, 4.0) {
+    for tick in view.visible(lane.lines, LINES_APART) {
         put!(lines, "M{} {}V{}", Px(view.x(*tick)), Px(lane.y - 2.0), Px(lane.y + lane.height + 2.0));
     }
     if lane.line == LineKind::Due && !lane.strips.is_empty() {
@@ -99,7 +108,12 @@ fn draw_lane(out: &mut String, report: &Report, lane: &Lane, view: &View, option
     }
     for tick in view.visible(lane.crosses, 1.0) {
         let (x, y) = (view.x(*tick), lane.y);
-        put!(out, "<path class=\"miss\" d=\"M{} {}l4 -6h-8z\"><title>deadline missed</title></path>\n", Px(x), Px(y + 5.0));
+        put!(
+            out,
+            "<path class=\"miss\" d=\"M{} {}l4 -6h-8z\"><title>deadline missed</title></path>\n",
+            Px(x),
+            Px(y + 5.0)
+        );
     }
 }
 
