@@ -1,0 +1,49 @@
+//! Makes a text that shows something smaller, as long as it shows it.
+//!
+//! In: a [`Piece`] and a test that says whether a text still shows it. Out: one in which no single piece can be replaced
+//! by a smaller one of its sort any more. A text that is no model any more does not show it, so the reducer needs to
+//! know nothing of the language (A. Zeller, R. Hildebrandt, IEEE TSE 28(2), 2002, on trees).
+
+use crate::generate::Piece;
+
+/// The smallest that was found within so many trials.
+pub fn reduce(mut piece: Piece, mut trials: usize, mut shows: impl FnMut(&str) -> bool) -> Piece {
+    loop {
+        let before = piece.to_string().len();
+        let mut index = 0;
+        // From the top, so that what is large goes first; the tree shrinks under the walk.
+        while let Some(path) = piece.paths().get(index).cloned() {
+            for smaller in piece.at(&path).smaller() {
+                if trials == 0 {
+                    return piece;
+                }
+                trials -= 1;
+                let candidate = piece.with(&path, smaller);
+                if shows(&candidate.to_string()) {
+                    piece = candidate;
+                    break;
+                }
+            }
+            index += 1;
+        }
+        if piece.to_string().len() == before {
+            return piece;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generate::Sort;
+
+    #[test]
+    fn keeps_what_is_needed_and_nothing_else() {
+        let skip = || Piece::text(Sort::Rule, "skip");
+        let needed = Piece::text(Sort::Rule, "f := 1");
+        let inner = Piece::new(Sort::Rule, "par § § endpar", vec![skip(), needed]);
+        let whole =
+            Piece::new(Sort::Fixed, "main §", vec![Piece::new(Sort::Rule, "seq § § endseq", vec![inner, skip()])]);
+        assert_eq!(reduce(whole, 100, |text| text.contains("f := 1")).to_string(), "main f := 1");
+    }
+}

@@ -1,0 +1,167 @@
+//! Machine and oracle agree: on random models, and on every model of library/ and examples/.
+//!
+//! Both run the same steps with the same inputs and choices; states, domains, faults, candidates, inputs asked for and
+//! values of invariants must be the same. `GROUNDSTATE_CASES` sets how many random models (a few seconds' worth if
+//! absent), `GROUNDSTATE_SEED` the first seed. A model on which they disagree is made small and printed.
+#![allow(
+    clippy::disallowed_methods,
+    clippy::disallowed_macros,
+    reason = "a test reads files and the environment, and tells what it found"
+)]
+
+mod compare;
+mod convert;
+mod files;
+mod world;
+
+use std::panic::AssertUnwindSafe;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use compare::{Disagreement, Outcome, Plan};
+use files::{Disk, NoFiles};
+use syntax::{Severity, SourceFile};
+
+/// The oracle recurses as deep as the model: its threads have room.
+const STACK: usize = 256 << 20;
+
+/// What became of a text.
+enum Verdict {
+    /// It is no model.
+    Rejected(String),
+    Agreed(Outcome),
+    Disagreed(Disagreement),
+}
+
+/// Runs a text in both.
+fn judge(text: &str, plan: Plan) -> Verdict {
+    let attempt = AssertUnwindSafe(|| {
+        let checked = model::check(SourceFile::new("Model.asm", text), &mut NoFiles);
+        if let Some(error) = checked.diagnostics.iter().find(|found| found.severity == Severity::Error) {
+            let at = checked.sources.position(error.primary.span);
+            let source = checked.sources.text(error.primary.span);
+            return Verdict::Rejected(format!("{}: {} {}: `{source}`", error.id, at, error.message));
+        }
+        let program = match program::lower(&checked.model) {
+            Ok(program) => program,
+            Err(faults) => return Verdict::Rejected(faults[0].message.clone()),
+        };
+        if let Err(fault) = program::verify(&program) {
+            return Verdict::Disagreed(Disagreement::new("verifier", format!("{fault:?}")));
+        }
+        match compare::run(&checked.model, program, plan) {
+            Ok(outcome) => Verdict::Agreed(outcome),
+            Err(disagreement) => Verdict::Disagreed(disagreement),
+        }
+    });
+    std::panic::catch_unwind(attempt).unwrap_or_else(|panic| {
+        let text = panic.downcast_ref::<String>().cloned();
+        let text = text.or_else(|| panic.downcast_ref::<&str>().map(|text| text.to_string())).unwrap_or_default();
+        Verdict::Disagreed(Disagreement::new("panic", text))
+    })
+}
+
+/// The number in an environment variable.
+fn setting(name: &str, default: u64) -> u64 {
+    std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default)
+}
+
+/// Runs with a deep stack.
+fn deep<T: Send>(body: impl FnOnce() -> T + Send) -> T {
+    std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, body).expect("a thread");
+        thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    })
+}
+
+#[test]
+fn random_models() {
+    let cases = setting("GROUNDSTATE_CASES", 150);
+    let first = setting("GROUNDSTATE_SEED", 1);
+    let counts: [AtomicU64; 4] = Default::default();
+    let steps = AtomicU64::new(0);
+    let failures = std::sync::Mutex::new(Vec::new());
+    let next = AtomicU64::new(0);
+    let work = || {
+        loop {
+            let case = next.fetch_add(1, Ordering::Relaxed);
+            if case >= cases || failures.lock().expect("unpoisoned").len() >= 5 {
+                return;
+            }
+            let seed = first + case;
+            let plan = Plan { seed, steps: 6 };
+            let piece = oracle::generate::model(seed, 2 + (seed % 2) as u32);
+            let text = piece.to_string();
+            match judge(&text, plan) {
+                Verdict::Rejected(reason) => {
+                    counts[0].fetch_add(1, Ordering::Relaxed);
+                    if std::env::var("GROUNDSTATE_REJECTED").is_ok() {
+                        eprintln!("{seed}: {reason}");
+                    }
+                }
+                Verdict::Agreed(outcome) => {
+                    counts[1].fetch_add(1, Ordering::Relaxed);
+                    counts[2].fetch_add(u64::from(outcome.faults > 0), Ordering::Relaxed);
+                    counts[3].fetch_add(outcome.clashes, Ordering::Relaxed);
+                    steps.fetch_add(outcome.steps, Ordering::Relaxed);
+                }
+                Verdict::Disagreed(found) => {
+                    let same = |text: &str| match judge(text, plan) {
+                        Verdict::Disagreed(other) => other.kind == found.kind,
+                        _ => false,
+                    };
+                    let small = oracle::reduce::reduce(piece, 3000, same).to_string();
+                    let detail = match judge(&small, plan) {
+                        Verdict::Disagreed(found) => found.detail,
+                        _ => found.detail,
+                    };
+                    let report = format!("seed {seed}: {}\n{detail}\n--- model ---\n{small}", found.kind);
+                    failures.lock().expect("unpoisoned").push(report);
+                }
+            }
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..setting("GROUNDSTATE_THREADS", 2) {
+            std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work).expect("a thread");
+        }
+    });
+    let [rejected, agreed, faulty, clashes] = counts.map(AtomicU64::into_inner);
+    let steps = steps.into_inner();
+    println!(
+        "{agreed} models agree in {steps} steps ({faulty} models with faults, {clashes} clashes), {rejected} rejected"
+    );
+    let failures = failures.into_inner().expect("unpoisoned");
+    assert!(failures.is_empty(), "machine and oracle disagree\n\n{}", failures.join("\n\n"));
+    assert!(rejected * 5 <= cases, "the generator's models are refused too often: {rejected} of {cases}");
+}
+
+#[test]
+fn models_of_the_library_and_the_examples() {
+    let mut run = 0;
+    for path in files::models() {
+        let plan = Plan { seed: 1, steps: setting("GROUNDSTATE_STEPS", 50) };
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(&path).expect("a readable file");
+        let found = deep(|| {
+            let checked = model::check(SourceFile::new(name.as_str(), text), &mut Disk);
+            if checked.model.main.is_none() {
+                return None;
+            }
+            let errors: Vec<&str> = checked
+                .diagnostics
+                .iter()
+                .filter(|d| d.severity == Severity::Error)
+                .map(|d| d.message.as_str())
+                .collect();
+            assert!(errors.is_empty(), "{name}: {errors:?}");
+            let program = program::lower(&checked.model).expect("small enough");
+            Some(compare::run(&checked.model, program, plan))
+        });
+        match found {
+            None => {}
+            Some(Ok(_)) => run += 1,
+            Some(Err(found)) => panic!("machine and oracle disagree on {name}: {}\n{}", found.kind, found.detail),
+        }
+    }
+    assert!(run > 5, "only {run} models found");
+}
