@@ -203,8 +203,11 @@ impl<'a> Executor<'a> {
         let unit = self.core.updates.open();
         self.call(procedure, arguments, id)?;
         let joined = self.core.updates.join(unit, result);
-        let value = self.consistent(joined)?;
-        self.update(function, target, value.unwrap_or_default(), id)
+        // The target stands in the place of `result`: where nothing is written to that, the target stays as it is.
+        match self.consistent(joined)? {
+            Some(value) => self.update(function, target, value, id),
+            None => Ok(()),
+        }
     }
 
     fn run_value(&mut self, rule: TermId, arguments: TermList, id: RuleId) -> Outcome<()> {

@@ -187,6 +187,13 @@ impl<'a> Executor<'a> {
             return Ok(self.core.store.values[index].clone());
         };
         let initial = &program.initials[initial as usize];
+        // The init section speaks of arguments in the parameters' domains alone.
+        let parameters = program.function(function).parameters.iter().zip(arguments);
+        for (domain, argument) in parameters {
+            if argument.is_undef() || !self.contains(*domain, argument) {
+                return Ok(self.core.store.values[index].clone());
+            }
+        }
         let start = self.core.frames.len();
         self.core.frames.extend(arguments.iter().cloned());
         let value = self.in_frame(start, initial.value.frame, span, |this| this.evaluate(initial.value.body))?;
