@@ -17,8 +17,17 @@ import Scheduler
 export *
 
 signature:
+	derived givesUp: Scheduler -> Boolean
 
 definitions:
+	// The watchdog's arrow of a synchronous machine: still without the lock, and no time left.
+	function givesUp($c in Scheduler) =
+		if sb_ctrlState(scheduler_currentPhase($c)) = MANAGING_SB then
+			if swingingBufferManaged($c) then false else watchdog($c) endif
+		else
+			false
+		endif
+
 	// The exit arrow. Undef and the move to the next phase belong to one step, see Scheduler.
 	rule r_leavePattern($c in Scheduler) =
 		par
@@ -92,7 +101,7 @@ definitions:
 	// The datum stays in the array, pending: the next swap hands it over, unless the next writing
 	// comes first, which is then counted as overwritten.
 	rule r_sync_master_writing($c in Scheduler) =
-		if sb_ctrlState(scheduler_currentPhase($c)) = MANAGING_SB and not swingingBufferManaged($c) and watchdog($c) then
+		if givesUp($c) then
 			par
 				r_giveUpSb[$c]
 				r_leavePattern[$c]
@@ -103,7 +112,7 @@ definitions:
 
 	// Reading the old array needs no lock: only this task moves the index.
 	rule r_sync_master_reading($c in Scheduler) =
-		if sb_ctrlState(scheduler_currentPhase($c)) = MANAGING_SB and not swingingBufferManaged($c) and watchdog($c) then
+		if givesUp($c) then
 			par
 				r_giveUpSb[$c]
 				r_startReading[$c, scheduler_currentPhase($c)]
@@ -152,7 +161,7 @@ definitions:
 		endif
 
 	rule r_sync_slave_action($c in Scheduler) =
-		if sb_ctrlState(scheduler_currentPhase($c)) = MANAGING_SB and not swingingBufferManaged($c) and watchdog($c) then
+		if givesUp($c) then
 			par
 				r_giveUpSb[$c]
 				if action(scheduler_currentPhase($c)) = WRITING_ON_SB then

@@ -102,7 +102,7 @@ definitions:
 
 	// Waiting for the lock any longer would cost the deadline.
 	function watchdog($c in Scheduler) =
-		not lockGranted($c) and not thereIsTime(scheduler_mainThread($c))
+		if thereIsTime(scheduler_mainThread($c)) then false else not lockGranted($c) endif
 
 	function activity($c in Scheduler) =
 		switch action(scheduler_currentPhase($c))
@@ -134,31 +134,41 @@ definitions:
 	rule r_write($c in Scheduler, $phase in SchedulePhase) =
 		par
 			r_startTimer[$c]
-			r_SwingingBuffer_write[sharedMemory($phase)]
+			let ($b = sharedMemory($phase)) in
+				r_SwingingBuffer_write[$b]
+			endlet
 		endpar
 
 	rule r_read($c in Scheduler, $phase in SchedulePhase) =
 		par
 			r_startTimer[$c]
-			r_SwingingBuffer_read[sharedMemory($phase)]
+			let ($b = sharedMemory($phase)) in
+				r_SwingingBuffer_read[$b]
+			endlet
 		endpar
 
 	// Ask for the lock, or take it when granted; a master that gets it updates the indexes at once.
 	rule r_manageSb($c in Scheduler, $phase in SchedulePhase) =
-		par
-			r_SwingingBuffer_getLock[sharedMemory($phase), scheduler_mainThread($c)]
-			if syncPriority($phase) = MASTER and sem_granted(sem(sharedMemory($phase)), scheduler_mainThread($c)) then
-				r_SwingingBuffer_updateIndexes[sharedMemory($phase)]
-			endif
-		endpar
+		let ($b = sharedMemory($phase), $t = scheduler_mainThread($c)) in
+			par
+				r_SwingingBuffer_getLock[$b, $t]
+				if syncPriority($phase) = MASTER then
+					if sem_granted(sem($b), $t) then
+						r_SwingingBuffer_updateIndexes[$b]
+					endif
+				endif
+			endpar
+		endlet
 
 	rule r_releaseSb($c in Scheduler) =
-		par
-			if syncPriority(scheduler_currentPhase($c)) = MASTER then
-				indexUpdated(sharedMemory(scheduler_currentPhase($c))) := false
-			endif
-			r_SwingingBuffer_releaseLock[sharedMemory(scheduler_currentPhase($c)), scheduler_mainThread($c)]
-		endpar
+		let ($phase = scheduler_currentPhase($c), $b = sharedMemory($phase), $t = scheduler_mainThread($c)) in
+			par
+				if syncPriority($phase) = MASTER then
+					indexUpdated($b) := false
+				endif
+				r_SwingingBuffer_releaseLock[$b, $t]
+			endpar
+		endlet
 
 	rule r_giveUpSb($c in Scheduler) =
 		par
@@ -213,9 +223,9 @@ definitions:
 
 	// A new cycle, from the phase after the waiting one.
 	rule r_startCycle($c in Scheduler, $waiting in SchedulePhase) =
-		let ($first = nextPhase($waiting)) in
+		let ($t = scheduler_mainThread($c), $first = nextPhase($waiting)) in
 			par
-				r_task_nextPeriod[scheduler_mainThread($c)]
+				r_task_nextPeriod[$t]
 				r_enterPhase[$c, $first]
 			endpar
 		endlet
@@ -224,11 +234,11 @@ definitions:
 	// asynchronous task rests for a tick, and so does a task with a single phase besides the waiting,
 	// which cannot leave and enter the same pattern machine in one step.
 	rule r_leavePhase($c in Scheduler) =
-		let ($current = scheduler_currentPhase($c), $next = nextPhase($current)) in
+		let ($t = scheduler_mainThread($c), $current = scheduler_currentPhase($c), $next = nextPhase($current)) in
 			if action($next) = WAITING_TRIGGER then
 				par
-					r_task_complete[scheduler_mainThread($c)]
-					if task_kind(scheduler_mainThread($c)) = SYNCHRONOUS and trigger($c) and nextPhase($next) != $current then
+					r_task_complete[$t]
+					if task_kind($t) = SYNCHRONOUS and trigger($c) and nextPhase($next) != $current then
 						r_startCycle[$c, $next]
 					else
 						scheduler_currentPhase($c) := $next

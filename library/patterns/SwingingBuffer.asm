@@ -120,31 +120,38 @@ definitions:
 		endpar
 
 	rule r_SwingingBuffer_write($b in SwingingBuffer) =
-		par
-			sb_writingArray($b) := indexWrite($b)
-			sb_data($b, indexWrite($b)) := sb_staged($b)
-			sb_sequence($b, indexWrite($b)) := sb_written($b) + 1
-			sb_written($b) := sb_written($b) + 1
-			sb_pending($b) := true
-			if sb_pending($b) then
-				sb_overwritten($b) := sb_overwritten($b) + 1
-			endif
-		endpar
+		let ($array = indexWrite($b), $number = sb_written($b) + 1) in
+			par
+				sb_writingArray($b) := $array
+				sb_data($b, $array) := sb_staged($b)
+				sb_sequence($b, $array) := $number
+				sb_written($b) := $number
+				// always, so that a swap in the same step would clash instead of losing the datum
+				sb_pending($b) := true
+				if sb_pending($b) then
+					sb_overwritten($b) := sb_overwritten($b) + 1
+				endif
+			endpar
+		endlet
 
 	rule r_SwingingBuffer_endWrite($b in SwingingBuffer) =
 		sb_writingArray($b) := undef
 
 	// A buffer in which nothing was handed over yet gives nothing, and says so by `sb_fresh`.
 	rule r_SwingingBuffer_read($b in SwingingBuffer) =
-		par
-			sb_readingArray($b) := indexRead($b)
-			sb_received($b) := sb_data($b, indexRead($b))
-			sb_receivedSequence($b) := sb_newestSequence($b)
-			sb_fresh($b) := sb_newestSequence($b) != sb_receivedSequence($b)
-			if sb_newestSequence($b) != sb_receivedSequence($b) then
-				sb_delivered($b) := sb_delivered($b) + 1
-			endif
-		endpar
+		let ($array = indexRead($b), $number = sb_sequence($b, $array), $isNew = $number != sb_receivedSequence($b)) in
+			par
+				sb_readingArray($b) := $array
+				sb_fresh($b) := $isNew
+				if $isNew then
+					par
+						sb_received($b) := sb_data($b, $array)
+						sb_receivedSequence($b) := $number
+						sb_delivered($b) := sb_delivered($b) + 1
+					endpar
+				endif
+			endpar
+		endlet
 
 	rule r_SwingingBuffer_endRead($b in SwingingBuffer) =
 		sb_readingArray($b) := undef

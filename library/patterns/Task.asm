@@ -52,11 +52,13 @@ definitions:
 
 	// A tick spent waiting: for a lock, or for room in a queue.
 	rule r_task_wait($t in Task) =
-		par
-			task_timeInWait($t) := task_timeInWait($t) + 1
-			task_totalWait($t) := task_totalWait($t) + 1
-			task_longestWait($t) := max(task_longestWait($t), task_timeInWait($t) + 1)
-		endpar
+		let ($waited = task_timeInWait($t) + 1) in
+			par
+				task_timeInWait($t) := $waited
+				task_totalWait($t) := task_totalWait($t) + 1
+				task_longestWait($t) := max(task_longestWait($t), $waited)
+			endpar
+		endlet
 
 	// An action was given up because waiting longer would cost the deadline.
 	rule r_task_skip($t in Task) =
