@@ -5,6 +5,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use groundstate::Suite;
 use model::Model;
 use syntax::{Diagnostic, Severity, Sources};
 
@@ -28,8 +29,9 @@ pub struct Arguments {
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let mut summary = Summary { r#type: "summary", files: 0, errors: 0, warnings: 0 };
     let mut seen = BTreeSet::new();
+    let mut suite = Suite::new();
     for path in crate::files::collect(&arguments.paths, &["asm", "avalla"])? {
-        check_one(shell, &path, &mut summary, &mut seen)?;
+        check_one(shell, &path, &mut summary, &mut seen, &mut suite)?;
     }
     if shell.json() {
         shell.object(&summary)?;
@@ -43,12 +45,13 @@ fn check_one(
     path: &Path,
     summary: &mut Summary,
     seen: &mut BTreeSet<String>,
+    suite: &mut Suite,
 ) -> Result<(), Failure> {
     let mut disk = shell.disk();
     let root = disk.root(path)?;
     let scenario = path.extension().is_some_and(|extension| extension == "avalla");
     let (sources, diagnostics, size) = if scenario {
-        let checked = groundstate::check_scenario(root, &mut disk);
+        let checked = suite.check(root, &mut disk);
         (checked.sources, checked.diagnostics, String::new())
     } else {
         let checked = groundstate::check(root, &mut disk);

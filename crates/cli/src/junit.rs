@@ -1,1 +1,82 @@
-//! stub
+//! Test results as JUnit XML, the dialect that continuous integration servers read. No times, so that the same
+//! results give the same bytes.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use groundstate::Tested;
+use syntax::Diagnostic;
+
+use crate::render;
+
+/// A report being written.
+#[derive(Debug, Default)]
+pub struct Junit {
+    cases: String,
+    tests: usize,
+    failures: usize,
+    errors: usize,
+}
+
+impl Junit {
+    /// Adds a scenario.
+    pub fn case(&mut self, path: &Path, tested: &Tested, failures: &[Diagnostic]) {
+        self.tests += 1;
+        let (name, class) = (escape(&tested.name), escape(&path.display().to_string()));
+        let _ = write!(self.cases, "    <testcase name=\"{name}\" classname=\"{class}\" file=\"{class}\"");
+        if failures.is_empty() {
+            self.cases.push_str("/>\n");
+            return;
+        }
+        // Those that could not be run at all are errors, the others failures.
+        let element = if tested.verdict.is_some() { "failure" } else { "error" };
+        if tested.verdict.is_some() {
+            self.failures += 1
+        } else {
+            self.errors += 1
+        }
+        self.cases.push_str(">\n");
+        for failure in failures {
+            let text = render::diagnostic(&tested.sources, failure, false);
+            let (kind, message) = (escape(failure.id), escape(&failure.message));
+            let text = escape(&text);
+            let _ = writeln!(self.cases, "      <{element} type=\"{kind}\" message=\"{message}\">{text}</{element}>");
+        }
+        self.cases.push_str("    </testcase>\n");
+    }
+
+    /// The whole report.
+    pub fn finish(self) -> String {
+        let Junit { cases, tests, failures, errors } = self;
+        let counts = format!("tests=\"{tests}\" failures=\"{failures}\" errors=\"{errors}\"");
+        format!(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"groundstate\" {counts}>\n  \
+             <testsuite name=\"scenarios\" {counts}>\n{cases}  </testsuite>\n</testsuites>\n"
+        )
+    }
+}
+
+/// Text as XML character data; characters that XML cannot hold are replaced.
+fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\n' | '\t' => escaped.push(c),
+            c if c < ' ' || matches!(c, '\u{fffe}' | '\u{ffff}') => escaped.push('\u{fffd}'),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn text_is_escaped() {
+        assert_eq!(super::escape("a<b & \"c\"\u{1b}"), "a&lt;b &amp; &quot;c&quot;\u{fffd}");
+    }
+}

@@ -28,6 +28,7 @@ mod narrate;
 mod progress;
 mod render;
 mod replay;
+mod report;
 mod run;
 mod shell;
 mod test;
@@ -65,6 +66,8 @@ enum Command {
     Test(test::Arguments),
     /// Run a recorded trace again and compare
     Replay(replay::Arguments),
+    /// Run a model and write the run as a page: timeline, deadlines, waiting, coverage
+    Report(Box<report::Arguments>),
     /// Show what a stage hands to the next
     Dump(dump::Arguments),
     /// Explain a kind of fault by its name
@@ -107,6 +110,7 @@ fn work(arguments: Arguments) -> Exit {
         Command::Run(arguments) => run::run(&mut shell, &arguments),
         Command::Test(arguments) => test::run(&mut shell, &arguments),
         Command::Replay(arguments) => replay::run(&mut shell, &arguments),
+        Command::Report(arguments) => report::run(&mut shell, &arguments),
         Command::Dump(arguments) => dump::run(&mut shell, &arguments),
         Command::Explain(arguments) => explain::run(&mut shell, &arguments),
         Command::Bench(arguments) => bench::run(&mut shell, &arguments),

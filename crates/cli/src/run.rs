@@ -64,7 +64,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     }
     let until = match &arguments.until {
         None => None,
-        Some(text) => match loaded.term("--until", text) {
+        Some(text) => match loaded.condition("--until", text) {
             Ok(term) => Some(term),
             Err(faults) => {
                 shell.diagnostics(&loaded.sources, &faults)?;

@@ -123,6 +123,18 @@ impl Shell {
         Ok(())
     }
 
+    /// Writes faults that are the result itself, so on stdout.
+    pub fn details(&mut self, sources: &Sources, diagnostics: &[Diagnostic]) -> Result<(), Failure> {
+        for diagnostic in diagnostics.iter().take(SHOWN) {
+            let text = render::diagnostic(sources, diagnostic, self.color_out);
+            writeln!(self.out, "{text}\n")?;
+        }
+        if diagnostics.len() > SHOWN {
+            writeln!(self.out, "and {} more", diagnostics.len() - SHOWN)?;
+        }
+        Ok(())
+    }
+
     /// Writes one fault.
     pub fn diagnostic(&mut self, sources: &Sources, diagnostic: &Diagnostic) -> Result<(), Failure> {
         if self.json() {

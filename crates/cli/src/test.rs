@@ -1,11 +1,176 @@
-//! stub
+//! `groundstate test PATH…`: scenarios, one line each, failures in detail, a summary.
+
+use std::collections::BTreeSet;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use groundstate::scenario::{FirstCandidate, Judgement, Options};
+use groundstate::{SeededChoices, Suite, Tested};
+use syntax::{Diagnostic, Severity};
+
+use crate::check::plural;
+use crate::coverage;
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::files::{collect, write_text};
+use crate::inputs::Chosen;
+use crate::interrupt;
+use crate::junit::Junit;
 use crate::shell::Shell;
-/// Arguments.
-#[derive(Debug, clap::Args)]
-pub struct Arguments {}
+use crate::wire::{Fault, ScenarioResult};
+
+/// Arguments of `test`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// Scenarios (.avalla), or folders of them
+    #[arg(required = true, value_name = "PATH")]
+    paths: Vec<PathBuf>,
+    /// Report what the scenarios covered of their models
+    #[arg(long)]
+    coverage: bool,
+    /// Write the results as JUnit XML
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+    /// Which candidate a choose rule takes where no pick says so
+    #[arg(long, value_enum, default_value_t = Chosen::Random, value_name = "HOW")]
+    choose: Chosen,
+    /// Seed of random choices
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Steps after which a `step until` without `within` fails
+    #[arg(long, value_name = "N", default_value_t = Options::default().bound)]
+    until_bound: u64,
+}
+
+/// How many scenarios did what.
+#[derive(Debug, Default)]
+struct Tally {
+    passed: usize,
+    failed: usize,
+}
+
 /// Runs the command.
-pub fn run(_shell: &mut Shell, _arguments: &Arguments) -> Result<Exit, Failure> {
-    Ok(Exit::Good)
+pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    let files = collect(&arguments.paths, &["avalla"])?;
+    interrupt::listen();
+    let mut suite = Suite::new();
+    let mut tally = Tally::default();
+    let mut junit = Junit::default();
+    let mut seen = BTreeSet::new();
+    for path in &files {
+        if interrupt::asked() {
+            break;
+        }
+        let tested = test_one(shell, arguments, &mut suite, path)?;
+        let failures = failures(&tested);
+        if passed(&tested) {
+            tally.passed += 1
+        } else {
+            tally.failed += 1
+        }
+        junit.case(path, &tested, &failures);
+        report(shell, path, &tested, &failures, &mut seen)?;
+    }
+    if arguments.coverage {
+        for (model, sources, items) in suite.coverage() {
+            coverage::report(shell, model, sources, &items)?;
+        }
+    }
+    if let Some(path) = &arguments.junit {
+        write_text(path, &junit.finish())?;
+    }
+    summary(shell, &tally, files.len())
+}
+
+fn test_one(shell: &Shell, arguments: &Arguments, suite: &mut Suite, path: &Path) -> Result<Tested, Failure> {
+    let mut disk = shell.disk();
+    let source = disk.root(path)?;
+    let limits = shell.global.limits.machine();
+    let options = Options { limits, bound: arguments.until_bound, coverage: arguments.coverage };
+    Ok(match arguments.choose {
+        Chosen::First => suite.test(source, &mut disk, options, &mut FirstCandidate),
+        Chosen::Random => suite.test(source, &mut disk, options, &mut SeededChoices::new(arguments.seed)),
+    })
+}
+
+fn passed(tested: &Tested) -> bool {
+    tested.verdict.as_ref().is_some_and(|verdict| verdict.passed())
+}
+
+/// What is wrong with a scenario that did not pass.
+fn failures(tested: &Tested) -> Vec<Diagnostic> {
+    let (Some(verdict), Some(program)) = (&tested.verdict, &tested.program) else {
+        let errors = tested.diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Error);
+        return errors.cloned().collect();
+    };
+    verdict.failures().iter().flat_map(|failure| groundstate::diagnose_failure(failure, program)).collect()
+}
+
+fn report(
+    shell: &mut Shell,
+    path: &Path,
+    tested: &Tested,
+    failures: &[Diagnostic],
+    seen: &mut BTreeSet<String>,
+) -> Result<(), Failure> {
+    let sources = &tested.sources;
+    if shell.json() {
+        let faults = failures.iter().map(|failure| Fault::new(sources, failure)).collect();
+        return shell.object(&ScenarioResult::new(path, tested, faults));
+    }
+    let passed = passed(tested);
+    if shell.talks() {
+        let line = line(shell, path, tested, passed);
+        writeln!(shell.out(), "{line}")?;
+    }
+    // Many scenarios load one model; its faults are shown with the first.
+    let key = |found: &Diagnostic| format!("{} {}", sources.position(found.primary.span), found.message);
+    let new: Vec<Diagnostic> = failures.iter().filter(|found| seen.insert(key(found))).cloned().collect();
+    shell.details(sources, &new)?;
+    let remarks = tested.verdict.iter().flat_map(|verdict| &verdict.remarks);
+    for remark in remarks {
+        let warning = Diagnostic::warning("unused-pick", remark.span, remark.message.as_str());
+        shell.details(sources, &[warning])?;
+    }
+    Ok(())
+}
+
+fn line(shell: &Shell, path: &Path, tested: &Tested, passed: bool) -> String {
+    let (word, color) = if passed { ("ok  ", "\x1b[32m") } else { ("FAIL", "\x1b[31m") };
+    let word = if shell.color_out() { format!("{color}{word}\x1b[0m") } else { word.to_string() };
+    let what = match &tested.verdict {
+        None => "not run: it has faults".to_string(),
+        Some(verdict) => {
+            let (held, broken) = verdict.checks;
+            let steps = plural(verdict.steps as usize, "step");
+            let checks = plural((held + broken) as usize, "check");
+            let expected = match verdict.judgement {
+                Judgement::FailedAsExpected(_) => ", failed as expected",
+                _ => "",
+            };
+            format!("{steps}, {checks}{expected}")
+        }
+    };
+    format!("{word} {} ({}): {what}", tested.name, path.display())
+}
+
+fn summary(shell: &mut Shell, tally: &Tally, files: usize) -> Result<Exit, Failure> {
+    let not_run = files - tally.passed - tally.failed;
+    if shell.json() {
+        let object = serde_json::json!({
+            "type": "summary", "passed": tally.passed, "failed": tally.failed, "not_run": not_run,
+        });
+        shell.object(&object)?;
+    } else if shell.talks() {
+        if not_run > 0 {
+            writeln!(shell.out(), "interrupted: {} not run", plural(not_run, "scenario"))?;
+        }
+        writeln!(shell.out(), "{} passed, {} failed", tally.passed, tally.failed)?;
+    }
+    Ok(match (tally.failed, not_run) {
+        (0, 0) => Exit::Good,
+        (0, _) => Exit::Unknown,
+        _ => Exit::Model,
+    })
 }

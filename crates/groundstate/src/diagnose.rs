@@ -2,7 +2,9 @@
 
 use machine::{Fault, FaultKind, Show, Value};
 use program::Program;
+use scenario::{Failure, FailureKind, Reading};
 use simulate::Violation;
+use syntax::ast::Expected;
 use syntax::{Diagnostic, Span};
 
 /// How many of the calls that led to a fault are shown.
@@ -48,7 +50,7 @@ fn reason(kind: &FaultKind) -> &'static str {
         FaultKind::UndefinedGuard => "this is undef",
         FaultKind::UndefinedOperand { .. } => "an operand is undef here",
         FaultKind::DivisionByZero => "the divisor is 0",
-        FaultKind::OutOfDomain { .. } => "this update",
+        FaultKind::OutOfDomain { .. } => "the value comes here",
         FaultKind::NotEnumerable { .. } => "its elements are needed here",
         FaultKind::Limit { .. } => "reached here",
         FaultKind::Environment { .. } => "asked for here",
@@ -64,7 +66,7 @@ fn help(kind: &FaultKind) -> Option<&'static str> {
         FaultKind::UndefinedGuard => "give the locations it reads an initial value, or test them with `isDef` first",
         FaultKind::UndefinedOperand { .. } => "give the location an initial value, or test it with `isDef` first",
         FaultKind::DivisionByZero => "test the divisor first",
-        FaultKind::OutOfDomain { .. } => "guard the update, or widen the domain",
+        FaultKind::OutOfDomain { .. } => "keep the value within the domain, or widen the domain",
         FaultKind::Overflow { .. } => "integers have 64 bits: bound the values, or use Real",
         FaultKind::NotEnumerable { .. } => "range over a finite set or domain instead",
         FaultKind::Temporal => "temporal operators belong into CTLSPEC and LTLSPEC",
@@ -89,7 +91,72 @@ pub fn diagnose_violation(violation: &Violation, step: u64, program: &Program) -
     };
     let mut diagnostic = Diagnostic::error("invariant-violated", violation.span, message);
     for (span, value) in &violation.reads {
-        diagnostic = diagnostic.with_label(*span, format!("= {}", value.show(program)));
+        diagnostic = diagnostic.with_label(*span, format!("is {}", value.show(program)));
     }
     diagnostic
+}
+
+/// A failure of a scenario: the failure, then what came instead of what was expected.
+pub fn diagnose_failure(failure: &Failure, program: &Program) -> Vec<Diagnostic> {
+    let steps = |count: u64| if count == 1 { "1 step".to_string() } else { format!("{count} steps") };
+    let after = steps(failure.step);
+    let show = |value: &Value| value.show(program).to_string();
+    let one = |diagnostic: Diagnostic| vec![diagnostic];
+    match &failure.kind {
+        FailureKind::Check { expected, actual, reads } => {
+            let message = format!("check failed after {after}: expected {}, found {}", show(expected), show(actual));
+            one(with_readings(Diagnostic::error("check-failed", failure.span, message), reads, program))
+        }
+        FailureKind::Invariant { name, value, during, reads } => {
+            let verb = if value.is_undef() { "is undef" } else { "does not hold" };
+            let message = format!("invariant {name} {verb} after {after}");
+            let diagnostic = Diagnostic::error("invariant-violated", failure.span, message);
+            let diagnostic = if *during == failure.span {
+                diagnostic
+            } else {
+                diagnostic.with_label(*during, "here in the scenario")
+            };
+            one(with_readings(diagnostic, reads, program))
+        }
+        FailureKind::Fault { fault, during } => {
+            let diagnostic = diagnose_fault(fault, program);
+            let diagnostic =
+                if *during == fault.span { diagnostic } else { diagnostic.with_label(*during, "here in the scenario") };
+            one(diagnostic)
+        }
+        FailureKind::Pick { choice, message } => {
+            let diagnostic = Diagnostic::error("pick-no-candidate", failure.span, format!("after {after}: {message}"));
+            one(diagnostic.with_label(*choice, "the choice that was to be made"))
+        }
+        FailureKind::Bound { bound } => {
+            let message = format!("the condition did not hold within {}", steps(*bound));
+            one(Diagnostic::error("bound-reached", failure.span, message)
+                .with_help("write `step until … within N;` to allow more"))
+        }
+        FailureKind::Expected { expected, invariant, instead } => {
+            let what = expected_words(*expected, invariant.as_deref());
+            let came = if instead.is_empty() { "none came" } else { "something else happened" };
+            let mut all =
+                one(Diagnostic::error("expected-failure", failure.span, format!("{what} was expected, but {came}")));
+            all.extend(instead.iter().flat_map(|failure| diagnose_failure(failure, program)));
+            all
+        }
+    }
+}
+
+fn expected_words(expected: Expected, invariant: Option<&str>) -> String {
+    match (expected, invariant) {
+        (Expected::Failure, _) => "a failure".to_string(),
+        (Expected::Check, _) => "a failed check".to_string(),
+        (Expected::Invariant, Some(name)) => format!("a violation of invariant {name}"),
+        (Expected::Invariant, None) => "a violated invariant".to_string(),
+        (Expected::InconsistentUpdate, _) => "an inconsistent update".to_string(),
+        (Expected::Error, _) => "a run-time error".to_string(),
+    }
+}
+
+fn with_readings(diagnostic: Diagnostic, reads: &[Reading], program: &Program) -> Diagnostic {
+    reads.iter().fold(diagnostic, |diagnostic, reading| {
+        diagnostic.with_label(reading.span, format!("is {}", reading.value.show(program)))
+    })
 }

@@ -1,20 +1,23 @@
 //! The whole flow in one place: text → checked model → program → a run, a verdict.
 //!
 //! In: the root file's text and a [`model::Loader`] that finds the others. Out: what each stage hands over, with all
-//! faults as [`syntax::Diagnostic`]s, run-time ones included. Shells build on this crate and on nothing else below
-//! it but the types; it must not know files, terminals or wire formats.
+//! faults as [`syntax::Diagnostic`]s, run-time ones included. Shells build on this crate and, below it, on types
+//! only; it must not know files, terminals or wire formats.
 
 mod diagnose;
 mod fingerprint;
+mod test;
 
 use std::collections::BTreeMap;
 
 use model::{Checked, Loader, Model};
 use program::{Expression, Program, Rule, RuleId};
+use syntax::ast::{AstNode, TermFile};
 use syntax::{Diagnostic, Severity, SourceFile, Sources, Span};
 
-pub use diagnose::{diagnose_fault, diagnose_violation};
+pub use diagnose::{diagnose_failure, diagnose_fault, diagnose_violation};
 pub use fingerprint::fingerprint;
+pub use test::{SeededChoices, Suite, Tested, own_files};
 pub use {scenario, simulate};
 
 /// A model that is ready to run.
@@ -54,29 +57,40 @@ pub fn has_errors(diagnostics: &[Diagnostic]) -> bool {
 /// # Errors
 /// The model has errors.
 pub fn load(root: SourceFile, loader: &mut dyn Loader) -> Result<Loaded, Box<Faulty>> {
-    let Checked { sources, model, diagnostics } = check(root, loader);
+    let Checked { sources, model, mut diagnostics } = check(root, loader);
     if has_errors(&diagnostics) {
         return Err(Box::new(Faulty { sources, diagnostics }));
     }
     match program::lower(&model) {
         Ok(program) => Ok(Loaded { sources, model, program, diagnostics }),
-        Err(faults) => Err(Box::new(Faulty { sources, diagnostics: faults })),
+        Err(faults) => {
+            diagnostics.extend(faults);
+            Err(Box::new(Faulty { sources, diagnostics }))
+        }
     }
 }
 
 impl Loaded {
-    /// A term over the model, such as that of `--until`, as a program that also holds it.
+    /// Adds a condition over the model, such as that of `--until`; `name` is what its text is shown under.
     ///
     /// # Errors
     /// The faults of the text.
-    pub fn term(&mut self, name: &str, text: &str) -> Result<Expression, Vec<Diagnostic>> {
-        todo!()
+    pub fn condition(&mut self, name: &str, text: &str) -> Result<Expression, Vec<Diagnostic>> {
+        let file = self.sources.add(SourceFile::new(name, text));
+        let parsed = syntax::parse_term(file, text);
+        if has_errors(&parsed.diagnostics) {
+            return Err(parsed.diagnostics);
+        }
+        let Some(term) = TermFile::cast(parsed.syntax()).and_then(|file| file.term()) else {
+            let span = Span { file, start: 0, end: 0 };
+            return Err(vec![Diagnostic::error("no-term", span, "a term is expected")]);
+        };
+        let fragment = self.model.check_condition(file, &term, name);
+        if has_errors(&fragment.diagnostics) {
+            return Err(fragment.diagnostics);
+        }
+        program::lower_term(&mut self.program, &self.model, &fragment.item, &fragment.variables)
     }
-}
-
-/// Checks a scenario, and the model that it loads.
-pub fn check_scenario(root: SourceFile, loader: &mut dyn Loader) -> Checked {
-    todo!()
 }
 
 /// The variables that each choose rule binds, by the rule's place.

@@ -1,1 +1,24 @@
-//! Under construction.
+//! Scenarios in Avalla: parsed, resolved against a model, run, judged, and what they covered.
+//!
+//! In: the text of a scenario ([`parse`]), the model it loads, lowered ([`resolve`]). Out: a [`Verdict`] and
+//! [`Counts`] of what ran ([`run`]). The meaning of commands is spec/avalla.md: inputs persist until set again, a
+//! `check` sees the inputs of the coming step, a failed check lets the rest of its group be checked and then stops
+//! the run. It must not know files, random sources or wire formats.
+
+mod coverage;
+mod environment;
+mod expand;
+mod explain;
+mod resolve;
+mod run;
+mod script;
+mod verdict;
+
+pub use coverage::{Branch, Counts, Coverage, Forall, Item, Items};
+pub use environment::{Choices, FirstCandidate};
+pub use expand::Blocks;
+pub use explain::Reading;
+pub use resolve::{Parsed, parse, resolve};
+pub use run::{Options, run};
+pub use script::Script;
+pub use verdict::{Failure, FailureKind, Judgement, Remark, Verdict};

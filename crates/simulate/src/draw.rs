@@ -113,7 +113,7 @@ pub(crate) fn draw(
     random: &mut SplitMix,
 ) -> Result<Value, String> {
     let entry = program.domain(domain);
-    let mut inner = |of: DomainId, random: &mut SplitMix| draw(program, carriers, bounds, of, random);
+    let inner = |of: DomainId, random: &mut SplitMix| draw(program, carriers, bounds, of, random);
     match &entry.kind {
         DomainKind::Basic(basic) => draw_basic(*basic, bounds, random),
         DomainKind::Enum { literals } => Ok(Value::Enum(domain, random.below(literals.len() as u64) as u32)),

@@ -5,7 +5,7 @@ mod prompt;
 mod table;
 mod yaml;
 
-pub use options::{Assembled, Chosen, HELP, InputArguments, assemble, constants};
+pub use options::{Assembled, Chosen, HELP, InputArguments, assemble};
 
 use groundstate::simulate::{Given, Steps, Written};
 use syntax::{Diagnostic, FileId, Span};

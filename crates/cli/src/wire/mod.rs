@@ -1,7 +1,9 @@
 //! Wire types: what is written as JSON, and read back. Versioned; documented in docs/cli.md and spec/trace.md.
 
 mod fault;
+mod scenario;
 mod trace;
 
 pub use fault::{Fault, Place, Summary, WorldFailure};
+pub use scenario::ScenarioResult;
 pub use trace::{Line, Reader, Wire};

@@ -1,0 +1,240 @@
+//! `groundstate report MODEL`: a run, shown: a page, a picture, a summary.
+//!
+//! The report specification says which terms make which lane; they are evaluated in every state. Scenarios run
+//! beside it give verdicts and coverage. The page holds no date and no path of this machine but those given, so the
+//! same model, options and version give the same bytes.
+
+mod evidence;
+mod node;
+mod specification;
+mod watch;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use ::report::{Fact, Invariant, Report, ReportBuilder, SummaryOptions, SvgOptions};
+use clap::Args;
+use groundstate::Loaded;
+use groundstate::simulate::{End, Invariants, Options, Record, Run, Violation};
+use program::{Program, PropertyKind};
+use syntax::{SourceFile, Sources};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::files::{read_text, write_text};
+use crate::inputs::{self, Assembled};
+use crate::interrupt;
+use crate::load::load;
+use crate::progress::Progress;
+use crate::shell::Shell;
+use specification::{Specification, specification};
+use watch::Watch;
+
+/// Arguments of `report`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The model
+    model: PathBuf,
+    /// What to show of it; MODEL.report.yaml beside the model unless given
+    #[arg(long, value_name = "FILE")]
+    spec: Option<PathBuf>,
+    /// The steps to make
+    #[arg(long, short = 'n', value_name = "N", default_value_t = 10_000)]
+    steps: u64,
+    /// Write the page here
+    #[arg(long, short = 'o', value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Write a picture of the timeline here
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Steps that the picture shows; those of the page's first view unless given
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    svg_steps: u64,
+    /// The first step that the picture shows
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    svg_from: u64,
+    /// Scenarios, or folders of them, to run beside it; may be given several times
+    #[arg(long, value_name = "PATH")]
+    scenarios: Vec<PathBuf>,
+    #[command(flatten)]
+    inputs: inputs::InputArguments,
+}
+
+/// Runs the command.
+pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    let mut loaded = match load(shell, &arguments.model)? {
+        Ok(loaded) => loaded,
+        Err(exit) => return Ok(exit),
+    };
+    let path = arguments.spec.clone().unwrap_or_else(|| arguments.model.with_extension("report.yaml"));
+    let Some((mut builder, mut watch)) = prepare(shell, &mut loaded, &path)? else { return Ok(Exit::World) };
+    let Loaded { mut sources, program, .. } = loaded;
+    let program = Arc::new(program);
+    let Assembled { inputs, .. } = match inputs::assemble(shell, &arguments.inputs, &mut sources, &program)? {
+        Ok(assembled) => assembled,
+        Err(faults) => {
+            shell.diagnostics(&sources, &faults)?;
+            return Ok(Exit::World);
+        }
+    };
+    let options =
+        Options { steps: Some(arguments.steps), invariants: Invariants::Report, keep: false, ..Options::default() };
+    let mut run = Run::new(Arc::clone(&program), shell.global.limits.machine(), inputs, options);
+    interrupt::listen();
+    let mut story = Story { invariants: invariants(&program, &sources), stopped: None, exit: Exit::Good };
+    let mut progress = Progress::new(Some(arguments.steps), shell.global.quiet);
+    while let Some(record) = run.advance() {
+        story.note(&record, &run, &program, &sources);
+        match record {
+            Record::Initial { .. } => {
+                watch.look(run.machine_mut(), &mut builder);
+                builder.begin();
+            }
+            Record::Step(_) => {
+                watch.look(run.machine_mut(), &mut builder);
+                builder.step();
+            }
+            _ => {}
+        }
+        progress.at(run.steps());
+        if interrupt::asked() {
+            run.stop(End::Interrupted);
+        }
+    }
+    progress.done();
+    let mut report = builder.finish(&program.name);
+    report.invariants = story.invariants;
+    report.stopped = story.stopped;
+    report.facts = facts(arguments, &path, &sources);
+    let scenarios = evidence::add(shell, &mut report, &arguments.model, &arguments.scenarios)?;
+    write(shell, arguments, &report)?;
+    let troubled = if report.troubles().is_empty() { Exit::Good } else { Exit::Model };
+    Ok(story.exit.max(scenarios).max(troubled))
+}
+
+/// The specification read, its terms checked; none where it has faults, which are then shown.
+fn prepare(shell: &mut Shell, loaded: &mut Loaded, path: &Path) -> Result<Option<(ReportBuilder, Watch)>, Failure> {
+    let text = match read_text(path, shell.global.limits.max_file_size) {
+        Err(Failure::Missing(path)) => {
+            return Err(Failure::usage_with_help(
+                format!("there is no file {}, so nothing says what to show of the model", path.display()),
+                "name a report specification with --spec FILE",
+            ));
+        }
+        read => read?,
+    };
+    let file = loaded.sources.add(SourceFile::new(path.display().to_string(), text.as_str()));
+    let ready = specification(file, &text).and_then(|Specification { spec, places }| {
+        let builder = ReportBuilder::new(spec);
+        let watch = Watch::new(loaded, builder.terms(), &places)?;
+        Ok((builder, watch))
+    });
+    match ready {
+        Ok(ready) => Ok(Some(ready)),
+        Err(faults) => {
+            shell.diagnostics(&loaded.sources, &faults)?;
+            Ok(None)
+        }
+    }
+}
+
+fn invariants(program: &Program, sources: &Sources) -> Vec<Invariant> {
+    let invariants = program.properties.iter().filter(|property| property.kind == PropertyKind::Invariant);
+    let invariant = |name: &str, position: String| Invariant { name: name.to_string(), position, violated: None };
+    invariants.map(|property| invariant(&property.name, sources.position(property.span).to_string())).collect()
+}
+
+/// What is noted of the run beside its lanes.
+struct Story {
+    invariants: Vec<Invariant>,
+    stopped: Option<String>,
+    exit: Exit,
+}
+
+impl Story {
+    fn note(&mut self, record: &Record, run: &Run, program: &Program, sources: &Sources) {
+        match record {
+            Record::Initial { violations, .. } => self.violated(violations, "in the initial state", sources),
+            Record::Step(step) | Record::Attempt(step) => {
+                self.violated(&step.violations, &format!("first in step {}", step.step), sources);
+            }
+            Record::End(End::Fault(fault)) => {
+                let found = groundstate::diagnose_fault(fault, program);
+                let place = sources.position(found.primary.span);
+                self.stopped = Some(format!("step {} could not be made: {} ({place})", run.steps() + 1, found.message));
+                self.exit = self.exit.max(Exit::Model);
+            }
+            Record::End(End::Interrupted) => {
+                self.stopped = Some(format!("the run was interrupted after step {}", run.steps()));
+                self.exit = self.exit.max(Exit::Unknown);
+            }
+            Record::Back { .. } | Record::End(_) => {}
+        }
+    }
+
+    fn violated(&mut self, violations: &[Violation], when: &str, sources: &Sources) {
+        for violation in violations {
+            let position = sources.position(violation.span).to_string();
+            let known = self.invariants.iter_mut().find(|known| known.position == position);
+            if let Some(invariant) = known.filter(|known| known.violated.is_none()) {
+                invariant.violated = Some(when.to_string());
+            }
+            self.exit = self.exit.max(Exit::Model);
+        }
+    }
+}
+
+fn facts(arguments: &Arguments, spec: &Path, sources: &Sources) -> Vec<Fact> {
+    let fact = |label: &str, value: String| Fact { label: label.to_string(), value };
+    let inputs = &arguments.inputs;
+    let random = inputs.random || inputs.choose == inputs::Chosen::Random;
+    let mut facts = vec![
+        fact("Model", arguments.model.display().to_string()),
+        fact("Report specification", spec.display().to_string()),
+        fact("Fingerprint of all texts", groundstate::fingerprint(sources)),
+        fact("Steps asked for", arguments.steps.to_string()),
+        fact("Choices", if inputs.choose == inputs::Chosen::Random { "random" } else { "the first candidate" }.to_string()),
+    ];
+    if random {
+        facts.push(fact("Seed", inputs.seed.to_string()));
+    }
+    facts.push(fact("Groundstate", env!("CARGO_PKG_VERSION").to_string()));
+    facts
+}
+
+fn write(shell: &mut Shell, arguments: &Arguments, report: &Report) -> Result<(), Failure> {
+    let mut written = Vec::new();
+    if let Some(path) = &arguments.output {
+        write_beside(path, &::report::render_html(report))?;
+        written.push(path);
+    }
+    if let Some(path) = &arguments.svg {
+        let options = SvgOptions { start: arguments.svg_from, ticks: arguments.svg_steps, ..SvgOptions::default() };
+        write_beside(path, &::report::render_svg(report, &options))?;
+        written.push(path);
+    }
+    if shell.json() {
+        let written: Vec<String> = written.iter().map(|path| path.display().to_string()).collect();
+        let object = serde_json::json!({
+            "type": "report", "model": report.model, "steps": report.ticks, "troubles": report.troubles(), "files": written,
+        });
+        return shell.object(&object);
+    }
+    if shell.talks() {
+        let options = SummaryOptions { colour: shell.color_out(), ..SummaryOptions::default() };
+        write!(shell.out(), "{}", ::report::summarise(report, &options))?;
+        for path in written {
+            writeln!(shell.out(), "written: {}", path.display())?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes a file, and makes the folder it is to be in.
+fn write_beside(path: &Path, text: &str) -> Result<(), Failure> {
+    if let Some(folder) = path.parent().filter(|folder| *folder != Path::new("")) {
+        std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
+    }
+    write_text(path, text)
+}

@@ -1,0 +1,327 @@
+//! The file format of report specifications: YAML → [`Spec`], each term with its place.
+//!
+//! Tasks, buffers and queues are given as `each`, a mapping of names in the model to what is told of them, and
+//! `terms`, in which `{}` stands for that name; an entry of `each` may give a term of its own, or `~` for none.
+
+use std::collections::BTreeMap;
+
+use ::report::{
+    ActivitySpec, BufferSpec, CounterSpec, FlowSpec, HopSpec, QueueSpec, SeriesSpec, Spec, TaskSpec, Tone,
+};
+use syntax::{Diagnostic, FileId, Span};
+
+use super::node::{Key, Node, Shape, fault, read};
+
+/// A specification and where its terms stand.
+#[derive(Debug)]
+pub struct Specification {
+    pub spec: Spec,
+    pub places: BTreeMap<String, Span>,
+}
+
+/// Reads a specification.
+pub fn specification(file: FileId, source: &str) -> Result<Specification, Vec<Diagnostic>> {
+    let root = read(file, source).map_err(|fault| vec![*fault])?;
+    let mut reader = Reader { faults: Vec::new(), places: BTreeMap::new() };
+    let spec = reader.spec(&root);
+    let whole = Span { file, start: 0, end: 0 };
+    if reader.faults.is_empty() {
+        reader.faults.extend(spec.faults().into_iter().map(|message| fault(whole, message)));
+    }
+    if reader.faults.is_empty() { Ok(Specification { spec, places: reader.places }) } else { Err(reader.faults) }
+}
+
+struct Reader {
+    faults: Vec<Diagnostic>,
+    places: BTreeMap<String, Span>,
+}
+
+/// The entries of a mapping.
+#[derive(Clone, Copy)]
+struct Fields<'a>(&'a [(Key, Node)]);
+
+impl<'a> Fields<'a> {
+    fn get(self, name: &str) -> Option<&'a Node> {
+        self.0.iter().find(|(key, _)| key.text == name).map(|(_, node)| node)
+    }
+}
+
+/// A group of lanes of one kind: each with its terms.
+struct Lane<'a> {
+    id: &'a str,
+    own: Fields<'a>,
+    terms: Fields<'a>,
+    counters: Fields<'a>,
+}
+
+impl Reader {
+    fn refuse(&mut self, span: Span, message: impl Into<String>) {
+        self.faults.push(fault(span, message));
+    }
+
+    /// A mapping with keys of these names only; none: of any name.
+    fn fields<'a>(&mut self, node: Option<&'a Node>, known: &[&str]) -> Fields<'a> {
+        let Some(node) = node else { return Fields(&[]) };
+        match &node.shape {
+            Shape::Map(entries) => {
+                for (key, _) in entries.iter().filter(|(key, _)| !known.is_empty() && !known.contains(&key.text.as_str())) {
+                    let unknown = fault(key.span, format!("nothing here is called `{}`", key.text));
+                    self.faults.push(unknown.with_help(format!("known are: {}", known.join(", "))));
+                }
+                Fields(entries)
+            }
+            Shape::Text(text) if is_nothing(text) => Fields(&[]),
+            _ => {
+                self.refuse(node.span, "a mapping is expected");
+                Fields(&[])
+            }
+        }
+    }
+
+    fn list<'a>(&mut self, node: Option<&'a Node>) -> &'a [Node] {
+        match node.map(|node| (&node.shape, node.span)) {
+            None => &[],
+            Some((Shape::List(items), _)) => items,
+            Some((_, span)) => {
+                self.refuse(span, "a list is expected");
+                &[]
+            }
+        }
+    }
+
+    fn text(&mut self, node: Option<&Node>) -> Option<String> {
+        match &node?.shape {
+            Shape::Text(text) if is_nothing(text) => None,
+            Shape::Text(text) => Some(text.clone()),
+            _ => {
+                self.refuse(node?.span, "a text is expected");
+                None
+            }
+        }
+    }
+
+    /// A term in which `{}` stands for a name.
+    fn term(&mut self, node: Option<&Node>, id: &str) -> Option<String> {
+        let term = self.text(node)?.replace("{}", id);
+        self.places.entry(term.clone()).or_insert(node?.span);
+        Some(term)
+    }
+
+    fn spec(&mut self, root: &Node) -> Spec {
+        let known = ["title", "note", "tick", "window", "activities", "tasks", "buffers", "queues", "series", "flow"];
+        let fields = self.fields(Some(root), &known);
+        let tick_ns = fields.get("tick").and_then(|node| self.duration(node));
+        let window = fields.get("window").map_or(0, |node| self.ticks(node, tick_ns));
+        let activities = self.activities(fields.get("activities"));
+        Spec {
+            title: self.text(fields.get("title")).unwrap_or_default(),
+            note: self.text(fields.get("note")).unwrap_or_default(),
+            tick_ns,
+            window,
+            activities,
+            tasks: self.tasks(fields.get("tasks")),
+            buffers: self.buffers(fields.get("buffers")),
+            queues: self.queues(fields.get("queues")),
+            series: self.series(fields.get("series")),
+            flow: fields.get("flow").map(|node| self.flow(node, fields.get("tasks"))),
+        }
+    }
+
+    /// `100 us` in nanoseconds.
+    fn duration(&mut self, node: &Node) -> Option<u64> {
+        let text = self.text(Some(node))?;
+        let parsed = nanoseconds(&text);
+        if parsed.is_none() {
+            self.refuse(node.span, format!("`{text}` is no time: write a number and its unit, such as 100 us, 0.5 ms or 1 s"));
+        }
+        parsed
+    }
+
+    /// A number of ticks, or a time that is one.
+    fn ticks(&mut self, node: &Node, tick_ns: Option<u64>) -> u64 {
+        let text = self.text(Some(node)).unwrap_or_default();
+        if let Ok(ticks) = text.trim().parse() {
+            return ticks;
+        }
+        match (self.duration(node), tick_ns) {
+            (Some(time), Some(tick)) => time / tick.max(1),
+            (Some(_), None) => {
+                self.refuse(node.span, "a time says nothing here while `tick` is not given: write a number of steps");
+                0
+            }
+            _ => 0,
+        }
+    }
+
+    fn activities(&mut self, node: Option<&Node>) -> Vec<ActivitySpec> {
+        let mut activities = Vec::new();
+        for (key, node) in self.fields(node, &[]).0 {
+            let [label, tone] = self.list(Some(node)) else {
+                self.refuse(node.span, "two texts are expected: words and tone, such as [waiting, wait]");
+                continue;
+            };
+            let (label, name) = (self.text(Some(label)), self.text(Some(tone)).unwrap_or_default());
+            let Some(found) = Tone::named(&name) else {
+                let tones = Tone::ALL.map(Tone::name).join(", ");
+                self.faults.push(fault(tone.span, format!("`{name}` is no tone")).with_help(format!("tones are: {tones}")));
+                continue;
+            };
+            activities.push(ActivitySpec { value: key.text.clone(), label: label.unwrap_or_default(), tone: found });
+        }
+        activities
+    }
+
+    /// The lanes of a group; `told` are the keys of an entry that are no terms.
+    fn lanes<'a>(&mut self, node: Option<&'a Node>, told: &[&str], terms: &[&str]) -> Vec<Lane<'a>> {
+        let group = self.fields(node, &["each", "terms", "counters"]);
+        let shared = self.fields(group.get("terms"), terms);
+        let counters = self.fields(group.get("counters"), &[]);
+        let known = [told, terms].concat();
+        let each = self.fields(group.get("each"), &[]).0;
+        each.iter().map(|(key, node)| Lane { id: &key.text, own: self.fields(Some(node), &known), terms: shared, counters }).collect()
+    }
+
+    fn lane_term(&mut self, lane: &Lane, name: &str) -> Option<String> {
+        self.term(lane.own.get(name).or(lane.terms.get(name)), lane.id)
+    }
+
+    fn counters(&mut self, lane: &Lane) -> Vec<CounterSpec> {
+        let mut counters = Vec::new();
+        for (key, node) in lane.counters.0 {
+            if let Some(term) = self.term(Some(node), lane.id) {
+                counters.push(CounterSpec { label: key.text.clone(), term });
+            }
+        }
+        counters
+    }
+
+    fn tasks(&mut self, node: Option<&Node>) -> Vec<TaskSpec> {
+        let terms = ["activity", "period", "release", "cycles", "met", "missed", "skipped"];
+        let lanes = self.lanes(node, &["name", "caption"], &terms);
+        let task = |lane: &Lane| TaskSpec {
+            name: self.text(lane.own.get("name")).unwrap_or_else(|| lane.id.to_string()),
+            caption: self.text(lane.own.get("caption")).unwrap_or_default(),
+            activity: self.lane_term(lane, "activity").unwrap_or_default(),
+            period: self.lane_term(lane, "period"),
+            release: self.lane_term(lane, "release"),
+            cycles: self.lane_term(lane, "cycles"),
+            met: self.lane_term(lane, "met"),
+            missed: self.lane_term(lane, "missed"),
+            skipped: self.lane_term(lane, "skipped"),
+        };
+        lanes.iter().map(task).collect()
+    }
+
+    fn buffers(&mut self, node: Option<&Node>) -> Vec<BufferSpec> {
+        let terms = ["arrays", "writing", "reading", "write_index", "read_index", "lock", "swaps"];
+        let lanes = self.lanes(node, &["from", "to"], &terms);
+        let buffer = |lane: &Lane| BufferSpec {
+            from: self.text(lane.own.get("from")).unwrap_or_else(|| lane.id.to_string()),
+            to: self.text(lane.own.get("to")).unwrap_or_default(),
+            arrays: self.lane_term(lane, "arrays"),
+            writing: self.lane_term(lane, "writing"),
+            reading: self.lane_term(lane, "reading"),
+            write_index: self.lane_term(lane, "write_index"),
+            read_index: self.lane_term(lane, "read_index"),
+            lock: self.lane_term(lane, "lock"),
+            swaps: self.lane_term(lane, "swaps"),
+            counters: self.counters(lane),
+        };
+        lanes.iter().map(buffer).collect()
+    }
+
+    fn queues(&mut self, node: Option<&Node>) -> Vec<QueueSpec> {
+        let lanes = self.lanes(node, &["from", "to"], &["length", "capacity"]);
+        let mut queues = Vec::new();
+        for lane in &lanes {
+            let Some(length) = self.lane_term(lane, "length") else {
+                let span = node.map_or(Span { file: FileId(0), start: 0, end: 0 }, |node| node.span);
+                self.refuse(span, format!("queue `{}` has no `length`: name the term that counts what is in it", lane.id));
+                continue;
+            };
+            queues.push(QueueSpec {
+                from: self.text(lane.own.get("from")).unwrap_or_else(|| lane.id.to_string()),
+                to: self.text(lane.own.get("to")).unwrap_or_default(),
+                length,
+                capacity: self.lane_term(lane, "capacity"),
+                counters: self.counters(lane),
+            });
+        }
+        queues
+    }
+
+    fn series(&mut self, node: Option<&Node>) -> Vec<SeriesSpec> {
+        let mut all = Vec::new();
+        for (key, node) in self.fields(node, &[]).0 {
+            let fields = self.fields(Some(node), &["caption", "value", "unit", "bound"]);
+            let Some(value) = self.term(fields.get("value"), "") else {
+                self.refuse(key.span, format!("`{}` has no `value`: name the term to be shown", key.text));
+                continue;
+            };
+            let ticks = match self.text(fields.get("unit")).as_deref() {
+                None | Some("number") => false,
+                Some("ticks") => true,
+                Some(other) => {
+                    self.refuse(node.span, format!("the unit `{other}` is not known: it is `ticks` or `number`"));
+                    false
+                }
+            };
+            let (name, caption) = (key.text.clone(), self.text(fields.get("caption")).unwrap_or_default());
+            all.push(SeriesSpec { name, caption, value, ticks, bound: self.term(fields.get("bound"), "") });
+        }
+        all
+    }
+
+    fn flow(&mut self, node: &Node, tasks: Option<&Node>) -> FlowSpec {
+        let fields = self.fields(Some(node), &["noun", "hops"]);
+        let noun = match self.list(fields.get("noun")) {
+            [one, many] => (self.text(Some(one)).unwrap_or_default(), self.text(Some(many)).unwrap_or_default()),
+            _ => ("datum".to_string(), "data".to_string()),
+        };
+        let each = match tasks.map(|node| &node.shape) {
+            Some(Shape::Map(entries)) => Fields(entries).get("each"),
+            _ => None,
+        };
+        let mut hops = Vec::new();
+        for item in self.list(fields.get("hops")) {
+            let hop = self.fields(Some(item), &["task", "event", "value"]);
+            let (id, event) = (self.text(hop.get("task")).unwrap_or_default(), self.text(hop.get("event")));
+            let Some(value) = self.term(hop.get("value"), &id) else {
+                self.refuse(item.span, "the hop has no `value`: name the term that tells which datum it works on");
+                continue;
+            };
+            // The file names tasks as the model does, the page as people do.
+            let named = match each.map(|node| &node.shape) {
+                Some(Shape::Map(entries)) => Fields(entries).get(&id),
+                _ => None,
+            };
+            let name = match named.map(|node| &node.shape) {
+                Some(Shape::Map(entries)) => self.text(Fields(entries).get("name")),
+                _ => None,
+            };
+            hops.push(HopSpec { task: name.unwrap_or(id), event: event.unwrap_or_else(|| "seen".to_string()), value });
+        }
+        FlowSpec { noun, hops }
+    }
+}
+
+/// What YAML writes for nothing.
+fn is_nothing(text: &str) -> bool {
+    matches!(text, "" | "~" | "null")
+}
+
+/// `100 us`, `0.1ms`, `1 s`.
+fn nanoseconds(text: &str) -> Option<u64> {
+    let text = text.trim();
+    let digits = text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(text.len());
+    let unit = match text[digits..].trim() {
+        "ns" => 1.0,
+        "us" | "µs" => 1e3,
+        "ms" => 1e6,
+        "s" => 1e9,
+        _ => return None,
+    };
+    let time = text[..digits].parse::<f64>().ok()? * unit;
+    // Below a nanosecond, or beyond what a run could last, it is a slip.
+    (1.0..1e18).contains(&time).then_some(time.round() as u64)
+}

@@ -1,0 +1,85 @@
+//! Evaluates the terms of a specification in each state, and hands on those whose values changed.
+
+use std::collections::BTreeMap;
+
+use ::report::ReportBuilder;
+use groundstate::Loaded;
+use machine::{Closed, Machine, Show, Value};
+use program::Expression;
+use syntax::ast::{AstNode, TermFile};
+use syntax::{Diagnostic, Span};
+
+/// The terms, lowered, and their last values.
+#[derive(Debug)]
+pub struct Watch {
+    terms: Vec<Expression>,
+    values: Vec<Value>,
+}
+
+impl Watch {
+    /// Checks the terms against the model and adds them to its program. Their text stands at `places`.
+    pub fn new(
+        loaded: &mut Loaded,
+        terms: &[String],
+        places: &BTreeMap<String, Span>,
+    ) -> Result<Watch, Vec<Diagnostic>> {
+        let mut lowered = Vec::new();
+        let mut faults = Vec::new();
+        for text in terms {
+            match lower(loaded, text, places[text]) {
+                Ok(term) => lowered.push(term),
+                Err(found) => faults.extend(found),
+            }
+        }
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        let values = vec![Value::Undef; lowered.len()];
+        Ok(Watch { terms: lowered, values })
+    }
+
+    /// Looks at the present state. What cannot be evaluated in it (an input that nobody gave) is undef.
+    pub fn look(&mut self, machine: &mut Machine, builder: &mut ReportBuilder) {
+        for (index, (term, last)) in self.terms.iter().zip(&mut self.values).enumerate() {
+            let value = machine.evaluate(term, &mut Closed).unwrap_or(Value::Undef);
+            if value != *last {
+                builder.set(index, &value.show(machine.program()).to_string());
+                *last = value;
+            }
+        }
+    }
+}
+
+fn lower(loaded: &mut Loaded, text: &str, place: Span) -> Result<Expression, Vec<Diagnostic>> {
+    // As many blanks before the term as the file has bytes: places in the term are places in the file.
+    let padded = " ".repeat(place.start as usize) + text;
+    let parsed = syntax::parse_term(place.file, &padded);
+    let errors = groundstate::has_errors;
+    if errors(&parsed.diagnostics) {
+        return Err(within(parsed.diagnostics, place));
+    }
+    let Some(term) = TermFile::cast(parsed.syntax()).and_then(|file| file.term()) else {
+        return Err(vec![super::node::fault(place, "a term is expected")]);
+    };
+    let fragment = loaded.model.check_term(place.file, &term);
+    if errors(&fragment.diagnostics) {
+        return Err(within(fragment.diagnostics, place));
+    }
+    let lowered = program::lower_term(&mut loaded.program, &loaded.model, &fragment.item, &fragment.variables);
+    lowered.map_err(|faults| within(faults, place))
+}
+
+/// A name put in for `{}` moves what follows it: places are kept within what the file has.
+fn within(mut faults: Vec<Diagnostic>, place: Span) -> Vec<Diagnostic> {
+    let kept = |span: &mut Span| {
+        if span.file == place.file {
+            span.start = span.start.clamp(place.start, place.end);
+            span.end = span.end.clamp(span.start, place.end);
+        }
+    };
+    for fault in &mut faults {
+        kept(&mut fault.primary.span);
+        fault.secondary.iter_mut().for_each(|label| kept(&mut label.span));
+    }
+    faults
+}

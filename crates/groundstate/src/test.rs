@@ -1,0 +1,165 @@
+//! Scenarios against their models: parse, load the model, resolve, run.
+//!
+//! A [`Suite`] keeps the models it has loaded, so that a folder of scenarios loads each model once, and adds up
+//! what the scenarios of a model covered.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use model::Loader;
+use program::Program;
+use scenario::{Blocks, Choices, Counts, Items, Options, Verdict};
+use simulate::SplitMix;
+use syntax::{Diagnostic, FileId, SourceFile, Sources};
+
+use crate::{Faulty, Loaded, has_errors, load};
+
+/// Scenarios being run.
+#[derive(Debug, Default)]
+pub struct Suite {
+    models: BTreeMap<String, Result<Loaded, Box<Faulty>>>,
+    counts: BTreeMap<String, Counts>,
+}
+
+/// What became of one scenario.
+#[derive(Debug)]
+pub struct Tested {
+    /// All texts that places refer to.
+    pub sources: Sources,
+    /// The scenario's name; that of the file where it has none.
+    pub name: String,
+    /// The verdict; none where the scenario or its model has errors.
+    pub verdict: Option<Verdict>,
+    /// Faults of the scenario or its model, warnings included.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The program it ran on.
+    pub program: Option<Arc<Program>>,
+}
+
+/// Random choices from a seed.
+#[derive(Debug)]
+pub struct SeededChoices(SplitMix);
+
+impl SeededChoices {
+    /// Choices from a seed.
+    pub fn new(seed: u64) -> Self {
+        SeededChoices(SplitMix::new(seed))
+    }
+}
+
+impl Choices for SeededChoices {
+    fn choose(&mut self, candidates: usize) -> usize {
+        self.0.below(candidates as u64) as usize
+    }
+}
+
+/// Finds scenarios whose blocks are called the way imports are found.
+struct BlockLoader<'a>(&'a mut dyn Loader);
+
+impl Blocks for BlockLoader<'_> {
+    fn load(&mut self, importer: &SourceFile, name: &str) -> Result<SourceFile, String> {
+        self.0.load(importer, &format!("{name}.avalla"))
+    }
+}
+
+/// Whether a file is the user's: not one of the built-in libraries.
+pub fn own_files(sources: &Sources) -> impl Fn(FileId) -> bool + '_ {
+    |file| !sources.file(file).name.starts_with("<std>")
+}
+
+/// A scenario resolved, or why not.
+struct Ready {
+    sources: Sources,
+    name: String,
+    script: Option<(scenario::Script, Program)>,
+    diagnostics: Vec<Diagnostic>,
+    /// The name of the model's root file.
+    model: Option<String>,
+}
+
+impl Suite {
+    /// A suite that has loaded nothing yet.
+    pub fn new() -> Self {
+        Suite::default()
+    }
+
+    /// Checks a scenario and its model without running it.
+    pub fn check(&mut self, source: SourceFile, loader: &mut dyn Loader) -> Tested {
+        let Ready { sources, name, diagnostics, .. } = self.ready(source, loader);
+        Tested { sources, name, verdict: None, diagnostics, program: None }
+    }
+
+    /// Runs a scenario.
+    pub fn test(
+        &mut self,
+        source: SourceFile,
+        loader: &mut dyn Loader,
+        options: Options,
+        choices: &mut dyn Choices,
+    ) -> Tested {
+        let Ready { sources, name, script, diagnostics, model } = self.ready(source, loader);
+        let Some((script, program)) = script else {
+            return Tested { sources, name, verdict: None, diagnostics, program: None };
+        };
+        let program = Arc::new(program);
+        let (verdict, counts) = scenario::run(&script, Arc::clone(&program), options, choices);
+        if let (true, Some(model)) = (options.coverage, model) {
+            self.counts.entry(model).or_default().merge(&counts);
+        }
+        Tested { sources, name, verdict: Some(verdict), diagnostics, program: Some(program) }
+    }
+
+    /// What the scenarios of each model covered of it, by the name of the model's file.
+    pub fn coverage(&self) -> impl Iterator<Item = (&str, &Sources, Items)> {
+        self.counts.iter().filter_map(|(name, counts)| {
+            let loaded = self.models.get(name)?.as_ref().ok()?;
+            let items = Items::of(&loaded.model, &own_files(&loaded.sources), counts);
+            Some((name.as_str(), &loaded.sources, items))
+        })
+    }
+
+    fn ready(&mut self, source: SourceFile, loader: &mut dyn Loader) -> Ready {
+        let stem = source.name.rsplit(['/', '\\']).next().unwrap_or_default().trim_end_matches(".avalla");
+        let name = stem.to_string();
+        let mut alone = Sources::default();
+        let file = alone.add(source.clone());
+        let parsed = scenario::parse(&alone, file);
+        let refused =
+            |sources, diagnostics| Ready { sources, name: name.clone(), script: None, diagnostics, model: None };
+        let Some((path, place)) = &parsed.model else { return refused(alone, parsed.diagnostics) };
+        let root = match loader.load(&source, path) {
+            Ok(root) => root,
+            Err(message) => {
+                let mut diagnostics = parsed.diagnostics.clone();
+                diagnostics.push(Diagnostic::error("unknown-model", *place, message));
+                return refused(alone, diagnostics);
+            }
+        };
+        let model_name = root.name.clone();
+        let entry = self.models.entry(model_name.clone());
+        let loaded = match entry.or_insert_with(|| load(root, loader)) {
+            Ok(loaded) => loaded,
+            Err(faulty) => {
+                let mut diagnostics = faulty.diagnostics.clone();
+                let mut sources = faulty.sources.clone();
+                // The scenario's own faults are shown beside those of its model.
+                let file = sources.add(source);
+                diagnostics.extend(scenario::parse(&sources, file).diagnostics);
+                return refused(sources, diagnostics);
+            }
+        };
+        let mut sources = loaded.sources.clone();
+        let file = sources.add(source);
+        let parsed = scenario::parse(&sources, file);
+        let (mut model, mut program) = (loaded.model.clone(), loaded.program.clone());
+        let mut blocks = BlockLoader(loader);
+        match scenario::resolve(&parsed, &mut model, &mut program, &mut sources, &mut blocks) {
+            Ok((script, diagnostics)) => {
+                debug_assert!(!has_errors(&diagnostics));
+                let name = if script.name.is_empty() { name } else { script.name.clone() };
+                Ready { sources, name, script: Some((script, program)), diagnostics, model: Some(model_name) }
+            }
+            Err(diagnostics) => refused(sources, diagnostics),
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! The environment of a scenario: inputs that stay until set again, picks, a policy for the other choices.
+//!
+//! An input that was never set is undef; [`ScenarioEnvironment::missing`] tells that one was asked for, so that an
+//! invariant over inputs is not judged before its inputs are there. The clock stands at 0: what needs time sets the
+//! monitored functions of the time library.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use machine::{Choice, Environment, Location, Show, TimeUnit, Value};
+use program::{DomainId, Program};
+use syntax::Span;
+
+/// How choices are made that no `pick` makes; comes in as a parameter, so that this crate has no random source.
+pub trait Choices {
+    /// The index of one of `candidates` candidates.
+    fn choose(&mut self, candidates: usize) -> usize;
+}
+
+/// Always the first candidate.
+#[derive(Debug, Default, Clone, Copy)]
+pub struct FirstCandidate;
+
+impl Choices for FirstCandidate {
+    fn choose(&mut self, _candidates: usize) -> usize {
+        0
+    }
+}
+
+/// A pick with its value.
+#[derive(Debug, Clone)]
+pub(crate) struct Picked {
+    pub variable: String,
+    pub choices: Vec<(Span, usize)>,
+    pub value: Value,
+    pub span: Span,
+    pub used: bool,
+}
+
+/// A pick whose value no candidate has.
+#[derive(Debug, Clone)]
+pub(crate) struct Mispick {
+    pub span: Span,
+    pub choice: Span,
+    pub message: String,
+}
+
+pub(crate) struct ScenarioEnvironment<'a> {
+    pub inputs: BTreeMap<Location, Value>,
+    pub picks: Vec<Picked>,
+    pub choices: &'a mut dyn Choices,
+    /// An input was asked for that is not set.
+    pub missing: bool,
+    pub mispick: Option<Mispick>,
+}
+
+impl fmt::Debug for ScenarioEnvironment<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ScenarioEnvironment").field("inputs", &self.inputs).field("picks", &self.picks).finish()
+    }
+}
+
+impl<'a> ScenarioEnvironment<'a> {
+    pub fn new(choices: &'a mut dyn Choices) -> Self {
+        ScenarioEnvironment { inputs: BTreeMap::new(), picks: Vec::new(), choices, missing: false, mispick: None }
+    }
+
+    /// Of several picks for one variable of one choice the last counts.
+    fn picks_for(&mut self, choice: Span) -> Vec<(usize, usize)> {
+        let mut chosen: Vec<(usize, usize)> = Vec::new();
+        for (index, pick) in self.picks.iter_mut().enumerate() {
+            if let Some((_, place)) = pick.choices.iter().find(|(span, _)| *span == choice) {
+                pick.used = true;
+                chosen.retain(|(_, earlier)| earlier != place);
+                chosen.push((index, *place));
+            }
+        }
+        chosen
+    }
+}
+
+impl Environment for ScenarioEnvironment<'_> {
+    fn monitored(&mut self, _program: &Program, location: &Location, _codomain: DomainId) -> Result<Value, String> {
+        Ok(self.inputs.get(location).cloned().unwrap_or_else(|| {
+            self.missing = true;
+            Value::Undef
+        }))
+    }
+
+    fn choose(&mut self, program: &Program, choice: &Choice<'_>) -> Result<usize, String> {
+        let picks = self.picks_for(choice.span);
+        if picks.is_empty() {
+            return Ok(self.choices.choose(choice.candidates()));
+        }
+        let fits = |index: &usize| {
+            let candidate = choice.candidate(*index);
+            picks.iter().all(|(pick, place)| candidate.get(*place) == Some(&self.picks[*pick].value))
+        };
+        let fitting: Vec<usize> = (0..choice.candidates()).filter(fits).collect();
+        if fitting.is_empty() {
+            let (pick, place) = picks[picks.len() - 1];
+            let pick = &self.picks[pick];
+            let message = format!(
+                "{} = {} is not among the candidates: {}",
+                pick.variable,
+                pick.value.show(program),
+                candidates(program, choice, place)
+            );
+            self.mispick = Some(Mispick { span: pick.span, choice: choice.span, message: message.clone() });
+            return Err(message);
+        }
+        Ok(fitting[self.choices.choose(fitting.len()).min(fitting.len() - 1)])
+    }
+
+    fn time(&mut self, _unit: TimeUnit) -> Result<i64, String> {
+        Ok(0)
+    }
+}
+
+/// The distinct values of one variable, the first of them.
+fn candidates(program: &Program, choice: &Choice<'_>, place: usize) -> String {
+    const SHOWN: usize = 10;
+    let mut values: Vec<&Value> = (0..choice.candidates()).filter_map(|i| choice.candidate(i).get(place)).collect();
+    values.sort_unstable();
+    values.dedup();
+    let mut text: Vec<String> = values.iter().take(SHOWN).map(|value| value.show(program).to_string()).collect();
+    if values.len() > SHOWN {
+        text.push(format!("and {} more", values.len() - SHOWN));
+    }
+    text.join(", ")
+}
