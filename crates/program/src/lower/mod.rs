@@ -53,6 +53,23 @@ const STACK_PIECE: usize = 1024 * 1024;
 
 /// Lowers a checked model.
 ///
+/// ```
+/// # struct NoFiles;
+/// # impl model::Loader for NoFiles {
+/// #     fn load(&mut self, _: &syntax::SourceFile, path: &str) -> Result<syntax::SourceFile, String> {
+/// #         Err(path.to_string())
+/// #     }
+/// # }
+/// let text = "asm counter
+///     import StandardLibrary
+///     signature: controlled n: Integer
+///     definitions: main rule r_Main = n := n + 1
+///     default init s: function n = 0";
+/// let checked = model::check(syntax::SourceFile::new("counter.asm", text), &mut NoFiles);
+/// let program = program::lower(&checked.model).unwrap();
+/// assert!(program::dump(&program).contains("n := IntAdd(n, 1)"));
+/// ```
+///
 /// # Errors
 /// `model-too-large` where the calls by name need more procedures or terms than the limits allow;
 /// `not-a-location` where a rule that assigns its parameter is run with a value for it.

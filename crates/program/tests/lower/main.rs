@@ -9,6 +9,7 @@ mod limit;
 mod property;
 mod rule;
 mod term;
+mod verify;
 
 use expect_test::Expect;
 use model::{Loader, Model};
