@@ -135,9 +135,6 @@ impl Declare<'_> {
     fn literals(&mut self, decl: &ast::EnumDomainDecl, id: DomainId) {
         for token in decl.literals().filter_map(|literal| literal.name()) {
             let (name, span) = (token.text().to_string(), Span::new(self.file, token.text_range()));
-            if token.kind() != SyntaxKind::ENUM_ID {
-                self.faults.push(fault::name::literal_not_in_capitals(span, &name));
-            }
             if let Some((domain, _)) = self.names.literal(&name) {
                 let first = self.literals.get(&name).copied().or(self.model.domains.get(domain).span);
                 let domain = self.model.domains.display(domain);

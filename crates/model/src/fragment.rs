@@ -30,7 +30,8 @@ pub struct Fragment<T> {
 }
 
 impl Model {
-    /// Checks a term. `file` is where its text stands in the caller's sources.
+    /// Checks a term. `file` is where its text stands: add that text to the [`crate::Checked::sources`] of the
+    /// model, so that faults can point to both.
     pub fn check_term(&mut self, file: FileId, term: &ast::Term) -> Fragment<Term> {
         self.fragment(file, |body| body.term(term))
     }

@@ -6,7 +6,7 @@
 use syntax::ast::{self, AstNode};
 use syntax::{FileId, Span, SyntaxKind, SyntaxToken};
 
-use crate::domain::{Basic, DomainId, DomainKind, Domains};
+use crate::domain::{Basic, Domain, DomainId, DomainKind, Domains};
 use crate::fault::{self, Faults, Mismatch};
 use crate::library;
 use crate::model::{FunctionId, FunctionKind, Model, RuleId};
@@ -107,18 +107,7 @@ impl Site<'_> {
             (SyntaxKind::BAG_KW, [of]) => DomainKind::Bag(*of),
             (SyntaxKind::MAP_KW, [key, value]) => DomainKind::Map(*key, *value),
             (SyntaxKind::RULE_DOMAIN_KW, _) => DomainKind::Rule(parts),
-            (_, []) => return Domains::ERROR, // the parser has reported the missing domains
-            _ => {
-                let expected = match constructor {
-                    SyntaxKind::PROD_KW => "2 or more domains",
-                    SyntaxKind::MAP_KW => "2 domains",
-                    _ => "1 domain",
-                };
-                let span = self.span(domain);
-                let name = constructor.text().unwrap_or_default();
-                self.faults.push(fault::domain::arity(span, name, expected, parts.len()));
-                return Domains::ERROR;
-            }
+            _ => return Domains::ERROR, // the parser has reported that there are too few or too many
         };
         self.model.domains.structured(kind)
     }
@@ -176,9 +165,11 @@ impl Site<'_> {
     }
 
     /// Reports a function name that means nothing.
-    pub(crate) fn unknown_function(&mut self, name: &str, span: Span, variables: &[&str]) {
+    ///
+    /// `shown` is the name or operator as written.
+    pub(crate) fn unknown_function(&mut self, name: &str, shown: &str, span: Span, variables: &[&str]) {
         if library::is_standard_name(name) && !self.names.functions.contains_key("eq") && !self.names.incomplete {
-            self.faults.missing_library(fault::import::missing_library(span, &format!("`{name}`")));
+            self.faults.missing_library(fault::import::missing_library(span, &format!("`{shown}`")));
             return;
         }
         if self.names.incomplete {
@@ -201,6 +192,26 @@ impl Site<'_> {
             })
         };
         self.faults.push(fault::name::unknown_function(span, name, help));
+    }
+
+    /// Reports an enum literal that means nothing.
+    pub(crate) fn unknown_literal(&mut self, name: &str, span: Span) {
+        if self.names.incomplete {
+            return;
+        }
+        let help = did_you_mean(name, self.names.literals.keys().map(String::as_str), || {
+            let of = |(_, domain): (DomainId, &Domain)| match &domain.kind {
+                DomainKind::Enum { literals } if literals.iter().any(|literal| literal == name) => domain.name.clone(),
+                _ => None,
+            };
+            match self.model.domains.iter().find_map(of) {
+                Some(domain) => format!(
+                    "`{name}` is a literal of `{domain}` in an imported file: add `{domain}` to that file's export list, and to the selection of the import"
+                ),
+                None => format!("declare it in an enum domain: `enum domain D = {{{name} | …}}`"),
+            }
+        });
+        self.faults.push(fault::name::unknown_literal(span, name, help));
     }
 
     /// Reports a rule name that means nothing.

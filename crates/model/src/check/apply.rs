@@ -64,7 +64,7 @@ impl Body<'_> {
         if candidates.is_empty() {
             let visible: Vec<String> = self.visible().into_iter().map(str::to_string).collect();
             let visible: Vec<&str> = visible.iter().map(String::as_str).collect();
-            self.site.unknown_function(written.name, written.name_span, &visible);
+            self.site.unknown_function(written.name, written.shown, written.name_span, &visible);
             return error_term(written.span);
         }
         if arguments.iter().any(|argument| argument.domain == Domains::ERROR) {

@@ -113,7 +113,7 @@ fn find(site: &mut Site<'_>, def: &ast::FunctionDef, parameters: &[Variable]) ->
     let candidates = site.names.functions(token.text());
     let span = site.token_span(&token);
     if candidates.is_empty() {
-        site.unknown_function(token.text(), span, &[]);
+        site.unknown_function(token.text(), token.text(), span, &[]);
         return None;
     }
     let domains: Vec<DomainId> = parameters.iter().map(|parameter| parameter.domain).collect();

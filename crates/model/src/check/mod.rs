@@ -57,7 +57,9 @@ pub fn check(root: SourceFile, loader: &mut dyn Loader) -> Checked {
     }
     let Checker { model, mut faults, .. } = checker;
     macros::check(&model, &mut faults);
-    report_undefined(&model, &mut faults);
+    if !faults.has_errors() {
+        report_undefined(&model, &mut faults);
+    }
     Checked { diagnostics: faults.into_sorted(), model, sources }
 }
 

@@ -11,7 +11,6 @@ use crate::coerce::can_coerce;
 use crate::domain::{DomainId, DomainKind, Domains};
 use crate::fault;
 use crate::model::VariableId;
-use crate::suggest::did_you_mean;
 use crate::term::{Literal, Quantifier, Term, TermKind};
 
 impl Body<'_> {
@@ -67,12 +66,7 @@ impl Body<'_> {
         if let Some(domain) = self.site.names.domain(name) {
             return self.domain_as_set(domain, span);
         }
-        if !self.site.names.incomplete {
-            let help = did_you_mean(name, self.site.names.literals.keys().map(String::as_str), || {
-                format!("declare it in an enum domain: `enum domain D = {{{name} | …}}`")
-            });
-            self.site.faults.push(fault::name::unknown_literal(span, name, help));
-        }
+        self.site.unknown_literal(name, span);
         error_term(span)
     }
 

@@ -26,16 +26,6 @@ pub(crate) fn concrete_over_concrete(
     }
 }
 
-/// A structured domain over too few or too many domains.
-pub(crate) fn arity(span: Span, constructor: &str, expected: &str, found: usize) -> Diagnostic {
-    let message = format!("`{constructor}` is over {expected}, not over {}", super::count(found, "domain"));
-    Diagnostic::error("domain-arity", span, message).with_help(match constructor {
-        "Prod" => "write the one domain itself, or add another",
-        "Map" => "write `Map(Key,Value)`",
-        _ => "write a product for several: `Prod(A,B)`",
-    })
-}
-
 /// A definition of a domain that has no contents to define.
 pub(crate) fn not_definable(span: Span, name: &str, kind: &str, help: &str) -> Diagnostic {
     Diagnostic::error("domain-not-definable", span, format!("the contents of `{name}` cannot be defined here"))

@@ -24,7 +24,7 @@ pub(crate) fn no_declaration(
         "" => format!("there is no function `{name}` without arguments to define"),
         _ => format!("there is no function `{name}` over {domain} to define"),
     };
-    let fault = Diagnostic::error("undefined-function", span, message).with_help(help);
+    let fault = Diagnostic::error("undeclared-definition", span, message).with_help(help);
     declared
         .iter()
         .fold(fault, |fault, (place, signature)| fault.with_label(*place, format!("declared as `{signature}`")))

@@ -22,7 +22,6 @@ pub const IDS: &[&str] = &[
     "concrete-over-concrete",
     "define-dynamic-function",
     "definition-domain",
-    "domain-arity",
     "domain-contents",
     "domain-in-capitals",
     "domain-not-definable",
@@ -45,7 +44,6 @@ pub const IDS: &[&str] = &[
     "import-without-export",
     "init-static-function",
     "library-path",
-    "literal-not-in-capitals",
     "main-with-parameters",
     "malformed-character",
     "missing-default-init",
@@ -67,6 +65,7 @@ pub const IDS: &[&str] = &[
     "rule-call-brackets",
     "rule-without-result",
     "static-derived-function",
+    "undeclared-definition",
     "undefined-function",
     "unknown-domain",
     "unknown-enum-literal",
@@ -79,7 +78,7 @@ pub const IDS: &[&str] = &[
     "update-of-variable",
 ];
 
-use syntax::{Diagnostic, Span};
+use syntax::{Diagnostic, Severity, Span};
 
 /// The faults found so far.
 #[derive(Debug, Default)]
@@ -99,6 +98,11 @@ impl Faults {
     pub(crate) fn has_at(&self, span: Span) -> bool {
         let inside = |other: Span| other.file == span.file && span.start <= other.start && other.end <= span.end;
         self.list.iter().rev().take(8).any(|fault| inside(fault.primary.span))
+    }
+
+    /// Some fault is an error.
+    pub(crate) fn has_errors(&self) -> bool {
+        self.list.iter().any(|fault| fault.severity == Severity::Error)
     }
 
     /// Adds faults of an earlier stage.

@@ -34,17 +34,6 @@ pub(crate) fn domain_in_capitals(span: Span, name: &str) -> Diagnostic {
         .with_help(format!("name it `{}`", capitalised(name)))
 }
 
-/// An enum literal that does not read as one.
-pub(crate) fn literal_not_in_capitals(span: Span, name: &str) -> Diagnostic {
-    let mut upper = name.to_ascii_uppercase();
-    if upper.len() < 2 || !upper.as_bytes()[..2].iter().all(u8::is_ascii_uppercase) {
-        upper = format!("{}_{upper}", "LITERAL");
-    }
-    Diagnostic::error("literal-not-in-capitals", span, format!("`{name}` cannot be an enum literal"))
-        .because("enum literals are written in capitals, the first two of them letters")
-        .with_help(format!("name it `{upper}`"))
-}
-
 fn capitalised(name: &str) -> String {
     let mut letters = name.chars();
     letters.next().map(|first| first.to_string() + &letters.as_str().to_ascii_lowercase()).unwrap_or_default()

@@ -1,0 +1,68 @@
+//! Each fault that checking may report has a page `spec/faults/<id>.md`, and the page's example yields that fault.
+
+mod support;
+
+use std::path::PathBuf;
+
+use model::IDS;
+use support::{check_file, faults};
+
+struct Page {
+    id: String,
+    /// The name and text of the example.
+    example: (String, String),
+    /// Files that it imports.
+    others: Vec<(String, String)>,
+}
+
+#[allow(clippy::disallowed_methods, reason = "a test reads the pages it is about")]
+fn page(id: &str) -> Page {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../spec/faults/{id}.md"));
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|_| panic!("{id} has no page {}", path.display()));
+    assert!(text.starts_with(&format!("# {id}\n")), "the page of {id} has another title");
+    let mut example = None;
+    let mut others = Vec::new();
+    for block in text.split("```asmetal").skip(1) {
+        let (info, rest) = block.split_once('\n').expect("a line end behind the info string");
+        let (code, _) = rest.split_once("```").expect("the end of the block");
+        let named = info.split_whitespace().find_map(|word| word.strip_prefix("file="));
+        match info.contains("fault") {
+            true => {
+                let own = code.split_whitespace().skip_while(|word| !matches!(*word, "asm" | "module")).nth(1);
+                let name = named.map(str::to_string).unwrap_or_else(|| format!("{}.asm", own.unwrap_or("example")));
+                example = Some((name, code.to_string()));
+            }
+            false => others.push((named.expect("a file name").to_string(), code.to_string())),
+        }
+    }
+    Page { id: id.to_string(), example: example.unwrap_or_else(|| panic!("the page of {id} has no example")), others }
+}
+
+#[test]
+fn each_id_has_a_page_whose_example_yields_it_and_nothing_else() {
+    let mut trouble = String::new();
+    for id in IDS {
+        let Page { id, example: (name, text), others } = page(id);
+        let mut others: Vec<(&str, &str)> = others.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
+        others.push((&name, &text));
+        let checked = check_file(&name, &text, &others);
+        let found: Vec<&str> = checked.diagnostics.iter().map(|fault| fault.id).collect();
+        if found != [id.as_str()] {
+            trouble += &format!("{id}: {found:?}\n{}\n", faults(&checked));
+        }
+    }
+    assert!(trouble.is_empty(), "{trouble}");
+}
+
+#[test]
+fn every_fault_says_what_to_do() {
+    for id in IDS {
+        let Page { example: (name, text), others, .. } = page(id);
+        let others: Vec<(&str, &str)> = others.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
+        for fault in check_file(&name, &text, &others).diagnostics {
+            assert!(fault.help.is_some(), "{id} has no help");
+            let first = fault.message.chars().next().unwrap_or(' ');
+            assert!(!first.is_uppercase() && !fault.message.ends_with('.'), "{id}: {}", fault.message);
+        }
+    }
+}
