@@ -141,6 +141,61 @@ pub(crate) fn misplaced_branch(found: Found<'_>, last: &str) -> Diagnostic {
         .with_help(format!("move this branch before `{last}`, or end the construct before it"))
 }
 
+/// `RED := 1`
+pub(crate) fn no_location(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("name-class", found.span, format!("{found} cannot be updated"))
+        .because("only a function, also with arguments, and a variable are updated")
+        .with_help(shape_of(FUNCTION_ID))
+}
+
+/// `x += 1`
+pub(crate) fn compound_assignment(found: Found<'_>) -> Diagnostic {
+    let sign = found.text;
+    let span = Span { end: found.span.end + 1, ..found.span };
+    Diagnostic::error("foreign-operator", span, format!("`{sign}=` is no operator of AsmetaL"))
+        .because("an update is written with `:=`")
+        .with_help(format!("write `x := x {sign} …`"))
+}
+
+/// `function f := 1`
+pub(crate) fn assign_in_definition(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("assign-in-term", found.span, "a definition is written with `=`")
+        .because("`:=` updates a location and makes a rule")
+        .with_help("write `=`")
+}
+
+/// `domain D = …` in the signature.
+pub(crate) fn contents_in_signature(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error(
+        "expected-token",
+        found.span,
+        "expected `subsetof` behind the name of a concrete domain, found `=`",
+    )
+    .because("the signature only declares the domain")
+    .with_help("write `domain D subsetof E` here, and `domain D = …` in the definitions")
+}
+
+/// `domain D subsetof …` in the definitions.
+pub(crate) fn declaration_of_domain(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("expected-token", found.span, format!("expected `=` behind the name of a domain, found {found}"))
+        .because("the definitions give the elements of a domain that is declared")
+        .with_help("move the declaration to the signature, and write `domain D = …` here")
+}
+
+/// A word such as `else` that belongs to no construct around.
+pub(crate) fn stray_word(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("stray-end", found.span, format!("{found} belongs to nothing that is open"))
+        .because("a rule must stand here")
+        .with_help("remove it, or look for an end that comes too early before it")
+}
+
+/// `5.`
+pub(crate) fn bare_point(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("number-form", found.span, "a real number has digits on both sides of its point")
+        .because("no digit behind the point")
+        .with_help("write `.0` for the point")
+}
+
 /// `r_x` without brackets.
 pub(crate) fn missing_brackets(found: Found<'_>) -> Diagnostic {
     let name = found.text;
@@ -291,10 +346,10 @@ pub(crate) fn nested_too_deeply(found: Found<'_>) -> Diagnostic {
 }
 
 /// `{1..5}`
-pub(crate) fn dots_in_range(found: Found<'_>) -> Diagnostic {
-    let span = Span { end: found.span.end + 1, ..found.span };
+pub(crate) fn dots_in_range(found: Found<'_>, two: bool) -> Diagnostic {
+    let span = Span { end: found.span.end + u32::from(two), ..found.span };
     Diagnostic::error("foreign-operator", span, "a range is written with `:`")
-        .because("`..` is no operator of AsmetaL")
+        .because("dots are no operator of AsmetaL")
         .with_help("write `{lo : hi}`, or `{lo : hi, step}`")
 }
 
@@ -303,6 +358,13 @@ pub(crate) fn foreign_word(found: Found<'_>, ours: &str) -> Diagnostic {
     Diagnostic::error("foreign-operator", found.span, format!("{found} is no word of AsmetaL"))
         .because(format!("written `{ours}` in AsmetaL"))
         .with_help(format!("write `{ours}`"))
+}
+
+/// Rules in parentheses or braces.
+pub(crate) fn bracketed_rule(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("expected-rule", found.span, format!("a rule does not start with {found}"))
+        .because("brackets do not hold rules together")
+        .with_help("write `par … endpar` or `seq … endseq` around the rules")
 }
 
 /// `endforall` and the like.

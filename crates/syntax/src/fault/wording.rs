@@ -8,7 +8,7 @@ pub(super) fn found(kind: SyntaxKind, text: &str) -> String {
         if text.chars().count() > 40 { text.chars().take(37).chain("…".chars()).collect() } else { text.into() };
     match kind {
         EOF => "the end of the file".to_string(),
-        STRING => format!("the string {short}"),
+        STRING => format!("the string `{short}`"),
         INTEGER | NATURAL | REAL | COMPLEX => format!("the number {short}"),
         _ => format!("`{short}`"),
     }
@@ -59,9 +59,9 @@ pub(super) fn shape_of(kind: SyntaxKind) -> &'static str {
 }
 
 /// The nearest name of a class.
-pub(super) fn renamed(name: &str, kind: SyntaxKind) -> Option<String> {
-    let bare = name.trim_start_matches(['$', '_']);
-    let first = bare.chars().next()?;
+pub(super) fn renamed(old: &str, kind: SyntaxKind) -> Option<String> {
+    let bare = old.trim_start_matches(['$', '_']);
+    let first = bare.chars().next().filter(|_| bare.is_ascii())?;
     let name = match kind {
         VARIABLE => format!("${bare}"),
         ENUM_ID => bare.to_ascii_uppercase(),
@@ -73,5 +73,6 @@ pub(super) fn renamed(name: &str, kind: SyntaxKind) -> Option<String> {
         FUNCTION_ID => first.to_ascii_lowercase().to_string() + &bare[1..],
         _ => return None,
     };
-    (kind == VARIABLE || crate::lexer::classify(&name) == kind).then_some(name)
+    let fits = kind == VARIABLE || crate::lexer::classify(&name) == kind;
+    (fits && name != old).then_some(name)
 }

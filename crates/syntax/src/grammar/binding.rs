@@ -52,3 +52,43 @@ fn binding(p: &mut Parser<'_>) -> bool {
     p.finish();
     named
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::grammar::brief::term;
+    use expect_test::{Expect, expect};
+
+    fn check(text: &str, expected: Expect) {
+        expected.assert_eq(&term(text));
+    }
+
+    #[test]
+    fn let_terms() {
+        check("let ($x = 1) in $x endlet", expect!["LET(let ( BINDING($x = 1) ) in $x endlet)"]);
+        check(
+            "let ($x = 1, $y = $x in S) in $y in T endlet",
+            expect![[r#"
+            LET(
+              let
+              (
+              BINDING($x = 1)
+              ,
+              BINDING($y = BINARY($x in DOMAIN(S)))
+              )
+              in
+              BINARY($y in DOMAIN(T))
+              endlet)"#]],
+        );
+    }
+
+    #[test]
+    fn faults() {
+        check("let $x = 1 in $x endlet", expect!["LET(let BINDING($x = 1) in $x endlet) !expected-token"]);
+        check("let ($x = 1 in\n$x endlet", expect!["LET(let ( BINDING($x = 1) in $x endlet) !missing-end"]);
+        check("let (x = 1) in x endlet", expect!["LET(let ( BINDING(x = 1) ) in x endlet) !name-class"]);
+        check("let ($x 1) in $x endlet", expect!["LET(let ( BINDING($x) ERROR(1) ) in $x endlet) !expected-token"]);
+        check("let ($x = 1) in $x", expect!["LET(let ( BINDING($x = 1) ) in $x) !missing-end"]);
+        check("(forall x in D with c)", expect!["QUANTIFIED(( forall BINDER(x in DOMAIN(D)) with c )) !name-class"]);
+        check("(exists $x D)", expect!["QUANTIFIED(( exists BINDER($x) ERROR(D) )) !expected-token"]);
+    }
+}

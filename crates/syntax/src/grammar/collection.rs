@@ -17,11 +17,7 @@ pub(super) fn collection(p: &mut Parser<'_>) {
         L_BRACKET => R_BRACKET,
         _ => GT,
     };
-    if p.at(RETURN_ARROW) {
-        p.split_opener(LT, MINUS, close); // `<-1, 2>` is a bag
-    } else {
-        p.bump_opener(close);
-    }
+    p.bump_opener(close);
     let within = if close == GT { Within::Bag } else { Within::Plain };
     let kind = inside(p, within, |p| contents(p, close));
     recovery::end(p);
@@ -56,8 +52,9 @@ fn contents(p: &mut Parser<'_>, close: SyntaxKind) -> SyntaxKind {
         COLON | DOT => {
             if p.at(DOT) {
                 let found = p.found();
-                p.fault(fault::dots_in_range(found));
-                recovery::error(p, if p.peek(1) == DOT { 2 } else { 1 });
+                let two = p.peek(1) == DOT && p.touches_next();
+                p.fault(fault::dots_in_range(found, two));
+                recovery::error(p, if two { 2 } else { 1 });
             } else {
                 p.bump();
             }
@@ -106,5 +103,133 @@ fn comprehension(p: &mut Parser<'_>) {
         arrow_and_value(p);
         p.finish();
         p.eat(BAR); // the peer demands it
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::grammar::brief::term;
+    use expect_test::{Expect, expect};
+
+    fn check(text: &str, expected: Expect) {
+        expected.assert_eq(&term(text));
+    }
+
+    #[test]
+    fn literals() {
+        check("{}", expect!["COLLECTION({ })"]);
+        check("[]", expect!["COLLECTION([ ])"]);
+        check("<>", expect!["COLLECTION(< >)"]);
+        check("{1}", expect!["COLLECTION({ 1 })"]);
+        check("{1, a, {2}}", expect!["COLLECTION({ 1 , a , COLLECTION({ 2 }) })"]);
+        check("[1, [2]]", expect!["COLLECTION([ 1 , COLLECTION([ 2 ]) ])"]);
+        check("<1, 2>", expect!["COLLECTION(< 1 , 2 >)"]);
+        check("< <1>, <2>>", expect!["COLLECTION(< COLLECTION(< 1 >) , COLLECTION(< 2 >) >)"]);
+        check("<<1>, <2>>", expect!["COLLECTION(< COLLECTION(< 1 >) , COLLECTION(< 2 >) >)"]);
+        check("<-1, 2>", expect!["COLLECTION(< UNARY(- 1) , 2 >)"]);
+        check("<a, (b > c)>", expect!["COLLECTION(< a , PAREN(( BINARY(b > c) )) >)"]);
+        check("<1> = <2>", expect!["BINARY(COLLECTION(< 1 >) = COLLECTION(< 2 >))"]);
+        check("x = <>", expect!["BINARY(x = COLLECTION(< >))"]);
+        check("{a -> b}", expect!["MAP({ MAP_ENTRY(a -> b) })"]);
+        check("{->}", expect!["MAP({ -> })"]);
+        check(
+            "{a -> {1 -> 2}, c -> d}",
+            expect![[r#"
+            MAP(
+              {
+              MAP_ENTRY(a -> MAP({ MAP_ENTRY(1 -> 2) }))
+              ,
+              MAP_ENTRY(c -> d)
+              })"#]],
+        );
+    }
+
+    #[test]
+    fn ranges() {
+        check("{1 : 5}", expect!["RANGE({ 1 : 5 })"]);
+        check("{-3:5}", expect!["RANGE({ UNARY(- 3) : 5 })"]);
+        check("[1n : 5n, 2n]", expect!["RANGE([ 1n : 5n , 2n ])"]);
+        check("<1:3>", expect!["RANGE(< 1 : 3 >)"]);
+        check("{a + 1 : f(b), c}", expect!["RANGE({ BINARY(a + 1) : FUNCTION(f ARGUMENT_LIST(( b ))) , c })"]);
+    }
+
+    #[test]
+    fn comprehensions() {
+        check("{$x in D : $x}", expect!["COMPREHENSION({ BINDER($x in DOMAIN(D)) : $x })"]);
+        check(
+            "{$x in D, $y in E | $x > $y : $x + $y}",
+            expect![[r#"
+            COMPREHENSION(
+              {
+              BINDER($x in DOMAIN(D))
+              ,
+              BINDER($y in DOMAIN(E))
+              |
+              BINARY($x > $y)
+              :
+              BINARY($x + $y)
+              })"#]],
+        );
+        check(
+            "[$x in [1:3] | $x > 1 : $x]",
+            expect![[r#"
+            COMPREHENSION(
+              [
+              BINDER($x in RANGE([ 1 : 3 ]))
+              |
+              BINARY($x > 1)
+              :
+              $x
+              ])"#]],
+        );
+        check(
+            "<$x in <1, 2> | $x > 1 : $x>",
+            expect![[r#"
+            COMPREHENSION(
+              <
+              BINDER($x in COLLECTION(< 1 , 2 >))
+              |
+              BINARY($x > 1)
+              :
+              $x
+              >)"#]],
+        );
+        check(
+            "{$x in D | c : $x -> 1 |}",
+            expect!["COMPREHENSION({ BINDER($x in DOMAIN(D)) | c : MAP_ENTRY($x -> 1) | })"],
+        );
+        check("{$x in D : $x -> 1}", expect!["COMPREHENSION({ BINDER($x in DOMAIN(D)) : MAP_ENTRY($x -> 1) })"]);
+        check("{($x in D)}", expect!["COLLECTION({ PAREN(( BINARY($x in DOMAIN(D)) )) })"]);
+    }
+
+    #[test]
+    fn extended_terms_as_operands() {
+        check("x = {1, 2}", expect!["BINARY(x = COLLECTION({ 1 , 2 }))"]);
+        check(
+            "{1} = {2} or [1] != []",
+            expect![[r#"
+            BINARY(
+              BINARY(COLLECTION({ 1 }) = COLLECTION({ 2 }))
+              or
+              BINARY(COLLECTION([ 1 ]) != COLLECTION([ ])))"#]],
+        );
+        check("if a then 1 else 2 endif + 1", expect!["BINARY(IF(if CONDITIONAL_BRANCH(a then 1) else 2 endif) + 1)"]);
+        check("1 + let ($x = 1) in $x endlet", expect!["BINARY(1 + LET(let ( BINDING($x = 1) ) in $x endlet))"]);
+        check("({1})", expect!["PAREN(( COLLECTION({ 1 }) ))"]);
+        check("-{1}", expect!["UNARY(- COLLECTION({ 1 }))"]);
+    }
+
+    #[test]
+    fn faults() {
+        check("{1..5}", expect!["RANGE({ 1 ERROR(. .) 5 }) !foreign-operator"]);
+        check("{1, 2", expect!["COLLECTION({ 1 , 2) !missing-end"]);
+        check("{1 2}", expect!["COLLECTION({ 1 2 }) !expected-token"]);
+        check("{a -> b, c}", expect!["MAP({ MAP_ENTRY(a -> b) , MAP_ENTRY(c) }) !expected-token"]);
+        check("{$x in D}", expect!["COMPREHENSION({ BINDER($x in DOMAIN(D)) }) !expected-token"]);
+        check("{1, }", expect!["COLLECTION({ 1 , }) !expected-term"]);
+        check("{1)", expect!["COLLECTION({ 1 ERROR())) !missing-end"]);
+        check("<1, 2", expect!["COLLECTION(< 1 , 2) !missing-end"]);
+        check("{a -> }", expect!["MAP({ MAP_ENTRY(a ->) }) !expected-term"]);
+        check("{1 : }", expect!["RANGE({ 1 : }) !expected-term"]);
     }
 }

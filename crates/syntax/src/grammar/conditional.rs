@@ -1,7 +1,8 @@
 //! `if` and `switch`, which terms and rules share (spec/language.md, 6.2 and 7).
 
 use super::recovery;
-use super::term::{self, delimited};
+use super::sets::TERM_STARTS;
+use super::term::delimited;
 use crate::SyntaxKind::{self, *};
 use crate::fault;
 use crate::parser::Parser;
@@ -16,7 +17,7 @@ pub(super) struct Body {
 }
 
 /// A body that is a term.
-pub(super) const TERM: Body = Body { parse: |p, wanted| _ = delimited(p, wanted), starts: |p| p.at_any(term::STARTS) };
+pub(super) const TERM: Body = Body { parse: |p, wanted| _ = delimited(p, wanted), starts: |p| p.at_any(TERM_STARTS) };
 
 impl Body {
     /// The body behind a keyword or mark; where that is missing, a body that stands there is read all the same.
@@ -71,9 +72,14 @@ pub(super) fn if_construct(p: &mut Parser<'_>, kind: SyntaxKind, body: Body) {
     p.finish();
 }
 
+/// The cursor is at what other languages have for `elseif`.
+pub(super) fn at_foreign_elseif(p: &Parser<'_>) -> bool {
+    (p.at_word("elif") || p.at_word("elsif")) && !matches!(p.peek(1), ASSIGN | COLON)
+}
+
 /// Takes `elseif`, or what other languages have for it.
 fn elseif(p: &mut Parser<'_>) -> bool {
-    if p.at_word("elif") || p.at_word("elsif") {
+    if at_foreign_elseif(p) {
         let found = p.found();
         p.fault(fault::foreign_word(found, "elseif"));
         p.bump_as(ELSEIF_KW);
@@ -96,6 +102,11 @@ pub(super) fn switch_construct(p: &mut Parser<'_>, kind: SyntaxKind, body: Body)
     delimited(p, "the term that `switch` compares");
     if !p.at(CASE_KW) {
         p.expect(CASE_KW, "behind the term of `switch`");
+        if (body.starts)(p) {
+            p.start(ERROR);
+            (body.parse)(p, "a case");
+            p.finish();
+        }
     }
     while p.at(CASE_KW) {
         case(p, body);
@@ -118,4 +129,126 @@ fn case(p: &mut Parser<'_>, body: Body) {
     delimited(p, "a value behind `case`");
     body.behind(p, COLON, "behind the value of `case`", "what to do or give in this case");
     p.finish();
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::grammar::brief::term;
+    use expect_test::{Expect, expect};
+
+    fn check(text: &str, expected: Expect) {
+        expected.assert_eq(&term(text));
+    }
+
+    #[test]
+    fn if_terms() {
+        check("if a then b endif", expect!["IF(if CONDITIONAL_BRANCH(a then b) endif)"]);
+        check("if a then b else c endif", expect!["IF(if CONDITIONAL_BRANCH(a then b) else c endif)"]);
+        check(
+            "if a then b elseif c then d elseif e then f else g endif",
+            expect![[r#"
+            IF(
+              if
+              CONDITIONAL_BRANCH(a then b)
+              elseif
+              CONDITIONAL_BRANCH(c then d)
+              elseif
+              CONDITIONAL_BRANCH(e then f)
+              else
+              g
+              endif)"#]],
+        );
+        check(
+            "if a then if b then c endif else d endif",
+            expect![[r#"
+            IF(
+              if
+              CONDITIONAL_BRANCH(a then IF(if CONDITIONAL_BRANCH(b then c) endif))
+              else
+              d
+              endif)"#]],
+        );
+        check(
+            "if a > b then {1} else <1> endif",
+            expect![[r#"
+            IF(
+              if
+              CONDITIONAL_BRANCH(BINARY(a > b) then COLLECTION({ 1 }))
+              else
+              COLLECTION(< 1 >)
+              endif)"#]],
+        );
+    }
+
+    #[test]
+    fn switch_terms() {
+        check(
+            "switch x case 1: a case 2: b otherwise c endswitch",
+            expect![[r#"
+            SWITCH(
+              switch
+              x
+              CASE_BRANCH(case 1 : a)
+              CASE_BRANCH(case 2 : b)
+              otherwise
+              c
+              endswitch)"#]],
+        );
+        check(
+            "switch x case {1:2}: 3 endswitch",
+            expect!["SWITCH(switch x CASE_BRANCH(case RANGE({ 1 : 2 }) : 3) endswitch)"],
+        );
+    }
+
+    #[test]
+    fn faults() {
+        check("if a then b", expect!["IF(if CONDITIONAL_BRANCH(a then b)) !missing-end"]);
+        check("if a b endif", expect!["IF(if CONDITIONAL_BRANCH(a b) endif) !expected-token"]);
+        check("if then b endif", expect!["IF(if CONDITIONAL_BRANCH(then b) endif) !expected-term"]);
+        check(
+            "if a then b else if c then d endif",
+            expect![[r#"
+            IF(
+              if
+              CONDITIONAL_BRANCH(a then b)
+              else
+              IF(if CONDITIONAL_BRANCH(c then d) endif))
+            !missing-end"#]],
+        );
+        check(
+            "if a then b elif c then d endif",
+            expect![[r#"
+            IF(
+              if
+              CONDITIONAL_BRANCH(a then b)
+              elif
+              CONDITIONAL_BRANCH(c then d)
+              endif)
+            !foreign-operator"#]],
+        );
+        check(
+            "if a then b else c else d endif",
+            expect![[r#"
+            IF(if CONDITIONAL_BRANCH(a then b) else c ERROR(else d) endif)
+            !misplaced-branch"#]],
+        );
+        check("switch x endswitch", expect!["SWITCH(switch x endswitch) !expected-token"]);
+        check(
+            "switch x case 1 a endswitch",
+            expect!["SWITCH(switch x CASE_BRANCH(case 1 a) endswitch) !expected-token"],
+        );
+        check(
+            "switch x case 1: a otherwise b case 2: c endswitch",
+            expect![[r#"
+            SWITCH(
+              switch
+              x
+              CASE_BRANCH(case 1 : a)
+              otherwise
+              b
+              CASE_BRANCH(case 2 : c)
+              endswitch)
+            !misplaced-branch"#]],
+        );
+    }
 }

@@ -1,5 +1,6 @@
 //! The file and its sections (spec/language.md, section 2).
 
+use super::sets::{DECLARATION_STARTS, DEFINITION_STARTS, SECTION_STARTS};
 use super::{domain, function, init, list, name, property, recovery, rule};
 use crate::SyntaxKind::*;
 use crate::fault;
@@ -10,12 +11,14 @@ pub(crate) fn source_file(p: &mut Parser<'_>) {
     if p.at(EOF) {
         return; // comments alone are no machine, and no fault
     }
-    machine_name(p);
+    let named = machine_name(p);
     let mut sections = Sections::default();
     while !p.at(EOF) {
         section(p, &mut sections);
     }
-    sections.report_missing(p);
+    if named {
+        sections.report_missing(p);
+    }
 }
 
 /// Which sections were read.
@@ -56,9 +59,10 @@ impl Sections {
     }
 }
 
-fn machine_name(p: &mut Parser<'_>) {
+fn machine_name(p: &mut Parser<'_>) -> bool {
     p.eat(ASYNCR_KW);
-    if matches!(p.current(), ASM_KW | MODULE_KW) {
+    let named = matches!(p.current(), ASM_KW | MODULE_KW);
+    if named {
         p.start(MACHINE_NAME);
         p.bump();
         name::generic_name(p);
@@ -66,10 +70,9 @@ fn machine_name(p: &mut Parser<'_>) {
     } else {
         let found = p.found();
         p.fault(fault::no_machine_name(found));
-        if !p.at_any(recovery::SECTION_STARTS) {
-            recovery::error(p, 1);
-        }
+        recovery::no_head(p);
     }
+    named
 }
 
 fn section(p: &mut Parser<'_>, seen: &mut Sections) {
@@ -122,20 +125,20 @@ fn section(p: &mut Parser<'_>, seen: &mut Sections) {
 /// Something that no section starts with.
 fn stray(p: &mut Parser<'_>, seen: &mut Sections) {
     let found = p.found();
-    let declares = p.at_any(recovery::DECLARATION_STARTS) && !(p.at(DOMAIN_KW) && seen.signature);
+    let declares = p.at_any(DECLARATION_STARTS) && !(p.at(DOMAIN_KW) && seen.signature);
     if declares && !seen.signature {
         p.fault(fault::missing_section(found, "signature"));
         seen.signature = true;
         p.start(SIGNATURE);
         declarations(p);
         p.finish();
-    } else if p.at_any(recovery::DEFINITION_STARTS) && !seen.definitions {
+    } else if p.at_any(DEFINITION_STARTS) && !seen.definitions {
         p.fault(fault::missing_section(found, "definitions"));
         seen.definitions = true;
         p.start(DEFINITIONS);
         definitions(p);
         p.finish();
-    } else if p.at_any(recovery::DEFINITION_STARTS) {
+    } else if p.at_any(DEFINITION_STARTS) {
         p.fault(fault::misplaced_section(found, if seen.main { "main" } else { "init" }));
         p.start(DEFINITIONS);
         definitions(p);
@@ -185,10 +188,11 @@ fn name_ref(p: &mut Parser<'_>) -> bool {
 
 fn declarations(p: &mut Parser<'_>) {
     loop {
+        recovery::item(p);
         if domain::declaration(p) || function::declaration(p) {
             continue;
         }
-        if p.at_any(recovery::SECTION_STARTS) || p.at_any(recovery::DEFINITION_STARTS) {
+        if p.at_any(SECTION_STARTS) || p.at_any(DEFINITION_STARTS) {
             return;
         }
         recovery::no_definition(p, "a declaration of a domain or function");
@@ -197,6 +201,7 @@ fn declarations(p: &mut Parser<'_>) {
 
 fn definitions(p: &mut Parser<'_>) {
     loop {
+        recovery::item(p);
         match p.current() {
             DOMAIN_KW => function::domain_definition(p),
             FUNCTION_KW => function::definition(p),
@@ -207,7 +212,7 @@ fn definitions(p: &mut Parser<'_>) {
             INVARIANT_KW => property::invariant(p),
             CTLSPEC_KW => property::temporal(p, CTL_SPEC, CTL_ID),
             LTLSPEC_KW => property::temporal(p, LTL_SPEC, LTL_ID),
-            _ if p.at_any(recovery::SECTION_STARTS) => return,
+            _ if p.at_any(SECTION_STARTS) => return,
             _ if misplaced_declaration(p) => {}
             _ => recovery::no_definition(p, "a definition"),
         }
@@ -216,7 +221,7 @@ fn definitions(p: &mut Parser<'_>) {
 
 /// A declaration among the definitions.
 fn misplaced_declaration(p: &mut Parser<'_>) -> bool {
-    if !p.at_any(recovery::DECLARATION_STARTS) {
+    if !p.at_any(DECLARATION_STARTS) {
         return false;
     }
     let found = p.found();
@@ -225,4 +230,162 @@ fn misplaced_declaration(p: &mut Parser<'_>) -> bool {
     let read = domain::declaration(p) || function::declaration(p);
     p.finish();
     read
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::grammar::brief::file;
+    use expect_test::{Expect, expect};
+
+    fn check(text: &str, expected: Expect) {
+        expected.assert_eq(&file(text));
+    }
+
+    #[test]
+    fn heads() {
+        check("", expect![[""]]);
+        check("// only a comment", expect![[""]]);
+        check(
+            r#"module M import ../a/B import "c d" (f, D, r_x, RED) import C:\x\y.asm export * signature: definitions:"#,
+            expect![[r#"
+            MACHINE_NAME(module M)
+            IMPORT(import ../a/B)
+            IMPORT(import "c d" IMPORT_SELECTION(( f , D , r_x , RED )))
+            IMPORT(import C:\x\y.asm)
+            EXPORT(export *)
+            SIGNATURE(signature :)
+            DEFINITIONS(definitions :)"#]],
+        );
+        check(
+            "asyncr asm asm export a, B, r_c signature: definitions:",
+            expect![[r#"
+            asyncr
+            MACHINE_NAME(asm asm)
+            EXPORT(export a , B , r_c)
+            SIGNATURE(signature :)
+            DEFINITIONS(definitions :)"#]],
+        );
+        check(
+            "\u{FEFF}asm a signature: definitions: //end",
+            expect!["MACHINE_NAME(asm a) SIGNATURE(signature :) DEFINITIONS(definitions :)"],
+        );
+    }
+
+    #[test]
+    fn sections() {
+        check(
+            "asm a signature: definitions: main rule r_Main = skip default init s0: function x = 1 init s1: domain D = {}",
+            expect![[r#"
+            MACHINE_NAME(asm a)
+            SIGNATURE(signature :)
+            DEFINITIONS(definitions :)
+            MAIN(main RULE(rule r_Main = SKIP(skip)))
+            INIT(default init s0 : FUNCTION_DEF(function x = 1))
+            INIT(init s1 : DOMAIN_DEF(domain D = COLLECTION({ })))"#]],
+        );
+        check(
+            "asm a signature: definitions: rule r_a = skip function f = 1 INVAR a domain D = {1} macro rule r_b = skip main macro rule r_M = skip",
+            expect![[r#"
+            MACHINE_NAME(asm a)
+            SIGNATURE(signature :)
+            DEFINITIONS(
+              definitions
+              :
+              RULE(rule r_a = SKIP(skip))
+              FUNCTION_DEF(function f = 1)
+              INVAR(INVAR a)
+              DOMAIN_DEF(domain D = COLLECTION({ 1 }))
+              RULE(macro rule r_b = SKIP(skip)))
+            MAIN(main RULE(macro rule r_M = SKIP(skip)))"#]],
+        );
+    }
+
+    #[test]
+    fn faults() {
+        check("x", expect!["ERROR(x) !missing-section"]);
+        check("asm", expect!["MACHINE_NAME(asm) !expected-name"]);
+        check("asm a", expect!["MACHINE_NAME(asm a) !missing-section"]);
+        check("asm a signature:", expect!["MACHINE_NAME(asm a) SIGNATURE(signature :) !missing-section"]);
+        check("asm a definitions:", expect!["MACHINE_NAME(asm a) DEFINITIONS(definitions :) !missing-section"]);
+        check(
+            "asm a signature: rule r_a = skip",
+            expect![[r#"
+            MACHINE_NAME(asm a)
+            SIGNATURE(signature :)
+            DEFINITIONS(RULE(rule r_a = SKIP(skip)))
+            !missing-section"#]],
+        );
+        check(
+            "asm a controlled f: A definitions:",
+            expect![[r#"
+            MACHINE_NAME(asm a)
+            SIGNATURE(FUNCTION(controlled f : A))
+            DEFINITIONS(definitions :)
+            !missing-section"#]],
+        );
+        check(
+            "asm a signature: definitions: signature:",
+            expect![[r#"
+            MACHINE_NAME(asm a)
+            SIGNATURE(signature :)
+            DEFINITIONS(definitions :)
+            SIGNATURE(signature :)
+            !misplaced-section"#]],
+        );
+        check(
+            "asm a signature: definitions: import X main rule r_M = skip rule r_b = skip",
+            expect![[r#"
+            MACHINE_NAME(asm a)
+            SIGNATURE(signature :)
+            DEFINITIONS(definitions :)
+            IMPORT(import X)
+            MAIN(main RULE(rule r_M = SKIP(skip)))
+            DEFINITIONS(RULE(rule r_b = SKIP(skip)))
+            !misplaced-section
+            !misplaced-section"#]],
+        );
+        check(
+            "asm a import\nsignature: definitions:",
+            expect![[r#"
+            MACHINE_NAME(asm a)
+            IMPORT(import)
+            SIGNATURE(signature :)
+            DEFINITIONS(definitions :)
+            !expected-token"#]],
+        );
+        check(
+            "asm a signature: definitions: static f: A",
+            expect![[r#"
+            MACHINE_NAME(asm a)
+            SIGNATURE(signature :)
+            DEFINITIONS(definitions : ERROR(FUNCTION(static f : A)))
+            !expected-definition"#]],
+        );
+        check(
+            "asm a signature: definitions: foo bar main rule r_M = skip",
+            expect![[r#"
+            MACHINE_NAME(asm a)
+            SIGNATURE(signature :)
+            DEFINITIONS(definitions : ERROR(foo bar))
+            MAIN(main RULE(rule r_M = SKIP(skip)))
+            !expected-definition"#]],
+        );
+        check(
+            "asm a signature: local f: A definitions:",
+            expect![[r#"
+            MACHINE_NAME(asm a)
+            SIGNATURE(signature : ERROR(local f : A))
+            DEFINITIONS(definitions :)
+            !expected-definition"#]],
+        );
+        check(
+            "asm a export signature: definitions:",
+            expect![[r#"
+            MACHINE_NAME(asm a)
+            EXPORT(export)
+            SIGNATURE(signature :)
+            DEFINITIONS(definitions :)
+            !expected-name"#]],
+        );
+    }
 }

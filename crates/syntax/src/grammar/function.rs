@@ -1,7 +1,9 @@
 //! Declarations and definitions of functions (spec/language.md, sections 4 and 5).
 
+use super::sets::{DOMAIN_STARTS, TERM_STARTS};
 use super::{domain, list, name, term};
 use crate::SyntaxKind::*;
+use crate::fault;
 use crate::parser::Parser;
 use crate::token_set::TokenSet;
 
@@ -26,7 +28,7 @@ pub(super) fn declaration(p: &mut Parser<'_>) -> bool {
 /// `f: D -> C`
 pub(super) fn name_and_domains(p: &mut Parser<'_>) {
     if name::name(p, FUNCTION_ID)
-        && p.expect(COLON, "behind the name of a function")
+        && (p.expect(COLON, "behind the name of a function") || p.at_any(DOMAIN_STARTS))
         && domain::domain(p)
         && p.eat(ARROW)
     {
@@ -40,7 +42,7 @@ pub(super) fn definition(p: &mut Parser<'_>) {
     p.bump();
     if name::name(p, FUNCTION_ID) {
         parameters(p);
-        if p.expect(EQ, "before the defining term") || p.at_any(term::STARTS) && !p.on_new_line() {
+        if equals(p, "before the defining term") || p.at_any(TERM_STARTS) && !p.on_new_line() {
             term::term(p, "the defining term");
         }
     }
@@ -51,10 +53,30 @@ pub(super) fn definition(p: &mut Parser<'_>) {
 pub(super) fn domain_definition(p: &mut Parser<'_>) {
     p.start(DOMAIN_DEF);
     p.bump();
-    if name::domain_name(p) && p.expect(EQ, "before the elements of the domain") {
-        term::term(p, "the elements of the domain");
+    if name::domain_name(p) {
+        if p.at(SUBSETOF_KW) {
+            let found = p.found();
+            p.fault(fault::declaration_of_domain(found));
+            p.start(ERROR);
+            p.bump();
+            domain::domain(p);
+            p.finish();
+        } else if equals(p, "before the elements of the domain") {
+            term::term(p, "the elements of the domain");
+        }
     }
     p.finish();
+}
+
+/// The `=` of a definition.
+fn equals(p: &mut Parser<'_>, context: &str) -> bool {
+    if p.at(ASSIGN) {
+        let found = p.found();
+        p.fault(fault::assign_in_definition(found));
+        p.bump();
+        return true;
+    }
+    p.expect(EQ, context)
 }
 
 /// `($x in D, $y in E)`, if it is there.
@@ -73,4 +95,104 @@ pub(super) fn parameters(p: &mut Parser<'_>) {
         named
     });
     p.finish();
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::grammar::brief::file;
+    use expect_test::{Expect, expect};
+
+    fn check(text: &str, expected: Expect) {
+        expected.assert_eq(&file(text));
+    }
+
+    #[test]
+    fn declarations() {
+        check(
+            "asm a signature: static f: A derived g: A -> B dynamic monitored h: Prod(A, B) -> C controlled k: A shared l: A out m: A definitions:",
+            expect![[r#"
+            MACHINE_NAME(asm a)
+            SIGNATURE(
+              signature
+              :
+              FUNCTION(static f : A)
+              FUNCTION(derived g : A -> B)
+              FUNCTION(dynamic monitored h : STRUCTURED(Prod ( A , B )) -> C)
+              FUNCTION(controlled k : A)
+              FUNCTION(shared l : A)
+              FUNCTION(out m : A))
+            DEFINITIONS(definitions :)"#]],
+        );
+    }
+
+    #[test]
+    fn definitions() {
+        check(
+            "asm a signature: definitions: function f = 1 function g($x in A, $y in Prod(B, C)) = $x domain D = {1, 2}",
+            expect![[r#"
+            MACHINE_NAME(asm a)
+            SIGNATURE(signature :)
+            DEFINITIONS(
+              definitions
+              :
+              FUNCTION_DEF(function f = 1)
+              FUNCTION_DEF(
+                function
+                g
+                PARAMETER_LIST(
+                  (
+                  PARAMETER($x in A)
+                  ,
+                  PARAMETER($y in STRUCTURED(Prod ( B , C )))
+                  ))
+                =
+                $x)
+              DOMAIN_DEF(domain D = COLLECTION({ 1 , 2 })))"#]],
+        );
+    }
+
+    #[test]
+    fn faults() {
+        check(
+            "asm a signature: static F: A static r_a: A static out: A static g A static h: A -> static definitions:",
+            expect![[r#"
+            MACHINE_NAME(asm a)
+            SIGNATURE(
+              signature
+              :
+              FUNCTION(static F : A)
+              FUNCTION(static r_a : A)
+              FUNCTION(static out : A)
+              FUNCTION(static g A)
+              FUNCTION(static h : A ->)
+              static)
+            DEFINITIONS(definitions :)
+            !name-class
+            !name-class
+            !expected-name
+            !expected-token
+            !expected-domain
+            !expected-name"#]],
+        );
+        check(
+            "asm a signature: definitions: function f 1 function g = function h(x in A) = 1 function i = 1 function k = 1;",
+            expect![[r#"
+            MACHINE_NAME(asm a)
+            SIGNATURE(signature :)
+            DEFINITIONS(
+              definitions
+              :
+              FUNCTION_DEF(function f 1)
+              FUNCTION_DEF(function g =)
+              FUNCTION_DEF(function h PARAMETER_LIST(( PARAMETER(x in A) )) = 1)
+              FUNCTION_DEF(function i = 1)
+              FUNCTION_DEF(function k = 1)
+              ERROR(;))
+            !expected-token
+            !expected-term
+            !name-class
+            !name-class
+            !unexpected-text"#]],
+        );
+    }
 }

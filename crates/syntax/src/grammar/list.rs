@@ -1,6 +1,7 @@
 //! Lists between brackets, their items separated by commas.
 
-use super::{recovery, term};
+use super::recovery;
+use super::sets::TERM_STARTS;
 use crate::SyntaxKind::{self, *};
 use crate::fault;
 use crate::parser::Parser;
@@ -44,7 +45,7 @@ pub(super) fn more_items(
     let mut count = 0;
     loop {
         if !p.eat(COMMA) {
-            let forgotten = !p.at(close) && p.at_any(term::STARTS) && !p.on_new_line();
+            let forgotten = !p.at(close) && p.at_any(TERM_STARTS) && !p.on_new_line();
             if !forgotten {
                 return count;
             }

@@ -4,6 +4,8 @@
 //! what was read as part of the tree, and stops at a token from which a caller can go on.
 
 mod binding;
+#[cfg(test)]
+mod brief;
 mod collection;
 mod conditional;
 mod domain;
@@ -17,6 +19,7 @@ mod property;
 mod recovery;
 mod rule;
 mod scenario;
+mod sets;
 mod term;
 
 pub(crate) use file::source_file;

@@ -36,10 +36,10 @@ pub(super) fn infix_power(p: &Parser<'_>) -> Option<u8> {
     match p.current() {
         FUNCTION_ID => power_of(p.token_text()),
         GT if p.within == Within::Bag => None,
+        LT if at_return_arrow(p) && p.peek(2) == RULE_ID => None,
         EQ | NEQ | LT | LE | GT | GE => Some(RELATION),
         IN_KW if p.within == Within::Bindings && p.find_on_line(R_PAREN).is_none() => None, // `let ($x = a in` lacks its `)`
         IN_KW => Some(RELATION),
-        RETURN_ARROW if p.peek(1) != RULE_ID => Some(RELATION),
         ASSIGN => Some(RELATION), // meant as `=`; reported when it is taken
         PLUS | MINUS => Some(SUM),
         STAR | SLASH => Some(PRODUCT),
@@ -49,10 +49,14 @@ pub(super) fn infix_power(p: &Parser<'_>) -> Option<u8> {
     }
 }
 
+/// The cursor is at `<-`, which the lexer gives as two marks: in a term, `a<-1` is `a < -1`.
+pub(super) fn at_return_arrow(p: &Parser<'_>) -> bool {
+    p.at(LT) && p.peek(1) == MINUS && p.touches_next()
+}
+
 /// Takes the operator at the cursor.
 pub(super) fn infix(p: &mut Parser<'_>) {
     match p.current() {
-        RETURN_ARROW => p.bump_split(LT, MINUS), // `a<-1` is `a < -1`
         FUNCTION_ID if p.at_word("notin") => p.bump_as(NOTIN_KW),
         LT if p.peek(1) == GT && p.touches_next() => {
             let found = p.found();

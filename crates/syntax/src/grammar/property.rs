@@ -31,7 +31,7 @@ pub(super) fn compassion(p: &mut Parser<'_>) {
 pub(super) fn invariant(p: &mut Parser<'_>) {
     p.start(INVARIANT);
     p.bump();
-    if !p.at(OVER_KW) && !p.at(COLON) {
+    if p.at(INVARIANT_ID) || matches!(p.peek(1), OVER_KW | COLON) {
         name::name(p, INVARIANT_ID);
     }
     if p.expect(OVER_KW, "in an invariant") {
@@ -87,4 +87,80 @@ pub(super) fn temporal(p: &mut Parser<'_>, kind: SyntaxKind, class: SyntaxKind) 
     }
     term::term(p, "a formula");
     p.finish();
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::grammar::brief::file;
+    use expect_test::{Expect, expect};
+
+    fn check(text: &str, expected: Expect) {
+        expected.assert_eq(&file(text));
+    }
+
+    #[test]
+    fn properties() {
+        check(
+            "asm a signature: definitions: INVAR a justice b JUSTICE c COMPASSION (p, q) compassion (p, q invariant over f: a invariant inv_a over f(D), g(), B, r_x, CPU: b CTLSPEC ag(a) ctlspec ctlSpec_x: ef(b) LTLSPEC ltlSpec_y: g(a)",
+            expect![[r#"
+            MACHINE_NAME(asm a)
+            SIGNATURE(signature :)
+            DEFINITIONS(
+              definitions
+              :
+              INVAR(INVAR a)
+              JUSTICE(justice b)
+              JUSTICE(JUSTICE c)
+              COMPASSION(COMPASSION ( p , q ))
+              COMPASSION(compassion ( p , q)
+              INVARIANT(invariant over OVER_LIST(OVER_ITEM(f)) : a)
+              INVARIANT(
+                invariant
+                inv_a
+                over
+                OVER_LIST(
+                  OVER_ITEM(f ( D ))
+                  ,
+                  OVER_ITEM(g ( ))
+                  ,
+                  OVER_ITEM(B)
+                  ,
+                  OVER_ITEM(r_x)
+                  ,
+                  OVER_ITEM(CPU))
+                :
+                b)
+              CTL_SPEC(CTLSPEC FUNCTION(ag ARGUMENT_LIST(( a ))))
+              CTL_SPEC(ctlspec ctlSpec_x : FUNCTION(ef ARGUMENT_LIST(( b ))))
+              LTL_SPEC(LTLSPEC ltlSpec_y : FUNCTION(g ARGUMENT_LIST(( a )))))"#]],
+        );
+    }
+
+    #[test]
+    fn faults() {
+        check(
+            "asm a signature: definitions: invariant: a invariant a over b: c invariant over : a CTLSPEC foo: a invariant inv_x over a b COMPASSION p",
+            expect![[r#"
+                MACHINE_NAME(asm a)
+                SIGNATURE(signature :)
+                DEFINITIONS(
+                  definitions
+                  :
+                  INVARIANT(invariant : a)
+                  INVARIANT(invariant a over OVER_LIST(OVER_ITEM(b)) : c)
+                  INVARIANT(invariant over : a)
+                  CTL_SPEC(CTLSPEC foo : a)
+                  INVARIANT(invariant inv_x over OVER_LIST(OVER_ITEM(a)))
+                  ERROR(b)
+                  COMPASSION(COMPASSION)
+                  ERROR(p))
+                !expected-token
+                !name-class
+                !expected-name
+                !expected-token
+                !name-class
+                !expected-token
+                !expected-token"#]],
+        );
+    }
 }

@@ -3,106 +3,11 @@
 //! Skipped tokens lie in ERROR nodes. The aim is one fault for one mistake: an end that a construct around waits for
 //! is never skipped, and text that looks right is parsed even in a wrong place.
 
+use super::sets::*;
 use super::{list, operator, rule, term};
 use crate::SyntaxKind::{self, *};
 use crate::fault::{self, Found};
 use crate::parser::{Parser, Within};
-use crate::token_set::TokenSet;
-
-/// Words that a section of a file starts with.
-pub(super) const SECTION_STARTS: TokenSet = TokenSet::new(&[
-    IMPORT_KW,
-    EXPORT_KW,
-    SIGNATURE_KW,
-    DEFINITIONS_KW,
-    MAIN_KW,
-    DEFAULT_KW,
-    INIT_KW,
-    ASM_KW,
-    MODULE_KW,
-    ASYNCR_KW,
-    EOF,
-]);
-/// Words that a definition starts with.
-pub(super) const DEFINITION_STARTS: TokenSet = TokenSet::new(&[
-    DOMAIN_KW,
-    FUNCTION_KW,
-    RULE_KW,
-    MACRO_KW,
-    TURBO_KW,
-    INVAR_KW,
-    JUSTICE_KW,
-    FAIRNESS_KW,
-    COMPASSION_KW,
-    INVARIANT_KW,
-    CTLSPEC_KW,
-    LTLSPEC_KW,
-]);
-/// Words that a declaration of the signature starts with.
-pub(super) const DECLARATION_STARTS: TokenSet = TokenSet::new(&[
-    ANYDOMAIN_KW,
-    BASIC_KW,
-    ABSTRACT_KW,
-    ENUM_KW,
-    DYNAMIC_KW,
-    STATIC_KW,
-    DERIVED_KW,
-    MONITORED_KW,
-    CONTROLLED_KW,
-    SHARED_KW,
-    OUT_KW,
-    DOMAIN_KW,
-]);
-/// Words that no rule and no term holds: a faulty one ends there at the latest.
-const FENCES: TokenSet =
-    SECTION_STARTS.union(DEFINITION_STARTS).union(DECLARATION_STARTS).union(TokenSet::new(&[AGENT_KW]));
-
-/// Tokens that a rule starts with.
-pub(super) const RULE_STARTS: TokenSet = TokenSet::new(&[
-    SKIP_KW,
-    PAR_KW,
-    SEQ_KW,
-    ITERATE_KW,
-    IF_KW,
-    SWITCH_KW,
-    LET_KW,
-    CHOOSE_KW,
-    FORALL_KW,
-    EXTEND_KW,
-    WHILE_KW,
-    WHILEREC_KW,
-    LOCAL_KW,
-    RULE_ID,
-    FUNCTION_ID,
-    VARIABLE,
-]);
-const BLOCK_ENDS: TokenSet = TokenSet::new(&[ENDPAR_KW, ENDSEQ_KW, ENDITERATE_KW, ENDIF_KW, ENDSWITCH_KW, ENDLET_KW]);
-const BRACKET_ENDS: TokenSet = TokenSet::new(&[R_PAREN, R_BRACKET, R_BRACE]);
-const ENDS: TokenSet = BLOCK_ENDS.union(BRACKET_ENDS);
-const OPENERS: TokenSet =
-    TokenSet::new(&[PAR_KW, SEQ_KW, ITERATE_KW, IF_KW, SWITCH_KW, LET_KW, L_PAREN, L_BRACKET, L_BRACE]);
-/// Words between the parts of a construct.
-const MIDDLES: TokenSet =
-    TokenSet::new(&[THEN_KW, ELSE_KW, ELSEIF_KW, CASE_KW, OTHERWISE_KW, DO_KW, IFNONE_KW, IN_KW, WITH_KW]);
-/// Tokens that are skipped where a term is missing; all others may belong to what is around.
-const TERM_JUNK: TokenSet = TokenSet::new(&[
-    GENERIC_ID,
-    INVARIANT_ID,
-    CTL_ID,
-    LTL_ID,
-    STAR,
-    SLASH,
-    CARET,
-    EQ,
-    NEQ,
-    GE,
-    LE,
-    GT,
-    DOT,
-    ERROR,
-    ASSIGN,
-    FUNCTION_ID,
-]);
 
 /// The end of the innermost construct: takes it, or reports that it is missing.
 pub(super) fn end(p: &mut Parser<'_>) {
@@ -118,6 +23,7 @@ pub(super) fn end(p: &mut Parser<'_>) {
         error(p, 1); // an end that nothing waits for: instead of ours, or in excess before ours
         p.eat(end);
     } else if (BRACKET_ENDS.contains(end) || end == GT)
+        && !p.on_new_line()
         && let Some(count) = p.find_on_line(end)
     {
         error(p, count);
@@ -158,14 +64,14 @@ pub(super) fn no_term(p: &mut Parser<'_>, wanted: &str) -> bool {
         return false;
     }
     error(p, 1);
-    let goes_on = p.at_any(term::STARTS) || p.at_any(TERM_JUNK);
+    let goes_on = p.at_any(TERM_STARTS) || p.at_any(TERM_JUNK);
     goes_on && !p.on_new_line() && term::term(p, wanted)
 }
 
 /// Where a rule is expected and none starts. Gives `true` if a rule was read after all.
 pub(super) fn no_rule(p: &mut Parser<'_>, wanted: &str) -> bool {
     let found = p.missing();
-    p.fault(if found.kind == SEMICOLON { fault::separator(found) } else { fault::expected_rule(found, wanted) });
+    p.fault(if separates(p) { fault::separator(found) } else { fault::expected_rule(found, wanted) });
     rule_junk(p);
     rule::starts(p) && rule::rule(p, wanted)
 }
@@ -179,7 +85,8 @@ fn rule_junk(p: &mut Parser<'_>) {
         return;
     }
     p.start(ERROR);
-    while !stops(p) {
+    p.bump();
+    while !stops(p) && !matches!(p.current(), L_PAREN | L_BRACE) {
         p.bump();
     }
     p.finish();
@@ -188,45 +95,74 @@ fn rule_junk(p: &mut Parser<'_>) {
 /// In a block: is there one more rule? Skips what is none.
 pub(super) fn more_rules(p: &mut Parser<'_>, end: SyntaxKind) -> bool {
     loop {
-        if p.at(end) || p.ends_command() {
-            return false;
+        if p.on_new_line() {
+            p.starts_anew();
         }
-        if rule::starts(p) || p.at(DYNAMIC_KW) && p.peek(1) == LOCAL_KW {
+        if rule::starts(p) || matches!(p.current(), L_PAREN | L_BRACE) {
             return true;
         }
-        let found = p.found();
-        let awaited = match p.current() {
-            kind if FENCES.contains(kind) => return false,
-            ELSE_KW | ELSEIF_KW => p.is_awaited(ENDIF_KW),
-            CASE_KW | OTHERWISE_KW => p.is_awaited(ENDSWITCH_KW),
-            kind => p.is_awaited(kind),
-        };
-        if awaited {
+        if p.at(end) || p.ends_command() || p.at_any(FENCES) || belongs_around(p) {
             return false;
         }
+        let found = p.found();
         if p.at_any(ENDS) {
-            if !(p.peek(1) == end || RULE_STARTS.contains(p.peek(1))) {
+            if p.peek(1) != end && !RULE_STARTS.contains(p.peek(1)) {
                 return false; // it stands where the block's own end should
             }
             p.fault(fault::stray_end(found));
             error(p, 1);
         } else if p.at_any(MIDDLES) {
-            p.fault(fault::expected_rule(found, "a rule"));
+            p.fault(fault::stray_word(found));
             error(p, 1);
-        } else if no_rule_read(p) {
-            continue;
+            rule_junk(p);
+        } else {
+            p.fault(if separates(p) { fault::separator(found) } else { fault::expected_rule(found, "a rule") });
+            rule_junk(p);
         }
     }
 }
 
-fn no_rule_read(p: &mut Parser<'_>) -> bool {
+/// A construct around waits for the token at the cursor.
+fn belongs_around(p: &Parser<'_>) -> bool {
+    p.is_awaited(match p.current() {
+        ELSE_KW | ELSEIF_KW => ENDIF_KW,
+        CASE_KW | OTHERWISE_KW => ENDSWITCH_KW,
+        kind => kind,
+    })
+}
+
+fn separates(p: &Parser<'_>) -> bool {
+    matches!(p.current(), SEMICOLON | COMMA)
+}
+
+/// Words that look like the end of a rule that has none.
+const NO_ENDS: [&str; 7] = ["endchoose", "enddo", "endforall", "endwhile", "endextend", "endrule", "endfor"];
+
+/// Behind a rule: a mark or a word that other languages have there.
+pub(super) fn behind_rule(p: &mut Parser<'_>) {
     let found = p.found();
-    p.fault(match found.kind {
-        SEMICOLON | COMMA => fault::separator(found),
-        _ => fault::expected_rule(found, "a rule"),
-    });
-    rule_junk(p);
-    true
+    if p.at(SEMICOLON) && !p.in_scenario {
+        p.fault(fault::separator(found));
+    } else if p.at(FUNCTION_ID) && NO_ENDS.contains(&found.text) && !matches!(p.peek(1), ASSIGN | L_PAREN) {
+        p.fault(fault::no_such_end(found));
+    } else {
+        return;
+    }
+    error(p, 1);
+}
+
+/// Rules in parentheses or braces.
+pub(super) fn bracketed_rule(p: &mut Parser<'_>) {
+    let found = p.found();
+    p.fault(fault::bracketed_rule(found));
+    let close = if p.at(L_PAREN) { R_PAREN } else { R_BRACE };
+    p.start(ERROR);
+    p.bump_opener(close);
+    while more_rules(p, close) {
+        rule::rule(p, "a rule");
+    }
+    end(p);
+    p.finish();
 }
 
 /// Behind the one rule of a branch: reports further rules and keeps them out of the way.
@@ -267,6 +203,10 @@ pub(super) fn term_as_rule(p: &mut Parser<'_>) {
         p.fault(fault::equals_for_assign(found));
         error(p, 2);
         term::term(p, "the new value");
+    } else if matches!(p.current(), PLUS | MINUS | STAR | SLASH) && p.peek(1) == EQ && p.touches_next() {
+        p.fault(fault::compound_assignment(found));
+        error(p, 2);
+        term::term(p, "the new value");
     } else if operator::infix_power(p).is_some() && !p.on_new_line() {
         p.fault(fault::term_as_rule(found));
         p.start(ERROR);
@@ -279,13 +219,20 @@ pub(super) fn term_as_rule(p: &mut Parser<'_>) {
 /// Behind `<-`, where no call of a turbo rule stands.
 pub(super) fn no_turbo_call(p: &mut Parser<'_>) {
     let found = p.missing();
-    p.fault(fault::expected_rule(found, "a call of a turbo rule, `r_x(…)`, behind `<-`"));
+    p.fault(fault::expected_rule(found, "a call of a turbo rule, as `r_x(…)`, behind `<-`"));
     if p.at(RULE_ID) {
         rule::call(p);
-    } else if p.at_any(term::STARTS) && !p.on_new_line() {
+    } else if p.at_any(TERM_STARTS) && !p.on_new_line() {
         p.start(ERROR);
         term::term(p, "a call of a turbo rule");
         p.finish();
+    }
+}
+
+/// Before the next item of a section: at a word that one starts with, what went wrong before is over.
+pub(super) fn item(p: &mut Parser<'_>) {
+    if p.at_any(FENCES) {
+        p.starts_anew();
     }
 }
 
@@ -293,12 +240,21 @@ pub(super) fn no_turbo_call(p: &mut Parser<'_>) {
 pub(super) fn no_definition(p: &mut Parser<'_>, wanted: &str) {
     let found = p.found();
     p.fault(match found.kind {
-        SEMICOLON | COMMA => fault::separator(found),
+        _ if separates(p) => fault::separator(found),
         kind if ENDS.contains(kind) => fault::stray_end(found),
         _ => fault::expected_definition(found, wanted),
     });
     p.start(ERROR);
     p.bump();
+    while !p.at_any(FENCES) {
+        p.bump();
+    }
+    p.finish();
+}
+
+/// At the start of a file that has none: skips to the first word that a section or an item of one starts with.
+pub(super) fn no_head(p: &mut Parser<'_>) {
+    p.start(ERROR);
     while !p.at_any(FENCES) {
         p.bump();
     }
@@ -333,7 +289,7 @@ pub(super) fn chain_too_long(p: &mut Parser<'_>) {
     p.start(ERROR);
     let mut nested = 0usize;
     let mut first = true;
-    while !(p.at_any(FENCES) && !first) && !p.ends_command() {
+    while (first || !p.at_any(FENCES)) && !p.ends_command() {
         if p.at_any(OPENERS) {
             nested += 1;
         } else if p.at_any(ENDS) {

@@ -3,6 +3,7 @@
 //! Its words are no keywords of the lexer: each is an ordinary name, so that a model may have a function `step`. The
 //! grammar takes them as keywords where a command starts.
 
+use super::sets::TERM_STARTS;
 use super::term::{location, term};
 use super::{domain, list, name, recovery, rule};
 use crate::SyntaxKind::{self, *};
@@ -27,10 +28,14 @@ fn header(p: &mut Parser<'_>) {
     if word(p, "scenario", SCENARIO_KW) {
         name::generic_name(p);
     }
+    load(p);
+    p.eat(SEMICOLON);
+}
+
+fn load(p: &mut Parser<'_>) {
     if word(p, "load", LOAD_KW) && !p.eat(STRING) {
         p.expect(MODULE_REF, "behind `load`");
     }
-    p.eat(SEMICOLON);
 }
 
 /// Takes a word as a keyword, or reports that it is missing.
@@ -121,7 +126,7 @@ fn set(p: &mut Parser<'_>) {
         p.fault(fault::equals_for_assign(found));
         p.bump();
         term(p, "a value");
-    } else if p.expect(ASSIGN, "behind the location that is set") {
+    } else if p.expect(ASSIGN, "behind the location that is set") || p.at_any(TERM_STARTS) && !p.on_new_line() {
         term(p, "a value");
     }
     semicolon(p);
@@ -272,7 +277,9 @@ fn semicolon(p: &mut Parser<'_>) {
 fn no_command(p: &mut Parser<'_>) {
     let found = p.found();
     p.fault(fault::expected_command(found));
-    if !p.eat(SEMICOLON) {
+    if p.at_word("load") {
+        load(p); // too late, but the model is known
+    } else if !p.eat(SEMICOLON) {
         p.start(ERROR);
         p.bump();
         p.finish();
@@ -290,4 +297,178 @@ fn skip_command(p: &mut Parser<'_>) {
         p.finish();
     }
     p.eat(SEMICOLON);
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::grammar::brief::scenario;
+    use expect_test::{Expect, expect};
+
+    fn check(text: &str, expected: Expect) {
+        expected.assert_eq(&scenario(text));
+    }
+
+    #[test]
+    fn heads() {
+        check("scenario s load a.asm", expect!["scenario s load a.asm"]);
+        check(r#"scenario s load "a b.asm""#, expect![[r#"scenario s load "a b.asm""#]]);
+        check("scenario s.avalla load ../a/B.asm", expect!["scenario s.avalla load ../a/B.asm"]);
+        check("scenario load load load", expect!["scenario load load load"]);
+        check("// nothing", expect![[""]]);
+    }
+
+    #[test]
+    fn commands() {
+        check(
+            "scenario s load a check a = 1; strict check b; set f(1) := 2; step step 3 step until a within 4; step until b; exec par skip skip endpar; exec r_x[]; pick $x in r_a(D) := 1; pick $x := RED; begin b check a; begin c step end end execblock b; execblock f:b;",
+            expect![[r#"
+            scenario
+            s
+            load
+            a
+            CHECK(check BINARY(a = 1) ;)
+            CHECK(strict check b ;)
+            SET(set FUNCTION(f ARGUMENT_LIST(( 1 ))) := 2 ;)
+            STEP(step)
+            STEP(step 3)
+            STEP_UNTIL(step until a within 4 ;)
+            STEP_UNTIL(step until b ;)
+            EXEC(exec PAR(par SKIP(skip) SKIP(skip) endpar) ;)
+            EXEC(exec MACRO_CALL(r_x ARGUMENT_LIST([ ])) ;)
+            PICK(pick $x in r_a ( D ) := 1 ;)
+            PICK(pick $x := RED ;)
+            BLOCK(begin b CHECK(check a ;) BLOCK(begin c STEP(step) end) end)
+            EXECBLOCK(execblock b ;)
+            EXECBLOCK(execblock f : b ;)"#]],
+        );
+    }
+
+    #[test]
+    fn expectations() {
+        check(
+            "scenario s load a expect failure; expect failure by check; expect failure by invariant inv_x; expect failure by invariant; expect failure by inconsistent update; expect failure by error; invariant inv_x: a; expect inconsistent update; expect error;",
+            expect![[r#"
+            scenario
+            s
+            load
+            a
+            SCENARIO_EXPECT(expect failure ;)
+            SCENARIO_EXPECT(expect failure by check ;)
+            SCENARIO_EXPECT(expect failure by invariant inv_x ;)
+            SCENARIO_EXPECT(expect failure by invariant ;)
+            SCENARIO_EXPECT(expect failure by inconsistent update ;)
+            SCENARIO_EXPECT(expect failure by error ;)
+            SCENARIO_INVARIANT(invariant inv_x : a ;)
+            EXPECT_STEP(expect inconsistent update ;)
+            EXPECT_STEP(expect error ;)"#]],
+        );
+    }
+
+    #[test]
+    fn words_as_names() {
+        check(
+            "scenario step load a set step := check; check set(1) = until and step;",
+            expect![[r#"
+            scenario
+            step
+            load
+            a
+            SET(set step := check ;)
+            CHECK(
+              check
+              BINARY(BINARY(FUNCTION(set ARGUMENT_LIST(( 1 ))) = until) and step)
+              ;)"#]],
+        );
+    }
+
+    #[test]
+    fn faults() {
+        check("check a;", expect!["CHECK(check a ;) !expected-token"]);
+        check("scenario s check a;", expect!["scenario s CHECK(check a ;) !expected-token"]);
+        check(
+            "scenario s load a check a step",
+            expect!["scenario s load a CHECK(check a ERROR(step)) !expected-token"],
+        );
+        check(
+            "scenario s load a set a = 1; set b 2; set := 3;",
+            expect![[r#"
+            scenario
+            s
+            load
+            a
+            SET(set a = 1 ;)
+            SET(set b 2 ;)
+            SET(set := 3 ;)
+            !equals-for-assign
+            !expected-token
+            !expected-term"#]],
+        );
+        check(
+            "scenario s load a foo; check ; step until; end",
+            expect![[r#"
+            scenario
+            s
+            load
+            a
+            ERROR(foo)
+            ;
+            CHECK(check ;)
+            STEP_UNTIL(step until ;)
+            ERROR(end)
+            !expected-command
+            !expected-term
+            !expected-term
+            !expected-command"#]],
+        );
+        check("scenario s load a begin b step", expect!["scenario s load a BLOCK(begin b STEP(step)) !missing-end"]);
+        check(
+            "scenario s load a expect nothing; expect failure by luck; expect inconsistent;",
+            expect![[r#"
+            scenario
+            s
+            load
+            a
+            EXPECT_STEP(expect ERROR(nothing) ;)
+            SCENARIO_EXPECT(expect failure by ERROR(luck) ;)
+            EXPECT_STEP(expect inconsistent ;)
+            !expected-command
+            !expected-command
+            !expected-command"#]],
+        );
+        check(
+            "scenario s load a execblock a.b; pick x := 1; exec if a then b := 1; step",
+            expect![[r#"
+            scenario
+            s
+            load
+            a
+            EXECBLOCK(execblock a . b ;)
+            PICK(pick x := 1 ;)
+            EXEC(exec IF(if CONDITIONAL_BRANCH(a then UPDATE(b := 1))) ;)
+            STEP(step)
+            !expected-token
+            !name-class
+            !missing-end"#]],
+        );
+        check(
+            "scenario s load a check x == 1; check (1;",
+            expect![[r#"
+            scenario
+            s
+            load
+            a
+            CHECK(check BINARY(x == 1) ;)
+            CHECK(check PAREN(( 1) ;)
+            !foreign-operator
+            !missing-end"#]],
+        );
+        check(
+            "invariant inv_a: b; scenario",
+            expect![[r#"
+            SCENARIO_INVARIANT(invariant inv_a : b ;)
+            ERROR(scenario)
+            !expected-token
+            !expected-command"#]],
+        );
+    }
 }

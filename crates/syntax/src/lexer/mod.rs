@@ -178,7 +178,7 @@ impl<'t> Lexer<'t> {
             },
             Mode::Avalla => match text {
                 "scenario" if self.significant_before() == 0 => self.context = Context::Name,
-                "load" if !self.path_seen && self.significant_before() <= 2 => {
+                "load" if !self.path_seen && (self.significant_before() <= 2 || self.starts_line()) => {
                     self.path_seen = true;
                     self.context = Context::Path;
                 }
@@ -186,6 +186,12 @@ impl<'t> Lexer<'t> {
             },
         }
         kind
+    }
+
+    /// The token read last is white space that ends a line.
+    fn starts_line(&self) -> bool {
+        let space = self.tokens.last().filter(|token| token.kind == WHITESPACE);
+        space.is_some_and(|space| self.text[space.start as usize..].starts_with(['\n', '\r']))
     }
 
     /// How many tokens other than trivia were read; 3 stands for more, too.

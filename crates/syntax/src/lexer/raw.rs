@@ -64,8 +64,6 @@ pub(super) enum Raw {
     Assign,
     #[token("->")]
     Arrow,
-    #[token("<-")]
-    ReturnArrow,
     #[token("=")]
     Eq,
     #[token("!=")]
@@ -142,7 +140,6 @@ impl Raw {
             Raw::Bar => BAR,
             Raw::Assign => ASSIGN,
             Raw::Arrow => ARROW,
-            Raw::ReturnArrow => RETURN_ARROW,
             Raw::Eq => EQ,
             Raw::Neq => NEQ,
             Raw::Lt => LT,

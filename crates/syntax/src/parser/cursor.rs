@@ -6,7 +6,15 @@ use crate::token_set::TokenSet;
 use crate::{Span, SyntaxKind, SyntaxKind::*};
 
 impl<'t> Parser<'t> {
+    /// The kind of the current token.
+    ///
+    /// # Panics
+    ///
+    /// When the grammar is stuck, which is a bug: it looks at one token ever again.
     pub(crate) fn current(&self) -> SyntaxKind {
+        let looks = self.looks.get() + 1;
+        self.looks.set(looks);
+        assert!(looks < 1_000_000, "the grammar is stuck at {}", self.position());
         self.tokens[self.at].kind
     }
 
@@ -66,10 +74,15 @@ impl<'t> Parser<'t> {
         self.tokens.get(self.at + 1).is_some_and(|next| !next.kind.is_trivia())
     }
 
+    /// The current token and the one before touch.
+    pub(crate) fn touches_previous(&self) -> bool {
+        self.at > 0 && !self.is_skipped(self.at - 1)
+    }
+
     /// The current token is the first one on its line.
     pub(crate) fn on_new_line(&self) -> bool {
         let end = self.end_of_previous().start as usize;
-        end == 0 || self.text[end..self.position()].contains('\n')
+        self.text[end..self.position()].contains('\n')
     }
 
     /// How many tokens stand between the cursor and a token of this kind on the same line.

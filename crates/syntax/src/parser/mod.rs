@@ -17,6 +17,8 @@ use crate::lexer::{self, Mode, Token};
 use crate::{AsmetaL, Diagnostic, FileId, Parse, Span, SyntaxKind, SyntaxKind::*};
 use nesting::Open;
 use rowan::{GreenNodeBuilder, Language};
+use std::cell::Cell;
+use tree::{Event, Wrap};
 
 /// How many constructs may be nested in one another (parentheses, rules in rules, right operands …).
 pub const MAX_NESTING: usize = 256;
@@ -49,9 +51,8 @@ pub(crate) struct Parser<'t> {
     tokens: Vec<Token>,
     /// The current token; never one that is skipped.
     at: usize,
-    /// The first token that is not in the tree yet.
-    emitted: usize,
-    builder: GreenNodeBuilder<'static>,
+    events: Vec<Event>,
+    wraps: Vec<Wrap>,
 
     faults: Vec<Diagnostic>,
     /// The token at which the last fault was reported.
@@ -68,6 +69,8 @@ pub(crate) struct Parser<'t> {
     /// The greatest depth of the tree since the last [`Parser::take_deepest`].
     deepest: usize,
 
+    /// How often the current token was looked at.
+    looks: Cell<u32>,
     /// What a term stands in, as far as that changes its operators.
     pub(crate) within: Within,
     /// A scenario is read: `;` ends a command.
@@ -85,8 +88,8 @@ pub(crate) fn parse(file: FileId, text: &str, mode: Mode, root: SyntaxKind, gram
         text,
         tokens: lexed.tokens,
         at: 0,
-        emitted: 0,
-        builder: GreenNodeBuilder::new(),
+        events: Vec::new(),
+        wraps: Vec::new(),
         faults: lexed.faults,
         fault_at: usize::MAX,
         unterminated: lexed.unterminated,
@@ -95,13 +98,13 @@ pub(crate) fn parse(file: FileId, text: &str, mode: Mode, root: SyntaxKind, gram
         nesting_reported: false,
         depth: 0,
         deepest: 0,
+        looks: Cell::new(0),
         within: Within::Plain,
         in_scenario: mode == Mode::Avalla,
     };
     parser.skip();
-    parser.builder.start_node(AsmetaL::kind_to_raw(root));
     grammar(&mut parser);
-    parser.finish_root()
+    parser.finish_root(root)
 }
 
 /// A text beyond the limit is one token, unread.

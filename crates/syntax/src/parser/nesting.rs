@@ -1,8 +1,8 @@
 //! How deep the cursor is, and which constructs wait for their end.
 
 use super::{MAX_NESTING, Parser};
+use crate::SyntaxKind;
 use crate::fault::Found;
-use crate::{Span, SyntaxKind};
 
 /// A construct that waits for its end.
 #[derive(Debug, Clone, Copy)]
@@ -55,15 +55,6 @@ impl<'t> Parser<'t> {
     pub(crate) fn bump_opener_as(&mut self, kind: SyntaxKind, end: SyntaxKind) {
         self.open.push(Open { end, opener: self.at, found: self.found() });
         self.bump_as(kind);
-    }
-
-    /// Takes the first byte of the current token as the opener of a construct.
-    pub(crate) fn split_opener(&mut self, first: SyntaxKind, rest: SyntaxKind, end: SyntaxKind) {
-        let found = self.found();
-        let found =
-            Found { span: Span { end: found.span.start + 1, ..found.span }, kind: first, text: &found.text[..1] };
-        self.open.push(Open { end, opener: self.at, found });
-        self.bump_split(first, rest);
     }
 
     /// The innermost construct: its end, and the token that opened it.

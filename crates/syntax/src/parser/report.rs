@@ -15,6 +15,11 @@ impl<'t> Parser<'t> {
         }
     }
 
+    /// Something new starts at the current token: a fault there is news, even if what stands before was reported there.
+    pub(crate) fn starts_anew(&mut self) {
+        self.fault_at = usize::MAX;
+    }
+
     /// Reports a fault that lies before the current token.
     pub(crate) fn fault_before(&mut self, fault: Diagnostic) {
         self.push_fault(fault);

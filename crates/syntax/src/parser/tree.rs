@@ -1,29 +1,62 @@
-//! Building the tree: nodes are opened and finished, tokens are taken into the innermost open one.
+//! Building the tree: the grammar opens and finishes nodes and takes tokens; all of that is noted as events, and made
+//! into the tree at the end.
+//!
+//! INVARIANT: a node starts right before its first token and ends right behind its last one. So trivia, and characters
+//! that are skipped, lie outside the nodes that they separate, and a node without tokens does not come to be.
 
 use super::{MAX_FAULTS, Parser};
 use crate::fault;
 use crate::lexer::Token;
 use crate::{AsmetaL, Parse, SyntaxKind, SyntaxKind::*};
-use rowan::{Checkpoint, Language};
+use rowan::{GreenNodeBuilder, Language};
+
+/// What the grammar did.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Event {
+    /// Opened a node.
+    Start(SyntaxKind),
+    /// Marked a place where nodes may be opened later: the outermost of them, by its index in the wraps.
+    Checkpoint(Option<u32>),
+    /// Finished the innermost node.
+    Finish,
+    /// Took a token, as one of this kind.
+    Token(SyntaxKind, u32),
+    /// Took two tokens that touch, as one of this kind.
+    Joined(SyntaxKind, u32),
+}
+
+/// A node that was opened at a checkpoint.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Wrap {
+    kind: SyntaxKind,
+    /// The node within, opened earlier at the same checkpoint.
+    within: Option<u32>,
+}
+
+/// A place at which nodes can be opened later: the index of its event.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Checkpoint(usize);
 
 impl Parser<'_> {
     pub(crate) fn start(&mut self, kind: SyntaxKind) {
-        self.emit_skipped();
-        self.builder.start_node(AsmetaL::kind_to_raw(kind));
+        self.events.push(Event::Start(kind));
     }
 
-    /// A place at which a node can be opened later, by [`Parser::start_at`].
     pub(crate) fn checkpoint(&mut self) -> Checkpoint {
-        self.emit_skipped();
-        self.builder.checkpoint()
+        self.events.push(Event::Checkpoint(None));
+        Checkpoint(self.events.len() - 1)
     }
 
+    /// Opens a node at a checkpoint, around all that was read since and around the nodes opened there before.
     pub(crate) fn start_at(&mut self, checkpoint: Checkpoint, kind: SyntaxKind) {
-        self.builder.start_node_at(checkpoint, AsmetaL::kind_to_raw(kind));
+        if let Event::Checkpoint(outermost) = &mut self.events[checkpoint.0] {
+            self.wraps.push(Wrap { kind, within: *outermost });
+            *outermost = Some(self.wraps.len() as u32 - 1);
+        }
     }
 
     pub(crate) fn finish(&mut self) {
-        self.builder.finish_node();
+        self.events.push(Event::Finish);
     }
 
     pub(crate) fn bump(&mut self) {
@@ -32,21 +65,20 @@ impl Parser<'_> {
 
     /// Takes the current token as one of another kind: a contextual keyword, a name of the wrong class.
     pub(crate) fn bump_as(&mut self, kind: SyntaxKind) {
-        if self.at(EOF) {
-            return;
+        if !self.at(EOF) {
+            self.events.push(Event::Token(kind, self.at as u32));
+            self.at += 1;
+            self.looks.set(0);
+            self.skip();
         }
-        self.emit_skipped();
-        self.emit(kind);
-        self.at += 1;
-        self.skip();
     }
 
-    /// Takes the first byte of the current token as a token of its own; the rest becomes the current token.
-    pub(crate) fn bump_split(&mut self, first: SyntaxKind, rest: SyntaxKind) {
-        self.emit_skipped();
-        let start = self.tokens[self.at].start as usize;
-        self.builder.token(AsmetaL::kind_to_raw(first), &self.text[start..start + 1]);
-        self.tokens[self.at] = Token { kind: rest, start: start as u32 + 1 };
+    /// Takes the current token and the next one, which touches it, as one of this kind.
+    pub(crate) fn bump_joined(&mut self, kind: SyntaxKind) {
+        self.events.push(Event::Joined(kind, self.at as u32));
+        self.at += 2;
+        self.looks.set(0);
+        self.skip();
     }
 
     pub(crate) fn eat(&mut self, kind: SyntaxKind) -> bool {
@@ -57,21 +89,8 @@ impl Parser<'_> {
         here
     }
 
-    fn emit(&mut self, kind: SyntaxKind) {
-        self.builder.token(AsmetaL::kind_to_raw(kind), self.text_of(self.emitted));
-        self.emitted += 1;
-    }
-
-    fn emit_skipped(&mut self) {
-        while self.emitted < self.at {
-            self.emit(self.tokens[self.emitted].kind);
-        }
-    }
-
-    pub(super) fn finish_root(mut self) -> Parse {
-        self.at = self.tokens.len() - 1;
-        self.emit_skipped();
-        self.builder.finish_node();
+    /// Makes the tree, and the faults in order.
+    pub(super) fn finish_root(self, root: SyntaxKind) -> Parse {
         let mut diagnostics = self.faults;
         diagnostics.sort_by_key(|fault| fault.primary.span.start);
         if diagnostics.len() > MAX_FAULTS {
@@ -79,6 +98,75 @@ impl Parser<'_> {
             diagnostics.truncate(MAX_FAULTS);
             diagnostics.push(fault::too_many_faults(next));
         }
-        Parse { green: self.builder.finish(), diagnostics }
+        let mut builder = Builder {
+            text: self.text,
+            tokens: &self.tokens,
+            token: 0,
+            green: GreenNodeBuilder::new(),
+            waiting: Vec::new(),
+        };
+        builder.green.start_node(AsmetaL::kind_to_raw(root));
+        for event in &self.events {
+            builder.event(*event, &self.wraps);
+        }
+        builder.go_to(self.tokens.len() - 1);
+        builder.green.finish_node();
+        Parse { green: builder.green.finish(), diagnostics }
+    }
+}
+
+/// Makes the tree of the events.
+struct Builder<'t> {
+    text: &'t str,
+    tokens: &'t [Token],
+    /// The next token.
+    token: usize,
+    green: GreenNodeBuilder<'static>,
+    /// Nodes that are open but have no token yet, outermost first.
+    waiting: Vec<SyntaxKind>,
+}
+
+impl Builder<'_> {
+    fn event(&mut self, event: Event, wraps: &[Wrap]) {
+        match event {
+            Event::Start(kind) => self.waiting.push(kind),
+            Event::Checkpoint(mut next) => {
+                while let Some(index) = next {
+                    let wrap = wraps[index as usize];
+                    self.waiting.push(wrap.kind);
+                    next = wrap.within;
+                }
+            }
+            Event::Finish => {
+                if self.waiting.pop().is_none() {
+                    self.green.finish_node();
+                }
+            }
+            Event::Token(kind, index) => self.tokens(kind, index as usize, 1),
+            Event::Joined(kind, index) => self.tokens(kind, index as usize, 2),
+        }
+    }
+
+    /// Before a token: what was skipped goes into the node around, then the nodes that wait for a token start.
+    fn go_to(&mut self, index: usize) {
+        while self.token < index {
+            self.emit(self.tokens[self.token].kind, 1);
+        }
+        for kind in self.waiting.drain(..) {
+            self.green.start_node(AsmetaL::kind_to_raw(kind));
+        }
+    }
+
+    /// So many tokens, as one of this kind.
+    fn tokens(&mut self, kind: SyntaxKind, index: usize, count: usize) {
+        self.go_to(index);
+        self.emit(kind, count);
+    }
+
+    fn emit(&mut self, kind: SyntaxKind, count: usize) {
+        let start = self.tokens[self.token].start as usize;
+        self.token += count;
+        let end = self.tokens[self.token].start as usize;
+        self.green.token(AsmetaL::kind_to_raw(kind), &self.text[start..end]);
     }
 }

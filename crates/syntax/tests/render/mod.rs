@@ -4,11 +4,12 @@ use std::fmt::Write;
 use syntax::{Diagnostic, SourceFile, Span};
 
 /// All diagnostics of one text.
-pub fn render(text: &str, diagnostics: &[Diagnostic]) -> String {
-    let file = SourceFile::new("model.asm", text);
+pub fn render(name: &str, text: &str, diagnostics: &[Diagnostic]) -> String {
+    let file = SourceFile::new(name, text);
     let mut out = String::new();
+    let severity = |fault: &Diagnostic| format!("{:?}", fault.severity).to_lowercase();
     for fault in diagnostics {
-        let _ = writeln!(out, "{:?}[{}]: {}", fault.severity, fault.id, fault.message);
+        let _ = writeln!(out, "{}[{}]: {}", severity(fault), fault.id, fault.message);
         place(&mut out, &file, fault.primary.span, '^', &fault.primary.text);
         for label in &fault.secondary {
             place(&mut out, &file, label.span, '-', &label.text);
