@@ -1,11 +1,208 @@
-//! stub
+//! `groundstate bench MODEL…`: steps per second and peak memory.
+//!
+//! A model is warmed up, then stepped for several windows with random inputs, its state going on from one to the
+//! next; where it cannot go on it starts again. Median and spread are over the windows.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use clap::Args;
+use groundstate::simulate::{Bounds, Choices, Inputs, Invariants, Options, RandomSource, Record, Run};
+use program::Program;
+use serde::Serialize;
+
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::interrupt;
+use crate::load::load;
 use crate::shell::Shell;
-/// Arguments.
-#[derive(Debug, clap::Args)]
-pub struct Arguments {}
+
+/// Arguments of `bench`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// Models
+    #[arg(required = true, value_name = "MODEL")]
+    models: Vec<PathBuf>,
+    /// How many windows
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..=1_000))]
+    windows: u32,
+    /// The length of a window, in milliseconds
+    #[arg(long, value_name = "MS", default_value_t = 300)]
+    window_ms: u64,
+    /// Seed of inputs and choices
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Evaluate invariants, too
+    #[arg(long)]
+    invariants: bool,
+}
+
+/// `{"type":"bench",…}`
+#[derive(Debug, Serialize)]
+struct Measured {
+    r#type: &'static str,
+    model: String,
+    steps_per_second: f64,
+    lowest: f64,
+    highest: f64,
+    windows: u32,
+    restarts: u64,
+    load_ms: f64,
+    peak_memory_mb: Option<f64>,
+}
+
 /// Runs the command.
-pub fn run(_shell: &mut Shell, _arguments: &Arguments) -> Result<Exit, Failure> {
+pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    interrupt::listen();
+    if shell.talks() {
+        writeln!(shell.out(), "{:>12} {:>22} {:>9} {:>9}  model", "steps/s", "lowest..highest", "load ms", "peak MB")?;
+    }
+    for path in &arguments.models {
+        if interrupt::asked() {
+            return Ok(Exit::Unknown);
+        }
+        forget_peak();
+        let began = Instant::now();
+        let loaded = match load(shell, path)? {
+            Ok(loaded) => loaded,
+            Err(exit) => return Ok(exit),
+        };
+        let load_ms = began.elapsed().as_secs_f64() * 1e3;
+        if loaded.program.main.is_none() {
+            return Err(Failure::usage(format!("{} has no main rule to run", path.display())));
+        }
+        let measured = measure(shell, arguments, path, Arc::new(loaded.program), load_ms)?;
+        show(shell, &measured)?;
+        shell.flush()?;
+    }
     Ok(Exit::Good)
+}
+
+fn measure(
+    shell: &Shell,
+    arguments: &Arguments,
+    path: &Path,
+    program: Arc<Program>,
+    load_ms: f64,
+) -> Result<Measured, Failure> {
+    let window = Duration::from_millis(arguments.window_ms.max(1));
+    let mut stepper = Stepper { shell, arguments, program, run: None, seed: arguments.seed, restarts: 0 };
+    stepper.window(path, window)?;
+    let mut rates = Vec::new();
+    for _ in 0..arguments.windows {
+        rates.push(stepper.window(path, window)?);
+    }
+    rates.sort_by(f64::total_cmp);
+    Ok(Measured {
+        r#type: "bench",
+        model: path.display().to_string(),
+        steps_per_second: rates[rates.len() / 2],
+        lowest: rates[0],
+        highest: rates[rates.len() - 1],
+        windows: arguments.windows,
+        restarts: stepper.restarts,
+        load_ms,
+        peak_memory_mb: peak_memory_mb(),
+    })
+}
+
+struct Stepper<'a> {
+    shell: &'a Shell,
+    arguments: &'a Arguments,
+    program: Arc<Program>,
+    run: Option<Run>,
+    seed: u64,
+    restarts: u64,
+}
+
+impl Stepper<'_> {
+    /// Steps for a while and gives the rate. A start is not timed.
+    fn window(&mut self, path: &Path, window: Duration) -> Result<f64, Failure> {
+        let mut steps = 0u64;
+        let mut spent = Duration::ZERO;
+        let mut fruitless = 0;
+        while spent < window && !interrupt::asked() {
+            let mut run = match self.run.take() {
+                Some(run) => run,
+                None => self.start(),
+            };
+            let before = steps;
+            let began = Instant::now();
+            let ended = loop {
+                match run.advance() {
+                    Some(Record::Step(_)) => steps += 1,
+                    Some(Record::Initial { .. }) => {}
+                    _ => break true,
+                }
+                if steps % 16 == 0 && spent + began.elapsed() >= window {
+                    break false;
+                }
+            };
+            spent += began.elapsed();
+            if ended {
+                self.restarts += 1;
+                fruitless = if steps == before { fruitless + 1 } else { 0 };
+                if fruitless > 100 {
+                    let message = format!("{} cannot make a step with random inputs", path.display());
+                    return Err(Failure::usage_with_help(message, "`groundstate run --random` shows why"));
+                }
+            } else {
+                self.run = Some(run);
+            }
+        }
+        Ok(steps as f64 / spent.as_secs_f64())
+    }
+
+    fn start(&mut self) -> Run {
+        let inputs = Inputs::new()
+            .with(RandomSource::new(self.seed, Bounds::default()))
+            .choosing(Choices::random(self.seed));
+        self.seed = self.seed.wrapping_add(1);
+        let invariants = if self.arguments.invariants { Invariants::Report } else { Invariants::Ignore };
+        let options = Options { steps: None, invariants, keep: false, ..Options::default() };
+        Run::new(Arc::clone(&self.program), self.shell.global.limits.machine(), inputs, options)
+    }
+}
+
+/// Lets the peak begin anew with the next model; where that is not possible it is that of all so far.
+fn forget_peak() {
+    let _ = std::fs::write("/proc/self/clear_refs", "5");
+}
+
+/// The most memory this process has had since; known on Linux.
+fn peak_memory_mb() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    let kilobytes: f64 = line.split_whitespace().nth(1)?.parse().ok()?;
+    Some(kilobytes / 1024.0)
+}
+
+fn show(shell: &mut Shell, measured: &Measured) -> Result<(), Failure> {
+    if shell.json() {
+        return shell.object(measured);
+    }
+    let memory = measured.peak_memory_mb.map_or("?".to_string(), |peak| format!("{peak:.1}"));
+    let spread = format!("{}..{}", round(measured.lowest), round(measured.highest));
+    let restarts = match measured.restarts {
+        0 => String::new(),
+        1 => " (restarted once)".to_string(),
+        many => format!(" (restarted {many} times)"),
+    };
+    writeln!(
+        shell.out(),
+        "{:>12} {spread:>22} {:>9.1} {memory:>9}  {}{restarts}",
+        round(measured.steps_per_second),
+        measured.load_ms,
+        measured.model,
+    )?;
+    Ok(())
+}
+
+/// Three digits that matter.
+fn round(rate: f64) -> String {
+    let digits = rate.max(1.0).log10().floor() as i32;
+    let unit = 10f64.powi((digits - 2).max(0));
+    format!("{}", (rate / unit).round() * unit)
 }

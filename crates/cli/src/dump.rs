@@ -1,11 +1,65 @@
-//! stub
+//! `groundstate dump STAGE FILE`: what a stage hands to the next, as text.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::load::load;
 use crate::shell::Shell;
-/// Arguments.
-#[derive(Debug, clap::Args)]
-pub struct Arguments {}
+
+/// Arguments of `dump`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// Which hand-over
+    #[arg(value_enum)]
+    stage: Stage,
+    /// A model; for the tree also a scenario
+    file: PathBuf,
+}
+
+/// A hand-over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Stage {
+    /// The lossless tree of one file
+    Tree,
+    /// The checked model
+    Model,
+    /// The program that the machine runs
+    Program,
+}
+
 /// Runs the command.
-pub fn run(_shell: &mut Shell, _arguments: &Arguments) -> Result<Exit, Failure> {
+pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    let text = match arguments.stage {
+        Stage::Tree => return tree(shell, arguments),
+        Stage::Model => {
+            let mut disk = shell.disk();
+            let checked = groundstate::check(disk.root(&arguments.file)?, &mut disk);
+            shell.diagnostics(&checked.sources, &checked.diagnostics)?;
+            if groundstate::has_errors(&checked.diagnostics) {
+                return Ok(Exit::Model);
+            }
+            checked.model.dump()
+        }
+        Stage::Program => match load(shell, &arguments.file)? {
+            Ok(loaded) => program::dump(&loaded.program),
+            Err(exit) => return Ok(exit),
+        },
+    };
+    shell.out().write_all(text.as_bytes())?;
     Ok(Exit::Good)
+}
+
+fn tree(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    let mut sources = syntax::Sources::default();
+    let file = sources.add(shell.disk().root(&arguments.file)?);
+    let text = &sources.file(file).text;
+    let scenario = arguments.file.extension().is_some_and(|extension| extension == "avalla");
+    let parse = if scenario { syntax::parse_avalla(file, text) } else { syntax::parse_asmetal(file, text) };
+    write!(shell.out(), "{}", syntax::dump(&parse.syntax()))?;
+    shell.diagnostics(&sources, &parse.diagnostics)?;
+    Ok(if groundstate::has_errors(&parse.diagnostics) { Exit::Model } else { Exit::Good })
 }

@@ -1,11 +1,61 @@
-//! stub
+//! `groundstate explain ID`: the page of a kind of fault, as it stands in spec/faults/.
+
+use std::io::Write;
+
+use clap::Args;
+
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::shell::Shell;
-/// Arguments.
-#[derive(Debug, clap::Args)]
-pub struct Arguments {}
+
+/// Arguments of `explain`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The name in brackets of a fault, such as inconsistent-update; all names are listed without one
+    id: Option<String>,
+}
+
+include!(concat!(env!("OUT_DIR"), "/fault_pages.rs"));
+
 /// Runs the command.
-pub fn run(_shell: &mut Shell, _arguments: &Arguments) -> Result<Exit, Failure> {
-    Ok(Exit::Good)
+pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    let Some(id) = &arguments.id else {
+        for (id, page) in PAGES {
+            if shell.json() {
+                shell.object(&serde_json::json!({ "type": "page", "id": id, "title": title(page) }))?;
+            } else {
+                writeln!(shell.out(), "{id:<28} {}", title(page))?;
+            }
+        }
+        return Ok(Exit::Good);
+    };
+    let asked = id.trim_matches(['[', ']']);
+    match PAGES.binary_search_by_key(&asked, |(id, _)| id) {
+        Ok(index) => {
+            let (id, page) = PAGES[index];
+            if shell.json() {
+                shell.object(&serde_json::json!({ "type": "page", "id": id, "title": title(page), "text": page }))?;
+            } else {
+                shell.out().write_all(page.as_bytes())?;
+            }
+            Ok(Exit::Good)
+        }
+        Err(_) => {
+            let close = PAGES.iter().find(|(id, _)| id.contains(asked) || asked.contains(id));
+            let help = match close {
+                Some((id, _)) => format!("is `{id}` meant? `groundstate explain` lists all"),
+                None => "`groundstate explain` lists all".to_string(),
+            };
+            Err(Failure::usage_with_help(format!("there is no kind of fault called `{asked}`"), help))
+        }
+    }
+}
+
+/// The first heading of a page that says more than its name, or the first sentence.
+fn title(page: &str) -> &str {
+    let mut lines = page.lines().map(str::trim).filter(|line| !line.is_empty());
+    let first = lines.next().unwrap_or_default();
+    let text = if first.starts_with('#') { lines.next().unwrap_or_default() } else { first };
+    let text = text.trim_start_matches('#').trim();
+    text.split_inclusive(". ").next().unwrap_or(text).trim()
 }

@@ -18,7 +18,6 @@ mod exit;
 mod explain;
 mod failure;
 mod files;
-mod fmt;
 mod inputs;
 mod interrupt;
 mod junit;
@@ -74,8 +73,6 @@ enum Command {
     Explain(explain::Arguments),
     /// Measure steps per second and memory
     Bench(bench::Arguments),
-    /// Format files
-    Fmt(fmt::Arguments),
 }
 
 /// The size of the working thread's stack.
@@ -114,7 +111,6 @@ fn work(arguments: Arguments) -> Exit {
         Command::Dump(arguments) => dump::run(&mut shell, &arguments),
         Command::Explain(arguments) => explain::run(&mut shell, &arguments),
         Command::Bench(arguments) => bench::run(&mut shell, &arguments),
-        Command::Fmt(arguments) => fmt::run(&mut shell, &arguments),
     };
     let outcome = outcome.and_then(|exit| shell.flush().map(|()| exit));
     outcome.unwrap_or_else(|failure| match failure {

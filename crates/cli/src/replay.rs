@@ -1,11 +1,208 @@
-//! stub
+//! `groundstate replay TRACE`: the run of a trace made again, told as `run` told it, and compared.
+//!
+//! The trace is read line by line, so its length does not matter. Exit code 0: the model still does what the trace
+//! says. 1: it does not; where the two part is said.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Args;
+use groundstate::simulate::{Header, Options, Parted, Record, Recorded, StepRecord};
+use machine::Show;
+use program::Program;
+
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::load::load;
+use crate::narrate::Detail;
+use crate::run::{Teller, options};
 use crate::shell::Shell;
-/// Arguments.
-#[derive(Debug, clap::Args)]
-pub struct Arguments {}
+use crate::wire::{Line, Reader};
+
+/// Arguments of `replay`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// A trace written by `run --trace`, or the output of `run --format json`
+    trace: PathBuf,
+    /// The model, if it is not where the trace says
+    #[arg(long, value_name = "FILE")]
+    model: Option<PathBuf>,
+    /// How much of the state is shown
+    #[arg(long, value_enum, default_value_t = Detail::Changed)]
+    show: Detail,
+}
+
 /// Runs the command.
-pub fn run(_shell: &mut Shell, _arguments: &Arguments) -> Result<Exit, Failure> {
-    Ok(Exit::Good)
+pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    let mut lines = Lines::open(&arguments.trace, shell.global.limits.max_file_size)?;
+    let first = lines.next()?.ok_or_else(|| lines.wrong("it is empty"))?;
+    let header = Reader::header(&first).map_err(|message| lines.wrong(&message))?;
+    let path = arguments.model.clone().unwrap_or_else(|| PathBuf::from(&header.path));
+    let mut loaded = match load(shell, &path)? {
+        Ok(loaded) => loaded,
+        Err(exit) => return Ok(exit),
+    };
+    if groundstate::fingerprint(&loaded.sources) != header.source {
+        shell.note("note: the model has changed since the trace was made")?;
+    }
+    let until = match &header.until {
+        None => None,
+        Some(text) => match loaded.condition("--until", text) {
+            Ok(term) => Some(term),
+            Err(faults) => {
+                shell.diagnostics(&loaded.sources, &faults)?;
+                return Ok(Exit::Model);
+            }
+        },
+    };
+    let program = Arc::new(loaded.program);
+    let options = Options { until, ..options(&header) };
+    let recorded = Recorded::new(Arc::clone(&program), shell.global.limits.machine(), options);
+    let teller = Teller::new(shell, &program, &loaded.sources, arguments.show, header.until.clone());
+    follow(shell, &header, lines, recorded, &teller, &program)
+}
+
+fn follow(
+    shell: &mut Shell,
+    header: &Header,
+    mut lines: Lines,
+    mut recorded: Recorded,
+    teller: &Teller<'_>,
+    program: &Program,
+) -> Result<Exit, Failure> {
+    teller.begin(shell, header)?;
+    let reader = Reader { program };
+    while let Some(line) = lines.next()? {
+        let expected = match line {
+            Line::Other => continue,
+            Line::Back { .. } => return Err(lines.wrong("it holds a step taken back; `run --trace` leaves those out")),
+            line => match reader.record(&line) {
+                Ok(record) => record,
+                // The names in it are no longer those of the model.
+                Err(message) => return told_apart(shell, recorded.run().steps() + 1, &message, ""),
+            },
+        };
+        match recorded.follow(&expected) {
+            Ok(record) => {
+                teller.tell(shell, &record, recorded.run())?;
+                if matches!(record, Record::End(_)) {
+                    return Ok(Exit::Good);
+                }
+            }
+            Err(parted) => {
+                let (trace, now) = describe(&parted, program);
+                return told_apart(shell, parted.step, &trace, &now);
+            }
+        }
+    }
+    Err(lines.wrong("it has no end"))
+}
+
+fn told_apart(shell: &mut Shell, step: u64, trace: &str, now: &str) -> Result<Exit, Failure> {
+    if shell.json() {
+        let object = serde_json::json!({ "type": "parted", "step": step, "trace": trace, "now": now });
+        shell.object(&object)?;
+    } else {
+        shell.note(&format!("error: the model parts from the trace at step {step}\n  trace: {trace}\n  now:   {now}"))?;
+    }
+    Ok(Exit::Model)
+}
+
+/// The first thing that differs: in the trace, and now.
+fn describe(parted: &Parted, program: &Program) -> (String, String) {
+    match (parted.expected.as_ref(), parted.actual.as_deref()) {
+        (Record::Step(then), Some(Record::Step(now))) => describe_steps(then, now, program),
+        (Record::Initial { values: then, .. }, Some(Record::Initial { values: now, .. })) => {
+            let text = |(location, value): &(machine::Location, machine::Value)| {
+                format!("{} = {}", location.show(program), value.show(program))
+            };
+            differing(then.iter().map(text), now.iter().map(text))
+        }
+        (then, now) => (kind(then), now.map_or("the run had ended".to_string(), kind)),
+    }
+}
+
+fn describe_steps(then: &StepRecord, now: &StepRecord, program: &Program) -> (String, String) {
+    let inputs = |step: &StepRecord| -> Vec<String> {
+        let text = step.inputs.iter().map(|(l, v)| format!("input {} = {}", l.show(program), v.show(program)));
+        text.collect()
+    };
+    let changes = |step: &StepRecord| -> Vec<String> {
+        let text = step.changes.iter().map(|change| {
+            let (before, after) = (change.before.show(program), change.after.show(program));
+            format!("{}: {before} -> {after}", change.location.show(program))
+        });
+        text.collect()
+    };
+    let all = |step: &StepRecord| -> Vec<String> {
+        let violated = step.violations.iter().map(|violation| format!("violated {}", violation.name));
+        let updates = [format!("{} updates", step.updates)];
+        inputs(step).into_iter().chain(changes(step)).chain(violated).chain(updates).collect()
+    };
+    differing(all(then).into_iter(), all(now).into_iter())
+}
+
+fn differing(then: impl Iterator<Item = String>, mut now: impl Iterator<Item = String>) -> (String, String) {
+    let nothing = || "nothing".to_string();
+    for a in then {
+        match now.next() {
+            Some(b) if a == b => {}
+            b => return (a, b.unwrap_or_else(nothing)),
+        }
+    }
+    (nothing(), now.next().unwrap_or_else(nothing))
+}
+
+fn kind(record: &Record) -> String {
+    match record {
+        Record::Initial { .. } => "the initial state".to_string(),
+        Record::Step(step) => format!("step {} is made", step.step),
+        Record::Attempt(step) => format!("step {} cannot be made", step.step),
+        Record::Back { step } => format!("back to step {step}"),
+        Record::End(end) => format!("the run ends ({})", end.word()),
+    }
+}
+
+/// The lines of a trace file, each of bounded length.
+struct Lines {
+    path: PathBuf,
+    reader: BufReader<File>,
+    limit: u64,
+    number: u64,
+}
+
+impl Lines {
+    fn open(path: &Path, limit: u64) -> Result<Lines, Failure> {
+        let wrap = |error| Failure::of_file("read", path, error);
+        let file = File::open(path).map_err(wrap)?;
+        if file.metadata().map_err(wrap)?.is_dir() {
+            return Err(Failure::Folder(path.to_path_buf()));
+        }
+        Ok(Lines { path: path.to_path_buf(), reader: BufReader::new(file), limit, number: 0 })
+    }
+
+    fn next(&mut self) -> Result<Option<Line>, Failure> {
+        let mut bytes = Vec::new();
+        let read = self.reader.by_ref().take(self.limit + 1).read_until(b'\n', &mut bytes);
+        read.map_err(|error| Failure::of_file("read", &self.path, error))?;
+        if bytes.len() as u64 > self.limit {
+            return Err(Failure::TooLarge { path: self.path.clone(), limit: self.limit });
+        }
+        if bytes.is_empty() {
+            return Ok(None);
+        }
+        self.number += 1;
+        serde_json::from_slice(&bytes).map(Some).map_err(|error| {
+            // serde_json counts lines within the one line it sees.
+            let reason = error.to_string();
+            let reason = reason.split(" at line ").next().unwrap_or_default().to_string();
+            self.wrong(&reason)
+        })
+    }
+
+    fn wrong(&self, reason: &str) -> Failure {
+        Failure::usage(format!("{} is not a trace: line {}: {reason}", self.path.display(), self.number.max(1)))
+    }
 }

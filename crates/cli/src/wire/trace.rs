@@ -29,6 +29,9 @@ pub enum Line {
     Attempt(Step),
     Back { step: u64 },
     End(Ending),
+    /// An object of the command's output that is no part of the trace; never written.
+    #[serde(other, skip_serializing)]
+    Other,
 }
 
 /// Pairs as an object whose keys keep their order.
@@ -337,7 +340,7 @@ impl Reader<'_> {
     /// A record. Of a fault only that there was one is known.
     pub fn record(&self, line: &Line) -> Result<Record, String> {
         Ok(match line {
-            Line::Trace(_) => return Err("a second header".to_string()),
+            Line::Trace(_) | Line::Other => return Err("a second header".to_string()),
             Line::State(state) => Record::Initial {
                 inputs: self.pairs(&state.inputs)?,
                 times: times_in(&state.times)?,
