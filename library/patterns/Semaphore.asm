@@ -85,6 +85,6 @@ definitions:
 
 	// The arbiter: remembers the order of arrival. Runs beside the tasks, in every step.
 	rule r_sem_arbitrate($s in Semaphore) =
-		if notEmpty(semaq($s)) or (exists $t in asSet(sem_users($s)) with sem_state($s, $t) = WAITING) then
+		if not isEmpty(semaq($s)) or (exists $t in asSet(sem_users($s)) with sem_state($s, $t) = WAITING) then
 			semaq($s) := sem_line($s)
 		endif

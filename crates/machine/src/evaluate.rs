@@ -7,8 +7,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use program::{
-    BinderList, Builtin, CollectionKind, DomainKind, FunctionId, FunctionKind, Literal, Quantifier, Term, TermId,
-    TermList,
+    BinderList, Builtin, CollectionKind, DomainKind, FunctionId, Literal, Quantifier, Term, TermId, TermList,
 };
 use syntax::Span;
 
@@ -122,33 +121,52 @@ impl<'a> Executor<'a> {
     }
 
     fn evaluate_read(&mut self, function: FunctionId, arguments: TermList, id: TermId) -> Outcome<Value> {
-        let start = self.gather(arguments)?;
-        let kind = self.program.functions[function.0 as usize].kind;
-        let plain = matches!(kind, FunctionKind::Controlled | FunctionKind::Out | FunctionKind::Local);
-        if plain && self.core.initials[function.0 as usize].is_none() {
+        if self.core.plain[function.0 as usize] {
+            if let [argument] = self.program.term_list(arguments) {
+                let argument = self.evaluate(*argument)?;
+                let found = self.core.store.find(function, std::slice::from_ref(&argument));
+                return Ok(found.map_or(Value::Undef, |index| self.core.store.values[index as usize].clone()));
+            }
+            let start = self.gather(arguments)?;
             let found = self.core.store.find(function, &self.core.frames[start..]);
             self.core.frames.truncate(start);
             return Ok(found.map_or(Value::Undef, |index| self.core.store.values[index as usize].clone()));
         }
+        let start = self.gather(arguments)?;
         let arguments: Vec<Value> = self.core.frames.drain(start..).collect();
         self.read(function, &arguments, self.program.term_span(id))
     }
 
     fn evaluate_definition(&mut self, function: FunctionId, arguments: TermList, id: TermId) -> Outcome<Value> {
-        let start = self.gather(arguments)?;
         let program = self.program;
+        let (start, place) = match program.term_list(arguments) {
+            // One argument need not stand on the stack to be looked up.
+            [argument] => {
+                let argument = self.evaluate(*argument)?;
+                let place = self.core.memo.place(function, std::slice::from_ref(&argument));
+                if let Some(value) = place.and_then(|place| self.core.memo.get(place)) {
+                    return Ok(value.clone());
+                }
+                self.core.frames.push(argument);
+                (self.core.frames.len() - 1, place)
+            }
+            _ => {
+                let start = self.gather(arguments)?;
+                let place = self.core.memo.place(function, &self.core.frames[start..]);
+                if let Some(value) = place.and_then(|place| self.core.memo.get(place)) {
+                    let value = value.clone();
+                    self.core.frames.truncate(start);
+                    return Ok(value);
+                }
+                (start, place)
+            }
+        };
         let Some(definition) = &program.functions[function.0 as usize].definition else {
             self.core.frames.truncate(start);
             return Ok(Value::Undef);
         };
-        let place = self.core.memo.place(function, &self.core.frames[start..]);
-        if let Some(value) = place.and_then(|place| self.core.memo.get(place)) {
-            let value = value.clone();
-            self.core.frames.truncate(start);
-            return Ok(value);
-        }
-        let value =
-            self.in_frame(start, definition.frame, program.term_span(id), |this| this.evaluate(definition.body))?;
+        let span = program.term_span(id);
+        let value = self.in_frame(start, definition.frame, span, |this| this.evaluate(definition.body))?;
         if let Some(place) = place {
             self.core.memo.keep(place, value.clone());
         }

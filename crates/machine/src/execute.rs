@@ -54,6 +54,8 @@ pub(crate) struct Core {
     /// The initial values of functions while the initial state is being made; after that, of those whose
     /// arguments cannot be enumerated: index into the program's initials, by function.
     pub initials: Vec<Option<u32>>,
+    /// By function: its locations are read without asking anybody.
+    pub plain: Vec<bool>,
     /// The initial state is being made.
     pub starting: bool,
 }

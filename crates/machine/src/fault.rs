@@ -125,7 +125,7 @@ impl FaultKind {
             FaultKind::Overflow { .. } => "integer-overflow",
             FaultKind::NotANumber { .. } => "not-a-number",
             FaultKind::NotEnumerable { .. } => "domain-not-enumerable",
-            FaultKind::NotARule { .. } => "not-a-rule",
+            FaultKind::NotARule { .. } => "not-runnable",
             FaultKind::WrongArguments { .. } => "wrong-arguments",
             FaultKind::Temporal => "temporal-operator",
             FaultKind::Limit { .. } => "limit-reached",

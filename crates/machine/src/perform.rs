@@ -6,8 +6,7 @@
 use std::ops::ControlFlow;
 
 use program::{
-    BinderList, DomainId, DomainKind, FunctionId, FunctionKind, ProcedureId, Rule, RuleId, RuleList, Slot, TermId,
-    TermList,
+    BinderList, DomainId, FunctionId, FunctionKind, ProcedureId, Rule, RuleId, RuleList, Slot, TermId, TermList,
 };
 use syntax::Span;
 
@@ -247,14 +246,11 @@ impl<'a> Executor<'a> {
         outcome
     }
 
-    /// The program of an agent: that of the most specific domain it is in.
+    /// The program of an agent: that of the most specific domain it is in, which comes first.
     pub fn agent_program(&mut self, agent: &Value) -> Option<ProcedureId> {
         let program = self.program;
-        let fitting: Vec<&program::AgentProgram> =
-            program.agents.iter().filter(|entry| !agent.is_undef() && self.contains(entry.domain, agent)).collect();
-        let specific =
-            fitting.iter().rev().find(|entry| matches!(program.domain(entry.domain).kind, DomainKind::Concrete { .. }));
-        specific.or(fitting.last()).map(|entry| entry.procedure)
+        let fitting = |entry: &&program::AgentProgram| !agent.is_undef() && self.contains(entry.domain, agent);
+        program.agents.iter().find(fitting).map(|entry| entry.procedure)
     }
 
     /// Runs `parts` as a sequence and joins its net effect to the current unit.

@@ -43,6 +43,7 @@ impl Core {
             codomains: Vec::new(),
             coverage: None,
             initials: vec![None; program.functions.len()],
+            plain: vec![false; program.functions.len()],
             starting: false,
         };
         core.reset_carriers(program);
@@ -148,6 +149,11 @@ impl<'a> Executor<'a> {
         self.core.memo.changed();
         for function in eager {
             self.core.initials[function.0 as usize] = None;
+        }
+        for (index, declared) in program.functions.iter().enumerate() {
+            use program::FunctionKind::{Controlled, Local, Out};
+            let kind = matches!(declared.kind, Controlled | Out | Local);
+            self.core.plain[index] = kind && declared.element.is_none() && self.core.initials[index].is_none();
         }
         self.core.starting = false;
         Ok(())

@@ -49,6 +49,9 @@ impl Hash for Real {
 }
 
 /// A value. The derived order is the canonical one: of output, of state encoding, of search.
+///
+/// The tag is a whole word, so that a copy is two aligned moves whatever the variant.
+#[repr(u64)]
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub enum Value {
     /// The undefined value.
@@ -134,6 +137,7 @@ mod tests {
     #[test]
     fn a_value_is_two_words() {
         assert_eq!(std::mem::size_of::<Value>(), 16);
+        assert_eq!(std::mem::size_of::<Result<Value, Box<crate::fault::Fault>>>(), 16);
     }
 
     #[test]

@@ -65,6 +65,15 @@ fn set(builtin: Builtin, operands: &[Value]) -> Option<Result> {
     })
 }
 
+/// Has the collection no members?
+pub(super) fn is_empty(value: &Value) -> bool {
+    match value {
+        Value::Set(items) | Value::Seq(items) => items.is_empty(),
+        Value::Bag(counts) => counts.is_empty(),
+        _ => false,
+    }
+}
+
 /// The members of any collection, in its order.
 fn members(value: &Value) -> Result<Vec<Value>> {
     match value {

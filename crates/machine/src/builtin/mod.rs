@@ -9,14 +9,17 @@ mod number;
 mod sequence;
 mod text;
 
-use program::{Builtin, TermId};
+use std::sync::Arc;
+
+use model::Basic;
+use program::{Builtin, DomainKind, TermId};
 use syntax::Span;
 
 use crate::environment::{Choice, TimeUnit};
 use crate::execute::{Executor, Outcome};
 use crate::fault::FaultKind;
 use crate::print::Show;
-use crate::value::Value;
+use crate::value::{Real, Value};
 
 /// Why a builtin has no value, before its place is known.
 pub(crate) enum Trouble {
@@ -68,6 +71,9 @@ impl<'a> Executor<'a> {
             Builtin::TimeMilliseconds => return self.clock(TimeUnit::Milliseconds, span),
             Builtin::TimeSeconds => return self.clock(TimeUnit::Seconds, span),
             Builtin::Temporal(_) => return self.fault(span, FaultKind::Temporal),
+            Builtin::SetSum | Builtin::SeqSum | Builtin::BagSum if collection::is_empty(&operands[0]) => {
+                Ok(self.zero(id))
+            }
             _ => number::apply(builtin, operands)
                 .or_else(|| text::apply(builtin, operands))
                 .or_else(|| sequence::apply(builtin, operands))
@@ -80,6 +86,18 @@ impl<'a> Executor<'a> {
                 Ok(value)
             }
             Err(trouble) => self.trouble(trouble, builtin, operands, span),
+        }
+    }
+
+    /// The zero of the domain of a term: the sum of no numbers.
+    fn zero(&self, id: TermId) -> Value {
+        let domain = self.base_domain(self.program.term_domain(id));
+        match self.program.domain(domain).kind {
+            DomainKind::Basic(Basic::Real) => Real::new(0.0).map_or(Value::Undef, Value::Real),
+            DomainKind::Basic(Basic::Complex) => {
+                Real::new(0.0).map_or(Value::Undef, |zero| Value::Complex(Arc::new((zero, zero))))
+            }
+            _ => Value::Integer(0),
         }
     }
 

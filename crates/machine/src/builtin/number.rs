@@ -99,7 +99,7 @@ fn real(builtin: Builtin, operands: &[Value]) -> Option<Result> {
             _ => binary("/", |a, b| a / b),
         },
         Builtin::Floor => whole("floor", operands, f64::floor),
-        Builtin::Round => whole("round", operands, |x| (x + 0.5).floor()),
+        Builtin::Round => whole("round", operands, |x| x.floor() + f64::from(x - x.floor() >= 0.5)),
         _ => return None,
     })
 }

@@ -2,6 +2,7 @@
 
 mod collections;
 mod faults;
+mod pages;
 mod rules;
 mod states;
 
