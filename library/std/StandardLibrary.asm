@@ -114,6 +114,7 @@ signature:
     static mod: Prod(Integer, Natural) -> Integer
     static mod: Prod(Natural, Integer) -> Integer
     static abs: Integer -> Integer
+    static pwr: Prod(Integer, Integer) -> Integer
     static max: Prod(Integer, Integer) -> Integer
     static min: Prod(Integer, Integer) -> Integer
     static lt: Prod(Integer, Integer) -> Boolean
@@ -133,6 +134,7 @@ signature:
     static idiv: Prod(Natural, Natural) -> Natural
     static mod: Prod(Natural, Natural) -> Natural
     static abs: Natural -> Natural
+    static pwr: Prod(Natural, Natural) -> Natural
     static max: Prod(Natural, Natural) -> Natural
     static min: Prod(Natural, Natural) -> Natural
     static lt: Prod(Natural, Natural) -> Boolean
@@ -204,6 +206,7 @@ signature:
 
     // Sequences; the first position is 0.
     static length: Seq(D) -> Integer
+    static size: Seq(D) -> Integer
     static isEmpty: Seq(D) -> Boolean
     static contains: Prod(Seq(D), D) -> Boolean
     static count: Prod(Seq(D), D) -> Natural
@@ -219,10 +222,12 @@ signature:
     static replaceAt: Prod(Seq(D), Natural, D) -> Seq(D)
     static subSequence: Prod(Seq(D), Natural, Natural) -> Seq(D)
     static excluding: Prod(Seq(D), D) -> Seq(D)
+    static sum: Seq(D) -> D
     static asBag: Seq(D) -> Bag(D)
     static asSet: Seq(D) -> Powerset(D)
 
     // Bags.
+    static size: Bag(D) -> Integer
     static union: Prod(Bag(D), Bag(D)) -> Bag(D)
     static union: Prod(Bag(D), Powerset(D)) -> Bag(D)
     static intersection: Prod(Bag(D), Bag(D)) -> Bag(D)
@@ -236,6 +241,9 @@ signature:
     static asSet: Bag(D) -> Powerset(D)
 
     // Maps.
+    static size: Map(D1, D2) -> Integer
+    static keys: Map(D1, D2) -> Powerset(D1)
+    static values: Map(D1, D2) -> Powerset(D2)
     static at: Prod(Map(D1, D2), D1) -> D2
     static assign: Prod(Map(D1, D2), D1, D2) -> Map(D1, D2)
     static merge: Prod(Map(D1, D2), Map(D1, D2)) -> Map(D1, D2)

@@ -144,7 +144,9 @@ proptest! {
 #[test]
 fn deep_nesting_needs_no_deep_stack() {
     let model = |rule: String| {
-        format!("asm t\nimport StandardLibrary\nsignature:\ncontrolled x: Integer\ndefinitions:\nmain rule r_Main = {rule}")
+        format!(
+            "asm t\nimport StandardLibrary\nsignature:\ncontrolled x: Integer\ndefinitions:\nmain rule r_Main = {rule}"
+        )
     };
     let nested = |open: &str, core: &str, close: &str| open.repeat(20_000) + core + &close.repeat(20_000);
     let models = [

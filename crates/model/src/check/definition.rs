@@ -130,7 +130,8 @@ fn find(site: &mut Site<'_>, def: &ast::FunctionDef, parameters: &[Variable]) ->
     if let Some(id) = exact(&domains).or_else(|| exact(&product)) {
         return Some(id);
     }
-    if candidates.iter().any(|id| site.model.function(*id).parameters.contains(&Domains::ERROR)) {
+    let unclear = |id: &FunctionId| site.model.function(*id).parameters.contains(&Domains::ERROR);
+    if site.names.incomplete || candidates.iter().any(unclear) {
         return None;
     }
     let declared: Vec<(Span, String)> =
