@@ -56,6 +56,8 @@ pub(crate) struct Strip<'a> {
     pub track: &'a Track,
     /// Boxes fill the height, whatever their tone.
     pub full: bool,
+    /// The ticks after which the pattern comes again.
+    pub rhythm: Option<u64>,
 }
 
 /// A value drawn as a line.
@@ -97,7 +99,7 @@ pub(crate) fn lanes(report: &Report) -> (Vec<Lane<'_>>, f64) {
 
 fn task_lane<'a>(report: &'a Report, task: &'a Task) -> Lane<'a> {
     Lane {
-        strips: vec![Strip { y: 0.0, height: TASK, track: &task.track, full: false }],
+        strips: vec![Strip { y: 0.0, height: TASK, track: &task.track, full: false, rhythm: task.period }],
         lines: &task.releases,
         crosses: &task.misses,
         ..Lane::plain(task.name.clone(), task.describe(report.time), TASK)
@@ -119,11 +121,11 @@ fn buffer_lane(buffer: &Buffer) -> Lane<'_> {
     let mut y = 0.0;
     let mut strips = Vec::new();
     for track in &buffer.rows {
-        strips.push(Strip { y, height: ROW, track, full: true });
+        strips.push(Strip { y, height: ROW, track, full: true, rhythm: None });
         y += ROW + ROW_GAP;
     }
     if let Some(track) = &buffer.lock {
-        strips.push(Strip { y, height: LOCK, track, full: true });
+        strips.push(Strip { y, height: LOCK, track, full: true, rhythm: None });
         y += LOCK;
     }
     let lane = Lane::plain(buffer.from.clone(), format!("\u{2192} {}", buffer.to), y.max(TWO_LINES));

@@ -54,7 +54,7 @@ pub struct TaskSpec {
     pub caption: String,
     /// What it is doing.
     pub activity: TermText,
-    /// Its period in ticks, read in the first state.
+    /// Its period in ticks, read in the first state; where it is undef, release and deadlines do not count.
     pub period: Option<TermText>,
     /// The tick at which its present period began; the period is its deadline.
     pub release: Option<TermText>,

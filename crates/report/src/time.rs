@@ -53,7 +53,7 @@ impl TimeBase {
     pub fn decimals(self) -> usize {
         let (_, unit) = self.scale();
         let tick = self.tick_ns.unwrap_or(1);
-        (0..3).find(|digits| (tick * 10u64.pow(*digits)) % unit == 0).unwrap_or(3) as usize
+        (0..3).find(|digits| (tick * 10u64.pow(*digits)).is_multiple_of(unit)).unwrap_or(3) as usize
     }
 
     /// A time without its unit, every tick distinct: `38.4`.
@@ -82,7 +82,7 @@ impl TimeBase {
     pub fn run(self, ticks: u64) -> String {
         let units = [("s", 1_000_000_000), ("ms", 1_000_000), ("µs", 1_000)];
         let whole = self.tick_ns.map(|ns| ns.saturating_mul(ticks));
-        match whole.and_then(|ns| units.iter().find(|(_, unit)| ns > 0 && ns % (unit / 10) == 0 && ns >= *unit)) {
+        match whole.and_then(|ns| units.iter().find(|(_, unit)| ns.is_multiple_of(unit / 10) && ns >= *unit)) {
             Some((sign, unit)) => {
                 let text = format!("{:.1}", whole.unwrap_or(0) as f64 / *unit as f64);
                 format!("{}{THIN}{sign}", text.trim_end_matches(".0"))

@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use ::report::{Coverage, Measure, Report, Scenario, Verdict};
-use groundstate::scenario::{FirstCandidate, Items, Judgement, Options};
-use groundstate::{Suite, Tested};
+use groundstate::scenario::{Items, Judgement, Options};
+use groundstate::{SeededChoices, Suite, Tested};
 use syntax::{Severity, Sources, Span};
 
 use crate::check::plural;
@@ -19,8 +19,8 @@ use crate::interrupt;
 use crate::progress::Progress;
 use crate::shell::Shell;
 
-/// Runs the scenarios below these paths and adds what they show.
-pub fn add(shell: &Shell, report: &mut Report, model: &Path, paths: &[PathBuf]) -> Result<Exit, Failure> {
+/// Runs the scenarios below these paths as `test` does, and adds what they show.
+pub fn add(shell: &Shell, report: &mut Report, model: &Path, paths: &[PathBuf], seed: u64) -> Result<Exit, Failure> {
     if paths.is_empty() {
         return Ok(Exit::Good);
     }
@@ -34,7 +34,7 @@ pub fn add(shell: &Shell, report: &mut Report, model: &Path, paths: &[PathBuf]) 
         }
         let mut disk = shell.disk();
         let source = disk.root(path)?;
-        let tested = suite.test(source, &mut disk, options, &mut FirstCandidate);
+        let tested = suite.test(source, &mut disk, options, &mut SeededChoices::new(seed));
         report.scenarios.push(scenario(path, &tested));
         progress.at(index as u64 + 1);
     }
@@ -68,7 +68,8 @@ fn why(tested: &Tested) -> String {
         _ => tested.diagnostics.clone(),
     };
     let first = failures.iter().find(|found| found.severity == Severity::Error).or(failures.first());
-    first.map_or_else(String::new, |found| format!("{}: {}", tested.sources.position(found.primary.span), found.message))
+    first
+        .map_or_else(String::new, |found| format!("{}: {}", tested.sources.position(found.primary.span), found.message))
 }
 
 /// A thing in a text, whatever model it was read for.
@@ -98,7 +99,8 @@ fn coverage(suite: &Suite, model: &Path, scenarios: usize) -> Option<Coverage> {
             if covered(item.span, item.what) {
                 measure.covered += 1;
             } else {
-                let name = if item.what == "rule" { item.rule.clone() } else { format!("{} in {}", item.what, item.rule) };
+                let name =
+                    if item.what == "rule" { item.rule.clone() } else { format!("{} in {}", item.what, item.rule) };
                 measure.missed.push((name, sources.position(item.span).to_string()));
             }
         }

@@ -107,7 +107,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     report.invariants = story.invariants;
     report.stopped = story.stopped;
     report.facts = facts(arguments, &path, &sources);
-    let scenarios = evidence::add(shell, &mut report, &arguments.model, &arguments.scenarios)?;
+    let scenarios = evidence::add(shell, &mut report, &arguments.model, &arguments.scenarios, arguments.inputs.seed)?;
     write(shell, arguments, &report)?;
     let troubled = if report.troubles().is_empty() { Exit::Good } else { Exit::Model };
     Ok(story.exit.max(scenarios).max(troubled))
@@ -194,7 +194,10 @@ fn facts(arguments: &Arguments, spec: &Path, sources: &Sources) -> Vec<Fact> {
         fact("Report specification", spec.display().to_string()),
         fact("Fingerprint of all texts", groundstate::fingerprint(sources)),
         fact("Steps asked for", arguments.steps.to_string()),
-        fact("Choices", if inputs.choose == inputs::Chosen::Random { "random" } else { "the first candidate" }.to_string()),
+        fact(
+            "Choices",
+            if inputs.choose == inputs::Chosen::Random { "random" } else { "the first candidate" }.to_string(),
+        ),
     ];
     if random {
         facts.push(fact("Seed", inputs.seed.to_string()));

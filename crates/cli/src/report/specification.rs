@@ -5,9 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use ::report::{
-    ActivitySpec, BufferSpec, CounterSpec, FlowSpec, HopSpec, QueueSpec, SeriesSpec, Spec, TaskSpec, Tone,
-};
+use ::report::{ActivitySpec, BufferSpec, CounterSpec, FlowSpec, HopSpec, QueueSpec, SeriesSpec, Spec, TaskSpec, Tone};
 use syntax::{Diagnostic, FileId, Span};
 
 use super::node::{Key, Node, Shape, fault, read};
@@ -64,7 +62,9 @@ impl Reader {
         let Some(node) = node else { return Fields(&[]) };
         match &node.shape {
             Shape::Map(entries) => {
-                for (key, _) in entries.iter().filter(|(key, _)| !known.is_empty() && !known.contains(&key.text.as_str())) {
+                for (key, _) in
+                    entries.iter().filter(|(key, _)| !known.is_empty() && !known.contains(&key.text.as_str()))
+                {
                     let unknown = fault(key.span, format!("nothing here is called `{}`", key.text));
                     self.faults.push(unknown.with_help(format!("known are: {}", known.join(", "))));
                 }
@@ -132,7 +132,10 @@ impl Reader {
         let text = self.text(Some(node))?;
         let parsed = nanoseconds(&text);
         if parsed.is_none() {
-            self.refuse(node.span, format!("`{text}` is no time: write a number and its unit, such as 100 us, 0.5 ms or 1 s"));
+            self.refuse(
+                node.span,
+                format!("`{text}` is no time: write a number and its unit, such as 100 us, 0.5 ms or 1 s"),
+            );
         }
         parsed
     }
@@ -163,7 +166,8 @@ impl Reader {
             let (label, name) = (self.text(Some(label)), self.text(Some(tone)).unwrap_or_default());
             let Some(found) = Tone::named(&name) else {
                 let tones = Tone::ALL.map(Tone::name).join(", ");
-                self.faults.push(fault(tone.span, format!("`{name}` is no tone")).with_help(format!("tones are: {tones}")));
+                self.faults
+                    .push(fault(tone.span, format!("`{name}` is no tone")).with_help(format!("tones are: {tones}")));
                 continue;
             };
             activities.push(ActivitySpec { value: key.text.clone(), label: label.unwrap_or_default(), tone: found });
@@ -178,7 +182,9 @@ impl Reader {
         let counters = self.fields(group.get("counters"), &[]);
         let known = [told, terms].concat();
         let each = self.fields(group.get("each"), &[]).0;
-        each.iter().map(|(key, node)| Lane { id: &key.text, own: self.fields(Some(node), &known), terms: shared, counters }).collect()
+        each.iter()
+            .map(|(key, node)| Lane { id: &key.text, own: self.fields(Some(node), &known), terms: shared, counters })
+            .collect()
     }
 
     fn lane_term(&mut self, lane: &Lane, name: &str) -> Option<String> {
@@ -236,7 +242,10 @@ impl Reader {
         for lane in &lanes {
             let Some(length) = self.lane_term(lane, "length") else {
                 let span = node.map_or(Span { file: FileId(0), start: 0, end: 0 }, |node| node.span);
-                self.refuse(span, format!("queue `{}` has no `length`: name the term that counts what is in it", lane.id));
+                self.refuse(
+                    span,
+                    format!("queue `{}` has no `length`: name the term that counts what is in it", lane.id),
+                );
                 continue;
             };
             queues.push(QueueSpec {

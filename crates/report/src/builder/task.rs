@@ -65,6 +65,10 @@ impl TaskWatch {
     pub fn begin(&mut self, moment: &Moment) {
         let period = self.period.and_then(|slot| moment.readings.integer(slot));
         self.task.period = period.and_then(|ticks| u64::try_from(ticks).ok()).filter(|ticks| *ticks > 0);
+        if self.period.is_some() && self.task.period.is_none() {
+            // Of this kind others have periods; it has none, so neither releases nor deadlines.
+            (self.release, self.met, self.missed) = (None, None, None);
+        }
         self.note_release(moment);
     }
 

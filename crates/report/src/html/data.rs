@@ -86,14 +86,11 @@ fn put_strip<'a>(out: &mut String, strip: &Strip<'a>, kinds: &mut Vec<&'a Kind>,
         })
     };
     let letters: Vec<String> = track.kinds.iter().map(|kind| letters(place(kind, kinds))).collect();
-    put!(
-        out,
-        "{}{{\"y\":{},\"h\":{},\"f\":{},\"d\":\"",
-        comma(index),
-        Px(strip.y),
-        Px(strip.height),
-        u8::from(strip.full)
-    );
+    put!(out, "{}{{\"y\":{},\"h\":{},\"f\":{}", comma(index), Px(strip.y), Px(strip.height), u8::from(strip.full));
+    if let Some(rhythm) = strip.rhythm {
+        put!(out, ",\"r\":{rhythm}");
+    }
+    out.push_str(",\"d\":\"");
     let mut at = 0;
     for span in track.spans() {
         if span.start > at {

@@ -1,7 +1,7 @@
 // Draws a window of the run as SVG text, as the still drawing of the page is drawn. SYNC(drawing), SYNC(run data)
 "use strict";
 const run = JSON.parse(document.getElementById("run").textContent);
-const HEAD = 22, RIGHT = 14, FINE = 2.2, COLUMN = 3, APART = 78, WAYS_APART = 14, LINES_APART = 7;
+const HEAD = 22, RIGHT = 14, FINE = 2.2, COLUMN = 3, RHYTHM = 14, APART = 78, WAYS_APART = 14, LINES_APART = 7;
 const HEIGHT = { idle: 0, work: 0.72, hold: 0.72, wait: 1 };
 const TONES = ["idle", "work", "read", "write", "hold", "message", "other", "wait", "readplace", "writeplace"];
 
@@ -96,25 +96,30 @@ function drawLabels(lane, view) {
   return out + `<text class="caption" x="0" y="${px(middle + 11.5)}">${escaped(fitted(lane.c, 11, room))}</text>`;
 }
 
+/** Columns of whole periods where there is a short period, at multiples of their length. */
 function drawStacked(strip, from, to, view) {
-  const columns = Math.max(1, Math.ceil((view.right - view.left) / COLUMN)), perColumn = COLUMN / view.scale;
+  const fine = COLUMN / view.scale;
+  const length = strip.r && strip.r * view.scale <= RHYTHM ? strip.r * Math.ceil(fine / strip.r) : fine;
+  const first = Math.floor(view.start / length), count = Math.max(1, Math.ceil(view.end / length) - first);
+  const begin = (c) => Math.max((first + c) * length, view.start), end = (c) => Math.min((first + c + 1) * length, view.end);
   const shares = TONES.map(() => null);
   for (let i = from; i < to; i++) {
     const place = TONES.indexOf(run.kinds[strip.kinds[i]][1]);
     if (place <= 0) continue;
-    const share = shares[place] || (shares[place] = new Float64Array(columns));
-    const a = (Math.max(strip.starts[i], view.start) - view.start) / perColumn;
-    const b = (Math.min(strip.ends[i], view.end) - view.start) / perColumn;
-    for (let c = Math.floor(a); c < Math.min(Math.ceil(b), columns); c++) share[c] += Math.max(0, Math.min(b, c + 1) - Math.max(a, c));
+    const share = shares[place] || (shares[place] = new Float64Array(count));
+    const a = Math.max(strip.starts[i], view.start), b = Math.min(strip.ends[i], view.end);
+    for (let c = Math.floor(a / length) - first; c < Math.min(Math.ceil(b / length) - first, count); c++) {
+      share[c] += Math.max(0, Math.min(b, end(c)) - Math.max(a, begin(c))) / (end(c) - begin(c));
+    }
   }
-  const base = new Float64Array(columns).fill(strip.y + strip.h);
+  const base = new Float64Array(count).fill(strip.y + strip.h);
   return shares.map((share, place) => {
     let path = "";
-    for (let c = 0; share && c < columns; c++) {
-      if (share[c] <= 0.001) continue;
-      const height = Math.min(1, share[c]) * strip.h, x = view.left + c * COLUMN;
+    for (let c = 0; share && c < count; c++) {
+      if (!(share[c] > 0.001)) continue;
+      const height = Math.min(1, share[c]) * strip.h, x = view.x(begin(c));
       base[c] -= height;
-      path += boxPath(x, base[c], Math.min(COLUMN, view.right - x), height);
+      path += boxPath(x, base[c], view.x(end(c)) - x, height);
     }
     return path && `<path class="${TONES[place]}" d="${path}"/>`;
   }).join("");

@@ -86,12 +86,14 @@ function read(tick, y) {
   });
   if (lane.g) {
     const p = lane.g.p;
+    let told = "<span>not defined</span>";
     for (let i = 0; i < p.length; i += 4) {
       if (p[i] <= tick && tick < p[i + 2]) {
         const value = p[i + 1] + (p[i + 3] - p[i + 1]) * (tick - p[i]) / (p[i + 2] - p[i]);
-        out += `<span>${lane.g.ticks ? timed(value) : Math.round(value)}</span>`;
+        told = `<span>${lane.g.ticks ? timed(value) : Math.round(value)}</span>`;
       }
     }
+    out += told;
   }
   return out + `<span>at ${timed(tick, 1)}</span>`;
 }

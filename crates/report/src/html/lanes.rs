@@ -97,7 +97,7 @@ fn controls(out: &mut String) {
     }
     out.push_str("</span>\n<output id=\"where\" aria-live=\"polite\"></output>\n");
     out.push_str(
-        "<span class=\"hint\">drag to move, Ctrl and wheel to zoom, arrows and +/\u{2212} by keyboard</span>\n</div>\n",
+        "<span class=\"hint\">drag to move, Ctrl and wheel to zoom, arrows and +/\u{2212} by keyboard; far out, heights are shares of time</span>\n</div>\n",
     );
 }
 

@@ -208,12 +208,12 @@ pub(super) fn ages(out: &mut String, report: &Report) {
 
 fn series_section(out: &mut String, report: &Report, series: &Series, index: usize) {
     let time = report.time;
-    let mut lead = series.caption.clone();
+    let mut lead = capital(&series.caption);
     if let Some((most, _)) = series.values.greatest() {
         let show = |value: Option<u64>| series.show(time, value.unwrap_or(0) as i64);
         put!(
             lead,
-            "{}mean {}, 95 of 100 ticks at most {}, most {}",
+            "{}mean {}, in 95\u{202f}% of the time at most {}, most {}",
             if lead.is_empty() { "" } else { ": " },
             series.show_mean(time),
             show(series.values.percentile(95)),
@@ -226,6 +226,12 @@ fn series_section(out: &mut String, report: &Report, series: &Series, index: usi
     }
     section(out, &format!("series-{index}"), &series.name, &lead);
     put!(out, "<div class=\"wide\">{}</div>\n</section>\n", profile(report, series));
+}
+
+/// A text as the begin of a sentence.
+fn capital(text: &str) -> String {
+    let mut rest = text.chars();
+    rest.next().map_or_else(String::new, |first| first.to_uppercase().chain(rest).collect())
 }
 
 /// Writes the tables of buffers and queues.

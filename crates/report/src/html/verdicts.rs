@@ -40,15 +40,33 @@ pub(super) fn scenarios(out: &mut String, report: &Report) {
         put!(lead, " {caught} of them had to fail, and did: a seeded fault was caught.");
     }
     section(out, "scenarios", "Scenarios", &lead);
-    let failed = |scenario: &&Scenario| matches!(scenario.verdict, Verdict::Failed(_));
+    let failed: Vec<&Scenario> = report.scenarios.iter().filter(|s| matches!(s.verdict, Verdict::Failed(_))).collect();
+    scenario_list(out, "", &failed);
+    let good = report.scenarios.iter().filter(|scenario| !matches!(scenario.verdict, Verdict::Failed(_)));
+    let mut folders: Vec<(&str, Vec<&Scenario>)> = Vec::new();
+    for scenario in good {
+        let folder = scenario.file.rsplit_once('/').map_or("", |(folder, _)| folder);
+        match folders.iter_mut().find(|(known, _)| *known == folder) {
+            Some((_, scenarios)) => scenarios.push(scenario),
+            None => folders.push((folder, vec![scenario])),
+        }
+    }
+    for (folder, scenarios) in &folders {
+        scenario_list(out, if folders.len() > 1 { folder } else { "" }, scenarios);
+    }
+    out.push_str("</section>\n");
+}
+
+fn scenario_list(out: &mut String, folder: &str, scenarios: &[&Scenario]) {
+    if scenarios.is_empty() {
+        return;
+    }
+    if !folder.is_empty() {
+        put!(out, "<h3>{}</h3>\n", Text(folder));
+    }
     out.push_str("<ul class=\"checks columns\">\n");
-    for scenario in report.scenarios.iter().filter(failed) {
-        scenario_item(out, scenario);
-    }
-    for scenario in report.scenarios.iter().filter(|scenario| !failed(scenario)) {
-        scenario_item(out, scenario);
-    }
-    out.push_str("</ul>\n</section>\n");
+    scenarios.iter().for_each(|scenario| scenario_item(out, scenario));
+    out.push_str("</ul>\n");
 }
 
 fn scenario_item(out: &mut String, scenario: &Scenario) {

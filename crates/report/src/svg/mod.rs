@@ -6,6 +6,7 @@
 
 mod axis;
 mod chart;
+mod columns;
 mod graph;
 mod overview;
 mod strip;

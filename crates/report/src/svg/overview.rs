@@ -2,14 +2,15 @@
 
 use crate::markup::{Px, put};
 use crate::report::{Report, Task};
+use crate::svg::columns::columns;
 use crate::svg::view::{View, box_path};
 use crate::tone::Tone;
 
 /// Height of a task's row.
 const ROW: f64 = 5.0;
 const GAP: f64 = 2.0;
-/// Width of a column.
-const COLUMN: f64 = 2.5;
+/// The least width of a waiting.
+const LEAST: f64 = 1.0;
 /// How many shades busy has.
 const SHADES: usize = 4;
 
@@ -41,21 +42,10 @@ pub(crate) fn overview(report: &Report) -> String {
 }
 
 fn row(out: &mut String, task: &Task, view: &View, y: f64) {
-    let columns = ((view.right() - view.left) / COLUMN).ceil() as usize;
-    let per_column = COLUMN / view.scale();
-    let mut busy = vec![0.0f64; columns];
-    let mut waits = vec![false; columns];
-    for span in task.track.spans() {
-        let tone = task.track.kind(*span).tone;
-        if tone == Tone::Idle {
-            continue;
-        }
-        let (from, to) = (span.start as f64 / per_column, span.end as f64 / per_column);
-        for column in from as usize..(to.ceil() as usize).min(columns) {
-            busy[column] += (to.min(column as f64 + 1.0) - from.max(column as f64)).max(0.0);
-            waits[column] |= tone == Tone::Wait;
-        }
-    }
+    let columns = columns(&task.track, view, task.period);
+    // Idle comes first in the order of tones.
+    let busy: Vec<f64> = columns.iter().map(|column| column.shares[1..].iter().sum()).collect();
+    let x = |tick: f64| tick * view.scale();
     for shade in 1..=SHADES {
         let shaded = |share: f64| (share.min(1.0) * SHADES as f64).ceil() as usize == shade;
         let mut path = String::new();
@@ -63,7 +53,8 @@ fn row(out: &mut String, task: &Task, view: &View, y: f64) {
             &busy,
             |share| *share > 0.01 && shaded(*share),
             |from, to| {
-                box_path(&mut path, view.left + from as f64 * COLUMN, y, (to - from) as f64 * COLUMN, ROW);
+                let (from, to) = (x(columns[from].from), x(columns[to - 1].to));
+                box_path(&mut path, from, y, to - from, ROW);
             },
         );
         if !path.is_empty() {
@@ -71,13 +62,15 @@ fn row(out: &mut String, task: &Task, view: &View, y: f64) {
         }
     }
     let mut path = String::new();
-    runs(
-        &waits,
-        |wait| *wait,
-        |from, to| {
-            box_path(&mut path, view.left + from as f64 * COLUMN, y + ROW - 2.0, (to - from) as f64 * COLUMN, 2.0);
-        },
-    );
+    let mut drawn = f64::MIN;
+    for span in task.track.spans().iter().filter(|span| task.track.kind(**span).tone == Tone::Wait) {
+        let from = view.x(span.start).max(drawn);
+        let to = view.x(span.end).max(view.x(span.start) + LEAST);
+        if to > from {
+            box_path(&mut path, from, y + ROW - 2.0, to - from, 2.0);
+            drawn = to;
+        }
+    }
     for tick in &task.misses {
         box_path(&mut path, view.x(*tick) - 1.0, y - 1.0, 2.0, ROW + 2.0);
     }

@@ -3,6 +3,7 @@
 
 use crate::lanes::Strip;
 use crate::markup::{Px, Text, put};
+use crate::svg::columns::columns;
 use crate::svg::text_width;
 use crate::svg::view::{View, box_path};
 use crate::time::TimeBase;
@@ -11,8 +12,6 @@ use crate::track::Span;
 
 /// Spans narrower than this on average are stacked.
 const FINE: f64 = 2.2;
-/// Width of a column of stacked time.
-const COLUMN: f64 = 3.0;
 /// Size of the words in boxes.
 const WORDS: f64 = 10.5;
 
@@ -22,7 +21,7 @@ pub(crate) fn strip(out: &mut String, strip: &Strip, view: &View, told: Option<(
     let Some((first, last)) = spans.first().zip(spans.last()) else { return };
     let drawn = view.clamped(last.end) - view.clamped(first.start);
     if drawn / (spans.len() as f64) < FINE {
-        stacked(out, strip, spans, view);
+        stacked(out, strip, view);
     } else if let Some((lane, time)) = told {
         titled(out, strip, spans, view, lane, time);
     } else {
@@ -87,26 +86,16 @@ fn put_path(out: &mut String, tone: Tone, path: &str) {
     }
 }
 
-fn stacked(out: &mut String, strip: &Strip, spans: &[Span], view: &View) {
-    let columns = ((view.right() - view.left) / COLUMN).ceil().max(1.0) as usize;
-    let per_column = COLUMN / view.scale();
-    let mut time = vec![[0.0f64; Tone::ALL.len()]; columns];
-    for (span, tone) in drawn(strip, spans) {
-        let from = (span.start.max(view.start) - view.start) as f64 / per_column;
-        let to = (span.end.min(view.end) - view.start) as f64 / per_column;
-        let place = Tone::ALL.iter().position(|known| *known == tone).unwrap_or(0);
-        for (column, shares) in time.iter_mut().enumerate().take(to.ceil() as usize).skip(from as usize) {
-            shares[place] += (to.min(column as f64 + 1.0) - from.max(column as f64)).max(0.0);
-        }
-    }
-    let mut base = vec![strip.y + strip.height; columns];
-    for (place, tone) in Tone::ALL.into_iter().enumerate() {
+fn stacked(out: &mut String, strip: &Strip, view: &View) {
+    let columns = columns(strip.track, view, strip.rhythm);
+    let mut base = vec![strip.y + strip.height; columns.len()];
+    for (place, tone) in Tone::ALL.into_iter().enumerate().filter(|(_, tone)| *tone != Tone::Idle) {
         let mut path = String::new();
-        for (column, shares) in time.iter().enumerate().filter(|(_, shares)| shares[place] > 0.001) {
-            let height = shares[place].min(1.0) * strip.height;
-            base[column] -= height;
-            let x = view.left + column as f64 * COLUMN;
-            box_path(&mut path, x, base[column], COLUMN.min(view.right() - x), height);
+        for (column, base) in columns.iter().zip(&mut base).filter(|(column, _)| column.shares[place] > 0.001) {
+            let height = column.shares[place].min(1.0) * strip.height;
+            *base -= height;
+            let place = |tick: f64| view.left + (tick - view.start as f64) * view.scale();
+            box_path(&mut path, place(column.from), *base, place(column.to) - place(column.from), height);
         }
         put_path(out, tone, &path);
     }
