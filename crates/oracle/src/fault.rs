@@ -43,7 +43,7 @@ impl Fault {
             Fault::Overflow => "integer-overflow",
             Fault::NotANumber => "not-a-number",
             Fault::NotEnumerable => "domain-not-enumerable",
-            Fault::NotARule(_) => "not-a-rule",
+            Fault::NotARule(_) => "not-runnable",
             Fault::WrongArguments => "wrong-arguments",
             Fault::Temporal => "temporal-operator",
             Fault::Limit => "limit-reached",

@@ -7,6 +7,8 @@ use super::signature::{CARRIERS, ENUMS, Function, Kind, RANGES, Signature, Type}
 /// What a term may mention.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Layer {
+    /// No function at all.
+    Literals,
     /// Static functions.
     Static,
     /// Static and initialised functions.
@@ -31,15 +33,32 @@ pub(super) struct Scope {
     pub locals: Vec<Function>,
     /// The place is within a rule that the agents run.
     pub agent: bool,
+    /// The place is within the main rule: what runs rules by their values runs no end of them elsewhere.
+    pub main: bool,
     /// The place is within a turbo rule: it may have local functions.
     pub turbo: bool,
     /// What the turbo rule returns.
     pub result: Option<Type>,
 }
 
+impl Layer {
+    /// May dynamic domains be ranged over?
+    pub fn reads_domains(self) -> bool {
+        matches!(self, Layer::Initial | Layer::State)
+    }
+}
+
 impl Scope {
     pub fn new(layer: Layer) -> Scope {
-        Scope { layer, variables: Vec::new(), locals: Vec::new(), agent: false, turbo: false, result: None }
+        Scope {
+            layer,
+            variables: Vec::new(),
+            locals: Vec::new(),
+            agent: false,
+            main: false,
+            turbo: false,
+            result: None,
+        }
     }
 
     /// With one more variable.
@@ -124,6 +143,7 @@ impl Builder {
     /// The functions that give a term of a type in a scope.
     pub fn functions(&self, scope: &Scope, wanted: &Type) -> Vec<Function> {
         let readable = |function: &&Function| match scope.layer {
+            Layer::Literals => false,
             Layer::Static => function.kind == Kind::Static,
             Layer::Initial => matches!(function.kind, Kind::Static | Kind::Controlled),
             Layer::State => function.kind != Kind::Out,

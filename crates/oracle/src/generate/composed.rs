@@ -1,6 +1,6 @@
 //! Random terms by the library functions and binding constructs of each type.
 
-use super::builder::{Builder, Scope, leaf, term};
+use super::builder::{Builder, Layer, Scope, leaf, term};
 use super::piece::Piece;
 use super::signature::Type;
 
@@ -33,6 +33,20 @@ impl Builder {
         term(wanted, template, children)
     }
 
+    /// Two operands of a numeric operation, now and then one of a smaller domain.
+    fn operands(&mut self, scope: &Scope, wanted: &Type, template: &str, domain: &Type, depth: u32) -> Piece {
+        let smaller = match domain {
+            Type::Integer => [Type::Natural, Type::Integer],
+            Type::Real => [Type::Natural, Type::Integer],
+            other => [other.clone(), other.clone()],
+        };
+        let mixed = if self.random.percent(12) { &smaller[self.random.below(2)] } else { domain };
+        match self.random.percent(50) {
+            true => self.filled(scope, wanted, template, &[mixed, domain], depth),
+            false => self.filled(scope, wanted, template, &[domain, mixed], depth),
+        }
+    }
+
     fn one_of<'t>(&mut self, templates: &[&'t str]) -> &'t str {
         templates[self.random.below(templates.len())]
     }
@@ -57,7 +71,7 @@ impl Builder {
             4 | 5 => {
                 let number = [Type::Integer, Type::Integer, Type::Natural, Type::Real][self.random.below(4)].clone();
                 let template = self.one_of(&["(§ < §)", "(§ <= §)", "(§ > §)", "(§ >= §)"]);
-                self.filled(scope, boolean, template, &[&number, &number], depth)
+                self.operands(scope, boolean, template, &number, depth)
             }
             6 | 7 => {
                 let domain = self.any_type(1);
@@ -99,7 +113,7 @@ impl Builder {
         match self.random.below(14) {
             0..=4 => {
                 let template = self.one_of(&["(§ + §)", "(§ - §)", "(§ * §)", "max(§, §)", "min(§, §)", "plus(§, §)"]);
-                self.filled(scope, wanted, template, &[integer, integer], depth)
+                self.operands(scope, wanted, template, integer, depth)
             }
             5 => {
                 let divisor = ["2", "3", "-2", "7"][self.random.below(4)];
@@ -164,7 +178,7 @@ impl Builder {
         match self.random.below(10) {
             0..=3 => {
                 let template = self.one_of(&["(§ + §)", "(§ - §)", "(§ * §)", "max(§, §)", "min(§, §)"]);
-                self.filled(scope, real, template, &[real, real], depth)
+                self.operands(scope, real, template, real, depth)
             }
             4 => self.filled(scope, real, "(§ / 4.0)", &[real], depth),
             5 if self.random.percent(30) => self.filled(scope, real, "(§ / §)", &[real, real], depth),

@@ -168,7 +168,9 @@ impl Builder {
     }
 
     fn main(&mut self, size: u32) -> Piece {
-        let body = self.rule(&Scope::new(Layer::State), size + 1);
+        let mut scope = Scope::new(Layer::State);
+        scope.main = true;
+        let body = self.rule(&scope, size + 1);
         Piece::new(Sort::Fixed, "main rule r_Main = §\n", vec![body])
     }
 
@@ -196,10 +198,15 @@ impl Builder {
             }
             let finite =
                 |domain: &Type| matches!(domain, Type::Boolean | Type::Enum(_) | Type::Concrete(_) | Type::Element(_));
-            // The initial value of one of infinitely many locations is due when it is read: it had better be static.
+            // The initial value of one of infinitely many locations is due when it is read, or before it is overwritten:
+            // it had better be a plain one.
             let eager = function.parameters.iter().all(finite);
             let reads = eager && self.random.percent(20);
-            let mut scope = Scope::new(if reads { Layer::Initial } else { Layer::Static });
+            let mut scope = Scope::new(match (eager, reads) {
+                (false, _) => Layer::Literals,
+                (true, false) => Layer::Static,
+                (true, true) => Layer::Initial,
+            });
             let mut formal = Vec::new();
             for parameter in &function.parameters {
                 let variable = self.name(&scope);
@@ -207,7 +214,10 @@ impl Builder {
                 scope = scope.with(&variable, parameter);
             }
             let formal = if formal.is_empty() { String::new() } else { format!("({})", formal.join(", ")) };
-            let value = self.inside(&scope, &function.codomain, 2);
+            let value = match eager {
+                true => self.inside(&scope, &function.codomain, 2),
+                false => self.small(&Scope::new(Layer::Literals), &function.codomain),
+            };
             items.push(Piece::new(Sort::Item, &format!("function {}{formal} = §\n", function.name), vec![value]));
         }
         items.push(Piece::text(Sort::Item, "agent Worker: r_program[]\n"));

@@ -37,9 +37,12 @@ impl Builder {
             25 | 26 => self.repeated(scope, depth),
             27 | 28 => self.call(scope, false).unwrap_or_else(|| self.update(scope, 3)),
             29 | 30 => self.call(scope, true).unwrap_or_else(|| self.update(scope, 3)),
-            31 if !scope.agent => self.agents(scope),
+            31 if scope.main => self.agents(scope),
             32 if scope.turbo => self.local(scope, depth),
-            _ => self.run_value(scope).unwrap_or_else(|| self.several(scope, "seq", depth)),
+            33 if scope.main || self.random.percent(5) => {
+                self.run_value(scope).unwrap_or_else(|| self.update(scope, 3))
+            }
+            _ => self.several(scope, "seq", depth),
         }
     }
 
@@ -186,7 +189,7 @@ impl Builder {
         let called = self.random.pick(&rules)?.clone();
         let mut arguments = Vec::new();
         for parameter in &called.parameters {
-            arguments.push(self.argument(scope, parameter)?);
+            arguments.push(self.passed(scope, parameter)?);
         }
         if !turbo {
             return Some(rule(&format!("{}[{}]", called.name, holes(arguments.len())), arguments));
@@ -201,15 +204,14 @@ impl Builder {
         }
     }
 
-    fn argument(&mut self, scope: &Scope, parameter: &Parameter) -> Option<Piece> {
+    fn passed(&mut self, scope: &Scope, parameter: &Parameter) -> Option<Piece> {
         if !parameter.location {
             return Some(self.inside(scope, &parameter.domain, 2));
         }
         let fitting = |variable: &&Variable| variable.location && variable.domain == parameter.domain;
-        let passed: Vec<String> =
-            scope.variables.iter().filter(fitting).map(|variable| variable.name.clone()).collect();
-        if !passed.is_empty() && self.random.percent(40) {
-            return self.random.pick(&passed).map(|name| Piece::text(Sort::Fixed, name.clone()));
+        let names: Vec<String> = scope.variables.iter().filter(fitting).map(|variable| variable.name.clone()).collect();
+        if !names.is_empty() && self.random.percent(40) {
+            return self.random.pick(&names).map(|name| Piece::text(Sort::Fixed, name.clone()));
         }
         Some(self.location(scope, Some(&parameter.domain), 2)?.0)
     }

@@ -155,14 +155,10 @@ impl Type {
         }
     }
 
-    /// May a term of this type stand where one of the other is wanted?
+    /// Does a term of this type have the other one's domain, subsets aside? Numbers of a smaller domain would fit in
+    /// most places too, but not as elements of a collection.
     pub fn fits(&self, wanted: &Type) -> bool {
         self.base() == wanted.base()
-            || match wanted {
-                Type::Integer => *self == Type::Natural,
-                Type::Real => matches!(self.base(), Type::Natural | Type::Integer),
-                _ => false,
-            }
     }
 }
 

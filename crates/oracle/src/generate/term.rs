@@ -71,7 +71,8 @@ impl Builder {
                     .filter(named)
                     .collect();
                 match self.random.pick(&elements) {
-                    Some(element) if !self.random.percent(10) => element.to_string(),
+                    Some(element) if !scope.layer.reads_domains() || !self.random.percent(10) => element.to_string(),
+                    None if !scope.layer.reads_domains() => "undef".to_string(),
                     _ => format!("chooseone({})", CARRIERS[*index].name),
                 }
             }
@@ -134,7 +135,7 @@ impl Builder {
 
     /// Terms for parameters.
     pub fn arguments(&mut self, scope: &Scope, parameters: &[Type], depth: u32) -> Vec<Piece> {
-        parameters.iter().map(|parameter| self.inside(scope, parameter, depth)).collect()
+        parameters.iter().map(|parameter| self.argument(scope, parameter, depth)).collect()
     }
 
     /// A term of a type that, where the type is a subset of its base, is mostly in it.
@@ -159,6 +160,21 @@ impl Builder {
             }
             _ => self.term(scope, wanted, depth),
         }
+    }
+
+    /// An argument: a function that is declared for a subset of an abstract domain takes no others of that.
+    fn argument(&mut self, scope: &Scope, wanted: &Type, depth: u32) -> Piece {
+        let Type::Element(index) = wanted else { return self.inside(scope, wanted, depth) };
+        if CARRIERS[*index].base.is_none() {
+            return self.inside(scope, wanted, depth);
+        }
+        let exact = scope.variables.iter().filter(|variable| variable.domain == *wanted);
+        let mut names: Vec<String> = exact.map(|variable| variable.name.clone()).collect();
+        names.extend(CARRIERS[*index].elements.iter().map(|element| element.to_string()));
+        if names.is_empty() || (scope.layer.reads_domains() && self.random.percent(10)) {
+            names.push(format!("chooseone({})", CARRIERS[*index].name));
+        }
+        Piece::text(Sort::Fixed, names.swap_remove(self.random.below(names.len())))
     }
 
     fn conditional(&mut self, scope: &Scope, wanted: &Type, depth: u32) -> Piece {
@@ -208,7 +224,7 @@ impl Builder {
 
     /// A component of a product or an element of a collection.
     fn selection(&mut self, scope: &Scope, wanted: &Type, depth: u32) -> Piece {
-        if matches!(wanted, Type::Rule(_)) || scope.layer == Layer::Static {
+        if matches!(wanted, Type::Rule(_)) || !scope.layer.reads_domains() {
             return self.small(scope, wanted);
         }
         let other = self.simple(false);
@@ -254,7 +270,11 @@ impl Builder {
         let name = self.name(scope);
         let (range, domain) = match self.random.below(12) {
             0..=6 => {
-                let domain = self.simple(true);
+                let domain = match self.simple(true) {
+                    // What depends on a dynamic domain is not static.
+                    Type::Element(_) if !scope.layer.reads_domains() => Type::Enum(0),
+                    domain => domain,
+                };
                 (leaf(&domain.clone().set(), domain.name()), domain)
             }
             7 => {

@@ -1,6 +1,6 @@
 //! Runs machine and oracle side by side and compares all that can be seen.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use machine::{FaultKind, Limits, Machine};
@@ -18,6 +18,8 @@ pub struct Plan {
     pub seed: u64,
     /// How many steps to try.
     pub steps: u64,
+    /// Of both.
+    pub bounds: Bounds,
 }
 
 /// What was run in agreement.
@@ -25,10 +27,8 @@ pub struct Plan {
 pub struct Outcome {
     /// Steps committed.
     pub steps: u64,
-    /// Steps that came to a fault.
-    pub faults: u64,
-    /// Of these, inconsistent updates.
-    pub clashes: u64,
+    /// How often each fault was come to.
+    pub faults: BTreeMap<&'static str, u64>,
 }
 
 /// Where they differ.
@@ -50,7 +50,7 @@ impl Disagreement {
 /// Runs both.
 pub fn run(model: &Model, program: Program, plan: Plan) -> Result<Outcome, Disagreement> {
     let program = Arc::new(program);
-    let bounds = Bounds::default();
+    let bounds = plan.bounds;
     let limits = Limits {
         iterations: bounds.iterations,
         call_depth: bounds.depth,
@@ -109,6 +109,7 @@ impl Pair<'_> {
         if matches!(&expected, Err(Fault::Limit)) || matches!(&actual, Err(fault) if fault.kind.id() == "limit-reached")
         {
             // The two count differently what they bound.
+            *self.outcome.faults.entry("limit-reached").or_default() += 1;
             return Ok(false);
         }
         self.same_outcome(what, &expected, &actual)?;
@@ -116,11 +117,10 @@ impl Pair<'_> {
             // The machine stops at the first clash, the book's update set is complete before it is inconsistent.
             of_oracle.choices.truncate(of_machine.choices.len());
             of_oracle.asked.retain(|location, _| of_machine.asked.contains_key(location));
-            self.outcome.clashes += 1;
         }
         self.same_world(what, &of_oracle, &of_machine)?;
-        if expected.is_err() {
-            self.outcome.faults += 1;
+        if let Err(fault) = &expected {
+            *self.outcome.faults.entry(fault.id()).or_default() += 1;
             if what == "start" {
                 return Ok(false);
             }

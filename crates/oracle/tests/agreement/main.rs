@@ -14,11 +14,13 @@ mod convert;
 mod files;
 mod world;
 
+use std::collections::BTreeMap;
 use std::panic::AssertUnwindSafe;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use compare::{Disagreement, Outcome, Plan};
 use files::{Disk, NoFiles};
+use oracle::Bounds;
 use syntax::{Severity, SourceFile};
 
 /// The oracle recurses as deep as the model: its threads have room.
@@ -30,6 +32,25 @@ enum Verdict {
     Rejected(String),
     Agreed(Outcome),
     Disagreed(Disagreement),
+}
+
+/// What became of all random models.
+#[derive(Debug, Default)]
+struct Total {
+    rejected: u64,
+    agreed: u64,
+    steps: u64,
+    faults: BTreeMap<&'static str, u64>,
+}
+
+impl Total {
+    fn add(&mut self, outcome: Outcome) {
+        self.agreed += 1;
+        self.steps += outcome.steps;
+        for (id, count) in outcome.faults {
+            *self.faults.entry(id).or_default() += count;
+        }
+    }
 }
 
 /// Runs a text in both.
@@ -77,8 +98,7 @@ fn deep<T: Send>(body: impl FnOnce() -> T + Send) -> T {
 fn random_models() {
     let cases = setting("GROUNDSTATE_CASES", 150);
     let first = setting("GROUNDSTATE_SEED", 1);
-    let counts: [AtomicU64; 4] = Default::default();
-    let steps = AtomicU64::new(0);
+    let total = std::sync::Mutex::new(Total::default());
     let failures = std::sync::Mutex::new(Vec::new());
     let next = AtomicU64::new(0);
     let work = || {
@@ -88,22 +108,25 @@ fn random_models() {
                 return;
             }
             let seed = first + case;
-            let plan = Plan { seed, steps: 6 };
+            let bounds = Bounds { iterations: 200, depth: 50, elements: 2000 };
+            let plan = Plan { seed, steps: 6, bounds };
+            if std::env::var("GROUNDSTATE_TRACE").is_ok() {
+                eprintln!("begin {seed}");
+            }
             let piece = oracle::generate::model(seed, 2 + (seed % 2) as u32);
             let text = piece.to_string();
-            match judge(&text, plan) {
+            let verdict = judge(&text, plan);
+            if std::env::var("GROUNDSTATE_TRACE").is_ok() {
+                eprintln!("end {seed}");
+            }
+            match verdict {
                 Verdict::Rejected(reason) => {
-                    counts[0].fetch_add(1, Ordering::Relaxed);
+                    total.lock().expect("unpoisoned").rejected += 1;
                     if std::env::var("GROUNDSTATE_REJECTED").is_ok() {
                         eprintln!("{seed}: {reason}");
                     }
                 }
-                Verdict::Agreed(outcome) => {
-                    counts[1].fetch_add(1, Ordering::Relaxed);
-                    counts[2].fetch_add(u64::from(outcome.faults > 0), Ordering::Relaxed);
-                    counts[3].fetch_add(outcome.clashes, Ordering::Relaxed);
-                    steps.fetch_add(outcome.steps, Ordering::Relaxed);
-                }
+                Verdict::Agreed(outcome) => total.lock().expect("unpoisoned").add(outcome),
                 Verdict::Disagreed(found) => {
                     let same = |text: &str| match judge(text, plan) {
                         Verdict::Disagreed(other) => other.kind == found.kind,
@@ -125,21 +148,22 @@ fn random_models() {
             std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work).expect("a thread");
         }
     });
-    let [rejected, agreed, faulty, clashes] = counts.map(AtomicU64::into_inner);
-    let steps = steps.into_inner();
-    println!(
-        "{agreed} models agree in {steps} steps ({faulty} models with faults, {clashes} clashes), {rejected} rejected"
-    );
+    let total = total.into_inner().expect("unpoisoned");
+    println!("{total:?}");
     let failures = failures.into_inner().expect("unpoisoned");
     assert!(failures.is_empty(), "machine and oracle disagree\n\n{}", failures.join("\n\n"));
-    assert!(rejected * 5 <= cases, "the generator's models are refused too often: {rejected} of {cases}");
+    assert!(
+        total.rejected * 20 <= cases,
+        "too many of the generated models are refused: {} of {cases}",
+        total.rejected
+    );
 }
 
 #[test]
 fn models_of_the_library_and_the_examples() {
     let mut run = 0;
     for path in files::models() {
-        let plan = Plan { seed: 1, steps: setting("GROUNDSTATE_STEPS", 50) };
+        let plan = Plan { seed: 1, steps: setting("GROUNDSTATE_STEPS", 50), bounds: Bounds::default() };
         let name = path.display().to_string();
         let text = std::fs::read_to_string(&path).expect("a readable file");
         let found = deep(|| {
