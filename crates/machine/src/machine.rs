@@ -162,6 +162,13 @@ impl Machine {
         let created = core.updates.created().len();
         let mut step = Step { updates: core.updates.len() + created, changed: created > 0 };
         for update in core.updates.updates() {
+            if update.value.is_undef() {
+                // A shared location that the machine has made undef is not asked for.
+                let function = core.store.function_of(update.location);
+                if program.function(function).kind == FunctionKind::Shared {
+                    core.store.given[update.location as usize] = core.epoch;
+                }
+            }
             let value = &mut core.store.values[update.location as usize];
             if *value != update.value {
                 let before = std::mem::replace(value, update.value.clone());

@@ -235,6 +235,11 @@ impl Updates {
         outcome
     }
 
+    /// Whether the intermediate state has overwritten a location.
+    pub fn has_overwritten(&self, location: LocationIndex) -> bool {
+        self.log.iter().any(|entry| entry.location == location)
+    }
+
     /// Takes back every intermediate state and empties the update set; tells whether there was anything.
     pub fn roll_back(&mut self, store: &mut Store) -> bool {
         let any = !(self.stack.is_empty() && self.log.is_empty() && self.created.is_empty());
