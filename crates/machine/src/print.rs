@@ -73,10 +73,16 @@ pub fn element_name(program: &Program, domain: DomainId, index: u32) -> String {
     match &entry.kind {
         DomainKind::Abstract { elements, .. } if (index as usize) < elements.len() => elements[index as usize].clone(),
         DomainKind::Abstract { elements, .. } => {
-            format!("{}!{}", entry.name.to_lowercase(), index as usize - elements.len() + 1)
+            format!("{}!{}", uncapitalised(&entry.name), index as usize - elements.len() + 1)
         }
-        _ => format!("{}!{}", entry.name.to_lowercase(), index + 1),
+        _ => format!("{}!{}", uncapitalised(&entry.name), index + 1),
     }
+}
+
+/// The name with its first letter in lower case.
+fn uncapitalised(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or(String::new(), |first| first.to_lowercase().chain(letters).collect())
 }
 
 fn list<'v>(

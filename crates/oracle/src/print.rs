@@ -33,7 +33,8 @@ pub fn show(model: &Model, value: &Value) -> String {
                 Some(index) => model.function(named.swap_remove(index).0).name.clone(),
                 // Those made by `extend` are counted from 1.
                 None => {
-                    format!("{}!{}", model.domains.display(*domain).to_lowercase(), *number as usize - named.len() + 1)
+                    let name = model.domains.display(*domain);
+                    format!("{}{}!{}", name[..1].to_lowercase(), &name[1..], *number as usize - named.len() + 1)
                 }
             }
         }
