@@ -1,7 +1,8 @@
 //! Parses every model and scenario under the folders given, and prints the faults and the counts.
 //!
-//! Use: `cargo run --release -p syntax --example parse_all -- [--list] FOLDER…`; `--list` names each file with
-//! its number of errors instead of showing the faults.
+//! Use: `cargo run --release -p syntax --example parse_all -- [--list] [--format] FOLDER…`; `--list` names each file with
+//! its number of errors instead of showing the faults; `--format` checks that formatting keeps each file's tokens and
+//! comments, and that formatting twice is formatting once.
 
 #![allow(clippy::disallowed_methods, clippy::disallowed_macros, reason = "a developer's tool, not part of the library")]
 
@@ -11,7 +12,8 @@ use syntax::{FileId, Parse, Severity, SourceFile, Sources};
 fn main() {
     let mut arguments: Vec<String> = std::env::args().skip(1).collect();
     let list = arguments.iter().any(|argument| argument == "--list");
-    arguments.retain(|argument| argument != "--list");
+    let format = arguments.iter().any(|argument| argument == "--format");
+    arguments.retain(|argument| !argument.starts_with("--"));
     let mut files = Vec::new();
     for folder in &arguments {
         collect(Path::new(folder), &mut files);
@@ -35,6 +37,9 @@ fn main() {
         } else {
             faulty += 1
         }
+        if format && errors == 0 {
+            check_format(path, &text, &parse);
+        }
         if list {
             println!("{}\t{errors}", path.display());
         } else {
@@ -45,6 +50,14 @@ fn main() {
     }
     let rate = bytes as f64 / 1e6 / seconds;
     eprintln!("{clean} without errors, {faulty} with errors, {lossy} not lossless; {bytes} bytes, {rate:.1} MB/s");
+}
+
+/// Says whether a file is formatted; that formatting keeps its meaning is asserted elsewhere, and here tried.
+fn check_format(path: &Path, text: &str, parse: &Parse) {
+    syntax::assert_invariants(text.as_bytes());
+    if syntax::format(parse) == text {
+        println!("{}: is formatted", path.display());
+    }
 }
 
 fn parse(file: FileId, path: &Path, text: &str) -> Parse {

@@ -2,7 +2,7 @@
 //!
 //! In: any bytes. Out: nothing, or a panic that names the broken invariant.
 
-use crate::{Diagnostic, FileId, MAX_FAULTS, Parse, parse_asmetal, parse_avalla, parse_term};
+use crate::{Diagnostic, FileId, MAX_FAULTS, Parse, SyntaxKind, format, parse_asmetal, parse_avalla, parse_term};
 
 /// Parses any bytes as a model, a scenario and a term, and asserts what holds of every parse.
 ///
@@ -11,8 +11,9 @@ use crate::{Diagnostic, FileId, MAX_FAULTS, Parse, parse_asmetal, parse_avalla, 
 /// When the parser breaks one of its promises.
 pub fn assert_invariants(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
-    let file = FileId(0);
-    for parse in [parse_asmetal(file, &text), parse_avalla(file, &text), parse_term(file, &text)] {
+    for grammar in [parse_asmetal, parse_avalla, parse_term] {
+        let parse = grammar(FileId(0), &text);
+        assert_formats(&parse, grammar);
         assert_lossless(&parse, &text);
         assert_trimmed(&parse);
         assert!(parse.diagnostics.len() <= MAX_FAULTS + 1, "too many faults are reported");
@@ -25,6 +26,22 @@ pub fn assert_invariants(bytes: &[u8]) {
 
 fn assert_lossless(parse: &Parse, text: &str) {
     assert!(parse.syntax().text() == text, "the tree does not hold the text");
+}
+
+/// Formatting keeps the tokens, comments and nodes of a text without errors; formatting twice is formatting once.
+fn assert_formats(parse: &Parse, grammar: fn(FileId, &str) -> Parse) {
+    let formatted = format(parse);
+    let again = grammar(FileId(0), &formatted);
+    assert!(words(parse) == words(&again), "formatting changes more than white space: {formatted}");
+    assert!(format(&again) == formatted, "formatting again changes the text: {formatted}");
+}
+
+/// All of a tree but its white space; a comment's blanks at its end do not count.
+fn words(parse: &Parse) -> Vec<(SyntaxKind, String)> {
+    let root = parse.syntax();
+    let elements = root.descendants_with_tokens().filter(|element| element.kind() != SyntaxKind::WHITESPACE);
+    let text = |element: &crate::SyntaxElement| element.as_token().map(|token| token.text().trim_end().to_string());
+    elements.map(|element| (element.kind(), text(&element).unwrap_or_default())).collect()
 }
 
 /// No node but the root starts or ends with trivia.

@@ -13,6 +13,7 @@ pub mod source;
 
 mod dump;
 mod fault;
+mod format;
 mod grammar;
 mod invariant;
 mod lexer;
@@ -22,6 +23,7 @@ mod token_set;
 pub use diagnostic::{Diagnostic, Label, Severity};
 pub use dump::dump;
 pub use fault::IDS as FAULT_IDS;
+pub use format::format;
 pub use invariant::assert_invariants;
 pub use kind::{AsmetaL, SyntaxKind};
 pub use parser::{MAX_CHAIN, MAX_FAULTS, MAX_NESTING, MAX_TEXT_BYTES};
@@ -33,6 +35,9 @@ use lexer::Mode;
 pub type SyntaxNode = rowan::SyntaxNode<AsmetaL>;
 /// A token of the lossless tree.
 pub type SyntaxToken = rowan::SyntaxToken<AsmetaL>;
+
+/// A node or a token of the lossless tree.
+pub type SyntaxElement = rowan::SyntaxElement<AsmetaL>;
 
 /// What parsing one file gives: always a tree, and the faults found.
 #[derive(Debug, Clone)]

@@ -33,7 +33,7 @@ pub trait AstNode: Sized {
 /// INVARIANT: the parser puts trivia outside the nodes it separates, so only the root has trivia at its ends, and only
 /// the node's own children need a look. This takes constant time for all other nodes.
 pub fn trimmed_range(node: &SyntaxNode) -> rowan::TextRange {
-    let trivia = |element: &rowan::SyntaxElement<AsmetaL>| element.kind().is_trivia();
+    let trivia = |element: &crate::SyntaxElement| element.kind().is_trivia();
     let mut first = node.first_child_or_token();
     while let Some(element) = first.as_ref().filter(|element| trivia(element)) {
         first = element.next_sibling_or_token();

@@ -23,6 +23,7 @@ mod sets;
 mod term;
 
 pub(crate) use file::source_file;
+pub(crate) use operator::power_of;
 pub(crate) use scenario::scenario_file;
 
 use crate::parser::Parser;

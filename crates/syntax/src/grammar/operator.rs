@@ -18,7 +18,8 @@ const POWER: u8 = 8;
 /// The power of signs, above every infix operator.
 pub(super) const SIGN: u8 = 9;
 
-fn power_of(operator: &str) -> Option<u8> {
+/// How tightly an operator binds.
+pub(crate) fn power_of(operator: &str) -> Option<u8> {
     Some(match operator {
         "implies" | "iff" => LOWEST,
         "or" | "xor" => 2,

@@ -10,7 +10,7 @@ use logos::Logos;
 pub(super) enum Raw {
     #[regex(r"[\s\u{FEFF}]+")]
     Whitespace,
-    #[regex(r"//[^\n]*", allow_greedy = true)]
+    #[regex(r"//[^\r\n]*", allow_greedy = true)]
     LineComment,
     #[token("/*", block_comment)]
     BlockComment,
@@ -102,7 +102,7 @@ pub(super) enum Raw {
     #[token("/\\")]
     #[token("\\/")]
     Foreign,
-    #[regex(r"#[^\n]*", allow_greedy = true)]
+    #[regex(r"#[^\r\n]*", allow_greedy = true)]
     ForeignComment,
 }
 
