@@ -27,7 +27,7 @@ scenarios: $(GROUNDSTATE)
 	$(GROUNDSTATE) test $(MODELS)
 
 fuzz: ## the fuzz targets, for a short time
-	$(CARGO) xtask fuzz --seconds 20
+	sh fuzz/run.sh 15
 
 bench: ## steps per second and peak memory of this project's models
 	$(CARGO) xtask bench
