@@ -4,13 +4,17 @@ mod support;
 
 use std::path::PathBuf;
 
+use expect_test::expect_file;
 use model::IDS;
 use support::{check_file, faults};
+use syntax::Severity;
 
 struct Page {
     id: String,
     /// The name and text of the example.
     example: (String, String),
+    /// The page says that the fault is a warning.
+    warning: bool,
     /// Files that it imports.
     others: Vec<(String, String)>,
 }
@@ -35,23 +39,42 @@ fn page(id: &str) -> Page {
             false => others.push((named.expect("a file name").to_string(), code.to_string())),
         }
     }
-    Page { id: id.to_string(), example: example.unwrap_or_else(|| panic!("the page of {id} has no example")), others }
+    let warning = text.contains("\n*A warning.* ");
+    Page {
+        id: id.to_string(),
+        warning,
+        example: example.unwrap_or_else(|| panic!("the page of {id} has no example")),
+        others,
+    }
 }
 
 #[test]
 fn each_id_has_a_page_whose_example_yields_it_and_nothing_else() {
     let mut trouble = String::new();
     for id in IDS {
-        let Page { id, example: (name, text), others } = page(id);
+        let Page { id, example: (name, text), warning, others } = page(id);
         let mut others: Vec<(&str, &str)> = others.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
         others.push((&name, &text));
         let checked = check_file(&name, &text, &others);
         let found: Vec<&str> = checked.diagnostics.iter().map(|fault| fault.id).collect();
-        if found != [id.as_str()] {
+        let severity = if warning { Severity::Warning } else { Severity::Error };
+        if found != [id.as_str()] || checked.diagnostics[0].severity != severity {
             trouble += &format!("{id}: {found:?}\n{}\n", faults(&checked));
         }
     }
     assert!(trouble.is_empty(), "{trouble}");
+}
+
+#[test]
+fn the_wording_of_each_fault() {
+    let mut all = String::new();
+    for id in IDS {
+        let Page { example: (name, text), mut others, .. } = page(id);
+        others.push((name.clone(), text.clone()));
+        let others: Vec<(&str, &str)> = others.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
+        all += &format!("{}\n", faults(&check_file(&name, &text, &others)));
+    }
+    expect_file!["faults.txt"].assert_eq(&all);
 }
 
 #[test]

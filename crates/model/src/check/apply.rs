@@ -224,8 +224,12 @@ impl Body<'_> {
         let domains: Vec<String> = arguments.iter().map(|argument| self.site.display(argument.domain)).collect();
         let message = format!("no `{}` takes {}", written.shown, fault::list(&domains));
         let operands: Vec<(Span, String)> = arguments.iter().map(|argument| argument.span).zip(domains).collect();
-        let mut takes: Vec<String> =
-            candidates.iter().map(|id| self.site.product(&self.site.model.function(*id).parameters)).collect();
+        let domains_of = |id: &FunctionId| -> String {
+            let parameters = &self.site.model.function(*id).parameters;
+            let parts: Vec<String> = parameters.iter().map(|domain| self.site.display(*domain)).collect();
+            if parts.len() == 1 { parts.concat() } else { format!("({})", parts.join(", ")) }
+        };
+        let mut takes: Vec<String> = candidates.iter().map(domains_of).collect();
         takes.dedup();
         let shown = takes.len().min(6);
         let more = if takes.len() > shown { format!(" and {} more", takes.len() - shown) } else { String::new() };

@@ -173,18 +173,17 @@ impl<'a> Body<'a> {
             None => {}
         }
         let plain = name.trim_start_matches('$');
+        let elsewhere = self.variables.iter().find(|variable| variable.name == name).map(|variable| variable.span);
         let help = if self.site.names.functions.contains_key(plain) {
             format!("did you mean the function `{plain}`?")
+        } else if elsewhere.is_some() {
+            "put this inside that scope, or bind the variable again around it".to_string()
         } else {
-            let elsewhere = self.variables.iter().find(|variable| variable.name == name);
-            match elsewhere {
-                Some(_) => format!("`{name}` is bound elsewhere in this declaration, but its scope ends before here"),
-                None => did_you_mean(name, self.visible(), || {
-                    format!("bind it: as a parameter, or by `let`, `forall`, `choose`, as in `forall {name} in …`")
-                }),
-            }
+            did_you_mean(name, self.visible(), || {
+                format!("bind it: as a parameter, or by `let`, `forall`, `choose`, as in `forall {name} in …`")
+            })
         };
-        self.site.faults.push(fault::name::unknown_variable(span, name, help));
+        self.site.faults.push(fault::name::unknown_variable(span, name, elsewhere, help));
         error_term(span)
     }
 }

@@ -39,6 +39,28 @@ use local_state::UpdatedParameters;
 ///
 /// Never fails and never panics: what could not be understood is in `diagnostics`, and everything else is checked
 /// all the same, so one run shows all faults.
+///
+/// ```
+/// use model::{Loader, check};
+/// use syntax::SourceFile;
+///
+/// struct NoFiles;
+/// impl Loader for NoFiles {
+///     fn load(&mut self, _: &SourceFile, _: &str) -> Result<SourceFile, String> {
+///         Err("there is no such file".to_string())
+///     }
+/// }
+///
+/// let text = "asm count
+///     import StandardLibrary
+///     signature:
+///         controlled n: Integer
+///     definitions:
+///         main rule r_Main = n := n + 1";
+/// let checked = check(SourceFile::new("count.asm", text), &mut NoFiles);
+/// assert!(checked.diagnostics.is_empty());
+/// assert!(checked.model.dump().contains("n := plus(n, 1)"));
+/// ```
 pub fn check(root: SourceFile, loader: &mut dyn Loader) -> Checked {
     let mut sources = Sources::default();
     let mut faults = Faults::default();

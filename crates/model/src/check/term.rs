@@ -107,6 +107,9 @@ impl Body<'_> {
 
     fn unary(&mut self, term: &ast::UnaryTerm, span: Span) -> Term {
         let Some(operator) = term.operator() else { return error_term(span) };
+        if let (SyntaxKind::MINUS, Some(least)) = (operator.kind(), least_integer(term.operand())) {
+            return Term { kind: TermKind::Literal(Literal::Integer(least)), domain: Domains::INTEGER, span };
+        }
         let operand = self.optional_term(term.operand(), span);
         let name = match operator.kind() {
             SyntaxKind::MINUS => "minus",
@@ -273,6 +276,13 @@ impl Body<'_> {
             None => error_term(span),
         }
     }
+}
+
+/// The least integer, whose digits alone are beyond the greatest.
+fn least_integer(operand: Option<ast::Term>) -> Option<i64> {
+    let Some(ast::Term::Literal(literal)) = operand else { return None };
+    let token = literal.token().filter(|token| token.kind() == SyntaxKind::INTEGER)?;
+    (token.text().parse::<u64>().ok()? == i64::MIN.unsigned_abs()).then_some(i64::MIN)
 }
 
 /// The library function behind a binary operator.

@@ -17,9 +17,13 @@ pub(crate) fn unknown_rule(span: Span, name: &str, help: String) -> Diagnostic {
     Diagnostic::error("unknown-rule", span, format!("there is no rule `{name}`")).with_help(help)
 }
 
-/// A variable that is not bound here.
-pub(crate) fn unknown_variable(span: Span, name: &str, help: String) -> Diagnostic {
-    Diagnostic::error("unknown-variable", span, format!("`{name}` is not bound here")).with_help(help)
+/// A variable that is not bound here, but perhaps in another scope.
+pub(crate) fn unknown_variable(span: Span, name: &str, elsewhere: Option<Span>, help: String) -> Diagnostic {
+    let fault = Diagnostic::error("unknown-variable", span, format!("`{name}` is not bound here")).with_help(help);
+    match elsewhere {
+        Some(place) => fault.with_label(place, "bound here, but its scope ends before"),
+        None => fault,
+    }
 }
 
 /// An enum literal that no enum domain has.

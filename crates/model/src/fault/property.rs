@@ -11,7 +11,7 @@ pub(crate) fn not_boolean(span: Span, what: &str, found: &str) -> Diagnostic {
 
 /// An item of an over list that names nothing.
 pub(crate) fn over_unknown(span: Span, name: &str, help: String) -> Diagnostic {
-    Diagnostic::error(
+    Diagnostic::warning(
         "over-unknown-name",
         span,
         format!("the invariant is over `{name}`, but there is nothing of that name"),

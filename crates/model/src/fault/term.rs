@@ -63,7 +63,7 @@ pub(crate) fn narrower_domain(span: Span, name: &str, expected: &str, found: &st
         span,
         format!("`{name}` is declared for {expected} only, but this is any {found}"),
     )
-    .because(format!("may be a {found} outside {expected}"))
+    .because(format!("may be outside {expected}"))
     .with_label(declared, format!("`{name}` is declared here"))
     .with_help(format!("range over {expected} instead of {found}, or declare `{name}` over {found}"))
 }
