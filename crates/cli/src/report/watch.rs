@@ -28,7 +28,12 @@ impl Watch {
         for text in terms {
             match lower(loaded, text, places[text]) {
                 Ok(term) => lowered.push(term),
-                Err(found) => faults.extend(found),
+                // A term with `{}` stands for many; what is wrong with it is told once.
+                Err(found) => found.into_iter().for_each(|fault| {
+                    if !faults.contains(&fault) {
+                        faults.push(fault);
+                    }
+                }),
             }
         }
         if !faults.is_empty() {
