@@ -94,7 +94,8 @@ pub enum Expected {
 }
 
 fn expected(node: &crate::SyntaxNode) -> Expected {
-    let has = |word: &str| tokens(node).any(|token| token.text() == word);
+    // The name of an invariant is none of the words.
+    let has = |word: &str| tokens(node).any(|token| token.kind() != GENERIC_ID && token.text() == word);
     if has("inconsistent") {
         Expected::InconsistentUpdate
     } else if has("error") {

@@ -1,6 +1,6 @@
 //! The faults of syntax: one constructor each, so that all texts are seen together.
 //!
-//! In: the place and what stands there. Out: a [`Diagnostic`] whose id is one of [`IDS`] and has a page
+//! In: the place and what stands there. Out: a [`crate::Diagnostic`] whose id is one of [`IDS`] and has a page
 //! `spec/faults/<id>.md`. Each message says what is wrong, the reason what was expected, the help what to write.
 
 mod lexical;
@@ -17,7 +17,6 @@ pub const IDS: &[&str] = &[
     "duplicate-section",
     "equals-for-assign",
     "expected-command",
-    "expected-declaration",
     "expected-definition",
     "expected-domain",
     "expected-name",

@@ -1,4 +1,7 @@
-//! Faults of the parser.
+//! Faults of the parser: one constructor for each thing that can be wrong with the structure of a text.
+//!
+//! In: [`Found`], what stands at the place. Out: a diagnostic. The constructors only word the fault; when to report it,
+//! and how to go on, is decided in `grammar::recovery`.
 
 use super::wording::{expected, found, name_of, renamed, shape_of};
 use crate::{Diagnostic, Span, SyntaxKind, SyntaxKind::*};

@@ -1,4 +1,7 @@
 //! Which comments belong to a token: those behind it on its line, and those on the lines before it.
+//!
+//! In: a token. Out: documents of its comments, and of the empty line before it, if there is one. INVARIANT: each comment
+//! of a file belongs to exactly one token or to the end of the file, so none is lost and none is printed twice.
 
 use super::document::Document;
 use crate::{SyntaxKind::*, SyntaxNode, SyntaxToken};

@@ -1,4 +1,7 @@
 //! What is to be printed: texts, and places where a line may or must end.
+//!
+//! Made by `layout` and `comment`, printed by `printer`. A comment is a piece of its own, as it ends its line whatever
+//! stands around it.
 
 /// A piece of output.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,4 +1,7 @@
 //! The table of the layout: what stands between two parts of a node.
+//!
+//! In: a node, the kind of the part before, and the part. Out: a [`Separator`]. Only here the author's line breaks count:
+//! a body on a line of its own stays there, and a short `if` or a single simple rule stays on its line.
 
 use super::comment;
 use crate::SyntaxKind::{self, *};

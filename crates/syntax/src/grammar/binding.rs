@@ -1,4 +1,7 @@
 //! `let`, and variables that range over a collection (spec/language.md, 6.2 and 7).
+//!
+//! In: the cursor at `let` or at the first variable. Out: a LET_TERM or LET_RULE with BINDINGs, or BINDERs. `in` behind
+//! a binding is the membership operator, unless the bindings lack their closing parenthesis.
 
 use super::conditional::{self, Body};
 use super::term::{inside, term};

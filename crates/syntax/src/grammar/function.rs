@@ -1,4 +1,7 @@
-//! Declarations and definitions of functions (spec/language.md, sections 4 and 5).
+//! Declarations and definitions of functions, and definitions of domains (spec/language.md, sections 4 and 5).
+//!
+//! In: the cursor at the word that starts one. Out: FUNCTION_DECL, FUNCTION_DEF, DOMAIN_DEF, PARAMETER_LIST. Initial
+//! states use the same definitions.
 
 use super::sets::{DOMAIN_STARTS, TERM_STARTS};
 use super::{domain, list, name, term};

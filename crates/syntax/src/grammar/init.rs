@@ -1,4 +1,7 @@
 //! Initial states (spec/language.md, section 5).
+//!
+//! In: the cursor at `default` or `init`. Out: an INIT with definitions of domains and functions, and programs of
+//! agents, in any order.
 
 use super::sets::SECTION_STARTS;
 use super::{function, name, recovery, rule};

@@ -1,7 +1,7 @@
 //! Infix operators: which token is one, and how tightly it binds (spec/language.md, 6.1).
 //!
 //! All are left associative. Lowest first: `implies iff` < `or xor` < `and` < relations < `not` < `+ -` < `* / mod` <
-//! `^` < signs.
+//! `^` < signs. Operators of other languages, which are reported, bind like the ones they stand for.
 
 use crate::SyntaxKind::*;
 use crate::fault;

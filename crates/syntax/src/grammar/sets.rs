@@ -1,4 +1,7 @@
 //! Sets of tokens by which the grammar finds its way: what starts, ends and divides constructs.
+//!
+//! They serve recovery as well: where a text is faulty, tokens are skipped up to one of a set. INVARIANT: a token in
+//! `FENCES` never occurs within a rule or a term, so a faulty one cannot swallow the next definition.
 
 use crate::SyntaxKind::*;
 use crate::token_set::TokenSet;

@@ -1,0 +1,100 @@
+//! The pages in spec/ say the truth: each example parses, and each fault has a page whose example shows it.
+//!
+//! A block ```` ```asmetal ```` is a file, ```` ```asmetal rule ```` and ```` ```asmetal term ```` are fragments,
+//! ```` ```avalla ```` is a scenario; the word `fault` behind these says that the page's own fault is in it.
+
+#![allow(clippy::disallowed_methods, reason = "a test reads the pages it is about")]
+
+use std::path::PathBuf;
+use syntax::{FAULT_IDS, FileId, MAX_FAULTS, Parse, assert_invariants, parse_asmetal, parse_avalla, parse_term};
+
+fn page(name: &str) -> String {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../spec/{name}.md"));
+    std::fs::read_to_string(&path).unwrap_or_else(|_| panic!("there is no page {}", path.display()))
+}
+
+/// A fenced block of code.
+struct Block {
+    info: String,
+    code: String,
+    line: usize,
+}
+
+fn blocks(page: &str) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    let mut open: Option<Block> = None;
+    for (index, text) in page.lines().enumerate() {
+        match (text.strip_prefix("```"), &mut open) {
+            (Some(info), None) => open = Some(Block { info: info.into(), code: String::new(), line: index + 1 }),
+            (Some(_), Some(_)) => blocks.extend(open.take()),
+            (None, Some(block)) => {
+                block.code.push_str(text);
+                block.code.push('\n');
+            }
+            (None, None) => {}
+        }
+    }
+    blocks
+}
+
+fn parse(block: &Block) -> Option<Parse> {
+    let file = FileId(0);
+    let words: Vec<&str> = block.info.split_whitespace().filter(|word| *word != "fault").collect();
+    Some(match words[..] {
+        ["asmetal"] => parse_asmetal(file, &block.code),
+        ["asmetal", "rule"] => {
+            parse_asmetal(file, &format!("asm example signature: definitions: rule r_example =\n{}", block.code))
+        }
+        ["asmetal", "term"] => parse_term(file, &block.code),
+        ["avalla"] => parse_avalla(file, &block.code),
+        ["ebnf" | "text"] | [] => return None,
+        _ => panic!("line {}: a block of an unknown kind: {}", block.line, block.info),
+    })
+}
+
+fn ids(parse: &Parse) -> Vec<&'static str> {
+    parse.diagnostics.iter().map(|fault| fault.id).collect()
+}
+
+#[test]
+fn the_examples_of_the_language_parse() {
+    for name in ["language", "avalla"] {
+        let mut count = 0;
+        for block in blocks(&page(name)) {
+            let Some(parse) = parse(&block) else { continue };
+            assert!(parse.diagnostics.is_empty(), "{name}.md, line {}: {:?}", block.line, parse.diagnostics);
+            assert_invariants(block.code.as_bytes());
+            count += 1;
+        }
+        assert!(count >= 5, "{name}.md has hardly an example");
+    }
+}
+
+#[test]
+fn each_fault_has_a_page_whose_example_shows_it() {
+    for id in FAULT_IDS {
+        let page = page(&format!("faults/{id}"));
+        assert!(page.starts_with(&format!("# {id}\n")), "the page of {id} has another title");
+        let blocks = blocks(&page);
+        let example = blocks.iter().find(|block| block.info.ends_with(" fault"));
+        match (example, *id) {
+            (None, "file-too-large" | "too-many-faults") => {} // too long for a page; see below and `limits.rs`
+            (None, _) => panic!("the page of {id} has no example"),
+            (Some(block), _) => {
+                let parse = parse(block).expect("an example that can be parsed");
+                assert_eq!(ids(&parse), [*id], "the example of {id}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_fault_of_too_many_faults() {
+    let text = format!("asm a signature: definitions: main rule r_a = par {} endpar", "x = 1 ".repeat(MAX_FAULTS + 1));
+    assert_eq!(ids(&parse_asmetal(FileId(0), &text)).last(), Some(&"too-many-faults"));
+}
+
+#[test]
+fn the_ids_are_in_order() {
+    assert!(FAULT_IDS.is_sorted());
+}
