@@ -79,8 +79,7 @@ definitions:
 	// Reader and writer never work on one array.
 	function sb_disjoint($b in SwingingBuffer) =
 		indexRead($b) != indexWrite($b)
-		and (isUndef(sb_writingArray($b)) or isUndef(sb_readingArray($b))
-			or sb_writingArray($b) != sb_readingArray($b))
+		and (isUndef(sb_writingArray($b)) or sb_writingArray($b) != sb_readingArray($b))
 
 	// The reader's array is the newest one handed over, and readings never go back in time.
 	function sb_newest($b in SwingingBuffer) =
