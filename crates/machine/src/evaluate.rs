@@ -293,6 +293,9 @@ impl<'a> Executor<'a> {
 
     /// `pre(t)`: the value of a term in the state before the step.
     fn evaluate_before(&mut self, term: TermId) -> Outcome<Value> {
+        if self.core.updates.shows_original() {
+            return self.evaluate(term);
+        }
         let version = self.core.memo.version();
         self.core.memo.changed();
         self.core.updates.swap_original(&mut self.core.store, false);

@@ -174,7 +174,8 @@ impl Executor<'_> {
             Shared => {
                 if let Some(index) = found {
                     let value = &self.core.store.values[index as usize];
-                    let written = || self.core.updates.has_overwritten(index);
+                    let updates = &self.core.updates;
+                    let written = || updates.has_overwritten(index) && !updates.shows_original();
                     if !value.is_undef() || self.core.store.given[index as usize] != 0 || written() {
                         return Ok(value.clone());
                     }

@@ -73,6 +73,9 @@ pub(crate) struct Updates {
     unit: u32,
     units: u32,
     merge: Vec<Overwritten>,
+    /// The state before the step is shown, and the intermediate elements of each domain are kept here.
+    original: bool,
+    hidden: Vec<Vec<Value>>,
     /// By location, the last merge that met it.
     met: Vec<u32>,
     merges: u32,
@@ -257,8 +260,18 @@ impl Updates {
         }
     }
 
+    /// Whether the state before the step stands in place of the intermediate one.
+    pub fn shows_original(&self) -> bool {
+        self.original
+    }
+
     /// Puts the state before the step in place of the intermediate one, or back again: an involution.
     pub fn swap_original(&mut self, store: &mut Store, back: bool) {
+        self.original = !back;
+        self.hidden.resize(store.carriers.len(), Vec::new());
+        for (carrier, hidden) in store.carriers.iter_mut().zip(&mut self.hidden) {
+            std::mem::swap(&mut carrier.intermediate, hidden);
+        }
         let mut swap = |entry: &mut Overwritten| {
             std::mem::swap(&mut store.values[entry.location as usize], &mut entry.before);
         };
