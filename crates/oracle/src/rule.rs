@@ -162,10 +162,10 @@ impl Interpreter<'_> {
 
     /// The update of a location to a value, which has to be in the codomain.
     fn update(&mut self, location: Location, value: Value, state: &State) -> Yield {
-        if let crate::state::Symbol::Function(function) = location.symbol {
-            if !self.contains(self.model.function(function).codomain, &value, state)? {
-                return Err(Fault::OutOfDomain { location, value }.into());
-            }
+        if let crate::state::Symbol::Function(function) = location.symbol
+            && !self.contains(self.model.function(function).codomain, &value, state)?
+        {
+            return Err(Fault::OutOfDomain { location, value }.into());
         }
         Ok(UpdateSet::one(location, value))
     }

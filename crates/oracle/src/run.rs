@@ -54,10 +54,11 @@ impl<'m> Oracle<'m> {
     /// The shared locations that had no value until the environment was asked for one have it from now on.
     fn keep_shared(&mut self) {
         for (location, value) in &self.inputs {
-            if let Symbol::Function(id) = location.symbol {
-                if self.model.function(id).kind == FunctionKind::Shared && !self.state.has(location) {
-                    self.state.set(location.clone(), value.clone());
-                }
+            if let Symbol::Function(id) = location.symbol
+                && self.model.function(id).kind == FunctionKind::Shared
+                && !self.state.has(location)
+            {
+                self.state.set(location.clone(), value.clone());
             }
         }
     }

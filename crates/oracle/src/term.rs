@@ -43,9 +43,12 @@ impl Interpreter<'_> {
             // { t | x₁ ∈ s₁, …, xₙ ∈ sₙ, φ }
             TermKind::Comprehension { kind, binders, condition, body } => {
                 let mut elements = Vec::new();
-                for zeta in self.satisfying(binders, condition.as_deref(), state, zeta)? {
-                    elements.push(self.value(body, state, &zeta)?);
-                }
+                let _ = self.each(binders, state, zeta, &mut |this, zeta| {
+                    if condition.as_ref().map_or(Ok(true), |condition| this.guard(condition, state, zeta))? {
+                        elements.push(this.value(body, state, zeta)?);
+                    }
+                    Ok(ControlFlow::Continue(()))
+                })?;
                 Ok(collection(*kind, elements))
             }
             TermKind::Quantified { quantifier, binders, condition } => {
@@ -116,10 +119,12 @@ impl Interpreter<'_> {
             let inner = zeta.parameters(&definition.parameters, values);
             return self.call(|this| this.value(&definition.body, state, &inner));
         }
-        if function.library && function.parameters.is_empty() && function.name == "self" {
-            if let Some(agent) = &zeta.agent {
-                return Ok(agent.clone());
-            }
+        if function.library
+            && function.parameters.is_empty()
+            && function.name == "self"
+            && let Some(agent) = &zeta.agent
+        {
+            return Ok(agent.clone());
         }
         if function.kind == FunctionKind::Static {
             return match function.library {
@@ -194,10 +199,10 @@ impl Interpreter<'_> {
         if let Some(value) = self.initial_value(id, &location, state)? {
             return Ok(value);
         }
-        if !state.has(&location) {
-            if let Some(value) = self.late_initial_value(id, &location)? {
-                return Ok(value);
-            }
+        if !state.has(&location)
+            && let Some(value) = self.late_initial_value(id, &location)?
+        {
+            return Ok(value);
         }
         let asked = match self.model.function(id).kind {
             FunctionKind::Monitored => true,

@@ -76,6 +76,8 @@ pub(super) struct Builder {
     pub signature: Signature,
     /// How many loop counters there are.
     pub counters: usize,
+    /// The functions that an initial value may read: seldom one that reads it in turn.
+    pub initialised: Vec<String>,
     /// How many local functions.
     pub locals: usize,
 }
@@ -145,7 +147,7 @@ impl Builder {
         let readable = |function: &&Function| match scope.layer {
             Layer::Literals => false,
             Layer::Static => function.kind == Kind::Static,
-            Layer::Initial => matches!(function.kind, Kind::Static | Kind::Controlled),
+            Layer::Initial => function.kind == Kind::Static || self.initialised.contains(&function.name),
             Layer::State => function.kind != Kind::Out,
         };
         let all = self.signature.functions.iter().chain(&scope.locals);

@@ -1,6 +1,6 @@
 //! Random terms by the library functions and binding constructs of each type.
 
-use super::builder::{Builder, Layer, Scope, leaf, term};
+use super::builder::{Builder, Scope, leaf, term};
 use super::piece::Piece;
 use super::signature::Type;
 
@@ -293,7 +293,7 @@ impl Builder {
     ) -> Piece {
         let name = self.name(scope);
         let range = self.term(scope, range, depth - 1);
-        let inner = scope.with(&name, from);
+        let inner = scope.with(&name, &from.base());
         let body = self.term(&inner, of, depth - 1);
         let condition = self.term(&inner, &Type::Boolean, depth - 1);
         term(wanted, &format!("{open}{name} in § | § : §{close}"), vec![range, condition, body])

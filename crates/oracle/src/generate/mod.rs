@@ -20,7 +20,13 @@ use signature::{CARRIERS, ENUMS, Function, Kind, Parameter, RANGES, Rule, Signat
 
 /// The model of a seed; its terms and rules nest about as deep as `size` says (2 to 5 are good).
 pub fn model(seed: u64, size: u32) -> Piece {
-    let mut builder = Builder { random: Random::new(seed), signature: Signature::default(), counters: 0, locals: 0 };
+    let mut builder = Builder {
+        random: Random::new(seed),
+        signature: Signature::default(),
+        counters: 0,
+        locals: 0,
+        initialised: Vec::new(),
+    };
     builder.declare();
     let definitions = builder.definitions(size);
     let rules = builder.rules(size);
@@ -196,11 +202,22 @@ impl Builder {
             if !self.random.percent(80) {
                 continue;
             }
+            if self.random.percent(1) {
+                self.initialised = functions
+                    .iter()
+                    .filter(|function| function.kind == Kind::Controlled)
+                    .map(|function| function.name.clone())
+                    .collect();
+            }
             let finite =
                 |domain: &Type| matches!(domain, Type::Boolean | Type::Enum(_) | Type::Concrete(_) | Type::Element(_));
             // The initial value of one of infinitely many locations is due when it is read, or before it is overwritten:
             // it had better be a plain one.
             let eager = function.parameters.iter().all(finite);
+            let grows = |domain: &Type| matches!(domain, Type::Element(_));
+            if !eager && function.parameters.iter().any(grows) {
+                continue;
+            }
             let reads = eager && self.random.percent(20);
             let mut scope = Scope::new(match (eager, reads) {
                 (false, _) => Layer::Literals,
@@ -219,6 +236,9 @@ impl Builder {
                 false => self.small(&Scope::new(Layer::Literals), &function.codomain),
             };
             items.push(Piece::new(Sort::Item, &format!("function {}{formal} = §\n", function.name), vec![value]));
+            if function.kind == Kind::Controlled {
+                self.initialised.push(function.name.clone());
+            }
         }
         items.push(Piece::text(Sort::Item, "agent Worker: r_program[]\n"));
         Piece::new(Sort::Item, "default init s0:\n§", vec![Piece::list(Sort::Fixed, "", items)])

@@ -48,11 +48,11 @@ impl Builder {
 
     fn update(&mut self, scope: &Scope, depth: u32) -> Piece {
         let parameters: Vec<Variable> = scope.variables.iter().filter(|variable| variable.location).cloned().collect();
-        if let Some(result) = scope.result.clone() {
-            if self.random.percent(25) {
-                let value = self.inside(scope, &result, depth);
-                return rule("result := §", vec![value]);
-            }
+        if let Some(result) = scope.result.clone()
+            && self.random.percent(25)
+        {
+            let value = self.inside(scope, &result, depth);
+            return rule("result := §", vec![value]);
         }
         if !parameters.is_empty() && self.random.percent(35) {
             let parameter = &parameters[self.random.below(parameters.len())];
@@ -127,7 +127,7 @@ impl Builder {
         let bound = self.any_type(1);
         let name = self.name(scope);
         let value = self.term(scope, &bound, 2);
-        let inner = scope.with(&name, &bound);
+        let inner = scope.with(&name, &bound.base());
         let body = self.rule(&inner, depth - 1);
         rule(&format!("let ({name} = §) in § endlet"), vec![value, body])
     }

@@ -171,6 +171,9 @@ impl Builder {
         let exact = scope.variables.iter().filter(|variable| variable.domain == *wanted);
         let mut names: Vec<String> = exact.map(|variable| variable.name.clone()).collect();
         names.extend(CARRIERS[*index].elements.iter().map(|element| element.to_string()));
+        if names.is_empty() && !scope.layer.reads_domains() {
+            names.push("undef".to_string());
+        }
         if names.is_empty() || (scope.layer.reads_domains() && self.random.percent(10)) {
             names.push(format!("chooseone({})", CARRIERS[*index].name));
         }
@@ -211,11 +214,11 @@ impl Builder {
         let bound = self.any_type(1);
         let name = self.name(scope);
         let value = self.term(scope, &bound, depth - 1);
-        let inner = scope.with(&name, &bound);
+        let inner = scope.with(&name, &bound.base());
         if self.random.percent(25) {
             let second = self.name(&inner);
             let more = self.term(&inner, &bound, depth - 1);
-            let body = self.term(&inner.with(&second, &bound), wanted, depth - 1);
+            let body = self.term(&inner.with(&second, &bound.base()), wanted, depth - 1);
             return term(wanted, &format!("let ({name} = §, {second} = §) in § endlet"), vec![value, more, body]);
         }
         let body = self.term(&inner, wanted, depth - 1);
@@ -287,7 +290,7 @@ impl Builder {
             }
             _ => {
                 let domain = self.simple(false);
-                (self.term(scope, &domain.clone().set(), depth.saturating_sub(1)), domain)
+                (self.term(scope, &domain.clone().set(), depth.saturating_sub(1)), domain.base())
             }
         };
         let inner = scope.with(&name, &domain);

@@ -109,19 +109,27 @@ impl Pair<'_> {
         if matches!(&expected, Err(Fault::Limit)) || matches!(&actual, Err(fault) if fault.kind.id() == "limit-reached")
         {
             // The two count differently what they bound.
-            *self.outcome.faults.entry("limit-reached").or_default() += 1;
+            let limit = match &actual {
+                Err(machine::Fault { kind: FaultKind::Limit { limit, .. }, .. }) => limit,
+                _ => "limit of the oracle",
+            };
+            *self.outcome.faults.entry(limit).or_default() += 1;
             return Ok(false);
         }
         self.same_outcome(what, &expected, &actual)?;
+        let mut parted = false;
         if let Err(Fault::Clash(_)) = &expected {
             // The machine stops at the first clash, the book's update set is complete before it is inconsistent.
             of_oracle.choices.truncate(of_machine.choices.len());
+            let asked = of_oracle.asked.len();
             of_oracle.asked.retain(|location, _| of_machine.asked.contains_key(location));
+            parted = of_oracle.asked.len() < asked;
         }
         self.same_world(what, &of_oracle, &of_machine)?;
         if let Err(fault) = &expected {
             *self.outcome.faults.entry(fault.id()).or_default() += 1;
-            if what == "start" {
+            // What was asked of shared locations stays in the state.
+            if what == "start" || parted {
                 return Ok(false);
             }
         }

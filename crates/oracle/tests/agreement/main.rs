@@ -168,9 +168,7 @@ fn models_of_the_library_and_the_examples() {
         let text = std::fs::read_to_string(&path).expect("a readable file");
         let found = deep(|| {
             let checked = model::check(SourceFile::new(name.as_str(), text), &mut Disk);
-            if checked.model.main.is_none() {
-                return None;
-            }
+            checked.model.main?;
             let errors: Vec<&str> = checked
                 .diagnostics
                 .iter()
