@@ -97,10 +97,10 @@ impl Tone {
             Tone::Work => (("#b4c6da", "#26405c"), ("#40597a", "#d6e2f0")),
             Tone::Read => (("#12967a", "#ffffff"), ("#2fb796", "#06211a")),
             Tone::Write => (("#1769aa", "#ffffff"), ("#58aee8", "#06192a")),
-            Tone::Hold => (("#e5b13a", "#3a2a00"), ("#c99a2e", "#1f1600")),
+            Tone::Hold => (("#e8bb45", "#3a2a00"), ("#d2b044", "#1f1600")),
             Tone::Message => (("#a768a4", "#ffffff"), ("#c78cc4", "#26102a")),
             Tone::Other => (("#8b8f94", "#ffffff"), ("#868c93", "#0c0e10")),
-            Tone::Wait => (("#d4500c", "#ffffff"), ("#ff7d3b", "#2b0f00")),
+            Tone::Wait => (("#d4500c", "#ffffff"), ("#ff6f2e", "#2b0f00")),
             Tone::ReadPlace => (("#d8ece6", "#0b5a49"), ("#1b3a34", "#9ed8c8")),
             Tone::WritePlace => (("#d9e6f2", "#0f4570"), ("#1c3449", "#a5cdf0")),
         };

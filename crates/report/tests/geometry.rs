@@ -59,8 +59,8 @@ fn boxes_do_not_overlap_and_labels_keep_out() {
         assert!(found.len() > 50);
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (index, a) in found.iter().enumerate() {
-            let near = found[index + 1..].iter().take_while(|b| b.0 < a.2);
-            assert_eq!(near.filter(|b| meet(a, b)).next(), None, "{a:?} in {ticks} ticks at {width}");
+            let mut near = found[index + 1..].iter().take_while(|b| b.0 < a.2);
+            assert_eq!(near.find(|b| meet(a, b)), None, "{a:?} in {ticks} ticks at {width}");
         }
         let mut labels: Vec<Frame> = Vec::new();
         for node in document.descendants().filter(|node| node.has_tag_name("text")) {

@@ -61,7 +61,11 @@ fn alike(one: &str, other: &str) -> bool {
 
 #[test]
 fn script_and_still_drawing_agree() {
-    let mut report = fixture::report(10_000);
+    let mut spec = fixture::spec();
+    // A value that jumps from tick to tick: finer than pixels.
+    let restless = report::SeriesSpec { name: "Restless".into(), value: "restless".into(), ..Default::default() };
+    spec.series.push(restless);
+    let mut report = fixture::report_of(spec, 10_000);
     report.tasks[3].misses = vec![7, 130, 2_000];
     let page = render_html(&report);
     for (start, end, width) in [(0, 400, 1120), (294, 334, 900), (1_003, 2_777, 1120), (0, 10_000, 700)] {

@@ -177,19 +177,34 @@ function drawWays(view) {
   }).join("");
 }
 
+/** For each pixel column with something in it: from the least to the greatest value. */
+function extremes(pieces) {
+  const columns = [];
+  for (const [at, from, , to] of pieces) {
+    const x = Math.floor(at), low = Math.min(from, to), high = Math.max(from, to), last = columns[columns.length - 1];
+    if (last && last[0] === x) { last[1] = Math.min(last[1], low); last[3] = Math.max(last[3], high); }
+    else columns.push([x, low, x + 1, high]);
+  }
+  return columns;
+}
+
 function drawGraph(lane, view) {
   const graph = lane.g, bottom = lane.y + lane.h;
   const place = (value) => bottom - Math.min(Math.max(value / graph.top, 0), 1) * lane.h;
-  let line = "", area = "", at = null;
+  let pieces = [], line = "", area = "", at = -Infinity;
   for (let i = 0; i < graph.p.length; i += 4) {
-    const [start, from, end, to] = graph.p.slice(i, i + 4);
+    const start = graph.p[i], from = graph.p[i + 1], end = graph.p[i + 2], to = graph.p[i + 3];
     if (end <= view.start || start >= view.end) continue;
     const value = (tick) => from + (to - from) * (tick - start) / (end - start);
     const first = Math.max(start, view.start), last = Math.min(end, view.end);
-    const a = `${px(view.x(first))} ${px(place(value(first)))}`, b = `${px(view.x(last))} ${px(place(value(last)))}`;
-    line += `${at === first ? "L" : "M"}${a}L${b}`;
-    area += `M${px(view.x(first))} ${px(bottom)}L${a}L${b}V${px(bottom)}z`;
-    at = last;
+    pieces.push([view.x(first), value(first), view.x(last), value(last)]);
+  }
+  if (pieces.length > 2 * (view.right - view.left)) pieces = extremes(pieces);
+  for (const [x1, v1, x2, v2] of pieces) {
+    const a = `${px(x1)} ${px(place(v1))}`, b = `${px(x2)} ${px(place(v2))}`;
+    line += `${x1 - at < 1e-6 ? "L" : "M"}${a}L${b}`;
+    area += `M${px(x1)} ${px(bottom)}L${a}L${b}V${px(bottom)}z`;
+    at = x2;
   }
   let out = `<path class="base" d="M${px(view.left)} ${px(bottom)}H${px(view.right)}"/><path class="area" d="${area}"/><path class="curve" d="${line}"/>`;
   if (graph.bound !== undefined) {

@@ -43,18 +43,30 @@ pub(super) fn scenarios(out: &mut String, report: &Report) {
     let failed: Vec<&Scenario> = report.scenarios.iter().filter(|s| matches!(s.verdict, Verdict::Failed(_))).collect();
     scenario_list(out, "", &failed);
     let good = report.scenarios.iter().filter(|scenario| !matches!(scenario.verdict, Verdict::Failed(_)));
-    let mut folders: Vec<(&str, Vec<&Scenario>)> = Vec::new();
-    for scenario in good {
-        let folder = scenario.file.rsplit_once('/').map_or("", |(folder, _)| folder);
-        match folders.iter_mut().find(|(known, _)| *known == folder) {
-            Some((_, scenarios)) => scenarios.push(scenario),
-            None => folders.push((folder, vec![scenario])),
-        }
-    }
+    let folders = by_folder(good.collect());
     for (folder, scenarios) in &folders {
         scenario_list(out, if folders.len() > 1 { folder } else { "" }, scenarios);
     }
     out.push_str("</section>\n");
+}
+
+/// Fewer scenarios than this in a folder are listed under the folder above it.
+const FEW: usize = 3;
+
+fn by_folder(scenarios: Vec<&Scenario>) -> Vec<(&str, Vec<&Scenario>)> {
+    let above = |path: &'_ str| path.rfind('/').unwrap_or(0);
+    let folder = |scenario: &Scenario| above(&scenario.file);
+    let mut folders: Vec<(&str, Vec<&Scenario>)> = Vec::new();
+    for scenario in &scenarios {
+        let own = &scenario.file[..folder(scenario)];
+        let many = scenarios.iter().filter(|other| &other.file[..folder(other)] == own).count() >= FEW;
+        let name = if many { own } else { &own[..above(own)] };
+        match folders.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, listed)) => listed.push(scenario),
+            None => folders.push((name, vec![scenario])),
+        }
+    }
+    folders
 }
 
 fn scenario_list(out: &mut String, folder: &str, scenarios: &[&Scenario]) {

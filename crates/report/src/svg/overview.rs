@@ -3,12 +3,15 @@
 use crate::markup::{Px, put};
 use crate::report::{Report, Task};
 use crate::svg::columns::columns;
+use crate::svg::graph::curve_paths;
 use crate::svg::view::{View, box_path};
 use crate::tone::Tone;
 
 /// Height of a task's row.
 const ROW: f64 = 5.0;
 const GAP: f64 = 2.0;
+/// Height of the curve.
+const CURVE: f64 = 20.0;
 /// The least width of a waiting.
 const LEAST: f64 = 1.0;
 /// How many shades busy has.
@@ -17,10 +20,11 @@ const SHADES: usize = 4;
 /// The strip's own width; the page stretches it.
 pub(crate) const WIDTH: f64 = 1000.0;
 
-/// The strip as an element. Its first view is marked by a frame.
+/// The strip as an element: a row for each task, and the first value over time. The first view is marked by a frame.
 pub(crate) fn overview(report: &Report) -> String {
     let view = View::plain(0, report.shown.max(1), WIDTH);
-    let height = report.tasks.len() as f64 * (ROW + GAP) + 6.0;
+    let rows = report.tasks.len() as f64 * (ROW + GAP);
+    let height = rows + if report.series.is_empty() { 6.0 } else { CURVE + 8.0 };
     let mut out = String::new();
     put!(
         out,
@@ -30,6 +34,12 @@ pub(crate) fn overview(report: &Report) -> String {
     out.push_str("<title>The whole run: how busy each task was, and where it waited</title>\n");
     for (index, task) in report.tasks.iter().enumerate() {
         row(&mut out, task, &view, index as f64 * (ROW + GAP));
+    }
+    if let Some(series) = report.series.first() {
+        let top = series.values.greatest().map_or(1, |(greatest, _)| greatest).max(1) as f64;
+        let bottom = rows + CURVE + 1.0;
+        let (line, area) = curve_paths(&series.curve, &view, bottom, &|value| bottom - value.max(0.0) / top * CURVE);
+        put!(out, "<path class=\"area\" d=\"{area}\"/>\n<path class=\"curve\" d=\"{line}\"/>\n");
     }
     let to = view.x(report.window.min(report.shown)).max(2.0);
     put!(
