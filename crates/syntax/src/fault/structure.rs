@@ -356,6 +356,20 @@ pub(crate) fn dots_in_range(found: Found<'_>, two: bool) -> Diagnostic {
         .with_help("write `{lo : hi}`, or `{lo : hi, step}`")
 }
 
+/// `A * B` as a domain.
+pub(crate) fn product_of_domains(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("foreign-operator", found.span, format!("{found} joins no domains"))
+        .because("a product of domains has a name in AsmetaL")
+        .with_help("write `Prod(A, B)`")
+}
+
+/// `<<skip>>`
+pub(crate) fn rule_as_value(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("expected-name", found.span, format!("expected the name of a rule in `<<…>>`, found {found}"))
+        .because("only a rule that is declared is a value")
+        .with_help("declare a rule for it, and write `<<r_name>>`")
+}
+
 /// `elif`, `elsif`
 pub(crate) fn foreign_word(found: Found<'_>, ours: &str) -> Diagnostic {
     Diagnostic::error("foreign-operator", found.span, format!("{found} is no word of AsmetaL"))

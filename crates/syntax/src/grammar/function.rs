@@ -4,7 +4,7 @@
 //! states use the same definitions.
 
 use super::sets::{DOMAIN_STARTS, TERM_STARTS};
-use super::{domain, list, name, term};
+use super::{domain, list, name, recovery, term};
 use crate::SyntaxKind::*;
 use crate::fault;
 use crate::parser::Parser;
@@ -33,9 +33,12 @@ pub(super) fn name_and_domains(p: &mut Parser<'_>) {
     if name::name(p, FUNCTION_ID)
         && (p.expect(COLON, "behind the name of a function") || p.at_any(DOMAIN_STARTS))
         && domain::domain(p)
-        && p.eat(ARROW)
     {
-        domain::domain(p);
+        recovery::product_of_domains(p);
+        if p.eat(ARROW) {
+            domain::domain(p);
+            recovery::product_of_domains(p);
+        }
     }
 }
 

@@ -4,7 +4,7 @@
 //! is never skipped, and text that looks right is parsed even in a wrong place.
 
 use super::sets::*;
-use super::{list, operator, rule, term};
+use super::{domain, list, operator, rule, term};
 use crate::SyntaxKind::{self, *};
 use crate::fault::{self, Found};
 use crate::parser::{Parser, Within};
@@ -66,6 +66,32 @@ pub(super) fn no_term(p: &mut Parser<'_>, wanted: &str) -> bool {
     error(p, 1);
     let goes_on = p.at_any(TERM_STARTS) || p.at_any(TERM_JUNK);
     goes_on && !p.on_new_line() && term::term(p, wanted)
+}
+
+/// `A * B` behind a domain: more domains, joined by a mark.
+pub(super) fn product_of_domains(p: &mut Parser<'_>) {
+    while p.at(STAR) || p.at(ERROR) && fault::replacement(p.token_text()) == Some("*") {
+        let found = p.found();
+        p.fault(fault::product_of_domains(found));
+        p.start(ERROR);
+        p.bump();
+        domain::domain(p);
+        p.finish();
+    }
+}
+
+/// `<<skip>>`: a rule where its name must stand.
+pub(super) fn rule_as_value(p: &mut Parser<'_>) {
+    p.start(ERROR);
+    p.bump();
+    p.bump();
+    let found = p.found();
+    p.fault(fault::rule_as_value(found));
+    rule::rule(p, "the name of a rule");
+    if p.eat(GT) {
+        p.eat(GT);
+    }
+    p.finish();
 }
 
 /// Where a rule is expected and none starts. Gives `true` if a rule was read after all.

@@ -48,6 +48,11 @@ pub(super) const RULE_STARTS: TokenSet = TokenSet::new(&[
     SKIP_KW, PAR_KW, SEQ_KW, ITERATE_KW, IF_KW, SWITCH_KW, LET_KW, CHOOSE_KW, FORALL_KW, EXTEND_KW, WHILE_KW,
     WHILEREC_KW, LOCAL_KW, RULE_ID, FUNCTION_ID, VARIABLE,
 ]);
+/// Keywords that only a rule starts with.
+#[rustfmt::skip]
+pub(super) const RULE_WORDS: TokenSet = TokenSet::new(&[
+    SKIP_KW, PAR_KW, SEQ_KW, ITERATE_KW, CHOOSE_KW, FORALL_KW, EXTEND_KW, WHILE_KW, WHILEREC_KW,
+]);
 /// Words that end a construct.
 pub(super) const BLOCK_ENDS: TokenSet =
     TokenSet::new(&[ENDPAR_KW, ENDSEQ_KW, ENDITERATE_KW, ENDIF_KW, ENDSWITCH_KW, ENDLET_KW]);

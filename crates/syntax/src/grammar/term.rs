@@ -4,6 +4,7 @@
 //! term's node and a tuple's node include their parentheses.
 
 use super::operator::{LOWEST, NOT, SIGN, infix, infix_power, is_infix_word};
+use super::sets::RULE_WORDS;
 use super::{binding, collection, conditional, domain, list, recovery};
 use crate::SyntaxKind::*;
 use crate::fault;
@@ -96,6 +97,7 @@ fn basic(p: &mut Parser<'_>, wanted: &str) -> bool {
         L_PAREN => parenthesised(p),
         L_BRACE | L_BRACKET => collection::collection(p),
         LT if p.peek(1) == LT && p.peek(2) == RULE_ID => rule_term(p),
+        LT if p.peek(1) == LT && RULE_WORDS.contains(p.peek(2)) => recovery::rule_as_value(p),
         LT => collection::collection(p),
         IF_KW => conditional::if_term(p),
         SWITCH_KW => conditional::switch_term(p),

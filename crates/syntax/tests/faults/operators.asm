@@ -1,5 +1,6 @@
 asm operators
 signature:
+  static distance: Place * Place -> Real
   controlled x: Integer
 definitions:
   function f = x == 1 && x <> 2 || !(x % 2 != 0)
@@ -15,5 +16,6 @@ definitions:
     x : = 5
     x += 6
     x == 7
+    r_run[<<skip>>]
     x
   endpar
