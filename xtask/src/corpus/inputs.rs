@@ -1,0 +1,153 @@
+//! The environment of a replayed step: inputs and clock as recorded, choices by a plan.
+//!
+//! In: one recorded step and a plan (which candidate each choice of the step takes, the first ones as far as the plan
+//! goes). Out: what the machine asks for, and notes of what it asked beyond the record. INVARIANT: of a location that
+//! the record has several times the first value counts. An input that the record lacks is a choice among a few values
+//! of its domain.
+
+use std::collections::BTreeMap;
+
+use machine::{Choice, Environment, Location, Machine, TimeUnit, Value};
+use program::{DomainId, DomainKind, FunctionKind, Program};
+
+use super::names::painted;
+use super::text;
+use super::trace::Step;
+
+/// A choice as it was made: which candidate of how many.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Made {
+    /// The candidate taken.
+    pub index: usize,
+    /// How many there were.
+    pub of: usize,
+}
+
+/// A few values of each domain that inputs have.
+pub type Samples = BTreeMap<DomainId, Vec<Value>>;
+
+/// LIMIT: how many values of a domain are tried for an input that the record lacks.
+const SAMPLES: usize = 8;
+
+/// A few values of each domain that inputs have.
+pub fn samples(machine: &mut Machine) -> Samples {
+    let program = machine.program().clone();
+    let inputs = program.functions.iter().filter(|f| matches!(f.kind, FunctionKind::Monitored | FunctionKind::Shared));
+    let mut samples = Samples::new();
+    for function in inputs {
+        let domain = function.codomain;
+        samples.entry(domain).or_insert_with(|| some_values(machine, &program, domain));
+    }
+    samples
+}
+
+fn some_values(machine: &mut Machine, program: &Program, domain: DomainId) -> Vec<Value> {
+    let mut values = match &program.domain(domain).kind {
+        DomainKind::Basic(model::Basic::Boolean) => vec![Value::Boolean(false), Value::Boolean(true)],
+        DomainKind::Basic(model::Basic::Integer | model::Basic::Natural) => vec![Value::Integer(0)],
+        DomainKind::Enum { literals } => (0..literals.len() as u32).map(|index| Value::Enum(domain, index)).collect(),
+        _ => machine.elements(domain).unwrap_or_default(),
+    };
+    values.truncate(SAMPLES);
+    if values.is_empty() { vec![Value::Undef] } else { values }
+}
+
+/// The environment of one step.
+#[derive(Debug)]
+pub struct RecordedInputs<'a> {
+    values: BTreeMap<&'a str, &'a str>,
+    samples: &'a Samples,
+    /// Our elements by their names in the record.
+    renaming: &'a BTreeMap<String, String>,
+    /// Inputs beyond the record are no choices.
+    strict: bool,
+    plan: Vec<Made>,
+    /// The choices made.
+    pub made: Vec<Made>,
+    /// Locations asked for that the record does not have, or whose value cannot be read.
+    pub beyond: Vec<String>,
+}
+
+impl<'a> RecordedInputs<'a> {
+    /// What a step has.
+    pub fn new(
+        step: &'a Step,
+        plan: Vec<Made>,
+        strict: bool,
+        samples: &'a Samples,
+        renaming: &'a BTreeMap<String, String>,
+    ) -> Self {
+        let mut values = BTreeMap::new();
+        for (location, value) in step.inputs.iter().chain(&step.times) {
+            values.entry(location.as_str()).or_insert(value.as_str());
+        }
+        RecordedInputs { values, samples, renaming, strict, plan, made: Vec::new(), beyond: Vec::new() }
+    }
+
+    fn take(&mut self, of: usize) -> usize {
+        let index = self.plan.get(self.made.len()).map_or(0, |planned| planned.index.min(of - 1));
+        self.made.push(Made { index, of });
+        index
+    }
+}
+
+impl Environment for RecordedInputs<'_> {
+    fn monitored(&mut self, program: &Program, location: &Location, codomain: DomainId) -> Result<Value, String> {
+        let theirs = |element: &str| self.renaming.get(element).cloned().unwrap_or_else(|| element.to_string());
+        let name = painted(&text::location(program, location), &theirs);
+        let ours = |element: &str| {
+            let found = self.renaming.iter().find(|(_, theirs)| theirs.as_str() == element);
+            found.map_or_else(|| element.to_string(), |(ours, _)| ours.clone())
+        };
+        let recorded = self.values.get(name.as_str()).map(|value| painted(value, &ours));
+        if let Some(value) = recorded.and_then(|value| text::value(program, codomain, &value)) {
+            return Ok(value);
+        }
+        self.beyond.push(name);
+        let samples = self.samples.get(&codomain).map_or(&[][..], Vec::as_slice);
+        let index = if self.strict || samples.len() < 2 { 0 } else { self.take(samples.len()) };
+        Ok(samples.get(index).cloned().unwrap_or_default())
+    }
+
+    fn choose(&mut self, _program: &Program, choice: &Choice<'_>) -> Result<usize, String> {
+        Ok(self.take(choice.candidates()))
+    }
+
+    fn time(&mut self, unit: TimeUnit) -> Result<i64, String> {
+        let name = match unit {
+            TimeUnit::Nanoseconds => "currTimeNanosecs",
+            TimeUnit::Milliseconds => "currTimeMillisecs",
+            TimeUnit::Seconds => "currTimeSecs",
+        };
+        let value = self.values.get(name).and_then(|value| value.parse().ok());
+        Ok(value.unwrap_or_else(|| {
+            self.beyond.push(name.to_string());
+            0
+        }))
+    }
+}
+
+/// The plan after this one in the order of a count, the last choice fastest; none after the last.
+pub fn next_plan(made: &[Made]) -> Option<Vec<Made>> {
+    let last = made.iter().rposition(|choice| choice.index + 1 < choice.of)?;
+    let mut plan = made[..=last].to_vec();
+    plan[last].index += 1;
+    Some(plan)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn plans_count_through_all_choices() {
+        let mut plan = vec![Made { index: 0, of: 2 }, Made { index: 0, of: 3 }];
+        let mut count = 1;
+        while let Some(mut next) = next_plan(&plan) {
+            next.resize(2, Made { index: 0, of: 3 });
+            plan = next;
+            count += 1;
+        }
+        assert_eq!(count, 6);
+    }
+}

@@ -1,0 +1,102 @@
+//! Does a recorded run come out the same?
+//!
+//! In: a model and a trace's file. Out: an [`Answer`]: the replay of [`super::replay`], with the reasons of its
+//! differences.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use program::Program;
+use syntax::Severity;
+
+use super::accept::{refusal, refused};
+use super::difference::{Difference, What};
+use super::excuse::Excuses;
+use super::job::Answer;
+use super::loader::Checkout;
+use super::replay::{Replayed, replay};
+use super::trace::{self, Trace};
+use super::{reason, text};
+
+/// Replays and compares.
+pub fn compare(checkout: &Checkout, path: &str, file: &str) -> Answer {
+    let trace = std::fs::read_to_string(file).map_err(|error| error.to_string()).and_then(|text| trace::read(&text));
+    let (trace, source) = match (trace, checkout.source(path)) {
+        (Ok(trace), Ok(source)) => (trace, source),
+        (Err(reason), _) | (_, Err(reason)) => return Answer::Void { why: reason },
+    };
+    let checked = model::check(source, &mut checkout.clone());
+    if let Some(fault) = checked.diagnostics.iter().find(|diagnostic| diagnostic.severity == Severity::Error) {
+        return Answer::different(refusal(fault), refused(&checked.sources, fault));
+    }
+    let program = match program::lower(&checked.model) {
+        Ok(program) => Arc::new(program),
+        Err(faults) => {
+            let fault = faults.first().map(|fault| refused(&checked.sources, fault)).unwrap_or_default();
+            return Answer::different(None, fault);
+        }
+    };
+    let replayed = replay(&program, &checked.sources, &trace);
+    judge(checkout, path, &program, &trace, &replayed)
+}
+
+fn judge(checkout: &Checkout, path: &str, program: &Program, trace: &Trace, replayed: &Replayed) -> Answer {
+    let mut reasons: BTreeSet<&'static str> = replayed.reasons.clone();
+    let Some(difference) = &replayed.difference else {
+        if !reasons.is_empty() {
+            let names = reasons.iter().map(ToString::to_string).collect();
+            return Answer::Different {
+                reasons: names,
+                detail: "agrees but for the values that this explains".to_string(),
+            };
+        }
+        let mut notes = Vec::new();
+        if !replayed.beyond.is_empty() {
+            notes.push(format!("asks for {} as well", list(&replayed.beyond)));
+        }
+        if replayed.renamed {
+            notes.push("new elements are numbered otherwise".to_string());
+        }
+        return Answer::Same { note: (!notes.is_empty()).then(|| notes.join("; ")) };
+    };
+    let found = Excuses::new(program, trace).parting(&difference.what, difference.step);
+    let found = found.or_else(|| own_library(checkout, path, program, difference));
+    let initial =
+        difference.step <= 1 && !replayed.beyond.is_empty() && matches!(difference.what, What::Violation { .. });
+    let found = found.or_else(|| initial.then_some(reason::INITIAL_INPUTS));
+    let cut = if replayed.cut { " (the search for choices was cut off)" } else { "" };
+    let detail = format!("{}{cut}", difference.line());
+    match found {
+        Some(found) => {
+            reasons.insert(found);
+            Answer::Different { reasons: reasons.iter().map(ToString::to_string).collect(), detail }
+        }
+        None => Answer::different(None, detail),
+    }
+}
+
+fn list(names: &BTreeSet<String>) -> String {
+    let few: Vec<&str> = names.iter().map(String::as_str).take(4).collect();
+    let more = if names.len() > few.len() { format!(" and {} more", names.len() - few.len()) } else { String::new() };
+    format!("{}{more}", few.join(", "))
+}
+
+/// What differs is of a library of which another copy lies beside the model.
+fn own_library(checkout: &Checkout, path: &str, program: &Program, difference: &Difference) -> Option<&'static str> {
+    let of_library = match &difference.what {
+        What::Value { location, .. } => {
+            text::location_of(program, location).is_some_and(|location| program.function(location.function).library)
+        }
+        What::Fault { text, .. } => text.contains("(<std>/"),
+        _ => false,
+    };
+    if !of_library {
+        return None;
+    }
+    let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
+    let copies = ["TimeLibrary", "TimeLibrarySimple"].map(|name| format!("{folder}/{name}.asm"));
+    let copy = copies.iter().find_map(|copy| checkout.source(copy).ok())?;
+    // The built-in one has units; the old ones have seconds alone.
+    (!copy.text.contains("controlled timerUnit") || copy.text.contains("// controlled timerUnit"))
+        .then_some(reason::OWN_LIBRARY)
+}
