@@ -242,7 +242,11 @@ impl Report {
                 n => troubles.push(format!("{} missed {} deadlines", task.name, crate::time::count(n))),
             }
             if let Some(late) = task.overdue {
-                troubles.push(format!("{} had not completed its last cycle, {} late", task.name, self.time.show(late)));
+                troubles.push(format!(
+                    "{} was {} late with the cycle it was in at the end",
+                    task.name,
+                    self.time.show(late)
+                ));
             }
         }
         for series in &self.series {

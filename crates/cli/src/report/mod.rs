@@ -31,8 +31,41 @@ use crate::shell::Shell;
 use specification::{Specification, specification};
 use watch::Watch;
 
+/// What a specification looks like.
+const FORMAT: &str = "\
+A report specification is a YAML file that says which terms of the model make which lane. Every part may be left out.
+
+  title: Two tasks and a buffer
+  tick: 100 us                       # how long a step is; left out, steps are counted
+  window: 40 ms                      # what the first view shows
+  activities:                        # values of the term `activity`: words and tone
+    BUSY: [elaborating, work]        # tones: idle work read write hold message other wait
+  tasks:
+    each:                            # names in the model, and what to tell of them
+      camera: {}
+      robot: { name: robot controller, caption: at each set-point }
+    terms:                           # {} stands for the name; an entry above may have its own
+      activity: doing({})
+      period: period({})             # ticks; also release, cycles, met, missed, skipped
+  buffers:
+    each:
+      frames: { from: camera, to: robot }
+    terms:                           # also arrays, write_index, read_index, lock, swaps
+      writing: writing({})
+      reading: reading({})
+    counters: { written: written({}) }
+  queues:                            # each, terms (length, capacity), counters
+  series:
+    Age of data: { caption: at the robot, value: age, unit: ticks, bound: 500 }
+  flow:                              # the way of a datum: its identity at each hop
+    noun: [frame, frames]
+    hops:
+      - { task: camera, event: captured, value: captured }
+      - { task: robot, event: used, value: used }";
+
 /// Arguments of `report`.
 #[derive(Debug, Args)]
+#[command(after_long_help = FORMAT)]
 pub struct Arguments {
     /// The model
     model: PathBuf,

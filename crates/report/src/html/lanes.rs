@@ -55,6 +55,9 @@ fn legend(out: &mut String, report: &Report) {
     if report.tasks.iter().any(|task| !task.releases.is_empty()) {
         marks.push(("bar".to_owned(), "a period begins, the deadline of the one before"));
     }
+    if report.tasks.iter().any(|task| !task.misses.is_empty()) {
+        marks.push(("late".to_owned(), "completed after its deadline"));
+    }
     let way = report.flow.as_ref().map(|flow| format!("way of a {}, dashed when overtaken", flow.noun.0));
     if let Some(way) = &way {
         marks.push(("thread".to_owned(), way));
