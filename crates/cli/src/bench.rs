@@ -71,7 +71,8 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         };
         let load_ms = began.elapsed().as_secs_f64() * 1e3;
         if loaded.program.main.is_none() {
-            return Err(Failure::usage(format!("{} has no main rule to run", path.display())));
+            shell.note(&format!("note: {} has no main rule to run", path.display()))?;
+            continue;
         }
         let measured = measure(shell, arguments, path, Arc::new(loaded.program), load_ms)?;
         show(shell, &measured)?;
@@ -136,7 +137,7 @@ impl Stepper<'_> {
                     Some(Record::Initial { .. }) => {}
                     _ => break true,
                 }
-                if steps % 16 == 0 && spent + began.elapsed() >= window {
+                if steps.is_multiple_of(16) && spent + began.elapsed() >= window {
                     break false;
                 }
             };
@@ -156,9 +157,8 @@ impl Stepper<'_> {
     }
 
     fn start(&mut self) -> Run {
-        let inputs = Inputs::new()
-            .with(RandomSource::new(self.seed, Bounds::default()))
-            .choosing(Choices::random(self.seed));
+        let inputs =
+            Inputs::new().with(RandomSource::new(self.seed, Bounds::default())).choosing(Choices::random(self.seed));
         self.seed = self.seed.wrapping_add(1);
         let invariants = if self.arguments.invariants { Invariants::Report } else { Invariants::Ignore };
         let options = Options { steps: None, invariants, keep: false, ..Options::default() };

@@ -12,7 +12,7 @@ use syntax::{Diagnostic, Severity, Sources};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::shell::Shell;
-use crate::wire::Summary;
+use crate::wire::Answer;
 
 /// Arguments of `check`.
 #[derive(Debug, Args)]
@@ -25,16 +25,25 @@ pub struct Arguments {
     strict: bool,
 }
 
+/// How many files had what.
+#[derive(Debug, Default, Clone, Copy)]
+struct Summary {
+    files: usize,
+    errors: usize,
+    warnings: usize,
+}
+
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
-    let mut summary = Summary { r#type: "summary", files: 0, errors: 0, warnings: 0 };
+    let mut summary = Summary::default();
     let mut seen = BTreeSet::new();
     let mut suite = Suite::new();
     for path in crate::files::collect(&arguments.paths, &["asm", "avalla"])? {
         check_one(shell, &path, &mut summary, &mut seen, &mut suite)?;
     }
     if shell.json() {
-        shell.object(&summary)?;
+        let Summary { files, errors, warnings } = summary;
+        shell.object(&Answer::Checked { files, errors, warnings })?;
     }
     let bad = summary.errors > 0 || arguments.strict && summary.warnings > 0;
     Ok(if bad { Exit::Model } else { Exit::Good })

@@ -25,8 +25,8 @@ pub fn report(shell: &mut Shell, model: &str, sources: &Sources, items: &Items) 
     writeln!(shell.out(), "\ncoverage of {model}")?;
     for (kind, coverage) in items.totals() {
         let (covered, total) = (coverage.covered, coverage.total);
-        if total > 0 {
-            writeln!(shell.out(), "  {kind:<9} {covered:>4} of {total:<4} {:>3} %", 100 * covered / total)?;
+        if let Some(percent) = (100 * covered).checked_div(total) {
+            writeln!(shell.out(), "  {kind:<9} {covered:>4} of {total:<4} {percent:>3} %")?;
         }
     }
     if !uncovered.is_empty() {

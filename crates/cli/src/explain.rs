@@ -7,6 +7,7 @@ use clap::Args;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::shell::Shell;
+use crate::wire::Answer;
 
 /// Arguments of `explain`.
 #[derive(Debug, Args)]
@@ -22,7 +23,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let Some(id) = &arguments.id else {
         for (id, page) in PAGES {
             if shell.json() {
-                shell.object(&serde_json::json!({ "type": "page", "id": id, "title": title(page) }))?;
+                shell.object(&Answer::Page { id, title: title(page), text: None })?;
             } else {
                 writeln!(shell.out(), "{id:<28} {}", title(page))?;
             }
@@ -34,7 +35,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Ok(index) => {
             let (id, page) = PAGES[index];
             if shell.json() {
-                shell.object(&serde_json::json!({ "type": "page", "id": id, "title": title(page), "text": page }))?;
+                shell.object(&Answer::Page { id, title: title(page), text: Some(page) })?;
             } else {
                 shell.out().write_all(page.as_bytes())?;
             }

@@ -71,19 +71,35 @@ fn tidy(path: &Path) -> PathBuf {
     tidied
 }
 
-/// A file being written: it takes its name when it is complete and does not exist before.
+/// A file being written: it takes its name when it is complete and does not exist before. What is no ordinary file
+/// (a pipe, `/dev/stdout`) is never replaced but written as it is.
 #[derive(Debug)]
 pub struct Unfinished {
     path: PathBuf,
-    writer: BufWriter<tempfile::NamedTempFile>,
+    target: Target,
+}
+
+#[derive(Debug)]
+enum Target {
+    Renamed(BufWriter<tempfile::NamedTempFile>),
+    Direct(BufWriter<File>),
 }
 
 impl Unfinished {
     /// Begins a file.
     pub fn create(path: &Path) -> Result<Self, Failure> {
-        if path.is_dir() {
-            return Err(Failure::Folder(path.to_path_buf()));
-        }
+        let wrap = |error| Failure::of_file("write", path, error);
+        let special = path.starts_with("/dev") || path.starts_with("/proc");
+        let path = match std::fs::metadata(path) {
+            Ok(found) if found.is_dir() => return Err(Failure::Folder(path.to_path_buf())),
+            Ok(found) if special || !found.is_file() => {
+                let file = File::options().write(true).open(path).map_err(wrap)?;
+                return Ok(Unfinished { path: path.to_path_buf(), target: Target::Direct(BufWriter::new(file)) });
+            }
+            // A link stays; what it leads to is replaced.
+            Ok(_) => std::fs::canonicalize(path).map_err(wrap)?,
+            Err(_) => path.to_path_buf(),
+        };
         let folder = match path.parent() {
             Some(folder) if folder != Path::new("") => folder,
             _ => Path::new("."),
@@ -91,18 +107,22 @@ impl Unfinished {
         let file = tempfile::Builder::new()
             .prefix(".groundstate-")
             .tempfile_in(folder)
-            .map_err(|error| Failure::of_file("write", path, error))?;
-        Ok(Unfinished { path: path.to_path_buf(), writer: BufWriter::new(file) })
+            .map_err(|error| Failure::of_file("write", &path, error))?;
+        Ok(Unfinished { path, target: Target::Renamed(BufWriter::new(file)) })
     }
 
     /// Gives the file its name.
     pub fn finish(self) -> Result<(), Failure> {
-        let Unfinished { path, writer } = self;
+        let Unfinished { path, target } = self;
         let wrap = |error| Failure::of_file("write", &path, error);
-        let file = writer.into_inner().map_err(|error| wrap(error.into_error()))?;
-        allow_reading(file.as_file()).map_err(wrap)?;
-        file.persist(&path).map_err(|error| wrap(error.error))?;
-        Ok(())
+        match target {
+            Target::Direct(mut writer) => writer.flush().map_err(wrap),
+            Target::Renamed(writer) => {
+                let file = writer.into_inner().map_err(|error| wrap(error.into_error()))?;
+                allow_reading(file.as_file()).map_err(wrap)?;
+                file.persist(&path).map(|_| ()).map_err(|error| wrap(error.error))
+            }
+        }
     }
 }
 
@@ -120,11 +140,17 @@ fn allow_reading(_file: &File) -> io::Result<()> {
 
 impl Write for Unfinished {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.writer.write(bytes)
+        match &mut self.target {
+            Target::Renamed(writer) => writer.write(bytes),
+            Target::Direct(writer) => writer.write(bytes),
+        }
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.writer.flush()
+        match &mut self.target {
+            Target::Renamed(writer) => writer.flush(),
+            Target::Direct(writer) => writer.flush(),
+        }
     }
 }
 

@@ -12,8 +12,8 @@ pub struct Limits {
     /// Rounds of while, whilerec and iterate in one step, all together
     #[arg(long, global = true, value_name = "N", default_value_t = machine::Limits::default().iterations, hide_short_help = true)]
     max_iterations: u64,
-    /// Calls of rules and functions inside each other
-    #[arg(long, global = true, value_name = "N", default_value_t = machine::Limits::default().call_depth, hide_short_help = true)]
+    /// Calls of rules and functions inside each other, at most 200000
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=200_000), default_value_t = machine::Limits::default().call_depth, hide_short_help = true)]
     max_depth: u64,
     /// Elements of one collection, enumeration or choice
     #[arg(long, global = true, value_name = "N", default_value_t = machine::Limits::default().collection, hide_short_help = true)]
@@ -40,13 +40,14 @@ impl Limits {
 
     /// The option that raises a limit of the machine.
     pub fn option_for(limit: &str) -> Option<&'static str> {
-        match limit {
-            "iterations" => Some("--max-iterations"),
-            "call depth" | "call_depth" | "calls" | "depth" => Some("--max-depth"),
-            "collection" | "elements" => Some("--max-collection"),
-            "updates" => Some("--max-updates"),
-            "locations" => Some("--max-locations"),
-            _ => None,
-        }
+        let options = [
+            ("iterations", "--max-iterations"),
+            ("calls", "--max-depth"),
+            ("collection", "--max-collection"),
+            ("updates", "--max-updates"),
+            ("locations", "--max-locations"),
+            ("elements", "--max-locations"),
+        ];
+        options.into_iter().find(|(word, _)| limit.contains(word)).map(|(_, option)| option)
     }
 }

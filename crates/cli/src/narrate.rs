@@ -2,6 +2,7 @@
 //!
 //! INVARIANT: what is written depends on the records alone, so that a replay writes the same bytes.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
@@ -32,6 +33,8 @@ pub struct Narrator<'a> {
     /// The variables that each choose rule binds, by its place.
     pub binders: BTreeMap<Span, Vec<String>>,
     pub until: Option<String>,
+    /// The steps in which nothing was taken in and nothing changed, still to be told.
+    pub quiet: Cell<Option<(u64, u64)>>,
 }
 
 const BOLD: &str = "\x1b[1m";
@@ -47,6 +50,15 @@ impl Narrator<'_> {
         if self.detail == Detail::None && !matches!(record, Record::End(_)) {
             return Ok(());
         }
+        if let Record::Step(step) = record
+            && self.detail == Detail::Changed
+            && is_quiet(step)
+        {
+            let first = self.quiet.get().map_or(step.step, |(first, _)| first);
+            self.quiet.set(Some((first, step.step)));
+            return Ok(());
+        }
+        self.tell_quiet(out)?;
         match record {
             Record::Initial { inputs, values, violations, .. } => {
                 writeln!(out, "{}", self.paint(BOLD, "state 0"))?;
@@ -71,6 +83,13 @@ impl Narrator<'_> {
                 writeln!(out, "{} {}", self.paint(BOLD, &format!("end after {steps}:")), self.reason(end, machine))
             }
         }
+    }
+
+    /// Steps in which nothing happened are told as one.
+    fn tell_quiet(&self, out: &mut impl Write) -> io::Result<()> {
+        let Some((first, last)) = self.quiet.take() else { return Ok(()) };
+        let steps = if first == last { format!("step {first}") } else { format!("steps {first} to {last}") };
+        writeln!(out, "{}\n  {}", self.paint(BOLD, &steps), self.paint(DIM, "no change"))
     }
 
     /// What a step took from outside.
@@ -116,12 +135,8 @@ impl Narrator<'_> {
             )?;
         }
         if step.changes.is_empty() {
-            let what = match (step.updates, step.changed) {
-                (0, false) => "no updates",
-                (_, false) => "no change",
-                // A domain grew.
-                (_, true) => "new elements only",
-            };
+            // If the state changed all the same, a domain grew.
+            let what = if step.changed { "new elements only" } else { "no change" };
             writeln!(out, "  {}", self.paint(DIM, what))?;
         }
         Ok(())
@@ -162,4 +177,9 @@ impl Narrator<'_> {
     fn paint(&self, color: &str, text: &str) -> String {
         if self.color && !color.is_empty() { format!("{color}{text}{RESET}") } else { text.to_string() }
     }
+}
+
+fn is_quiet(step: &StepRecord) -> bool {
+    let outside = step.inputs.is_empty() && step.writes.is_empty() && step.choices.is_empty();
+    outside && !step.changed && step.violations.is_empty()
 }

@@ -24,7 +24,7 @@ impl Progress {
 
     /// So many steps are made; cheap enough to be called every step.
     pub fn at(&mut self, steps: u64) {
-        if !self.wanted || steps % 256 != 0 {
+        if !self.wanted || !steps.is_multiple_of(256) {
             return;
         }
         if self.bar.is_none() && self.began.elapsed() > PATIENCE {

@@ -98,6 +98,7 @@ fn underlined(span: Span, text: &str, window: &Range<usize>) -> Range<usize> {
 }
 
 #[cfg(test)]
+#[allow(clippy::single_range_in_vec_init, reason = "a list of one place is meant")]
 mod tests {
     use super::*;
     use syntax::SourceFile;

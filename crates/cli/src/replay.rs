@@ -19,7 +19,7 @@ use crate::load::load;
 use crate::narrate::Detail;
 use crate::run::{Teller, options};
 use crate::shell::Shell;
-use crate::wire::{Line, Reader};
+use crate::wire::{Answer, Line, Reader};
 
 /// Arguments of `replay`.
 #[derive(Debug, Args)]
@@ -81,7 +81,7 @@ fn follow(
             line => match reader.record(&line) {
                 Ok(record) => record,
                 // The names in it are no longer those of the model.
-                Err(message) => return told_apart(shell, recorded.run().steps() + 1, &message, ""),
+                Err(message) => return told_apart(shell, recorded.run().steps() + 1, "a name of then", &message),
             },
         };
         match recorded.follow(&expected) {
@@ -102,10 +102,11 @@ fn follow(
 
 fn told_apart(shell: &mut Shell, step: u64, trace: &str, now: &str) -> Result<Exit, Failure> {
     if shell.json() {
-        let object = serde_json::json!({ "type": "parted", "step": step, "trace": trace, "now": now });
+        let object = Answer::Parted { step, trace, now };
         shell.object(&object)?;
     } else {
-        shell.note(&format!("error: the model parts from the trace at step {step}\n  trace: {trace}\n  now:   {now}"))?;
+        shell
+            .note(&format!("error: the model parts from the trace at step {step}\n  trace: {trace}\n  now:   {now}"))?;
     }
     Ok(Exit::Model)
 }

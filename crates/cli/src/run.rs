@@ -1,12 +1,14 @@
 //! `groundstate run MODEL`: steps, told as text or as a trace.
 
+use std::cell::Cell;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
 use groundstate::Loaded;
 use groundstate::simulate::{End, Header, Invariants, Options, Record, Run, Violation};
-use program::Program;
+use machine::{FaultKind, Location};
+use program::{FunctionKind, Program};
 use syntax::Sources;
 
 use crate::exit::Exit;
@@ -170,7 +172,7 @@ impl<'a> Teller<'a> {
         until: Option<String>,
     ) -> Teller<'a> {
         let binders = if shell.talks() { groundstate::choice_variables(program) } else { Default::default() };
-        let narrator = Narrator { detail, color: shell.color_out(), program, binders, until };
+        let narrator = Narrator { detail, color: shell.color_out(), program, binders, until, quiet: Cell::new(None) };
         Teller { narrator, wire: Wire { program, sources } }
     }
 
@@ -184,23 +186,23 @@ impl<'a> Teller<'a> {
         let machine = run.machine();
         if shell.json() {
             // What is wrong comes before the end, which is the last object.
-            let exit = if let Record::End(_) = record { self.faults(shell, record, run)? } else { Exit::Good };
+            let exit = if let Record::End(_) = record { self.faults(shell, record)? } else { Exit::Good };
             shell.object(&self.wire.record(record, run.steps()))?;
-            let more = if let Record::End(_) = record { Exit::Good } else { self.faults(shell, record, run)? };
+            let more = if let Record::End(_) = record { Exit::Good } else { self.faults(shell, record)? };
             return Ok(exit.max(more));
         }
         if shell.talks() {
             self.narrator.record(shell.out(), record, machine)?;
         }
-        self.faults(shell, record, run)
+        self.faults(shell, record)
     }
 
-    fn faults(&self, shell: &mut Shell, record: &Record, run: &Run) -> Result<Exit, Failure> {
+    fn faults(&self, shell: &mut Shell, record: &Record) -> Result<Exit, Failure> {
         match record {
             Record::Initial { violations, .. } => self.violations(shell, violations, 0),
             Record::Step(step) | Record::Attempt(step) => self.violations(shell, &step.violations, step.step),
             Record::Back { .. } => Ok(Exit::Good),
-            Record::End(end) => self.end(shell, end, run),
+            Record::End(end) => self.end(shell, end),
         }
     }
 
@@ -212,17 +214,27 @@ impl<'a> Teller<'a> {
         Ok(if violations.is_empty() { Exit::Good } else { Exit::Model })
     }
 
-    fn end(&self, shell: &mut Shell, end: &End, _run: &Run) -> Result<Exit, Failure> {
+    fn is_input(&self, location: &Location) -> bool {
+        self.wire.program.function(location.function).kind == FunctionKind::Monitored
+    }
+
+    fn end(&self, shell: &mut Shell, end: &End) -> Result<Exit, Failure> {
         match end {
             End::Fault(fault) => {
                 let mut diagnostic = groundstate::diagnose_fault(fault, self.wire.program);
                 let mut exit = Exit::Model;
                 match &fault.kind {
-                    machine::FaultKind::Environment { .. } => {
+                    FaultKind::Environment { .. } => {
                         diagnostic = diagnostic.with_help(inputs::HELP);
                         exit = Exit::World;
                     }
-                    machine::FaultKind::Limit { limit, .. } => {
+                    // The input is at fault, not the model.
+                    FaultKind::OutOfDomain { location, domain, .. } if self.is_input(location) => {
+                        let name = &self.wire.program.domain(*domain).name;
+                        diagnostic = diagnostic.with_help(format!("give it a value in {name}"));
+                        exit = Exit::World;
+                    }
+                    FaultKind::Limit { limit, .. } => {
                         if let Some(option) = crate::limits::Limits::option_for(limit) {
                             diagnostic = diagnostic.with_help(format!("if the model is right, raise {option}"));
                         }

@@ -15,6 +15,7 @@ use crate::render;
 
 /// Options of every command.
 #[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Output")]
 pub struct Global {
     /// How results and faults are written
     #[arg(long, global = true, value_enum, default_value_t = Format::Text)]
@@ -115,7 +116,7 @@ impl Shell {
         if diagnostics.len() > SHOWN {
             let more = diagnostics.len() - SHOWN;
             if self.json() {
-                self.object(&serde_json::json!({ "type": "more", "faults": more }))?;
+                self.object(&crate::wire::Answer::More { faults: more })?;
             } else {
                 self.note(&format!("and {more} more"))?;
             }

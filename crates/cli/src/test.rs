@@ -18,7 +18,7 @@ use crate::inputs::Chosen;
 use crate::interrupt;
 use crate::junit::Junit;
 use crate::shell::Shell;
-use crate::wire::{Fault, ScenarioResult};
+use crate::wire::{Answer, Fault, ScenarioResult};
 
 /// Arguments of `test`.
 #[derive(Debug, Args)]
@@ -158,9 +158,7 @@ fn line(shell: &Shell, path: &Path, tested: &Tested, passed: bool) -> String {
 fn summary(shell: &mut Shell, tally: &Tally, files: usize) -> Result<Exit, Failure> {
     let not_run = files - tally.passed - tally.failed;
     if shell.json() {
-        let object = serde_json::json!({
-            "type": "summary", "passed": tally.passed, "failed": tally.failed, "not_run": not_run,
-        });
+        let object = Answer::Tested { passed: tally.passed, failed: tally.failed, not_run };
         shell.object(&object)?;
     } else if shell.talks() {
         if not_run > 0 {

@@ -83,7 +83,7 @@ impl Loaded {
         }
         let Some(term) = TermFile::cast(parsed.syntax()).and_then(|file| file.term()) else {
             let span = Span { file, start: 0, end: 0 };
-            return Err(vec![Diagnostic::error("no-term", span, "a term is expected")]);
+            return Err(vec![Diagnostic::error("expected-term", span, "a term is expected")]);
         };
         let fragment = self.model.check_condition(file, &term, name);
         if has_errors(&fragment.diagnostics) {

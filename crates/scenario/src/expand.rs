@@ -25,10 +25,12 @@ pub(crate) struct Expansion<'a> {
     /// The blocks being expanded, by file and name.
     open: Vec<(FileId, String)>,
     expanded: Vec<Placed>,
+    /// Commands met so far.
+    met: usize,
 }
 
 /// LIMIT: commands after expansion, so that blocks calling blocks cannot grow without end.
-const COMMANDS: usize = 1_000_000;
+const COMMANDS: usize = 100_000;
 
 impl<'a> Expansion<'a> {
     pub fn new(sources: &'a mut Sources, blocks: &'a mut dyn Blocks) -> Self {
@@ -39,6 +41,7 @@ impl<'a> Expansion<'a> {
             files: BTreeMap::new(),
             open: Vec::new(),
             expanded: Vec::new(),
+            met: 0,
         }
     }
 
@@ -51,20 +54,22 @@ impl<'a> Expansion<'a> {
 
     fn commands(&mut self, commands: impl Iterator<Item = Command>, tree: &ScenarioFile, file: FileId) {
         for command in commands {
+            // Calls count, too: empty blocks could call each other for a very long time.
+            self.met += 1;
+            if self.met > COMMANDS {
+                if self.met == COMMANDS + 1 {
+                    let message = format!("blocks expand to more than {COMMANDS} commands");
+                    self.faults.push(Diagnostic::error("too-many-commands", span(file, &command), message));
+                }
+                return;
+            }
             match command {
                 Command::Block(block) => {
                     let name = block.name().map(|name| name.text().to_string()).unwrap_or_default();
                     self.inside(file, name, span(file, &block), |this| this.commands(block.commands(), tree, file));
                 }
                 Command::ExecBlock(call) => self.call(&call, tree, file),
-                other if self.expanded.len() < COMMANDS => self.expanded.push((other, file)),
-                other => {
-                    if self.expanded.len() == COMMANDS {
-                        let message = format!("blocks expand to more than {COMMANDS} commands");
-                        self.faults.push(Diagnostic::error("too-many-commands", span(file, &other), message));
-                    }
-                    return;
-                }
+                other => self.expanded.push((other, file)),
             }
         }
     }
@@ -135,7 +140,7 @@ impl<'a> Expansion<'a> {
             let place = Span::new(file, name.text_range());
             if let Some(first) = seen.get(name.text()) {
                 let fault =
-                    Diagnostic::error("block-twice", place, format!("block `{}` is defined twice", name.text()))
+                    Diagnostic::error("duplicate-block", place, format!("block `{}` is defined twice", name.text()))
                         .with_label(*first, "first here");
                 self.faults.push(fault);
             } else {

@@ -27,16 +27,10 @@ pub struct Parsed {
 /// Parses a scenario that is already among the sources.
 pub fn parse(sources: &Sources, file: FileId) -> Parsed {
     let parsed = syntax::parse_avalla(file, &sources.file(file).text);
-    let mut diagnostics = parsed.diagnostics.clone();
+    let diagnostics = parsed.diagnostics.clone();
     let tree = ScenarioFile::cast(parsed.syntax());
     let path = tree.as_ref().and_then(|tree| Some((tree.model_path()?, tree.model_token()?)));
     let model = path.map(|(path, token)| (path, Span::new(file, token.text_range())));
-    if model.is_none() && !has_errors(&diagnostics) {
-        let start = Span { file, start: 0, end: 0 };
-        diagnostics.push(
-            Diagnostic::error("no-model", start, "the scenario loads no model").with_help("write `load PATH.asm`"),
-        );
-    }
     Parsed { tree, file, model, diagnostics }
 }
 

@@ -100,29 +100,13 @@ fn unknown(program: &Program, name: &str) -> String {
         .functions
         .iter()
         .filter(|f| matches!(f.kind, FunctionKind::Monitored | FunctionKind::Shared) && !f.library)
-        .map(|f| (distance(name, &f.name), f.name.as_str()))
+        .map(|f| (strsim::levenshtein(name, &f.name), f.name.as_str()))
         .filter(|(distance, _)| *distance <= 2)
         .min();
     match close {
         Some((_, close)) => format!("the model has no function `{name}`; is `{close}` meant?"),
         None => format!("the model has no function `{name}`"),
     }
-}
-
-/// Levenshtein's distance.
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let substitute = diagonal + usize::from(x != *y);
-            diagonal = row[j + 1];
-            row[j + 1] = substitute.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
 }
 
 /// Strings and chars may stand without quotes where the whole text is one.

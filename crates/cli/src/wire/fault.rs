@@ -85,12 +85,3 @@ impl WorldFailure {
         WorldFailure { r#type: "failure", id: failure.id(), message: failure.to_string(), help: failure.help() }
     }
 }
-
-/// `{"type":"summary",…}`: the last object of `check`.
-#[derive(Debug, Serialize)]
-pub struct Summary {
-    pub r#type: &'static str,
-    pub files: usize,
-    pub errors: usize,
-    pub warnings: usize,
-}

@@ -1,9 +1,11 @@
 //! Wire types: what is written as JSON, and read back. Versioned; documented in docs/cli.md and spec/trace.md.
 
+mod answer;
 mod fault;
 mod scenario;
 mod trace;
 
-pub use fault::{Fault, Place, Summary, WorldFailure};
+pub use answer::Answer;
+pub use fault::{Fault, Place, WorldFailure};
 pub use scenario::ScenarioResult;
 pub use trace::{Line, Reader, Wire};

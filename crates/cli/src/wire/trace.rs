@@ -27,7 +27,9 @@ pub enum Line {
     State(State),
     Step(Step),
     Attempt(Step),
-    Back { step: u64 },
+    Back {
+        step: u64,
+    },
     End(Ending),
     /// An object of the command's output that is no part of the trace; never written.
     #[serde(other, skip_serializing)]

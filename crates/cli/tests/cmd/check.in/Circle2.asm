@@ -1,0 +1,5 @@
+module Circle2
+import Circle
+export *
+signature:
+definitions:

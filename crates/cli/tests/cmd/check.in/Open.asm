@@ -1,0 +1,4 @@
+asm Open
+signature:
+definitions:
+	main rule r_Main = par skip

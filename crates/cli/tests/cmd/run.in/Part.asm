@@ -1,0 +1,10 @@
+module Part
+
+import StandardLibrary
+export *
+
+signature:
+	controlled x: Integer
+
+definitions:
+	rule r_part = x := 1

@@ -1,0 +1,29 @@
+//! Each kind of fault of an input file has a page in spec/faults/, and the page's example yields it.
+
+use std::process::Command;
+
+fn block<'p>(page: &'p str, info: &str) -> &'p str {
+    let (_, rest) = page.split_once(&format!("```{info}\n")).expect("a block");
+    rest.split_once("```").expect("the block ends").0
+}
+
+#[test]
+fn every_fault_has_a_page_that_shows_it() {
+    for id in ["bad-input-file", "bad-input-value", "unknown-input"] {
+        let path = format!("{}/../../spec/faults/{id}.md", env!("CARGO_MANIFEST_DIR"));
+        let page = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
+        assert!(page.starts_with(&format!("# {id}\n")), "the page of {id} has another title");
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let write = |name: &str, text| std::fs::write(folder.path().join(name), text).expect("a file");
+        write("Lamp.asm", block(&page, "asmetal"));
+        write("inputs.yaml", block(&page, "yaml fault"));
+        let output = Command::new(env!("CARGO_BIN_EXE_groundstate"))
+            .args(["run", "Lamp.asm", "--input", "inputs.yaml"])
+            .current_dir(folder.path())
+            .output()
+            .expect("it starts");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(said.contains(&format!("error[{id}]")), "{id}: {said}");
+        assert_eq!(output.status.code(), Some(2));
+    }
+}

@@ -1,0 +1,6 @@
+//! Transcripts: what is typed and what is answered, in tests/cmd/. `TRYCMD=overwrite` rewrites the answers.
+
+#[test]
+fn transcripts() {
+    trycmd::TestCases::new().case("tests/cmd/*.trycmd");
+}
