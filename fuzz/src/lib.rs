@@ -1,10 +1,11 @@
-//! What the fuzz targets share: models to import, and limits that keep one input short.
+//! What the fuzz targets share: models to import, limits that keep one input short, an environment that answers.
 //!
-//! In: bytes. Out: texts, a loader over this project's own models, tight limits. INVARIANT: nothing here depends on
-//! anything but the bytes, so an input that fails once fails always.
+//! In: bytes. Out: texts, a loader over this project's own models, tight limits, inputs and choices. INVARIANT: nothing
+//! here depends on anything but the bytes, so an input that fails once fails always.
 
-use machine::Limits;
+use machine::{Choice, Environment, Limits, Location, TimeUnit, Value};
 use model::Loader;
+use program::{DomainId, DomainKind, Program};
 use syntax::SourceFile;
 
 /// This project's models: file name without ending, text.
@@ -42,5 +43,39 @@ impl Loader for Models {
         }
         let found = MODELS.iter().find(|(model, _)| *model == stem);
         found.map(|(model, text)| SourceFile::new(format!("{model}.asm"), *text)).ok_or_else(|| format!("no {path}"))
+    }
+}
+
+/// Answers by a small generator seeded from the text, so that the same text runs the same way.
+#[derive(Debug)]
+pub struct Seeded(pub u64);
+
+impl Seeded {
+    fn below(&mut self, bound: u64) -> u64 {
+        // Steele, Lea, Flood: SplitMix64.
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        (z ^ (z >> 31)) % bound.max(1)
+    }
+}
+
+impl Environment for Seeded {
+    fn monitored(&mut self, program: &Program, _: &Location, codomain: DomainId) -> Result<Value, String> {
+        Ok(match &program.domain(codomain).kind {
+            DomainKind::Basic(model::Basic::Boolean) => Value::Boolean(self.below(2) == 0),
+            DomainKind::Basic(model::Basic::Integer | model::Basic::Natural) => Value::Integer(self.below(10) as i64),
+            DomainKind::Enum { literals } => Value::Enum(codomain, self.below(literals.len() as u64) as u32),
+            _ => Value::Undef,
+        })
+    }
+
+    fn choose(&mut self, _: &Program, choice: &Choice<'_>) -> Result<usize, String> {
+        Ok(self.below(choice.candidates() as u64) as usize)
+    }
+
+    fn time(&mut self, _: TimeUnit) -> Result<i64, String> {
+        Ok(self.below(1000) as i64)
     }
 }

@@ -3,12 +3,14 @@
 
 use std::sync::Arc;
 
+use fuzz::Models;
 use libfuzzer_sys::fuzz_target;
 use machine::Machine;
 use syntax::{Severity, SourceFile};
 
-fuzz_target!(|text: &str| {
-    let checked = model::check(SourceFile::new("fuzz.asm", text), &mut fuzz::NoFiles);
+fuzz_target!(|data: &[u8]| {
+    let text = fuzz::text(data);
+    let checked = model::check(SourceFile::new("Model.asm", text.as_str()), &mut Models::default());
     if checked.diagnostics.iter().any(|fault| fault.severity == Severity::Error) {
         return;
     }

@@ -15,6 +15,7 @@ const TARGETS: &[(&str, bool)] = &[
     ("parse_is_total_and_lossless", false),
     ("check_never_panics", false),
     ("step_never_panics", false),
+    ("a_failed_step_leaves_the_state", false),
     ("scenario_never_panics", true),
 ];
 

@@ -105,6 +105,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
             trace.write(&teller.wire.record(&record, run.steps()))?;
         }
         exit = exit.max(teller.tell(shell, &record, &run)?);
+        if interactive {
+            shell.flush()?;
+        }
         progress.at(run.steps());
         if interrupt::asked() {
             run.stop(End::Interrupted);

@@ -1,5 +1,7 @@
 //! Each kind of fault of an input file has a page in spec/faults/, and the page's example yields it.
 
+#![allow(clippy::disallowed_methods, reason = "the pages are files, and so is what is given to the command")]
+
 use std::process::Command;
 
 fn block<'p>(page: &'p str, info: &str) -> &'p str {

@@ -18,6 +18,9 @@ use crate::interpreter::{Assignment, Interpreter};
 use crate::state::{Location, State, Symbol};
 use crate::value::{Double, Value};
 
+/// What is done under each assignment.
+type Visitor<'v, I> = dyn FnMut(&mut I, &Assignment) -> Result<ControlFlow<()>, Fault> + 'v;
+
 impl Interpreter<'_> {
     /// ⟦t⟧.
     pub fn value(&mut self, term: &Term, state: &State, zeta: &Assignment) -> Result<Value, Fault> {
@@ -226,7 +229,7 @@ impl Interpreter<'_> {
         binders: &[Binder],
         state: &State,
         zeta: &Assignment,
-        visit: &mut dyn FnMut(&mut Self, &Assignment) -> Result<ControlFlow<()>, Fault>,
+        visit: &mut Visitor<'_, Self>,
     ) -> Result<ControlFlow<()>, Fault> {
         let Some((binder, rest)) = binders.split_first() else { return visit(self, zeta) };
         for value in self.range(&binder.range, state, zeta)? {
@@ -294,7 +297,8 @@ impl Interpreter<'_> {
 }
 
 /// The library functions that undef is an argument of like any other value.
-const TOTAL: [&str; 9] = ["eq", "neq", "isDef", "isUndef", "not", "toString", "print", "program", "getAgent"];
+const TOTAL: [&str; 10] =
+    ["eq", "neq", "equality", "isDef", "isUndef", "not", "toString", "print", "program", "getAgent"];
 
 fn constant(literal: &Literal) -> Value {
     let double = |number: f64| Double::new(number).expect("a literal is a number");

@@ -27,6 +27,16 @@ pub struct Ask<'a> {
     pub carriers: &'a Carriers,
 }
 
+impl Ask<'_> {
+    /// Whether a value of the type is in the domain asked for, as far as its elements are known.
+    pub fn admits(&self, value: &Value) -> bool {
+        match self.carriers.get(self.codomain) {
+            Some(elements) => value.is_undef() || elements.contains(value),
+            None => true,
+        }
+    }
+}
+
 /// One source of input values.
 pub trait Source {
     /// The value, or none if this source has none and the next layer is to be asked. An error is a sentence for

@@ -4,8 +4,9 @@
 //! can be mended: our state takes the recorded value on, and the run is compared further.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
-use machine::{Location, Machine};
+use machine::{Limits, Location, Machine};
 use program::{Builtin, Expression, FunctionId, FunctionKind, Program, Rule, Term, TermId};
 
 use super::difference::What;
@@ -116,6 +117,7 @@ impl<'a> Excuses<'a> {
             What::Violation { .. } if self.uses_clock() => Some(reason::CLOCK),
             What::Violation { .. } | What::Value { .. } | What::Written { .. } | What::Beyond { .. } => None,
         }
+        .or_else(|| self.initialised_outside(step).then_some(reason::INITIAL_OUTSIDE))
         .or_else(|| self.asked_twice(step).then_some(reason::ASKED_TWICE))
         .or_else(|| self.uses(&[Builtin::NaturalRange]).then_some(reason::RANGE))
         .or_else(|| self.uses(&[Builtin::SetDifference]).then_some(reason::DIFFERENCE))
@@ -165,6 +167,21 @@ impl<'a> Excuses<'a> {
         let before = self.trace.steps.get(..step.saturating_sub(1)).and_then(<[Step]>::last);
         let listing = before.and_then(|step| step.after.as_ref()).unwrap_or(&self.trace.initial);
         value.is_some_and(|value| value.contains('!') && !listing.iter().any(|(_, held)| held.contains(value)))
+    }
+
+    /// The record lists, up to this step, a value of an initialised function for arguments outside its domains.
+    fn initialised_outside(&self, step: usize) -> bool {
+        let program = self.program;
+        let initialised =
+            |name: &str| program.initials.iter().any(|initial| program.function(initial.function).name == name);
+        let mut machine = Machine::new(Arc::new(program.clone()), Limits::default());
+        let listings = self.trace.steps.iter().take(step).filter_map(|step| step.after.as_ref());
+        let locations: BTreeSet<&String> =
+            listings.flatten().filter(|(_, value)| value != "undef").map(|(name, _)| name).collect();
+        locations.into_iter().any(|name| {
+            let named = name.split('(').next().is_some_and(initialised);
+            named && text::location_of(program, name).is_some_and(|location| self.outside(&mut machine, &location))
+        })
     }
 
     /// The environment gave one location two values in one step, up to this one.

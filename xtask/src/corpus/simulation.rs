@@ -6,8 +6,10 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use model::Loader;
 use program::Program;
 use syntax::Severity;
+use syntax::ast::AstNode;
 
 use super::accept::{refusal, refused};
 use super::difference::{Difference, What};
@@ -93,9 +95,12 @@ fn own_library(checkout: &Checkout, path: &str, program: &Program, difference: &
     if !of_library {
         return None;
     }
-    let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
-    let copies = ["TimeLibrary", "TimeLibrarySimple"].map(|name| format!("{folder}/{name}.asm"));
-    let copy = copies.iter().find_map(|copy| checkout.source(copy).ok())?;
+    let root = checkout.source(path).ok()?;
+    let parse = syntax::parse_asmetal(syntax::FileId(0), &root.text);
+    let imports =
+        syntax::ast::SourceFile::cast(parse.syntax())?.imports().filter_map(|import| import.path()).collect::<Vec<_>>();
+    let library = imports.iter().find(|path| path.contains("TimeLibrary"))?;
+    let copy = checkout.clone().load(&root, library).ok()?;
     // The built-in one has units; the old ones have seconds alone.
     (!copy.text.contains("controlled timerUnit") || copy.text.contains("// controlled timerUnit"))
         .then_some(reason::OWN_LIBRARY)

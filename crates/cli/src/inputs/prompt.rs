@@ -66,7 +66,8 @@ impl Source for Prompt {
                     }
                     let _ = editor.add_history_entry(line);
                     match read_value(ask.program, ask.codomain, line) {
-                        Ok(value) => return Ok(Some(value)),
+                        Ok(value) if ask.admits(&value) => return Ok(Some(value)),
+                        Ok(_) => eprintln!("  {line} is not in {}", ask.program.domain(ask.codomain).name),
                         Err(message) => eprintln!("  {message}"),
                     }
                 }

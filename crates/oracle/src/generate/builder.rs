@@ -111,6 +111,7 @@ impl Builder {
             5 => Type::Element(self.carrier(false)),
             6..=8 => Type::Integer,
             9 => Type::Natural,
+            10 if self.random.percent(15) => Type::Complex,
             10 => Type::Real,
             _ => {
                 if self.random.percent(50) {

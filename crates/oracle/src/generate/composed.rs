@@ -1,6 +1,6 @@
 //! Random terms by the library functions and binding constructs of each type.
 
-use super::builder::{Builder, Scope, leaf, term};
+use super::builder::{Builder, Layer, Scope, leaf, term};
 use super::piece::Piece;
 use super::signature::Type;
 
@@ -12,6 +12,7 @@ impl Builder {
             Type::Integer | Type::Concrete(_) => self.integer(scope, wanted, depth),
             Type::Natural => self.natural(scope, depth),
             Type::Real => self.real(scope, depth),
+            Type::Complex => self.complex(scope, depth),
             Type::String => self.string(scope, depth),
             Type::Seq(of) => self.sequence(scope, wanted, of, depth),
             Type::Set(of) => self.set(scope, wanted, of, depth),
@@ -91,8 +92,11 @@ impl Builder {
             }
             11 => {
                 let set = self.simple(false).set();
-                let template = self.one_of(&["allin(§, §)", "notallin(§, §)", "(§ = §)"]);
+                let template = self.one_of(&["allin(§, §)", "notallin(§, §)", "(§ = §)", "equality(§, §)"]);
                 self.filled(scope, boolean, template, &[&set, &set], depth)
+            }
+            12 if self.random.percent(20) => {
+                self.filled(scope, boolean, "contains(§, §)", &[&Type::String, &Type::String], depth)
             }
             12 => {
                 let set = self.simple(false);
@@ -101,7 +105,7 @@ impl Builder {
             }
             _ => {
                 let quantifier = self.one_of(&["forall", "exists", "exists unique"]);
-                let (binders, inner) = self.binders(scope, depth);
+                let (binders, inner) = self.binders(scope, true, depth);
                 let condition = self.term(&inner, boolean, depth - 1);
                 term(boolean, &format!("({quantifier} § with §)"), vec![binders, condition])
             }
@@ -144,7 +148,13 @@ impl Builder {
                 let template = self.one_of(&["floor(§)", "round(§)", "rtoi(§)"]);
                 self.filled(scope, wanted, template, &[&Type::Real], depth)
             }
-            _ => match self.random.below(3) {
+            _ => match self.random.below(6) {
+                3 if scope.layer == Layer::State => leaf(wanted, "mod(currTimeSecs, 7)"),
+                4 => self.filled(scope, wanted, "toInteger(toString(§))", &[integer], depth),
+                5 => {
+                    let domain = self.any_type(1);
+                    self.filled(scope, wanted, "print(§)", &[&domain], depth)
+                }
                 0 => self.filled(scope, wanted, "ntoi(§)", &[&Type::Natural], depth),
                 1 => self.filled(scope, wanted, "size(§)", &[&Type::String], depth),
                 _ => self.filled(scope, wanted, "(§ - §)", &[&Type::Natural, &Type::Natural], depth),
@@ -175,9 +185,13 @@ impl Builder {
 
     fn real(&mut self, scope: &Scope, depth: u32) -> Piece {
         let real = &Type::Real;
-        match self.random.below(10) {
+        match self.random.below(11) {
+            10 => {
+                let template = self.one_of(&["re(§)", "im(§)"]);
+                self.filled(scope, real, template, &[&Type::Complex], depth)
+            }
             0..=3 => {
-                let template = self.one_of(&["(§ + §)", "(§ - §)", "(§ * §)", "max(§, §)", "min(§, §)"]);
+                let template = self.one_of(&["(§ + §)", "(§ - §)", "(§ * §)", "max(§, §)", "min(§, §)", "(§ ^ §)"]);
                 self.operands(scope, real, template, real, depth)
             }
             4 => self.filled(scope, real, "(§ / 4.0)", &[real], depth),
@@ -190,13 +204,29 @@ impl Builder {
         }
     }
 
+    fn complex(&mut self, scope: &Scope, depth: u32) -> Piece {
+        let complex = &Type::Complex;
+        match self.random.below(6) {
+            0..=2 => {
+                let template = self.one_of(&["(§ + §)", "(§ - §)", "(§ * §)"]);
+                self.filled(scope, complex, template, &[complex, complex], depth)
+            }
+            3 => self.filled(scope, complex, "(§ / §)", &[complex, complex], depth),
+            4 => self.filled(scope, complex, "norm(§)", &[complex], depth),
+            _ => self.filled(scope, complex, "(§ + §)", &[complex, &Type::Real], depth),
+        }
+    }
+
     fn string(&mut self, scope: &Scope, depth: u32) -> Piece {
         let string = &Type::String;
-        match self.random.below(5) {
+        match self.random.below(8) {
             0 | 1 => {
                 let domain = self.any_type(1);
                 self.filled(scope, string, "toString(§)", &[&domain], depth)
             }
+            5 => self.filled(scope, string, "subString(§, 0, 1)", &[string], depth),
+            6 => self.filled(scope, string, "toLower(§)", &[string], depth),
+            7 => self.filled(scope, string, "first(split(§, \"a\"))", &[string], depth),
             2 => {
                 let template = self.one_of(&["(§ + §)", "concat(§, §)"]);
                 self.filled(scope, string, template, &[string, string], depth)
@@ -243,7 +273,9 @@ impl Builder {
                 self.filled(scope, wanted, template, &[wanted, of], depth)
             }
             4 => self.filled(scope, wanted, "asSet(§)", &[&of.clone().seq()], depth),
-            5 if matches!(of, Type::Boolean | Type::Enum(_) | Type::Concrete(_) | Type::Element(_)) => {
+            5 if matches!(of, Type::Boolean | Type::Enum(_) | Type::Concrete(_) | Type::Element(_))
+                && (scope.layer.reads_domains() || !of.is_dynamic()) =>
+            {
                 leaf(wanted, of.name())
             }
             6 if *of == Type::Integer => leaf(wanted, ["{1 : 3}", "{-2 : 4, 3}", "{0 : 0}"][self.random.below(3)]),
@@ -251,7 +283,7 @@ impl Builder {
             6 if *of == Type::Natural => self.filled(scope, wanted, "range(1n, 4n)", &[], depth),
             7 => self.filled(scope, wanted, "asSet(§)", &[&Type::Bag(Box::new(of.clone()))], depth),
             _ => {
-                let (binders, inner) = self.binders(scope, depth);
+                let (binders, inner) = self.binders(scope, false, depth);
                 let body = self.term(&inner, of, depth - 1);
                 if self.random.percent(30) {
                     return term(wanted, "{§ : §}", vec![binders, body]);
@@ -304,7 +336,7 @@ impl Builder {
             0 | 1 => self.filled(scope, wanted, "assign(§, §, §)", &[wanted, from, to], depth),
             2 => self.filled(scope, wanted, "merge(§, §)", &[wanted, wanted], depth),
             _ => {
-                let (binder, inner) = self.binder(scope, depth);
+                let (binder, inner) = self.binder(scope, false, depth);
                 let (key, value) = (self.term(&inner, from, depth - 1), self.term(&inner, to, depth - 1));
                 term(wanted, "{§ : § -> § |}", vec![binder, key, value])
             }

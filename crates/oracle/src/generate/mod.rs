@@ -38,7 +38,10 @@ pub fn model(seed: u64, size: u32) -> Piece {
     signature.extend(
         ENUMS.iter().map(|(name, literals)| item(format!("enum domain {name} = {{ {} }}\n", literals.join(" | ")))),
     );
-    signature.extend(RANGES.iter().map(|(name, ..)| item(format!("domain {name} subsetof Integer\n"))));
+    for range in &RANGES {
+        let dynamic = if range.dynamic { "dynamic " } else { "" };
+        signature.push(item(format!("{dynamic}domain {} subsetof Integer\n", range.name)));
+    }
     for carrier in CARRIERS.iter().filter(|carrier| !carrier.declaration.is_empty()) {
         signature.push(item(format!("{}\n", carrier.declaration)));
     }
@@ -47,8 +50,8 @@ pub fn model(seed: u64, size: u32) -> Piece {
     }
     signature.extend(builder.signature.functions.iter().map(|function| item(format!("{}\n", function.declaration()))));
     signature.extend((0..builder.counters).map(|index| item(format!("controlled loop{index}: Integer\n"))));
-    let domains =
-        RANGES.iter().map(|(name, low, high)| item(format!("domain {name} = {{ {low} : {high} }}\n"))).collect();
+    let fixed = RANGES.iter().filter(|range| !range.dynamic);
+    let domains = fixed.map(|range| item(format!("domain {} = {}\n", range.name, range.definition))).collect();
     let list = |pieces| Piece::list(Sort::Fixed, "", pieces);
     Piece::new(
         Sort::Fixed,
@@ -165,6 +168,22 @@ impl Builder {
             pieces.push(Piece::new(Sort::Item, &format!("{word} {}{formal}{result} = §\n", rule.name), vec![body]));
             self.signature.rules.push(rule);
         }
+        // One that calls itself, each call with a local function of its own.
+        let (mut scope, integer) = (Scope::new(Layer::State).with("$n", &Type::Integer), Type::Integer);
+        scope.result = Some(integer.clone());
+        scope.locals.push(Function {
+            name: "mine".to_string(),
+            kind: Kind::Local,
+            parameters: Vec::new(),
+            codomain: integer,
+        });
+        let (first, last) = (self.rule(&scope, 1), self.rule(&scope, 1));
+        let template = "turbo rule r_down($n in Integer) in Integer = local mine: Integer [ mine := $n ] \
+                        if $n <= 0 then § else seq mine <- r_down($n - 1) § endseq endif\n";
+        pieces.push(Piece::new(Sort::Item, template, vec![first, last]));
+        let parameters = vec![Parameter { name: "$n".to_string(), domain: Type::Concrete(0), location: false }];
+        let result = Some(Type::Integer);
+        self.signature.rules.push(Rule { name: "r_down".to_string(), parameters, turbo: true, result });
         // The program of agents.
         let mut scope = Scope::new(Layer::State);
         scope.agent = true;
@@ -194,6 +213,9 @@ impl Builder {
     /// The initial state.
     fn init(&mut self) -> Piece {
         let mut items = Vec::new();
+        for range in RANGES.iter().filter(|range| range.dynamic) {
+            items.push(Piece::text(Sort::Item, format!("domain {} = {}\n", range.name, range.definition)));
+        }
         if self.random.percent(50) {
             items.push(Piece::text(Sort::Item, "domain Leaf = { root }\n"));
         }
@@ -241,6 +263,12 @@ impl Builder {
             }
         }
         items.push(Piece::text(Sort::Item, "agent Worker: r_program[]\n"));
+        if self.random.percent(60) {
+            items.push(Piece::text(Sort::Item, "agent Robot: r_0[]\n"));
+        }
+        if self.random.percent(30) {
+            items.push(Piece::text(Sort::Item, "agent Agent: r_0[]\n"));
+        }
         Piece::new(Sort::Item, "default init s0:\n§", vec![Piece::list(Sort::Fixed, "", items)])
     }
 }

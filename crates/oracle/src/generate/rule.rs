@@ -25,7 +25,7 @@ impl Builder {
             15 | 16 => self.let_rule(scope, depth),
             17..=19 => self.choose(scope, depth),
             20..=22 => {
-                let (binders, inner) = self.binders(scope, terms);
+                let (binders, inner) = self.binders(scope, true, terms);
                 let body = self.rule(&inner, depth - 1);
                 if self.random.percent(40) {
                     return rule("forall § do §", vec![binders, body]);
@@ -133,7 +133,7 @@ impl Builder {
     }
 
     fn choose(&mut self, scope: &Scope, depth: u32) -> Piece {
-        let (binders, inner) = self.binders(scope, 2);
+        let (binders, inner) = self.binders(scope, true, 2);
         let condition = self.term(&inner, &Type::Boolean, 2);
         let body = self.rule(&inner, depth - 1);
         match self.random.below(4) {
@@ -219,10 +219,14 @@ impl Builder {
     /// Runs the programs of agents.
     fn agents(&mut self, scope: &Scope) -> Piece {
         let name = self.name(scope);
-        match self.random.below(4) {
+        match self.random.below(5) {
             0 => Piece::text(Sort::Rule, format!("forall {name} in Worker do program({name})")),
             1 => Piece::text(Sort::Rule, format!("choose {name} in Agent do program({name})")),
-            2 => Piece::text(Sort::Rule, "program(anna)"),
+            2 => Piece::text(Sort::Rule, ["program(anna)", "program(carl)"][self.random.below(2)]),
+            3 => {
+                let after = self.rule(&scope.with(&name, &Type::Element(4)), 0);
+                rule(&format!("extend Robot with {name} do par program({name}) § endpar"), vec![after])
+            }
             _ => {
                 let after = self.rule(scope, 0);
                 rule("seq program(bert) § endseq", vec![after])

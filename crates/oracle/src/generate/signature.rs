@@ -8,6 +8,7 @@ pub enum Type {
     Integer,
     Natural,
     Real,
+    Complex,
     Char,
     String,
     Enum(usize),
@@ -27,8 +28,25 @@ pub enum Type {
 /// Enum domains and their literals.
 pub const ENUMS: [(&str, &[&str]); 2] = [("Color", &["RED", "GREEN", "BLUE"]), ("Mode", &["ONN", "OFF"])];
 
-/// Concrete domains: ranges of integers.
-pub const RANGES: [(&str, i64, i64); 2] = [("Small", -2, 3), ("Digit", 0, 9)];
+/// A concrete domain over the integers.
+#[derive(Debug, Clone)]
+pub struct Range {
+    /// Its name.
+    pub name: &'static str,
+    /// Its elements.
+    pub contents: &'static [i64],
+    /// As it is defined.
+    pub definition: &'static str,
+    /// Its contents are part of the initial state.
+    pub dynamic: bool,
+}
+
+/// Concrete domains.
+pub const RANGES: [Range; 3] = [
+    Range { name: "Small", contents: &[-2, -1, 0, 1, 2, 3], definition: "{ -2 : 3 }", dynamic: false },
+    Range { name: "Digit", contents: &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9], definition: "{ 0 : 9 }", dynamic: false },
+    Range { name: "Prime", contents: &[2, 3, 5], definition: "{ 5, 2, 3 }", dynamic: true },
+];
 
 /// An abstract domain.
 #[derive(Debug, Clone)]
@@ -48,7 +66,7 @@ pub struct Carrier {
 }
 
 /// Abstract domains and subsets of them.
-pub const CARRIERS: [Carrier; 5] = [
+pub const CARRIERS: [Carrier; 6] = [
     Carrier { name: "Agent", declaration: "", elements: &[], base: None, dynamic: true, agents: true },
     Carrier {
         name: "Item",
@@ -72,6 +90,14 @@ pub const CARRIERS: [Carrier; 5] = [
         elements: &["anna", "bert"],
         base: Some(0),
         dynamic: false,
+        agents: true,
+    },
+    Carrier {
+        name: "Robot",
+        declaration: "dynamic domain Robot subsetof Agent",
+        elements: &["carl"],
+        base: Some(0),
+        dynamic: true,
         agents: true,
     },
     Carrier {
@@ -103,10 +129,11 @@ impl Type {
             Type::Integer => "Integer".to_string(),
             Type::Natural => "Natural".to_string(),
             Type::Real => "Real".to_string(),
+            Type::Complex => "Complex".to_string(),
             Type::Char => "Char".to_string(),
             Type::String => "String".to_string(),
             Type::Enum(index) => ENUMS[*index].0.to_string(),
-            Type::Concrete(index) => RANGES[*index].0.to_string(),
+            Type::Concrete(index) => RANGES[*index].name.to_string(),
             Type::Element(index) => CARRIERS[*index].name.to_string(),
             Type::Prod(parts) => format!("Prod({})", list(parts)),
             Type::Seq(of) => format!("Seq({})", of.name()),
@@ -122,9 +149,11 @@ impl Type {
     pub fn least(&self) -> Option<String> {
         Some(match self {
             Type::Boolean => "true".to_string(),
-            Type::Integer | Type::Concrete(_) => "0".to_string(),
+            Type::Integer => "0".to_string(),
+            Type::Concrete(index) => RANGES[*index].contents[0].to_string(),
             Type::Natural => "0n".to_string(),
             Type::Real => "0.0".to_string(),
+            Type::Complex => "0.0+i1.0".to_string(),
             Type::Char => "'a'".to_string(),
             Type::String => "\"\"".to_string(),
             Type::Enum(index) => ENUMS[*index].1[0].to_string(),
@@ -138,6 +167,15 @@ impl Type {
             }
             Type::Rule(_) => return None,
         })
+    }
+
+    /// May the domain's elements change?
+    pub fn is_dynamic(&self) -> bool {
+        match self {
+            Type::Concrete(index) => RANGES[*index].dynamic,
+            Type::Element(index) => CARRIERS[*index].dynamic || CARRIERS[*index].base.is_some(),
+            _ => false,
+        }
     }
 
     /// The type without concrete domains and subsets: what the checker compares.

@@ -48,6 +48,7 @@ impl Builder {
             },
             Type::Natural => format!("{}n", self.random.below(6)),
             Type::Real => ["0.0", "1.0", "0.5", "-2.5", "3.25", "0.1", "1000000.0"][self.random.below(7)].to_string(),
+            Type::Complex => ["0.0+i1.0", "1.5-i2.0", "2.0+i0.0"][self.random.below(3)].to_string(),
             Type::Char => ["'a'", "'b'", "'z'"][self.random.below(3)].to_string(),
             Type::String => ["\"\"", "\"a\"", "\"ab\"", "\"x y\"", "\"b\""][self.random.below(5)].to_string(),
             Type::Enum(index) => {
@@ -55,8 +56,8 @@ impl Builder {
                 literals[self.random.below(literals.len())].to_string()
             }
             Type::Concrete(index) => {
-                let (_, low, high) = RANGES[*index];
-                (low + self.random.below((high - low + 1) as usize) as i64).to_string()
+                let contents = RANGES[*index].contents;
+                contents[self.random.below(contents.len())].to_string()
             }
             Type::Element(index) if scope.agent && CARRIERS[*index].agents && self.random.percent(50) => {
                 "self".to_string()
@@ -142,7 +143,6 @@ impl Builder {
     pub fn inside(&mut self, scope: &Scope, wanted: &Type, depth: u32) -> Piece {
         match wanted {
             Type::Concrete(index) if !self.random.percent(8) => {
-                let (_, low, high) = RANGES[*index];
                 let exact: Vec<String> = scope
                     .variables
                     .iter()
@@ -156,7 +156,12 @@ impl Builder {
                     return self.literal(scope, wanted);
                 }
                 let number = self.term(scope, &Type::Integer, depth - 1);
-                term(wanted, &format!("({low} + mod(abs(§), {}))", high - low + 1), vec![number])
+                let contents = RANGES[*index].contents;
+                if RANGES[*index].dynamic {
+                    let list = contents.iter().map(i64::to_string).collect::<Vec<_>>().join(",");
+                    return term(wanted, &format!("(if contains({{{list}}}, §) then 2 else 5 endif)"), vec![number]);
+                }
+                term(wanted, &format!("({} + mod(abs(§), {}))", contents[0], contents.len()), vec![number])
             }
             _ => self.term(scope, wanted, depth),
         }
@@ -231,7 +236,13 @@ impl Builder {
             return self.small(scope, wanted);
         }
         let other = self.simple(false);
-        match self.random.below(7) {
+        match self.random.below(9) {
+            7 => {
+                let three = Type::Prod(vec![other.clone(), other, wanted.clone()]);
+                let triple = self.term(scope, &three, depth - 1);
+                term(wanted, "third(§)", vec![triple])
+            }
+            8 if scope.result.as_ref() == Some(wanted) => leaf(wanted, "result"),
             0 => {
                 let pair = self.term(scope, &Type::Prod(vec![wanted.clone(), other]), depth - 1);
                 term(wanted, "first(§)", vec![pair])
@@ -268,29 +279,35 @@ impl Builder {
         }
     }
 
-    /// `$x in range`, and the scope with the variable: a domain or a collection.
-    pub fn binder(&mut self, scope: &Scope, depth: u32) -> (Piece, Scope) {
+    /// `$x in range`, and the scope with the variable: a domain or a set, or another collection.
+    pub fn binder(&mut self, scope: &Scope, others: bool, depth: u32) -> (Piece, Scope) {
         let name = self.name(scope);
         let (range, domain) = match self.random.below(12) {
             0..=6 => {
                 let domain = match self.simple(true) {
                     // What depends on a dynamic domain is not static.
-                    Type::Element(_) if !scope.layer.reads_domains() => Type::Enum(0),
+                    domain if domain.is_dynamic() && !scope.layer.reads_domains() => Type::Enum(0),
                     domain => domain,
                 };
                 (leaf(&domain.clone().set(), domain.name()), domain)
             }
             7 => {
-                let pair = Type::Prod(vec![self.small_type(), self.small_type()]);
+                let parts = 2 + usize::from(self.random.percent(20));
+                let pair = Type::Prod((0..parts).map(|_| self.small_type()).collect());
                 (leaf(&pair.clone().set(), pair.name()), pair)
             }
             8 => {
-                let subsets = Type::Enum(self.random.below(ENUMS.len())).set();
+                let subsets = self.small_type().set();
                 (leaf(&subsets.clone().set(), subsets.name()), subsets)
             }
             _ => {
                 let domain = self.simple(false);
-                (self.term(scope, &domain.clone().set(), depth.saturating_sub(1)), domain.base())
+                let range = match self.random.below(if others { 4 } else { 1 }) {
+                    1 => domain.clone().seq(),
+                    2 => Type::Bag(Box::new(domain.clone())),
+                    _ => domain.clone().set(),
+                };
+                (self.term(scope, &range, depth.saturating_sub(1)), domain.base())
             }
         };
         let inner = scope.with(&name, &domain);
@@ -299,16 +316,20 @@ impl Builder {
 
     /// A type with few elements.
     fn small_type(&mut self) -> Type {
-        if self.random.percent(40) { Type::Boolean } else { Type::Enum(self.random.below(ENUMS.len())) }
+        match self.random.below(10) {
+            0..=3 => Type::Boolean,
+            4 => Type::Concrete(0),
+            _ => Type::Enum(self.random.below(ENUMS.len())),
+        }
     }
 
     /// One or two binders, and the scope within.
-    pub fn binders(&mut self, scope: &Scope, depth: u32) -> (Piece, Scope) {
-        let (first, inner) = self.binder(scope, depth);
+    pub fn binders(&mut self, scope: &Scope, others: bool, depth: u32) -> (Piece, Scope) {
+        let (first, inner) = self.binder(scope, others, depth);
         if !self.random.percent(25) {
             return (first, inner);
         }
-        let (second, inner) = self.binder(&inner, depth);
+        let (second, inner) = self.binder(&inner, others, depth);
         (Piece::new(Sort::Fixed, "§, §", vec![first, second]), inner)
     }
 }

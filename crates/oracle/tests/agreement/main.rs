@@ -113,7 +113,7 @@ fn random_models() {
             if std::env::var("GROUNDSTATE_TRACE").is_ok() {
                 eprintln!("begin {seed}");
             }
-            let piece = oracle::generate::model(seed, 2 + (seed % 2) as u32);
+            let piece = oracle::generate::model(seed, 2 + (seed % 3) as u32);
             let text = piece.to_string();
             let verdict = judge(&text, plan);
             if std::env::var("GROUNDSTATE_TRACE").is_ok() {

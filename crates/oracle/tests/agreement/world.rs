@@ -38,7 +38,7 @@ impl World {
         let hash = about.bytes().fold(self.seed ^ 0xcbf2_9ce4_8422_2325, |hash, byte| {
             (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
         });
-        (Random::new(hash).next() >> 1) as usize
+        (Random::new(hash).bits() >> 1) as usize
     }
 
     fn input(&mut self, location: &Location) -> Value {
