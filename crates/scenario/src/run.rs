@@ -125,12 +125,15 @@ impl Play<'_> {
     }
 
     /// Sets the initial state. Sets before the first step are part of it: it is set once to evaluate their values
-    /// and, where there are any, a second time with them.
+    /// and, where there are any, a second time with them. Initial values of inputs are what they are until set.
     fn start(&mut self) -> Going {
         let script = self.script;
         self.start_machine()?;
-        let Some(first) = script.groups.first() else { return Ok(()) };
-        if !first.parts.sets.is_empty() {
+        let program = Arc::clone(self.machine.program());
+        let initial = self.machine.locations().into_iter();
+        let inputs = initial.filter(|(l, _)| program.function(l.function).kind == program::FunctionKind::Monitored);
+        self.environment.inputs.extend(inputs);
+        if let Some(first) = script.groups.first().filter(|first| !first.parts.sets.is_empty()) {
             let shared = self.sets(&first.parts.sets)?;
             self.start_machine()?;
             for (location, value, span) in shared {
@@ -138,6 +141,7 @@ impl Play<'_> {
                 self.try_to(set, span)?;
             }
         }
+        self.machine.forget_inputs();
         Ok(())
     }
 
