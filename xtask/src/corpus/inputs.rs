@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 
 use machine::{Choice, Environment, Location, Machine, TimeUnit, Value};
 use program::{DomainId, DomainKind, FunctionKind, Program};
+use syntax::Span;
 
 use super::names::painted;
 use super::text;
@@ -21,6 +22,43 @@ pub struct Made {
     pub index: usize,
     /// How many there were.
     pub of: usize,
+}
+
+/// What was chosen at each choose rule before. The peer takes the first candidate of its hash table, so of the same
+/// candidates it takes the same again.
+#[derive(Debug, Default)]
+pub struct Habits {
+    /// By the rule and all its candidates.
+    exact: BTreeMap<(Span, Vec<Value>), usize>,
+    /// By the rule alone: the candidate's values.
+    last: BTreeMap<Span, Vec<Value>>,
+}
+
+/// A choice with all that a habit is made of.
+#[derive(Debug)]
+pub struct Chosen {
+    span: Span,
+    values: Vec<Value>,
+    candidate: Vec<Value>,
+    index: usize,
+}
+
+impl Habits {
+    /// Takes on the choices of a step that agreed.
+    pub fn learn(&mut self, chosen: Vec<Chosen>) {
+        for Chosen { span, values, candidate, index } in chosen {
+            self.last.insert(span, candidate);
+            self.exact.insert((span, values), index);
+        }
+    }
+
+    fn index(&self, choice: &Choice<'_>) -> usize {
+        if let Some(index) = self.exact.get(&(choice.span, choice.values.to_vec())) {
+            return *index;
+        }
+        let last = self.last.get(&choice.span);
+        last.and_then(|last| (0..choice.candidates()).find(|index| choice.candidate(*index) == last)).unwrap_or(0)
+    }
 }
 
 /// A few values of each domain that inputs have.
@@ -62,8 +100,12 @@ pub struct RecordedInputs<'a> {
     /// Inputs beyond the record are no choices.
     strict: bool,
     plan: Vec<Made>,
+    /// What choices beyond the plan go by; none for the first candidate.
+    habits: Option<&'a Habits>,
     /// The choices made.
     pub made: Vec<Made>,
+    /// The same with all that a habit is made of.
+    pub chosen: Vec<Chosen>,
     /// Locations asked for that the record does not have, or whose value cannot be read.
     pub beyond: Vec<String>,
 }
@@ -73,6 +115,7 @@ impl<'a> RecordedInputs<'a> {
     pub fn new(
         step: &'a Step,
         plan: Vec<Made>,
+        habits: Option<&'a Habits>,
         strict: bool,
         samples: &'a Samples,
         renaming: &'a BTreeMap<String, String>,
@@ -81,11 +124,12 @@ impl<'a> RecordedInputs<'a> {
         for (location, value) in step.inputs.iter().chain(&step.times) {
             values.entry(location.as_str()).or_insert(value.as_str());
         }
-        RecordedInputs { values, samples, renaming, strict, plan, made: Vec::new(), beyond: Vec::new() }
+        let (made, chosen, beyond) = (Vec::new(), Vec::new(), Vec::new());
+        RecordedInputs { values, samples, renaming, strict, plan, habits, made, chosen, beyond }
     }
 
-    fn take(&mut self, of: usize) -> usize {
-        let index = self.plan.get(self.made.len()).map_or(0, |planned| planned.index.min(of - 1));
+    fn take(&mut self, of: usize, habit: usize) -> usize {
+        let index = self.plan.get(self.made.len()).map_or(habit, |planned| planned.index.min(of - 1));
         self.made.push(Made { index, of });
         index
     }
@@ -105,12 +149,16 @@ impl Environment for RecordedInputs<'_> {
         }
         self.beyond.push(name);
         let samples = self.samples.get(&codomain).map_or(&[][..], Vec::as_slice);
-        let index = if self.strict || samples.len() < 2 { 0 } else { self.take(samples.len()) };
+        let index = if self.strict || samples.len() < 2 { 0 } else { self.take(samples.len(), 0) };
         Ok(samples.get(index).cloned().unwrap_or_default())
     }
 
     fn choose(&mut self, _program: &Program, choice: &Choice<'_>) -> Result<usize, String> {
-        Ok(self.take(choice.candidates()))
+        let habit = self.habits.map_or(0, |habits| habits.index(choice));
+        let index = self.take(choice.candidates(), habit);
+        let (values, candidate) = (choice.values.to_vec(), choice.candidate(index).to_vec());
+        self.chosen.push(Chosen { span: choice.span, values, candidate, index });
+        Ok(index)
     }
 
     fn time(&mut self, unit: TimeUnit) -> Result<i64, String> {

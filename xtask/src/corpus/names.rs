@@ -13,20 +13,42 @@ use super::text::parts;
 /// Location and value, as text.
 type Fact = (String, String);
 
-/// Which of our elements is which of theirs; none if their numbers differ.
-pub fn matching(ours: &[Fact], theirs: &[Fact]) -> Option<BTreeMap<String, String>> {
-    let (ours, theirs) = (coloured(ours), coloured(theirs));
+/// Which of our elements is which of theirs, keeping those that are known; none if the numbers of the others differ.
+pub fn matching(ours: &[Fact], theirs: &[Fact], known: &BTreeMap<String, String>) -> Option<BTreeMap<String, String>> {
+    // A known element is written without its mark: it is a name like any other.
+    let plain = |name: &str| name.replace('!', "#");
+    let mine = |name: &str| known.get(name).map_or_else(|| name.to_string(), |their| plain(their));
+    let settled: BTreeSet<&String> = known.values().collect();
+    let their = |name: &str| if settled.contains(&name.to_string()) { plain(name) } else { name.to_string() };
+    let (mut ours, mut theirs) = (coloured(&renamed(ours, &mine)), coloured(&renamed(theirs, &their)));
     if ours.len() != theirs.len() {
         return None;
     }
-    Some(ours.into_iter().zip(theirs).map(|((_, mine), (_, their))| (mine, their)).collect())
+    // Equal colours first; where the states are not the same, the rest by number.
+    let mut found = known.clone();
+    ours.retain(|((colour, _), mine)| {
+        let same = theirs.iter().position(|((other, _), _)| other == colour);
+        same.is_none_or(|at| {
+            found.insert(mine.clone(), theirs.remove(at).1);
+            false
+        })
+    });
+    ours.sort_by_key(|((_, number), _)| *number);
+    theirs.sort_by_key(|((_, number), _)| *number);
+    found.extend(ours.into_iter().zip(theirs).map(|((_, mine), (_, their))| (mine, their)));
+    Some(found)
+}
+
+fn renamed(facts: &[Fact], name: &dyn Fn(&str) -> String) -> Vec<Fact> {
+    let open =
+        facts.iter().filter(|(location, value)| (location.contains('!') || value.contains('!')) && value != "undef");
+    open.map(|(location, value)| (painted(location, name), painted(value, name))).collect()
 }
 
 /// The elements that occur, ordered by colour and then by number.
-fn coloured(facts: &[Fact]) -> Vec<((u64, usize, u64), String)> {
+fn coloured(facts: &[Fact]) -> Vec<((u64, u64), String)> {
     let facts: Vec<(&Fact, Vec<String>)> = facts
         .iter()
-        .filter(|(_, value)| value != "undef")
         .map(|fact| (fact, elements(&fact.0).into_iter().chain(elements(&fact.1)).collect()))
         .filter(|(_, elements): &(_, Vec<String>)| !elements.is_empty())
         .collect();
@@ -48,7 +70,7 @@ fn coloured(facts: &[Fact]) -> Vec<((u64, usize, u64), String)> {
         colours = next.collect();
     }
     let number = |name: &str| name.rsplit_once('!').and_then(|(_, digits)| digits.parse().ok()).unwrap_or(0);
-    let mut ordered: Vec<_> = colours.into_iter().map(|(name, colour)| ((colour, 0, number(&name)), name)).collect();
+    let mut ordered: Vec<_> = colours.into_iter().map(|(name, colour)| ((colour, number(&name)), name)).collect();
     ordered.sort();
     ordered
 }
@@ -117,7 +139,7 @@ mod tests {
     fn elements_are_matched_by_what_is_said_of_them() {
         let ours = facts(&["N={n!1,n!2}", "owner(n!1)=a", "owner(n!2)=b", "next(n!1)=n!2"]);
         let theirs = facts(&["N={n!1,n!2}", "owner(n!2)=a", "owner(n!1)=b", "next(n!2)=n!1"]);
-        let names = matching(&ours, &theirs).unwrap();
+        let names = matching(&ours, &theirs, &BTreeMap::new()).unwrap();
         assert_eq!(names["n!1"], "n!2");
         assert_eq!(names["n!2"], "n!1");
         let rename = |name: &str| names[name].clone();
@@ -127,7 +149,16 @@ mod tests {
     #[test]
     fn alike_elements_are_matched_in_order() {
         let ours = facts(&["N={n!1,n!2}"]);
-        assert_eq!(matching(&ours, &ours).unwrap()["n!2"], "n!2");
-        assert_eq!(matching(&ours, &facts(&["N={n!1}"])), None);
+        let none = BTreeMap::new();
+        assert_eq!(matching(&ours, &ours, &none).unwrap()["n!2"], "n!2");
+        assert_eq!(matching(&ours, &facts(&["N={n!1}"]), &none), None);
+    }
+
+    #[test]
+    fn known_elements_stay_what_they_are() {
+        let ours = facts(&["N={n!1,n!2}", "f(n!1)=a", "f(n!2)=a"]);
+        let known = BTreeMap::from([("n!1".to_string(), "n!2".to_string())]);
+        let names = matching(&ours, &ours, &known).unwrap();
+        assert_eq!((names["n!1"].as_str(), names["n!2"].as_str()), ("n!2", "n!1"));
     }
 }

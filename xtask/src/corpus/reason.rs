@@ -30,6 +30,8 @@ reasons! {
         "The peer looks for the file of a standard library where the import says and does not find it. Here the standard libraries are built in.";
     CHOICE_ORDER = "another choice":
         "The verdict hangs on a `choose` that the scenario does not pick: some choice gives the peer's verdict.";
+    CHOICES_UNKNOWN = "choices not found":
+        "The record does not hold the choices, and the search for those that lead to the recorded states was cut off. Up to there the run agrees.";
     CLOCK = "the clock":
         "The model reads the clock of the machine it runs on, which the record does not hold.";
     DEFINED_ELEMENT = "defined constant of an abstract domain":

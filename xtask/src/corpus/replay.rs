@@ -14,13 +14,13 @@ use syntax::Sources;
 
 use super::difference::{Difference, What};
 use super::excuse::Excuses;
-use super::inputs::{Made, RecordedInputs, Samples, next_plan, samples};
+use super::inputs::{Habits, Made, RecordedInputs, Samples, next_plan, samples};
 use super::state::Listed;
 use super::text;
 use super::trace::{End, Listing, Step, Trace};
 
 /// LIMIT: how much the search for choices compares in one trace: locations, with some for each step tried.
-const BUDGET: usize = 3_000_000;
+const BUDGET: usize = 10_000_000;
 /// How wrong a step is that is no step at all.
 const HOPELESS: usize = 1_000_000;
 
@@ -57,21 +57,30 @@ struct Search<'a> {
     machine: Machine,
     excuses: Excuses<'a>,
     samples: Samples,
+    habits: Habits,
     strict: bool,
     /// How much of the budget is used up.
     spent: usize,
     worst: Option<Difference>,
     beyond: BTreeMap<usize, Vec<String>>,
     reasons: BTreeMap<usize, BTreeSet<&'static str>>,
+    /// Our elements by their names in the record, as far as the levels made have shown.
     renaming: BTreeMap<String, String>,
-    renamed: bool,
+    /// The same after the level being made.
+    renaming_next: BTreeMap<String, String>,
     /// How many locations differed at the last comparison.
     wrong: usize,
+    /// The level is made for the first time, with the first choices.
+    first_plan: bool,
+    /// The level's choices are so few that all can be tried with care.
+    few_choices: bool,
 }
 
 /// A level made: the state before it and the choices taken.
 struct Level {
     before: Snapshot,
+    /// The renaming before it.
+    renaming: BTreeMap<String, String>,
     made: Vec<Made>,
     /// Found choice by choice: the count through all choices has not begun.
     guessed: bool,
@@ -88,14 +97,17 @@ impl<'a> Search<'a> {
             machine,
             excuses: Excuses::new(program, trace),
             samples,
+            habits: Habits::default(),
             strict,
             spent: 0,
             worst: None,
             beyond: BTreeMap::new(),
             reasons: BTreeMap::new(),
             renaming: BTreeMap::new(),
-            renamed: false,
+            renaming_next: BTreeMap::new(),
             wrong: 0,
+            first_plan: true,
+            few_choices: false,
         }
     }
 
@@ -106,15 +118,15 @@ impl<'a> Search<'a> {
             if self.spent > BUDGET {
                 return self.end(true);
             }
-            let before = self.machine.snapshot();
+            let (before, renaming) = (self.machine.snapshot(), self.renaming.clone());
             let depth = levels.len();
-            let (made, outcome) = self.level(depth, Vec::new());
+            let (made, outcome) = self.level(depth, Vec::new(), true);
             if outcome.is_ok() {
-                levels.push(Level { before, made, guessed: false });
+                levels.push(Level { before, renaming, made, guessed: false });
             } else if let Some(made) = self.guess(depth, &before, made) {
-                levels.push(Level { before, made, guessed: true });
+                levels.push(Level { before, renaming, made, guessed: true });
             } else if let Some(made) = self.count(depth, &before, Some(Vec::new())) {
-                levels.push(Level { before, made, guessed: false });
+                levels.push(Level { before, renaming, made, guessed: false });
             } else if !self.back(&mut levels) {
                 let cut = self.spent > BUDGET;
                 return self.end(cut);
@@ -127,7 +139,8 @@ impl<'a> Search<'a> {
     fn end(self, cut: bool) -> Replayed {
         let reasons = self.reasons.into_values().flatten().collect();
         let beyond = self.beyond.into_values().flatten().collect();
-        Replayed { difference: self.worst, reasons, beyond, renamed: self.renamed, cut }
+        let renamed = self.renaming.iter().any(|(ours, theirs)| ours != theirs);
+        Replayed { difference: self.worst, reasons, beyond, renamed, cut }
     }
 
     /// Tries the next choices of the last level that has any left.
@@ -137,15 +150,19 @@ impl<'a> Search<'a> {
                 continue;
             }
             let depth = levels.len();
+            self.renaming.clone_from(&level.renaming);
             let from = if level.guessed { Some(Vec::new()) } else { next_plan(&level.made) };
             let made = self.count(depth, &level.before, from);
             // The count meets the guess again.
             let made = match made {
-                Some(made) if level.guessed && made == level.made => self.count(depth, &level.before, next_plan(&made)),
+                Some(made) if level.guessed && made == level.made => {
+                    self.renaming.clone_from(&level.renaming);
+                    self.count(depth, &level.before, next_plan(&made))
+                }
                 made => made,
             };
             if let Some(made) = made {
-                levels.push(Level { before: level.before, made, guessed: false });
+                levels.push(Level { made, guessed: false, ..level });
                 return true;
             }
         }
@@ -159,7 +176,7 @@ impl<'a> Search<'a> {
                 return None;
             }
             self.machine.restore(before);
-            let (made, outcome) = self.level(depth, next);
+            let (made, outcome) = self.level(depth, next, false);
             if outcome.is_ok() {
                 return Some(made);
             }
@@ -168,59 +185,86 @@ impl<'a> Search<'a> {
         None
     }
 
-    /// Betters one choice after the other until the level agrees or none can be bettered.
+    /// Betters one choice after the other until the level agrees or none can be bettered: first with a few candidates of
+    /// each, then with all.
     fn guess(&mut self, depth: usize, before: &Snapshot, made: Vec<Made>) -> Option<Vec<Made>> {
         let mut best = (self.wrong, made);
-        loop {
-            let start = best.0;
-            let mut at = 0;
-            while at < best.1.len() {
-                for index in 0..best.1[at].of.min(500) {
-                    if index == best.1[at].index || self.spent > BUDGET {
-                        continue;
-                    }
-                    let mut plan = best.1.clone();
-                    plan[at].index = index;
-                    self.machine.restore(before);
-                    let (made, outcome) = self.level(depth, plan);
-                    if outcome.is_ok() {
+        for few in [true, false] {
+            loop {
+                let start = best.0;
+                let mut order: Vec<usize> = (0..best.1.len()).collect();
+                order.sort_by_key(|at| best.1[*at].of);
+                for at in order {
+                    if let Some(made) = self.better(depth, before, &mut best, at, few) {
                         return Some(made);
                     }
-                    if self.wrong < best.0 {
-                        best = (self.wrong, made);
-                    }
-                    if at >= best.1.len() {
-                        break;
-                    }
                 }
-                at += 1;
-            }
-            if best.0 >= start || self.spent > BUDGET {
-                return None;
+                if self.spent > BUDGET {
+                    return None;
+                }
+                if best.0 >= start {
+                    break;
+                }
             }
         }
+        None
+    }
+
+    /// Tries other candidates for one choice; gives the choices with which the level agrees.
+    fn better(
+        &mut self,
+        depth: usize,
+        before: &Snapshot,
+        best: &mut (usize, Vec<Made>),
+        at: usize,
+        few: bool,
+    ) -> Option<Vec<Made>> {
+        let of = best.1.get(at)?.of;
+        let stride = if few { of.div_ceil(12) } else { 1 };
+        for index in (0..of.min(500)).step_by(stride) {
+            if best.1.get(at).is_none_or(|made| made.index == index) || self.spent > BUDGET {
+                continue;
+            }
+            let mut plan = best.1.clone();
+            plan[at].index = index;
+            self.machine.restore(before);
+            let (made, outcome) = self.level(depth, plan, true);
+            if outcome.is_ok() {
+                return Some(made);
+            }
+            if self.wrong < best.0 {
+                *best = (self.wrong, made);
+            }
+        }
+        None
     }
 
     /// The initial state (level 0) or a step, with one plan: the choices made, and whether it is as recorded.
-    fn level(&mut self, level: usize, plan: Vec<Made>) -> (Vec<Made>, Result<(), What>) {
+    fn level(&mut self, level: usize, plan: Vec<Made>, by_habit: bool) -> (Vec<Made>, Result<(), What>) {
         self.spent += 100;
         self.wrong = HOPELESS;
+        self.first_plan = plan.is_empty();
+        self.renaming_next.clone_from(&self.renaming);
         self.excuses.take();
         // The peer evaluates initial values when they are first read, mostly in the first step: what they ask for is
         // recorded there.
         let nothing = Step::default();
         let step = self.trace.steps.get(level.max(1) - 1).unwrap_or(&nothing);
         let (samples, renaming) = (std::mem::take(&mut self.samples), self.renaming.clone());
-        let mut inputs = RecordedInputs::new(step, plan, self.strict, &samples, &renaming);
+        let habits = std::mem::take(&mut self.habits);
+        let by_habit = by_habit.then_some(&habits);
+        let mut inputs = RecordedInputs::new(step, plan, by_habit, self.strict, &samples, &renaming);
         let mut outcome = if level == 0 { self.start(&mut inputs) } else { self.step(step, &mut inputs) };
-        let RecordedInputs { made, beyond, .. } = inputs;
-        self.samples = samples;
+        let RecordedInputs { made, chosen, beyond, .. } = inputs;
+        (self.samples, self.habits) = (samples, habits);
         if let (true, true, Some(location)) = (self.strict, outcome.is_ok(), beyond.first()) {
             outcome = Err(What::Beyond { location: location.clone() });
         }
         match &outcome {
             Ok(()) => {
+                self.habits.learn(chosen);
                 self.beyond.insert(level, beyond);
+                self.renaming = std::mem::take(&mut self.renaming_next);
                 self.reasons.insert(level, self.excuses.take());
             }
             Err(what) if self.worst.as_ref().is_none_or(|worst| level > worst.step) => {
@@ -265,7 +309,10 @@ impl<'a> Search<'a> {
             }
         }
         match (&step.after, end) {
-            (Some(listing), _) => self.compare(listing, Some(listing)),
+            (Some(listing), _) => {
+                self.few_choices = inputs.made.iter().fold(1usize, |all, made| all.saturating_mul(made.of)) <= 256;
+                self.compare(listing, Some(listing))
+            }
             (None, Some(end)) => Err(What::GoesOn { theirs: end.clone() }),
             // Ran out of time in this step: nothing to compare with.
             (None, None) => Ok(()),
@@ -304,18 +351,22 @@ impl<'a> Search<'a> {
     fn compare(&mut self, listing: &Listing, written: Option<&Listing>) -> Result<(), What> {
         self.spent += listing.len();
         let changes = self.machine.changes();
-        let mut listed = Listed::of(&mut self.machine, listing);
+        let as_made = Listed::of(&mut self.machine, listing);
+        let mut listed = as_made.renamed(&self.renaming);
         let mut differences = differences(&listed, listing);
-        if !differences.is_empty() {
-            self.spent += 10 * listing.len();
-            listed.rename(listing);
-            let renamed = self::differences(&listed, listing);
-            if !listed.renaming().is_empty() && renamed.len() < differences.len() {
-                self.renaming = listed.renaming().clone();
-                self.renamed |= self.renaming.iter().any(|(ours, theirs)| ours != theirs);
-                differences = renamed;
-            } else {
-                listed = Listed::of(&mut self.machine, listing);
+        // First only the elements that are new here are matched, then, once a level, all of them.
+        let all = (self.first_plan || self.few_choices).then(BTreeMap::new);
+        for known in [Some(self.renaming.clone()), all].into_iter().flatten() {
+            if differences.is_empty() || !listing.iter().any(|(_, value)| value.contains('!')) {
+                break;
+            }
+            self.spent += listing.len() * if known.is_empty() { 50 } else { 5 };
+            let Some(renaming) = as_made.matching(listing, &known) else { continue };
+            let renamed = as_made.renamed(&renaming);
+            let remaining = self::differences(&renamed, listing);
+            if remaining.len() < differences.len() {
+                (listed, differences) = (renamed, remaining);
+                self.renaming_next = renaming;
             }
         }
         let mut first = None;

@@ -66,6 +66,9 @@ fn judge(checkout: &Checkout, path: &str, program: &Program, trace: &Trace, repl
     let initial =
         difference.step <= 1 && !replayed.beyond.is_empty() && matches!(difference.what, What::Violation { .. });
     let found = found.or_else(|| initial.then_some(reason::INITIAL_INPUTS));
+    let unknown =
+        replayed.cut && difference.step > 1 && matches!(difference.what, What::Value { .. } | What::Written { .. });
+    let found = found.or_else(|| unknown.then_some(reason::CHOICES_UNKNOWN));
     let cut = if replayed.cut { " (the search for choices was cut off)" } else { "" };
     let detail = format!("{}{cut}", difference.line());
     match found {

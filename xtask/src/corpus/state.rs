@@ -41,36 +41,33 @@ impl Listed {
         listed
     }
 
-    /// Takes on the record's names of elements made by `extend`, if that can make the two agree.
-    pub fn rename(&mut self, listing: &Listing) {
+    /// The renaming of our elements that can make the two agree, keeping what is known of it.
+    pub fn matching(&self, listing: &Listing, known: &BTreeMap<String, String>) -> Option<BTreeMap<String, String>> {
         let values =
             self.values.iter().flat_map(|(key, all)| all.iter().map(|(_, value)| (key.clone(), value.clone())));
         let domains = self.domains.iter().map(|(name, contents)| (name.clone(), contents.clone()));
         let ours: Vec<(String, String)> = values.chain(domains).collect();
-        if let Some(names) = names::matching(&ours, listing) {
-            self.renaming = names;
-            let name = |element: &str| self.renaming.get(element).cloned().unwrap_or_else(|| element.to_string());
-            let mut renamed: BTreeMap<String, Vec<(Location, String)>> = BTreeMap::new();
-            for (key, all) in std::mem::take(&mut self.values) {
-                let all = all.into_iter().map(|(location, value)| (location, names::painted(&value, &name)));
-                renamed.entry(names::painted(&key, &name)).or_default().extend(all);
-            }
-            self.values = renamed;
-            for contents in self.domains.values_mut() {
-                *contents = names::painted(contents, &name);
-            }
+        names::matching(&ours, listing, known)
+    }
+
+    /// The same state with our elements under other names.
+    pub fn renamed(&self, renaming: &BTreeMap<String, String>) -> Listed {
+        let name = |element: &str| renaming.get(element).cloned().unwrap_or_else(|| element.to_string());
+        let mut renamed = Listed { renaming: renaming.clone(), ..Listed::default() };
+        for (key, all) in &self.values {
+            let all = all.iter().map(|(location, value)| (location.clone(), names::painted(value, &name)));
+            renamed.values.entry(names::painted(key, &name)).or_default().extend(all);
         }
+        for (domain, contents) in &self.domains {
+            renamed.domains.insert(domain.clone(), names::painted(contents, &name));
+        }
+        renamed
     }
 
     /// A location's name in the record.
     pub fn key(&self, program: &Program, location: &Location) -> String {
         let name = |element: &str| self.renaming.get(element).cloned().unwrap_or_else(|| element.to_string());
         names::painted(&text::location(program, location), &name)
-    }
-
-    /// The renaming, ours to theirs.
-    pub fn renaming(&self) -> &BTreeMap<String, String> {
-        &self.renaming
     }
 
     /// Our value of a location of the record: theirs if any of the functions of that name has it.
