@@ -86,7 +86,7 @@ fn follow(
         };
         match recorded.follow(&expected) {
             Ok(record) => {
-                teller.tell(shell, &record, recorded.run())?;
+                teller.tell(shell, &record, recorded.run_mut())?;
                 if matches!(record, Record::End(_)) {
                     return Ok(Exit::Good);
                 }

@@ -104,7 +104,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         if let Some(trace) = &mut trace {
             trace.write(&teller.wire.record(&record, run.steps()))?;
         }
-        exit = exit.max(teller.tell(shell, &record, &run)?);
+        exit = exit.max(teller.tell(shell, &record, &mut run)?);
         if interactive {
             shell.flush()?;
         }
@@ -185,33 +185,38 @@ impl<'a> Teller<'a> {
     }
 
     /// Tells a record and gives what it means for the exit code.
-    pub fn tell(&self, shell: &mut Shell, record: &Record, run: &Run) -> Result<Exit, Failure> {
-        let machine = run.machine();
+    pub fn tell(&self, shell: &mut Shell, record: &Record, run: &mut Run) -> Result<Exit, Failure> {
         if shell.json() {
             // What is wrong comes before the end, which is the last object.
-            let exit = if let Record::End(_) = record { self.faults(shell, record)? } else { Exit::Good };
+            let exit = if let Record::End(_) = record { self.faults(shell, record, run)? } else { Exit::Good };
             shell.object(&self.wire.record(record, run.steps()))?;
-            let more = if let Record::End(_) = record { Exit::Good } else { self.faults(shell, record)? };
+            let more = if let Record::End(_) = record { Exit::Good } else { self.faults(shell, record, run)? };
             return Ok(exit.max(more));
         }
         if shell.talks() {
-            self.narrator.record(shell.out(), record, machine)?;
+            self.narrator.record(shell.out(), record, run.machine())?;
         }
-        self.faults(shell, record)
+        self.faults(shell, record, run)
     }
 
-    fn faults(&self, shell: &mut Shell, record: &Record) -> Result<Exit, Failure> {
+    fn faults(&self, shell: &mut Shell, record: &Record, run: &mut Run) -> Result<Exit, Failure> {
         match record {
-            Record::Initial { violations, .. } => self.violations(shell, violations, 0),
-            Record::Step(step) | Record::Attempt(step) => self.violations(shell, &step.violations, step.step),
+            Record::Initial { violations, .. } => self.violations(shell, violations, 0, run),
+            Record::Step(step) | Record::Attempt(step) => self.violations(shell, &step.violations, step.step, run),
             Record::Back { .. } => Ok(Exit::Good),
             Record::End(end) => self.end(shell, end),
         }
     }
 
-    fn violations(&self, shell: &mut Shell, violations: &[Violation], step: u64) -> Result<Exit, Failure> {
+    fn violations(
+        &self,
+        shell: &mut Shell,
+        violations: &[Violation],
+        step: u64,
+        run: &mut Run,
+    ) -> Result<Exit, Failure> {
         for violation in violations {
-            let diagnostic = groundstate::diagnose_violation(violation, step, self.wire.program);
+            let diagnostic = groundstate::diagnose_violation(violation, step, run.machine_mut());
             shell.diagnostic(self.wire.sources, &diagnostic)?;
         }
         Ok(if violations.is_empty() { Exit::Good } else { Exit::Model })

@@ -1,6 +1,8 @@
 //! Run-time trouble as diagnostics: where it happened, what the values were, what to do.
 
-use machine::{Fault, FaultKind, Show, Value};
+use std::sync::Arc;
+
+use machine::{Closed, Fault, FaultKind, Machine, Show, Value};
 use program::Program;
 use scenario::{Failure, FailureKind, Reading};
 use simulate::Violation;
@@ -75,7 +77,11 @@ fn help(kind: &FaultKind) -> Option<&'static str> {
 }
 
 /// An invariant that does not hold; `step` is how many steps had been made.
-pub fn diagnose_violation(violation: &Violation, step: u64, program: &Program) -> Diagnostic {
+///
+/// The machine is in the state after the step; what the invariant reads there is shown, unless it speaks of the
+/// state before a step that has been made.
+pub fn diagnose_violation(violation: &Violation, step: u64, machine: &mut Machine) -> Diagnostic {
+    let program = &Arc::clone(machine.program());
     let when = match (step, violation.before) {
         (0, _) => "in the initial state".to_string(),
         (step, true) => format!("with the inputs of step {step}"),
@@ -89,11 +95,15 @@ pub fn diagnose_violation(violation: &Violation, step: u64, program: &Program) -
         Value::Undef => format!("{name} is undef {when}"),
         _ => format!("{name} does not hold {when}"),
     };
-    let mut diagnostic = Diagnostic::error("invariant-violated", violation.span, message);
-    for (span, value) in &violation.reads {
-        diagnostic = diagnostic.with_label(*span, format!("is {}", value.show(program)));
+    let diagnostic = Diagnostic::error("invariant-violated", violation.span, message);
+    let property = program.properties.iter().find(|property| property.span == violation.span);
+    match property {
+        Some(property) if !(violation.before && machine.steps() >= step) => {
+            let readings = scenario::explain(machine, &mut Closed, &property.formula);
+            with_readings(diagnostic, &readings, program)
+        }
+        _ => diagnostic,
     }
-    diagnostic
 }
 
 /// A failure of a scenario: the failure, then what came instead of what was expected.

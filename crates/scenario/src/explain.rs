@@ -37,11 +37,7 @@ pub(crate) fn part(expression: &Expression, term: TermId) -> Expression {
 }
 
 /// The values of what a formula reads.
-pub(crate) fn explain(
-    machine: &mut Machine,
-    environment: &mut dyn Environment,
-    expression: &Expression,
-) -> Vec<Reading> {
+pub fn explain(machine: &mut Machine, environment: &mut dyn Environment, expression: &Expression) -> Vec<Reading> {
     let program = std::sync::Arc::clone(machine.program());
     let mut explanation = Explanation { machine, environment, program: &program, expression, readings: Vec::new() };
     explanation.formula(expression.body);

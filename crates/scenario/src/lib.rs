@@ -17,7 +17,7 @@ mod verdict;
 pub use coverage::{Branch, Counts, Coverage, Forall, Item, Items};
 pub use environment::{Choices, FirstCandidate};
 pub use expand::Blocks;
-pub use explain::Reading;
+pub use explain::{Reading, explain};
 pub use resolve::{Parsed, parse, resolve};
 pub use run::{Options, run};
 pub use script::Script;

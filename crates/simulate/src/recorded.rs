@@ -60,6 +60,11 @@ impl Recorded {
         &self.run
     }
 
+    /// The run, to evaluate terms in its current state.
+    pub fn run_mut(&mut self) -> &mut Run {
+        &mut self.run
+    }
+
     /// Makes the next record with what the trace's next record took from outside.
     ///
     /// # Errors

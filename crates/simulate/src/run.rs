@@ -289,7 +289,6 @@ impl Run {
                     span: property.span,
                     value,
                     before: reads_monitored,
-                    reads: Vec::new(),
                 });
             }
         }

@@ -93,8 +93,6 @@ pub struct Violation {
     pub value: Value,
     /// It reads inputs, so it speaks of the state before the step together with the step's inputs.
     pub before: bool,
-    /// What it read: the text's place and the value.
-    pub reads: Vec<(Span, Value)>,
 }
 
 /// Why a run ended.

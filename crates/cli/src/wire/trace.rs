@@ -403,7 +403,7 @@ impl Reader<'_> {
     fn violations(&self, broken: &[Broken]) -> Result<Vec<Violation>, String> {
         let violation = |broken: &Broken| {
             let value = if broken.value == "false" { Value::Boolean(false) } else { Value::Undef };
-            Violation { name: broken.invariant.clone(), span: NOWHERE, value, before: broken.before, reads: Vec::new() }
+            Violation { name: broken.invariant.clone(), span: NOWHERE, value, before: broken.before }
         };
         Ok(broken.iter().map(violation).collect())
     }
