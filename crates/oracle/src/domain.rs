@@ -26,7 +26,9 @@ impl Interpreter<'_> {
                         Some(defined) => elements.extend(defined),
                         None => return Err(Fault::NotEnumerable),
                     },
-                    None if dynamic || is_abstract(self.model, base) => {}
+                    None if dynamic => {}
+                    // The elements of an abstract domain may be declared into a subset of it one by one.
+                    None if is_abstract(self.model, base) && !elements.is_empty() => {}
                     None => return Err(Fault::NotEnumerable),
                 }
                 elements.sort();

@@ -1,6 +1,6 @@
 //! Sets, bags and maps.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use model::{DomainId, Domains, Model};
 
@@ -53,6 +53,7 @@ fn bag(name: &str, values: &[Value]) -> Option<Value> {
     use Value::{Bag, Boolean, Integer};
     let one = |element: &Value| Counts::from([(element.clone(), 1)]);
     Some(match (name, values) {
+        ("size", [Bag(a)]) => Integer(a.values().sum::<u64>() as i64),
         ("contains", [Bag(a), x]) => Boolean(a.contains_key(x)),
         ("count", [Bag(a), x]) => Integer(a.get(x).copied().unwrap_or(0) as i64),
         ("union", [Bag(a), Bag(b)]) => Bag(together(a, b, |m, n| m + n)),
@@ -64,31 +65,28 @@ fn bag(name: &str, values: &[Value]) -> Option<Value> {
     })
 }
 
-/// A set and a bag: the set is taken as a bag for the union, and the bag as a set for the intersection.
+/// A set and a bag: the set counts each element once. What they have in common is of the first one's kind.
 fn mixed(name: &str, values: &[Value]) -> Option<Value> {
-    let (Value::Set(set), Value::Bag(counts)) = (match values {
-        [a @ Value::Set(_), b] => (a, b),
-        [b, a @ Value::Set(_)] => (a, b),
+    let as_bag = |set: &BTreeSet<Value>| set.iter().map(|element| (element.clone(), 1)).collect::<Counts>();
+    Some(match (name, values) {
+        ("union", [Value::Set(set), Value::Bag(bag)] | [Value::Bag(bag), Value::Set(set)]) => {
+            Value::Bag(together(&as_bag(set), bag, |m, n| m + n))
+        }
+        ("intersection", [Value::Set(set), Value::Bag(bag)]) => {
+            Value::Set(set.iter().filter(|element| bag.contains_key(element)).cloned().collect())
+        }
+        ("intersection", [Value::Bag(bag), Value::Set(set)]) => Value::Bag(together(bag, &as_bag(set), u64::min)),
         _ => return None,
-    }) else {
-        return None;
-    };
-    match name {
-        "union" => {
-            let as_bag = set.iter().map(|element| (element.clone(), 1)).collect();
-            Some(Value::Bag(together(&as_bag, counts, |m, n| m + n)))
-        }
-        "intersection" => {
-            Some(Value::Set(set.iter().filter(|element| counts.contains_key(element)).cloned().collect()))
-        }
-        _ => None,
-    }
+    })
 }
 
 fn map(name: &str, values: &[Value]) -> Option<Value> {
     use Value::Map;
     let merged = |a: &BTreeMap<Value, Value>, b: BTreeMap<Value, Value>| Map(a.clone().into_iter().chain(b).collect());
     Some(match (name, values) {
+        ("size", [Map(entries)]) => Value::Integer(entries.len() as i64),
+        ("keys", [Map(entries)]) => Value::Set(entries.keys().cloned().collect()),
+        ("values", [Map(entries)]) => Value::Set(entries.values().cloned().collect()),
         ("at", [Map(entries), key]) => entries.get(key).cloned().unwrap_or(Value::Undef),
         ("assign", [Map(entries), key, value]) => merged(entries, [(key.clone(), value.clone())].into()),
         ("merge", [Map(a), Map(b)]) => merged(a, b.clone()),

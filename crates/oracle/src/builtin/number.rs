@@ -62,10 +62,29 @@ fn integer_binary(name: &str, a: i64, b: i64) -> Option<Outcome> {
         // Both truncate toward zero: a = idiv(a,b)·b + mod(a,b).
         "idiv" => integer(x / y),
         "mod" => integer(x % y),
+        "pwr" => power(a, b),
         "range" if y - x > 100_000 => Err(Fault::Limit),
         "range" => Ok(Value::Set((a..=b).map(Value::Integer).collect())),
         _ => return order(name, a.cmp(&b)),
     })
+}
+
+/// The product of so many times the base.
+fn power(base: i64, exponent: i64) -> Outcome {
+    if exponent < 0 {
+        return Err(Fault::BadOperand(format!("the exponent {exponent} is negative")));
+    }
+    match base {
+        0 | 1 => return Ok(Value::Integer(if exponent == 0 { 1 } else { base })),
+        -1 => return Ok(Value::Integer(if exponent % 2 == 0 { 1 } else { -1 })),
+        _ => {}
+    }
+    let mut product = 1;
+    for _ in 0..exponent {
+        product *= i128::from(base);
+        integer(product)?;
+    }
+    integer(product)
 }
 
 /// A Real, unless the result is not a number.

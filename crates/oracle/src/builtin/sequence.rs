@@ -17,7 +17,7 @@ pub(super) fn apply(name: &str, values: &[Value]) -> Option<Outcome> {
         Value::Integer(items.iter().position(|item| item == wanted).map_or(-1, |index| index as i64))
     };
     Some(match (name, values) {
-        ("length", [Value::Seq(items)]) => Ok(Value::Integer(items.len() as i64)),
+        ("length" | "size", [Value::Seq(items)]) => Ok(Value::Integer(items.len() as i64)),
         ("isEmpty", [Value::Seq(items)]) => Ok(Value::Boolean(items.is_empty())),
         ("contains", [Value::Seq(items), wanted]) => Ok(Value::Boolean(items.contains(wanted))),
         ("count", [Value::Seq(items), wanted]) => {

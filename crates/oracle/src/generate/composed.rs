@@ -126,10 +126,15 @@ impl Builder {
             }
             6 if self.random.percent(20) => self.filled(scope, wanted, "idiv(§, §)", &[integer, integer], depth),
             6 => self.filled(scope, wanted, "(- §)", &[integer], depth),
+            7 if self.random.percent(30) => self.filled(scope, wanted, "(§ ^ 3)", &[integer], depth),
             7 => self.filled(scope, wanted, "abs(§)", &[integer], depth),
             8 => {
-                let set = self.simple(false).set();
-                self.filled(scope, wanted, "size(§)", &[&set], depth)
+                let of = self.simple(false);
+                let key = Box::new(self.simple(true));
+                let kinds =
+                    [of.clone().set(), of.clone().seq(), Type::Bag(Box::new(of.clone())), Type::Map(key, Box::new(of))];
+                let collection = &kinds[self.random.below(4)];
+                self.filled(scope, wanted, "size(§)", &[collection], depth)
             }
             9 => {
                 let seq = self.simple(false).seq();
@@ -141,7 +146,8 @@ impl Builder {
             }
             11 => {
                 let numbers = Type::Integer;
-                let collection = [numbers.clone().set(), Type::Bag(Box::new(numbers))][self.random.below(2)].clone();
+                let kinds = [numbers.clone().set(), numbers.clone().seq(), Type::Bag(Box::new(numbers))];
+                let collection = kinds[self.random.below(3)].clone();
                 self.filled(scope, wanted, "sum(§)", &[&collection], depth)
             }
             12 => {
@@ -306,7 +312,14 @@ impl Builder {
             }
             2 => self.filled(scope, wanted, "asBag(§)", &[&of.clone().seq()], depth),
             3 => self.filled(scope, wanted, "asBag(§)", &[&of.clone().set()], depth),
-            4 => self.filled(scope, wanted, "union(§, §)", &[&of.clone().set(), wanted], depth),
+            4 => {
+                let set = of.clone().set();
+                match self.random.below(3) {
+                    0 => self.filled(scope, wanted, "union(§, §)", &[&set, wanted], depth),
+                    1 => self.filled(scope, wanted, "union(§, §)", &[wanted, &set], depth),
+                    _ => self.filled(scope, wanted, "intersection(§, §)", &[wanted, &set], depth),
+                }
+            }
             _ => {
                 let from = self.simple(false);
                 self.comprehension(scope, wanted, (&Type::Bag(Box::new(from.clone())), &from), of, ("<", ">"), depth)

@@ -135,9 +135,12 @@ fn random_models() {
                     let small = oracle::reduce::reduce(piece, 3000, same).to_string();
                     let detail = match judge(&small, plan) {
                         Verdict::Disagreed(found) => found.detail,
-                        _ => found.detail,
+                        _ => String::new(),
                     };
-                    let report = format!("seed {seed}: {}\n{detail}\n--- model ---\n{small}", found.kind);
+                    let report = format!(
+                        "seed {seed}: {}\nat first: {}\n--- made small ---\n{detail}\n{small}",
+                        found.kind, found.detail
+                    );
                     failures.lock().expect("unpoisoned").push(report);
                 }
             }
