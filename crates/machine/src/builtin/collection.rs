@@ -139,10 +139,9 @@ fn bag(builtin: Builtin, operands: &[Value]) -> Option<Result> {
             combine(|a, b| a.saturating_add(b)).map(as_bag)
         }
         Builtin::BagIntersection => combine(u64::min).map(as_bag),
-        // With a set the common elements are a set.
-        Builtin::SetBagIntersection | Builtin::BagSetIntersection => {
-            combine(u64::min).map(|counts| sorted(counts.into_keys().collect()))
-        }
+        // A set counts each element once; the result is of the first operand's kind.
+        Builtin::BagSetIntersection => combine(u64::min).map(as_bag),
+        Builtin::SetBagIntersection => combine(u64::min).map(|counts| sorted(counts.into_keys().collect())),
         Builtin::BagContains => counts(&operands[0]).map(|b| Value::Boolean(b.contains_key(&operands[1]))),
         Builtin::BagCount => counts(&operands[0])
             .map(|b| Value::Integer(i64::try_from(b.get(&operands[1]).copied().unwrap_or(0)).unwrap_or(i64::MAX))),
