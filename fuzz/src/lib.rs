@@ -3,7 +3,7 @@
 //! In: bytes. Out: texts, a loader over this project's own models, tight limits, inputs and choices. INVARIANT: nothing
 //! here depends on anything but the bytes, so an input that fails once fails always.
 
-use machine::{Choice, Environment, Limits, Location, TimeUnit, Value};
+use machine::{Choice, Environment, Limits, LocationRef, TimeUnit, Value};
 use model::Loader;
 use program::{DomainId, DomainKind, Program};
 use syntax::SourceFile;
@@ -62,7 +62,7 @@ impl Seeded {
 }
 
 impl Environment for Seeded {
-    fn monitored(&mut self, program: &Program, _: &Location, codomain: DomainId) -> Result<Value, String> {
+    fn monitored(&mut self, program: &Program, _: LocationRef<'_>, codomain: DomainId) -> Result<Value, String> {
         Ok(match &program.domain(codomain).kind {
             DomainKind::Basic(model::Basic::Boolean) => Value::Boolean(self.below(2) == 0),
             DomainKind::Basic(model::Basic::Integer | model::Basic::Natural) => Value::Integer(self.below(10) as i64),

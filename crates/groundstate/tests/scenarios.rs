@@ -37,7 +37,9 @@ impl model::Loader for OneModel {
     fn load(&mut self, _importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
         match path {
             "Meter.asm" => Ok(SourceFile::new(path, MODEL)),
-            "shared.avalla" => Ok(SourceFile::new(path, "scenario shared load Meter.asm begin twice set input := 2; step 2 end")),
+            "shared.avalla" => {
+                Ok(SourceFile::new(path, "scenario shared load Meter.asm begin twice set input := 2; step 2 end"))
+            }
             other => Err(format!("there is no file {other}")),
         }
     }
@@ -84,7 +86,10 @@ fn a_strict_check_sees_the_inputs_used() {
 
 #[test]
 fn sets_see_those_before_and_the_state() {
-    check("set input := 5; set level := input + 1; check level = 6; step set input := sum * 2; check input = 10;", "passed, 1 steps");
+    check(
+        "set input := 5; set level := input + 1; check level = 6; step set input := sum * 2; check input = 10;",
+        "passed, 1 steps",
+    );
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use program::{DomainId, Program};
 use syntax::Span;
 
-use crate::location::Location;
+use crate::location::LocationRef;
 use crate::value::Value;
 
 /// A unit of the clock.
@@ -44,7 +44,7 @@ impl Choice<'_> {
 pub trait Environment {
     /// The value of a monitored location in the coming step, or of a shared one that has none yet. An error is a
     /// sentence for the user.
-    fn monitored(&mut self, program: &Program, location: &Location, codomain: DomainId) -> Result<Value, String>;
+    fn monitored(&mut self, program: &Program, location: LocationRef<'_>, codomain: DomainId) -> Result<Value, String>;
 
     /// The index of the candidate chosen.
     fn choose(&mut self, program: &Program, choice: &Choice<'_>) -> Result<usize, String>;
@@ -59,7 +59,12 @@ pub trait Environment {
 pub struct Closed;
 
 impl Environment for Closed {
-    fn monitored(&mut self, program: &Program, location: &Location, _codomain: DomainId) -> Result<Value, String> {
+    fn monitored(
+        &mut self,
+        program: &Program,
+        location: LocationRef<'_>,
+        _codomain: DomainId,
+    ) -> Result<Value, String> {
         Err(format!("no value is given for the monitored location {}", location.show(program)))
     }
 

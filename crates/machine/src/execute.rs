@@ -10,6 +10,7 @@ use crate::coverage::Coverage;
 use crate::environment::{Environment, TimeUnit};
 use crate::fault::{Fault, FaultKind};
 use crate::limits::Limits;
+use crate::location::LocationRef;
 use crate::membership::Membership;
 use crate::memo::Memo;
 use crate::store::Store;
@@ -31,8 +32,8 @@ pub(crate) struct Core {
     pub base: usize,
     /// The epoch of inputs: advances when they are forgotten.
     pub epoch: u32,
-    /// Locations the environment gave values for in this epoch, in the order asked.
-    pub inputs: Vec<u32>,
+    /// Locations the environment gave values for in this epoch, with their functions, in the order asked.
+    pub inputs: Vec<(u32, FunctionId)>,
     /// The clock's readings in this epoch.
     pub clock: [Option<i64>; 3],
     /// Rounds of loops in this step.
@@ -200,19 +201,20 @@ impl Executor<'_> {
         if self.core.starting && self.core.initials[function.0 as usize].is_some() {
             return self.read_initial(function, arguments, span);
         }
-        let location = crate::location::Location { function, arguments: arguments.to_vec() };
+        let location = LocationRef { function, arguments };
         let codomain = self.program.function(function).codomain;
-        let value = match self.environment.monitored(self.program, &location, codomain) {
+        let value = match self.environment.monitored(self.program, location, codomain) {
             Ok(value) => value,
             Err(reason) => return self.fault(span, FaultKind::Environment { reason }),
         };
         if !self.is_member(function, &value) {
+            let location = location.to_location();
             return self.fault(span, FaultKind::OutOfDomain { location, value, domain: codomain });
         }
         let index = self.core.store.number(function, arguments);
         self.core.store.values[index as usize] = value.clone();
         self.core.store.given[index as usize] = self.core.epoch;
-        self.core.inputs.push(index);
+        self.core.inputs.push((index, function));
         Ok(value)
     }
 

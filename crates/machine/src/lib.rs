@@ -29,7 +29,7 @@ pub use coverage::Coverage;
 pub use environment::{Choice, Closed, Environment, TimeUnit};
 pub use fault::{ClashSide, Fault, FaultKind};
 pub use limits::Limits;
-pub use location::Location;
+pub use location::{Location, LocationRef};
 pub use machine::{Change, Machine, Snapshot, Step};
 pub use print::{Show, ShowValue, element_name};
 pub use value::{Real, Value};

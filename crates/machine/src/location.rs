@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use hashbrown::Equivalent;
 use program::{FunctionId, Program};
 
 use crate::print::Show;
@@ -19,12 +20,44 @@ pub struct Location {
 impl Location {
     /// The location as it would be written: `f(a,1)`.
     pub fn show<'a>(&'a self, program: &'a Program) -> impl fmt::Display + 'a {
+        self.borrowed().show(program)
+    }
+
+    /// The same without arguments of its own.
+    pub fn borrowed(&self) -> LocationRef<'_> {
+        LocationRef { function: self.function, arguments: &self.arguments }
+    }
+}
+
+/// A location that borrows its arguments: what is asked for, compared or looked up without building a [`Location`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct LocationRef<'a> {
+    /// The dynamic function.
+    pub function: FunctionId,
+    /// One value a parameter.
+    pub arguments: &'a [Value],
+}
+
+impl<'a> LocationRef<'a> {
+    /// The location as it would be written: `f(a,1)`.
+    pub fn show(self, program: &'a Program) -> impl fmt::Display + 'a {
         ShowLocation { location: self, program }
+    }
+
+    /// The same with arguments of its own.
+    pub fn to_location(self) -> Location {
+        Location { function: self.function, arguments: self.arguments.to_vec() }
+    }
+}
+
+impl Equivalent<Location> for LocationRef<'_> {
+    fn equivalent(&self, key: &Location) -> bool {
+        *self == key.borrowed()
     }
 }
 
 struct ShowLocation<'a> {
-    location: &'a Location,
+    location: LocationRef<'a>,
     program: &'a Program,
 }
 

@@ -76,13 +76,12 @@ impl Machine {
         environment: &mut dyn Environment,
         body: impl for<'a> FnOnce(&mut Executor<'a>, &'a Program) -> Outcome<T>,
     ) -> Result<T, Fault> {
-        let program = Arc::clone(&self.program);
-        let core = &mut self.core;
+        let Machine { program, core, limits, .. } = self;
         core.frames.clear();
         core.calls.clear();
         (core.base, core.depth) = (0, 0);
-        let mut executor = Executor { program: &program, core, environment, limits: self.limits };
-        body(&mut executor, &program).map_err(|fault| *fault)
+        let mut executor = Executor { program, core, environment, limits: *limits };
+        body(&mut executor, program).map_err(|fault| *fault)
     }
 
     /// Sets the initial state: contents of dynamic domains, initial values. Steps made: 0.
@@ -156,9 +155,8 @@ impl Machine {
     /// Applies the update set prepared. The inputs of the step can still be read until
     /// [`Machine::forget_inputs`].
     pub fn commit(&mut self) -> Step {
-        let program = Arc::clone(&self.program);
-        let core = &mut self.core;
-        self.overwritten.clear();
+        let Machine { program, core, overwritten, .. } = self;
+        overwritten.clear();
         let created = core.updates.created().len();
         let mut step = Step { updates: core.updates.len() + created, changed: created > 0 };
         for update in core.updates.updates() {
@@ -172,7 +170,7 @@ impl Machine {
             let value = &mut core.store.values[update.location as usize];
             if *value != update.value {
                 let before = std::mem::replace(value, update.value.clone());
-                self.overwritten.push((update.location, before, program.rule_span(update.rule)));
+                overwritten.push((update.location, before, program.rule_span(update.rule)));
                 step.changed = true;
             }
         }
@@ -198,9 +196,6 @@ impl Machine {
         if core.updates.roll_back(&mut core.store) {
             core.memo.changed();
         }
-        for carrier in &mut core.store.carriers {
-            carrier.fresh = carrier.count;
-        }
     }
 
     /// What the last committed step changed, in the canonical order of locations.
@@ -222,7 +217,7 @@ impl Machine {
     /// The values that the environment gave since inputs were last forgotten, in the order asked.
     pub fn inputs(&self) -> Vec<(Location, Value)> {
         let store = &self.core.store;
-        self.core.inputs.iter().map(|i| (store.location(*i), store.values[*i as usize].clone())).collect()
+        self.core.inputs.iter().map(|(i, _)| (store.location(*i), store.values[*i as usize].clone())).collect()
     }
 
     /// Makes every monitored location, and the clock, be asked for anew.
@@ -232,8 +227,7 @@ impl Machine {
         core.epoch += 1;
         core.memo.changed();
         core.clock = [None; 3];
-        for index in std::mem::take(&mut core.inputs) {
-            let function = core.store.function_of(index);
+        for (index, function) in core.inputs.drain(..) {
             if self.program.function(function).kind == FunctionKind::Monitored {
                 core.store.values[index as usize] = Value::Undef;
             }
@@ -273,8 +267,9 @@ impl Machine {
             executor.core.store.values[index as usize] = value;
             executor.core.memo.changed();
             executor.core.store.given[index as usize] = executor.core.epoch;
-            if program.function(*function).kind == FunctionKind::Monitored && !executor.core.inputs.contains(&index) {
-                executor.core.inputs.push(index);
+            let input = (index, *function);
+            if program.function(*function).kind == FunctionKind::Monitored && !executor.core.inputs.contains(&input) {
+                executor.core.inputs.push(input);
             }
             Ok(())
         })
@@ -328,6 +323,9 @@ impl Machine {
         self.discard();
         self.core.store = snapshot.store.clone();
         self.core.initials.clone_from(&snapshot.initials);
+        for carrier in &mut self.core.store.carriers {
+            carrier.fresh = carrier.count;
+        }
         self.core.inputs.clear();
         self.core.epoch += 1;
         self.core.clock = [None; 3];

@@ -4,26 +4,15 @@
 //! INVARIANT: between steps a location's entry is the state's value; within a `seq` it is that of the
 //! intermediate state, and the log in [`crate::update`] can take it back.
 
-use hashbrown::{Equivalent, HashMap};
+use std::sync::Arc;
+
+use hashbrown::HashMap;
 use program::{DomainId, FunctionId, Program};
 use rustc_hash::FxBuildHasher;
 
 use crate::layout::{Layout, LocationIndex, lay_out};
-use crate::location::Location;
+use crate::location::{Location, LocationRef};
 use crate::value::Value;
-
-/// A key looked up without building a [`Location`].
-#[derive(Hash)]
-struct LocationRef<'a> {
-    function: FunctionId,
-    arguments: &'a [Value],
-}
-
-impl Equivalent<Location> for LocationRef<'_> {
-    fn equivalent(&self, key: &Location) -> bool {
-        self.function == key.function && *self.arguments == key.arguments[..]
-    }
-}
 
 /// The elements of a dynamic domain.
 #[derive(Debug, Clone, Default)]
@@ -47,6 +36,8 @@ pub(crate) struct Store {
     pub given: Vec<u32>,
     /// By function.
     pub layouts: Vec<Layout>,
+    /// The functions that have dense locations, each with the first of them, in the order of those.
+    owners: Arc<[(LocationIndex, FunctionId)]>,
     dense: u32,
     sparse: HashMap<Location, LocationIndex, FxBuildHasher>,
     /// The locations of the sparse numbers, from `dense` on.
@@ -59,10 +50,20 @@ impl Store {
     /// A store whose locations are all undef.
     pub fn new(program: &Program, contents: &dyn Fn(DomainId) -> Option<Vec<Value>>) -> Store {
         let (layouts, dense) = lay_out(program, contents);
+        let owners = layouts.iter().zip(0..).filter_map(|(layout, function)| {
+            let first = match layout {
+                Layout::Single(index) => *index,
+                Layout::Dense { base, .. } => *base,
+                Layout::None | Layout::Sparse => return None,
+            };
+            Some((first, FunctionId(function)))
+        });
+        let owners = owners.collect();
         Store {
             values: vec![Value::Undef; dense as usize],
             given: vec![0; dense as usize],
             layouts,
+            owners,
             dense,
             sparse: HashMap::default(),
             sparse_locations: Vec::new(),
@@ -125,12 +126,7 @@ impl Store {
         if index >= self.dense {
             return self.sparse_locations[(index - self.dense) as usize].clone();
         }
-        let function = self.layouts.iter().position(|layout| match layout {
-            Layout::Single(single) => *single == index,
-            Layout::Dense { base, len, .. } => (*base..base + len).contains(&index),
-            Layout::None | Layout::Sparse => false,
-        });
-        let function = FunctionId(function.expect("a dense number belongs to a function") as u32);
+        let function = self.function_of(index);
         let mut arguments = Vec::new();
         if let Layout::Dense { base, dimensions, .. } = &self.layouts[function.0 as usize] {
             let mut offset = index - base;
@@ -148,7 +144,9 @@ impl Store {
         if index >= self.dense {
             self.sparse_locations[(index - self.dense) as usize].function
         } else {
-            self.location(index).function
+            // The owners stand in the order of their first numbers.
+            let after = self.owners.partition_point(|(first, _)| *first <= index);
+            self.owners[after - 1].1
         }
     }
 

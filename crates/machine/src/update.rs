@@ -250,6 +250,10 @@ impl Updates {
             store.values[entry.location as usize] = entry.before;
         }
         self.forget_intermediate(0, store);
+        for (domain, _) in &self.created {
+            let carrier = &mut store.carriers[domain.0 as usize];
+            carrier.fresh = carrier.count;
+        }
         self.release();
         any
     }

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use machine::{Choice, Environment, Location, Show, TimeUnit, Value};
+use machine::{Choice, Environment, Location, LocationRef, Show, TimeUnit, Value};
 use program::{DomainId, Program};
 use syntax::Span;
 
@@ -80,8 +80,13 @@ impl<'a> ScenarioEnvironment<'a> {
 }
 
 impl Environment for ScenarioEnvironment<'_> {
-    fn monitored(&mut self, _program: &Program, location: &Location, _codomain: DomainId) -> Result<Value, String> {
-        Ok(self.inputs.get(location).cloned().unwrap_or_else(|| {
+    fn monitored(
+        &mut self,
+        _program: &Program,
+        location: LocationRef<'_>,
+        _codomain: DomainId,
+    ) -> Result<Value, String> {
+        Ok(self.inputs.get(&location.to_location()).cloned().unwrap_or_else(|| {
             self.missing = true;
             Value::Undef
         }))

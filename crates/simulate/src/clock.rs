@@ -3,7 +3,7 @@
 //! The default advances by a fixed amount each step, so that a run is the same every time; a shell may hand in the
 //! real one. INVARIANT: within a step the default clock stands still.
 
-use machine::{Location, TimeUnit};
+use machine::{LocationRef, TimeUnit};
 use program::Program;
 
 /// Tells the time.
@@ -65,7 +65,7 @@ impl LibraryTime {
 }
 
 /// Whether a location is the clock of a time library.
-pub(crate) fn library_time(program: &Program, location: &Location) -> Option<LibraryTime> {
+pub(crate) fn library_time(program: &Program, location: LocationRef<'_>) -> Option<LibraryTime> {
     let function = program.function(location.function);
     if !function.library || !location.arguments.is_empty() {
         return None;

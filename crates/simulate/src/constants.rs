@@ -65,7 +65,7 @@ pub(crate) fn read_input(program: &Program, text: &str) -> Result<Location, Stri
 
 impl Source for Constants {
     fn input(&mut self, ask: &Ask<'_>) -> Result<Option<Value>, String> {
-        Ok(self.values.get(ask.location).cloned())
+        Ok(self.values.get(&ask.location.to_location()).cloned())
     }
 
     fn writes(&mut self, _step: u64) -> Vec<(Location, Value)> {

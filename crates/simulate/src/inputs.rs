@@ -3,7 +3,7 @@
 //! [`Inputs`] is the machine's [`Environment`]: layers of [`Source`]s, the first that has a value for a location
 //! gives it; a policy for choices; a clock. It notes what it gave, so that the run's record is complete.
 
-use machine::{Choice, Environment, Location, Machine, TimeUnit, Value};
+use machine::{Choice, Environment, Location, LocationRef, Machine, TimeUnit, Value};
 use program::{DomainId, Program};
 
 use crate::choose::{ChoiceMade, Choices};
@@ -18,7 +18,7 @@ pub struct Ask<'a> {
     /// The step that is being made, from 1; 0 while the initial state is set.
     pub step: u64,
     /// What is asked for.
-    pub location: &'a Location,
+    pub location: LocationRef<'a>,
     /// The domain of its values.
     pub codomain: DomainId,
     /// It is the clock of a time library: whoever has no value for it by name leaves it to the run's clock.
@@ -158,7 +158,7 @@ impl Inputs {
 }
 
 impl Environment for Inputs {
-    fn monitored(&mut self, program: &Program, location: &Location, codomain: DomainId) -> Result<Value, String> {
+    fn monitored(&mut self, program: &Program, location: LocationRef<'_>, codomain: DomainId) -> Result<Value, String> {
         let time = crate::clock::library_time(program, location);
         match (self.ask(program, location, codomain, time.is_some())?, time) {
             (Some(value), _) => Ok(value),
@@ -196,7 +196,7 @@ impl Inputs {
     fn ask(
         &mut self,
         program: &Program,
-        location: &Location,
+        location: LocationRef<'_>,
         codomain: DomainId,
         clock: bool,
     ) -> Result<Option<Value>, String> {

@@ -145,7 +145,7 @@ impl Named {
 
 impl Source for Named {
     fn input(&mut self, ask: &Ask<'_>) -> Result<Option<Value>, String> {
-        Ok(self.value(ask.location, ask.step).cloned())
+        Ok(self.value(&ask.location.to_location(), ask.step).cloned())
     }
 
     /// A shared location is written when the file says so; between that it is the machine's to change.

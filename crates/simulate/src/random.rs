@@ -7,7 +7,7 @@
 
 use std::hash::{Hash, Hasher};
 
-use machine::{Location, Value};
+use machine::{LocationRef, Value};
 use program::Program;
 
 use crate::draw::{Bounds, draw};
@@ -88,9 +88,9 @@ impl Hasher for StableHash {
 }
 
 /// What a location is drawn by: its function's name and its arguments.
-fn location_key(program: &Program, location: &Location) -> u64 {
+fn location_key(program: &Program, location: LocationRef<'_>) -> u64 {
     let hash = StableHash::new().text(&program.function(location.function).name);
-    if location.arguments.is_empty() { hash.finish() } else { arguments_key(hash, program, &location.arguments) }
+    if location.arguments.is_empty() { hash.finish() } else { arguments_key(hash, program, location.arguments) }
 }
 
 fn arguments_key(mut hash: StableHash, program: &Program, arguments: &[Value]) -> u64 {

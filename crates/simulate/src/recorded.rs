@@ -136,7 +136,7 @@ struct Player(Rc<RefCell<Tape>>);
 
 impl Source for Player {
     fn input(&mut self, ask: &Ask<'_>) -> Result<Option<Value>, String> {
-        Ok(self.0.borrow().inputs.get(ask.location).cloned())
+        Ok(self.0.borrow().inputs.get(&ask.location.to_location()).cloned())
     }
 
     fn writes(&mut self, _step: u64) -> Vec<(Location, Value)> {

@@ -10,7 +10,7 @@ use std::process::Command;
 use std::sync::Arc;
 use std::time::Instant;
 
-use machine::{Choice, Environment, Limits, Location, Machine, Show, TimeUnit, Value};
+use machine::{Choice, Environment, Limits, LocationRef, Machine, Show, TimeUnit, Value};
 use model::Loader;
 use program::{DomainId, Program};
 use syntax::SourceFile;
@@ -95,7 +95,12 @@ fn load(model: &str) -> Result<Arc<Program>, Failure> {
 struct Random(u64);
 
 impl Environment for Random {
-    fn monitored(&mut self, program: &Program, location: &Location, _codomain: DomainId) -> Result<Value, String> {
+    fn monitored(
+        &mut self,
+        program: &Program,
+        location: LocationRef<'_>,
+        _codomain: DomainId,
+    ) -> Result<Value, String> {
         Err(format!("a twin has no inputs, not even {}", location.show(program)))
     }
 

@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use machine::{Choice, Environment, Location, Machine, TimeUnit, Value};
+use machine::{Choice, Environment, LocationRef, Machine, TimeUnit, Value};
 use program::{DomainId, DomainKind, FunctionKind, Program};
 use syntax::Span;
 
@@ -136,9 +136,9 @@ impl<'a> RecordedInputs<'a> {
 }
 
 impl Environment for RecordedInputs<'_> {
-    fn monitored(&mut self, program: &Program, location: &Location, codomain: DomainId) -> Result<Value, String> {
+    fn monitored(&mut self, program: &Program, location: LocationRef<'_>, codomain: DomainId) -> Result<Value, String> {
         let theirs = |element: &str| self.renaming.get(element).cloned().unwrap_or_else(|| element.to_string());
-        let name = painted(&text::location(program, location), &theirs);
+        let name = painted(&text::location(program, &location.to_location()), &theirs);
         let ours = |element: &str| {
             let found = self.renaming.iter().find(|(_, theirs)| theirs.as_str() == element);
             found.map_or_else(|| element.to_string(), |(ours, _)| ours.clone())

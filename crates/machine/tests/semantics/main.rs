@@ -9,7 +9,7 @@ mod states;
 use std::fmt::Write;
 use std::sync::Arc;
 
-use machine::{Choice, Environment, Limits, Location, Machine, Show, TimeUnit, Value};
+use machine::{Choice, Environment, Limits, LocationRef, Machine, Show, TimeUnit, Value};
 use program::{DomainId, Program};
 use syntax::SourceFile;
 
@@ -29,7 +29,7 @@ struct Counting {
 }
 
 impl Environment for Counting {
-    fn monitored(&mut self, program: &Program, _: &Location, codomain: DomainId) -> Result<Value, String> {
+    fn monitored(&mut self, program: &Program, _: LocationRef<'_>, codomain: DomainId) -> Result<Value, String> {
         self.asked += 1;
         Ok(match program.domain(codomain).name.as_str() {
             "Boolean" => Value::Boolean(true),

@@ -79,10 +79,10 @@ impl machine::Environment for Machines<'_> {
     fn monitored(
         &mut self,
         program: &Program,
-        location: &machine::Location,
+        location: machine::LocationRef<'_>,
         _codomain: DomainId,
     ) -> Result<machine::Value, String> {
-        Ok(convert::back(program, &self.0.input(&convert::location(program, location))))
+        Ok(convert::back(program, &self.0.input(&convert::location(program, &location.to_location()))))
     }
 
     fn choose(&mut self, program: &Program, choice: &machine::Choice<'_>) -> Result<usize, String> {
