@@ -27,7 +27,7 @@ enum Elements {
 
 impl<'a> Executor<'a> {
     /// Visits every binding of the binders until a visit breaks off.
-    pub fn for_each_binding(&mut self, binders: &'a [Binder], visit: &mut Visit<'_, 'a>) -> Outcome<ControlFlow<()>> {
+    pub fn for_each_binding(&mut self, binders: &[Binder], visit: &mut Visit<'_, 'a>) -> Outcome<ControlFlow<()>> {
         let Some((binder, rest)) = binders.split_first() else { return visit(self) };
         let elements = self.range_elements(binder.range)?;
         let visit_one = |this: &mut Self, visit: &mut Visit<'_, 'a>, value: Value| {

@@ -4,7 +4,7 @@ use program::{DomainId, Program};
 use syntax::Span;
 
 use crate::location::LocationRef;
-use crate::value::Value;
+use crate::value::{Real, Value};
 
 /// A unit of the clock.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -40,14 +40,62 @@ impl Choice<'_> {
     }
 }
 
+/// A number to be drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Draw {
+    /// The choose rule.
+    pub span: Span,
+    /// Which of the variables it binds the number is for, from 0.
+    pub variable: usize,
+    /// Integer, Natural or Real.
+    pub basic: model::Basic,
+}
+
+impl Draw {
+    /// A number of the domain: 0, 1, −1, 2, −2 …; of the Naturals 0, 1, 2 ….
+    pub fn number(&self, index: u32) -> Value {
+        let index = i64::from(index);
+        let number = match self.basic {
+            model::Basic::Natural => index,
+            _ if index % 2 == 0 => -index / 2,
+            _ => index / 2 + 1,
+        };
+        match self.basic {
+            model::Basic::Real => Real::new(number as f64).map_or(Value::Undef, Value::Real),
+            _ => Value::Integer(number),
+        }
+    }
+
+    /// Whether a value is a number of the domain.
+    pub fn admits(&self, value: &Value) -> bool {
+        match (self.basic, value) {
+            (model::Basic::Natural, Value::Integer(number)) => *number >= 0,
+            (model::Basic::Integer, Value::Integer(_)) | (model::Basic::Real, Value::Real(_)) => true,
+            _ => false,
+        }
+    }
+}
+
 /// The environment of a run. Each location is asked for at most once a step.
 pub trait Environment {
     /// The value of a monitored location in the coming step, or of a shared one that has none yet. An error is a
     /// sentence for the user.
     fn monitored(&mut self, program: &Program, location: LocationRef<'_>, codomain: DomainId) -> Result<Value, String>;
 
+    /// Whether a monitored location that has an initial value keeps it instead of being asked for. In a run it does
+    /// not; in a scenario it does until it is set.
+    fn keeps_initial(&self, _location: LocationRef<'_>) -> bool {
+        false
+    }
+
     /// The index of the candidate chosen.
     fn choose(&mut self, program: &Program, choice: &Choice<'_>) -> Result<usize, String>;
+
+    /// A number for a variable that a choose rule without a guard binds over all Integers, Naturals or Reals. The
+    /// [`Choice`] that follows has it in each candidate. This one is always 0.
+    fn number(&mut self, _program: &Program, draw: &Draw) -> Result<Value, String> {
+        Ok(draw.number(0))
+    }
 
     /// The clock.
     fn time(&mut self, unit: TimeUnit) -> Result<i64, String>;

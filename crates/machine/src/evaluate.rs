@@ -124,17 +124,32 @@ impl<'a> Executor<'a> {
         if self.core.plain[function.0 as usize] {
             if let [argument] = self.program.term_list(arguments) {
                 let argument = self.evaluate(*argument)?;
-                let found = self.core.store.find(function, std::slice::from_ref(&argument));
-                return Ok(found.map_or(Value::Undef, |index| self.core.store.values[index as usize].clone()));
+                return self.read_plain(function, std::slice::from_ref(&argument), id);
             }
             let start = self.gather(arguments)?;
-            let found = self.core.store.find(function, &self.core.frames[start..]);
-            self.core.frames.truncate(start);
-            return Ok(found.map_or(Value::Undef, |index| self.core.store.values[index as usize].clone()));
+            if let Some(index) = self.core.store.find(function, &self.core.frames[start..])
+                && !self.core.store.values[index as usize].is_undef()
+            {
+                self.core.frames.truncate(start);
+                return Ok(self.core.store.values[index as usize].clone());
+            }
+            let arguments: Vec<Value> = self.core.frames.drain(start..).collect();
+            return self.read_plain(function, &arguments, id);
         }
         let start = self.gather(arguments)?;
         let arguments: Vec<Value> = self.core.frames.drain(start..).collect();
         self.read(function, &arguments, self.program.term_span(id))
+    }
+
+    /// A location that nobody is asked for; if it is undef it may have an initial value that is not there yet.
+    #[inline]
+    fn read_plain(&mut self, function: FunctionId, arguments: &[Value], id: TermId) -> Outcome<Value> {
+        let found = self.core.store.find(function, arguments);
+        let value = found.map_or(Value::Undef, |index| self.core.store.values[index as usize].clone());
+        if value.is_undef() && self.core.initials[function.0 as usize].is_some() {
+            return self.read_initial(function, arguments, self.program.term_span(id));
+        }
+        Ok(value)
     }
 
     fn evaluate_definition(&mut self, function: FunctionId, arguments: TermList, id: TermId) -> Outcome<Value> {

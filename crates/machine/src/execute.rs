@@ -52,13 +52,11 @@ pub(crate) struct Core {
     pub codomains: Vec<Membership>,
     /// Counts, where wanted.
     pub coverage: Option<Box<Coverage>>,
-    /// The initial values of functions while the initial state is being made; after that, of those whose
-    /// arguments cannot be enumerated: index into the program's initials, by function.
+    /// The initial values of functions: index into the program's initials, by function.
     pub initials: Vec<Option<u32>>,
-    /// By function: its locations are read without asking anybody.
+    /// By function: its locations are read without asking anybody (but one that is undef may yet have an initial
+    /// value).
     pub plain: Vec<bool>,
-    /// The initial state is being made.
-    pub starting: bool,
 }
 
 /// One call's view of program, core and environment.
@@ -198,10 +196,10 @@ impl Executor<'_> {
 
     /// Asks the environment for an input and keeps it.
     fn ask(&mut self, function: FunctionId, arguments: &[Value], span: Span) -> Outcome<Value> {
-        if self.core.starting && self.core.initials[function.0 as usize].is_some() {
+        let location = LocationRef { function, arguments };
+        if self.core.initials[function.0 as usize].is_some() && self.environment.keeps_initial(location) {
             return self.read_initial(function, arguments, span);
         }
-        let location = LocationRef { function, arguments };
         let codomain = self.program.function(function).codomain;
         let value = match self.environment.monitored(self.program, location, codomain) {
             Ok(value) => value,

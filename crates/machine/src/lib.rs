@@ -26,7 +26,7 @@ mod update;
 mod value;
 
 pub use coverage::Coverage;
-pub use environment::{Choice, Closed, Environment, TimeUnit};
+pub use environment::{Choice, Closed, Draw, Environment, TimeUnit};
 pub use fault::{ClashSide, Fault, FaultKind};
 pub use limits::Limits;
 pub use location::{Location, LocationRef};

@@ -87,7 +87,7 @@ impl Machine {
     /// Sets the initial state: contents of dynamic domains, initial values. Steps made: 0.
     ///
     /// # Errors
-    /// An initial value that cannot be evaluated, or lies outside its domain.
+    /// An initial value that cannot be evaluated.
     pub fn start(&mut self, environment: &mut dyn Environment) -> Result<(), Fault> {
         let coverage = self.core.coverage.take();
         self.core = Core::new(&self.program, self.limits);

@@ -3,17 +3,21 @@
 //! Running a rule adds its updates to the current unit of the update set; the units of [`crate::update`] give
 //! `par` its consistency and `seq` its intermediate states.
 
+use std::borrow::Cow;
 use std::ops::ControlFlow;
 
+use model::Basic;
 use program::{
-    BinderList, DomainId, FunctionId, FunctionKind, ProcedureId, Rule, RuleId, RuleList, Slot, TermId, TermList,
+    Binder, BinderList, DomainId, DomainKind, FunctionId, FunctionKind, ProcedureId, Rule, RuleId, RuleList, Slot,
+    Term, TermId, TermList,
 };
 use syntax::Span;
 
-use crate::environment::Choice;
+use crate::environment::{Choice, Draw};
 use crate::execute::{Executor, Outcome};
 use crate::fault::{ClashSide, FaultKind};
 use crate::location::Location;
+use crate::print::Show;
 use crate::update::Clash;
 use crate::value::Value;
 
@@ -129,9 +133,12 @@ impl<'a> Executor<'a> {
     fn update(&mut self, function: FunctionId, arguments: TermList, value: Value, id: RuleId) -> Outcome<()> {
         let start = self.gather(arguments)?;
         if self.core.initials[function.0 as usize].is_some() {
-            // An initial value that is due only when read must be there before it is overwritten.
-            let arguments = self.core.frames[start..].to_vec();
-            self.read(function, &arguments, self.program.rule_span(id))?;
+            let found = self.core.store.find(function, &self.core.frames[start..]);
+            if found.is_none_or(|index| self.core.store.given[index as usize] == 0) {
+                // An initial value that is due only when read must be there before it is overwritten.
+                let arguments = self.core.frames[start..].to_vec();
+                self.read(function, &arguments, self.program.rule_span(id))?;
+            }
         }
         if !self.is_member(function, &value) {
             let location = Location { function, arguments: self.core.frames.split_off(start) };
@@ -359,7 +366,8 @@ impl<'a> Executor<'a> {
         let binders = program.binder_list(binders);
         let span = program.rule_span(id);
         let start = self.core.frames.len();
-        let _ = self.for_each_binding(binders, &mut |this| {
+        let listed = self.draw_numbers(binders, condition, span)?;
+        let _ = self.for_each_binding(&listed, &mut |this| {
             let fits = match condition {
                 Some(condition) => this.holds(condition)?,
                 None => true,
@@ -395,6 +403,44 @@ impl<'a> Executor<'a> {
         }
         self.core.frames.truncate(start);
         self.perform(body)
+    }
+
+    /// Binds the variables that range over all numbers of a kind, where there is no guard that the numbers would have
+    /// to be searched for; gives the other binders.
+    fn draw_numbers(
+        &mut self,
+        binders: &'a [Binder],
+        condition: Option<TermId>,
+        span: Span,
+    ) -> Outcome<Cow<'a, [Binder]>> {
+        let program = self.program;
+        let numbers = |binder: &Binder| match program.term(binder.range) {
+            Term::Domain(domain) => match &program.domain(*domain).kind {
+                DomainKind::Basic(basic @ (Basic::Integer | Basic::Natural | Basic::Real)) => Some(*basic),
+                _ => None,
+            },
+            _ => None,
+        };
+        let guarded = condition.is_some_and(|condition| match program.term(condition) {
+            Term::Constant(index) => self.core.constants[*index as usize] != Value::Boolean(true),
+            _ => true,
+        });
+        if guarded || binders.iter().all(|binder| numbers(binder).is_none()) {
+            return Ok(Cow::Borrowed(binders));
+        }
+        for (variable, binder) in binders.iter().enumerate() {
+            let Some(basic) = numbers(binder) else { continue };
+            let draw = Draw { span, variable, basic };
+            match self.environment.number(program, &draw) {
+                Ok(value) if draw.admits(&value) => self.bind(binder.slot, value),
+                Ok(value) => {
+                    let reason = format!("{} is no {basic:?}", value.show(program));
+                    return self.fault(span, FaultKind::Environment { reason });
+                }
+                Err(reason) => return self.fault(span, FaultKind::Environment { reason }),
+            }
+        }
+        Ok(Cow::Owned(binders.iter().filter(|binder| numbers(binder).is_none()).copied().collect()))
     }
 
     /// Makes a fresh element of a dynamic domain.

@@ -1,18 +1,18 @@
 //! The initial state, and what is fixed before it: contents of static domains, layouts, membership checks.
 //!
 //! Initial values are evaluated eagerly, in the initial state: one that reads another initialised location has
-//! that one evaluated first. LIMIT: of a function whose arguments cannot be enumerated the initial value of a
-//! location is evaluated when it is first read.
+//! that one evaluated first. They hold for all arguments, outside the declared domains too; LIMIT: of a location
+//! that cannot be enumerated the initial value is evaluated when it is first read or written. An initial value need
+//! not be in the codomain: that is asked of updates.
 
 use std::sync::Arc;
 
-use program::{DomainId, DomainKind, FunctionId, Program};
+use program::{DomainId, DomainKind, FunctionId, FunctionKind, Program};
 use syntax::Span;
 
 use crate::environment::Closed;
 use crate::evaluate::constant;
 use crate::execute::{Core, Executor, Outcome};
-use crate::fault::FaultKind;
 use crate::limits::Limits;
 use crate::membership::membership;
 use crate::memo::Memo;
@@ -44,7 +44,6 @@ impl Core {
             coverage: None,
             initials: vec![None; program.functions.len()],
             plain: vec![false; program.functions.len()],
-            starting: false,
         };
         core.reset_carriers(program);
         Executor { program, core: &mut core, environment: &mut Closed, limits }.fill_contents();
@@ -124,7 +123,6 @@ impl<'a> Executor<'a> {
     /// Sets the initial state.
     pub fn start(&mut self) -> Outcome<()> {
         let program = self.program;
-        self.core.starting = true;
         for (index, domain) in program.domains.iter().enumerate() {
             let DomainKind::Concrete { dynamic: true, contents: Some(expression), .. } = &domain.kind else { continue };
             if let Value::Set(defined) | Value::Seq(defined) = self.closed(expression)? {
@@ -137,25 +135,23 @@ impl<'a> Executor<'a> {
         for (index, initial) in program.initials.iter().enumerate() {
             self.core.initials[initial.function.0 as usize] = Some(index as u32);
         }
-        let mut eager = Vec::new();
         for initial in &program.initials {
+            if program.function(initial.function).kind == FunctionKind::Monitored {
+                // The environment is asked, unless it leaves the initial value in force: see `Executor::ask`.
+                continue;
+            }
             if let Some(tuples) = self.argument_tuples(initial.function, initial.span) {
                 for arguments in &tuples {
                     self.read_initial(initial.function, arguments, initial.span)?;
                 }
-                eager.push(initial.function);
             }
         }
         self.core.memo.changed();
-        for function in eager {
-            self.core.initials[function.0 as usize] = None;
-        }
         for (index, declared) in program.functions.iter().enumerate() {
-            use program::FunctionKind::{Controlled, Local, Out};
+            use FunctionKind::{Controlled, Local, Out};
             let kind = matches!(declared.kind, Controlled | Out | Local);
-            self.core.plain[index] = kind && declared.element.is_none() && self.core.initials[index].is_none();
+            self.core.plain[index] = kind && declared.element.is_none();
         }
-        self.core.starting = false;
         Ok(())
     }
 
@@ -193,21 +189,9 @@ impl<'a> Executor<'a> {
             return Ok(self.core.store.values[index].clone());
         };
         let initial = &program.initials[initial as usize];
-        // The init section speaks of arguments in the parameters' domains alone.
-        let parameters = program.function(function).parameters.iter().zip(arguments);
-        for (domain, argument) in parameters {
-            if argument.is_undef() || !self.contains(*domain, argument) {
-                return Ok(self.core.store.values[index].clone());
-            }
-        }
         let start = self.core.frames.len();
         self.core.frames.extend(arguments.iter().cloned());
         let value = self.in_frame(start, initial.value.frame, span, |this| this.evaluate(initial.value.body))?;
-        if !self.is_member(function, &value) {
-            let location = crate::location::Location { function, arguments: arguments.to_vec() };
-            let domain = program.function(function).codomain;
-            return self.fault(initial.span, FaultKind::OutOfDomain { location, value, domain });
-        }
         let index = self.core.store.number(function, arguments) as usize;
         self.core.store.values[index] = value.clone();
         self.core.store.given[index] = self.core.epoch;

@@ -1,6 +1,6 @@
 //! What a step takes from outside: values of monitored locations, choices, the clock.
 
-use model::Model;
+use model::{Basic, Model};
 
 use crate::state::Location;
 use crate::value::Value;
@@ -21,6 +21,10 @@ pub trait Environment {
 
     /// The index of the candidate chosen; there is at least one.
     fn choose(&mut self, model: &Model, candidates: &[Vec<Value>]) -> Result<usize, String>;
+
+    /// A number for a variable that a choose rule without a guard binds over all numbers of a kind: which of its
+    /// variables, which kind.
+    fn number(&mut self, model: &Model, variable: usize, basic: Basic) -> Result<Value, String>;
 
     /// The clock.
     fn time(&mut self, unit: Tick) -> Result<i64, String>;

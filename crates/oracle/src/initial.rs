@@ -40,7 +40,8 @@ impl Interpreter<'_> {
                 state.set(Location::member(*domain, element), Value::Boolean(true));
             }
         }
-        for initial in &init.functions {
+        for initial in init.functions.iter().filter(|initial| initial_function(self.model, initial.function).is_some())
+        {
             if let Some(tuples) = self.arguments(initial, &state)? {
                 for arguments in tuples {
                     self.read(Location::function(initial.function, arguments), &state)?;
@@ -92,46 +93,35 @@ impl Interpreter<'_> {
         let value = self.defined_initially(initial, location, state)?;
         let initialisation = self.initialisation.as_mut().expect("still there");
         initialisation.running.pop();
-        if let Some(value) = &value {
-            initialisation.known.insert(location.clone(), value.clone());
-        }
-        Ok(value)
+        initialisation.known.insert(location.clone(), value.clone());
+        Ok(Some(value))
     }
 
-    /// What the init section says of a location; nothing if its arguments are outside the parameters' domains.
+    /// What the init section says of a location, whatever its arguments are. That a value is in the codomain is asked
+    /// of updates alone.
     fn defined_initially(
         &mut self,
         initial: &InitialFunction,
         location: &Location,
         state: &State,
-    ) -> Result<Option<Value>, Fault> {
-        let declared = self.model.function(initial.function);
-        for (domain, argument) in declared.parameters.iter().zip(&location.arguments) {
-            if argument.is_undef() || !self.contains(*domain, argument, state)? {
-                return Ok(None);
-            }
-        }
+    ) -> Result<Value, Fault> {
         let zeta = Assignment::default().parameters(&initial.definition.parameters, location.arguments.clone());
-        let value = self.call(|this| this.value(&initial.definition.body, state, &zeta))?;
-        if !self.contains(declared.codomain, &value, state)? {
-            return Err(Fault::OutOfDomain { location: location.clone(), value });
-        }
-        Ok(Some(value))
+        self.call(|this| this.value(&initial.definition.body, state, &zeta))
     }
 
-    /// The initial value of a location that was not given one at the start because there are infinitely many.
+    /// The initial value of a location that was not given one at the start: there are infinitely many, or its arguments
+    /// were not in the parameters' domains then.
     pub(crate) fn late_initial_value(
         &mut self,
         function: FunctionId,
         location: &Location,
     ) -> Result<Option<Value>, Fault> {
         let Some(initial) = initial_function(self.model, function) else { return Ok(None) };
-        let finite = self.model.function(function).parameters.iter().all(|domain| enumerable(self.model, *domain));
-        if finite || self.initialisation.is_some() || self.model.function(function).kind == FunctionKind::Monitored {
+        if self.initialisation.is_some() {
             return Ok(None);
         }
         let state = self.initial.clone();
-        self.defined_initially(initial, location, &state)
+        self.defined_initially(initial, location, &state).map(Some)
     }
 }
 
@@ -140,8 +130,11 @@ pub(crate) fn default_init(model: &Model) -> Option<&Init> {
     model.default_init.map(|index| &model.inits[index])
 }
 
-/// The initial values of a function.
+/// The initial values of a function. Those of a monitored one say nothing of a run: the environment gives its values.
 pub(crate) fn initial_function(model: &Model, function: FunctionId) -> Option<&InitialFunction> {
+    if model.function(function).kind == FunctionKind::Monitored {
+        return None;
+    }
     default_init(model)?.functions.iter().find(|initial| initial.function == function)
 }
 

@@ -6,7 +6,9 @@
 
 use std::ops::ControlFlow;
 
-use model::{Binder, Call, DomainId, DomainKind, RuleKind, RuleNode, Target, Term, VariableId};
+use model::{
+    Basic, Binder, Call, DomainId, DomainKind, Literal, RuleKind, RuleNode, Target, Term, TermKind, VariableId,
+};
 
 use crate::fault::{Fault, Stop, consistent, join};
 use crate::interpreter::{Assignment, Interpreter};
@@ -74,7 +76,8 @@ impl Interpreter<'_> {
             }
             // yields(P, 𝔄, ζ[x ↦ a], U) for some a ∈ range(x, φ, 𝔄, ζ); if it is empty, yields what ifnone yields, else ∅
             RuleKind::Choose { binders, condition, body, if_none } => {
-                let found = self.satisfying(binders, condition.as_ref(), state, zeta)?;
+                let (zeta, listed) = &self.numbers_drawn(binders, condition.as_ref(), zeta)?;
+                let found = self.satisfying(listed, condition.as_ref(), state, zeta)?;
                 if found.is_empty() {
                     return self.yields_or_skip(if_none.as_deref(), state, zeta);
                 }
@@ -168,6 +171,35 @@ impl Interpreter<'_> {
             return Err(Fault::OutOfDomain { location, value }.into());
         }
         Ok(UpdateSet::one(location, value))
+    }
+
+    /// A number is drawn for each variable that ranges over all of a kind, if no guard has to be searched for it; gives
+    /// the other binders.
+    fn numbers_drawn(
+        &mut self,
+        binders: &[Binder],
+        condition: Option<&Term>,
+        zeta: &Assignment,
+    ) -> Result<(Assignment, Vec<Binder>), Fault> {
+        let free = condition.is_none_or(|guard| matches!(guard.kind, TermKind::Literal(Literal::Boolean(true))));
+        let (mut zeta, mut listed) = (zeta.clone(), Vec::new());
+        for (place, binder) in binders.iter().enumerate() {
+            let kind = match &binder.range.kind {
+                TermKind::Domain(domain) => match self.model.domains.kind(*domain) {
+                    DomainKind::Basic(basic @ (Basic::Integer | Basic::Natural | Basic::Real)) => Some(*basic),
+                    _ => None,
+                },
+                _ => None,
+            };
+            match kind.filter(|_| free) {
+                Some(basic) => {
+                    let value = self.environment.number(self.model, place, basic).map_err(Fault::Environment)?;
+                    zeta = zeta.with(binder.variable, value);
+                }
+                None => listed.push(binder.clone()),
+            }
+        }
+        Ok((zeta, listed))
     }
 
     fn forall(

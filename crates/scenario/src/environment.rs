@@ -1,15 +1,18 @@
 //! The environment of a scenario: inputs that stay until set again, picks, a policy for the other choices.
 //!
 //! An input that was never set is undef; [`ScenarioEnvironment::missing`] tells that one was asked for, so that an
-//! invariant over inputs is not judged before its inputs are there. The clock stands at 0: what needs time sets the
-//! monitored functions of the time library.
+//! invariant over inputs is not judged before its inputs are there. One with an initial value keeps it until it is set.
+//! The clock stands at 0: what needs time sets the monitored functions of the time library.
 
 use std::collections::BTreeMap;
 use std::fmt;
 
-use machine::{Choice, Environment, Location, LocationRef, Show, TimeUnit, Value};
+use machine::{Choice, Draw, Environment, Location, LocationRef, Show, TimeUnit, Value};
 use program::{DomainId, Program};
 use syntax::Span;
+
+/// LIMIT: a number drawn from an infinite domain is one of so many.
+const NUMBERS: usize = 21;
 
 /// How choices are made that no `pick` makes; comes in as a parameter, so that this crate has no random source.
 pub trait Choices {
@@ -90,6 +93,24 @@ impl Environment for ScenarioEnvironment<'_> {
             self.missing = true;
             Value::Undef
         }))
+    }
+
+    fn keeps_initial(&self, location: LocationRef<'_>) -> bool {
+        !self.inputs.contains_key(&location.to_location())
+    }
+
+    fn number(&mut self, program: &Program, draw: &Draw) -> Result<Value, String> {
+        let picks = self.picks_for(draw.span);
+        let Some((pick, _)) = picks.iter().find(|(_, place)| *place == draw.variable) else {
+            return Ok(draw.number(self.choices.choose(NUMBERS) as u32));
+        };
+        let pick = &self.picks[*pick];
+        if draw.admits(&pick.value) {
+            return Ok(pick.value.clone());
+        }
+        let message = format!("{} = {} is no {:?}", pick.variable, pick.value.show(program), draw.basic);
+        self.mispick = Some(Mispick { span: pick.span, choice: draw.span, message: message.clone() });
+        Err(message)
     }
 
     fn choose(&mut self, program: &Program, choice: &Choice<'_>) -> Result<usize, String> {

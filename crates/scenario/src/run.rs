@@ -30,7 +30,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Options { limits: Limits::default(), bound: 10_000, coverage: false }
+        Options { limits: Limits::default(), bound: 1_000_000, coverage: false }
     }
 }
 
@@ -125,14 +125,10 @@ impl Play<'_> {
     }
 
     /// Sets the initial state. Sets before the first step are part of it: it is set once to evaluate their values
-    /// and, where there are any, a second time with them. Initial values of inputs are what they are until set.
+    /// and, where there are any, a second time with them.
     fn start(&mut self) -> Going {
         let script = self.script;
         self.start_machine()?;
-        let program = Arc::clone(self.machine.program());
-        let initial = self.machine.locations().into_iter();
-        let inputs = initial.filter(|(l, _)| program.function(l.function).kind == program::FunctionKind::Monitored);
-        self.environment.inputs.extend(inputs);
         if let Some(first) = script.groups.first().filter(|first| !first.parts.sets.is_empty()) {
             let shared = self.sets(&first.parts.sets)?;
             self.start_machine()?;

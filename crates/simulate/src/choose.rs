@@ -4,10 +4,11 @@ use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::rc::Rc;
 
-use machine::{Choice, Value};
+use machine::{Choice, Draw, Value};
 use program::Program;
 use syntax::Span;
 
+use crate::draw::{Bounds, draw_basic};
 use crate::random::{SplitMix, StableHash};
 
 /// A choice as it was made.
@@ -23,8 +24,19 @@ pub struct ChoiceMade {
     pub values: Vec<Value>,
 }
 
-/// The choices of one recorded step that are still to be made: how many candidates, which was taken.
-pub(crate) type Played = Rc<RefCell<VecDeque<(usize, usize)>>>;
+/// The choices of one recorded step that are still to be made.
+pub(crate) type Played = Rc<RefCell<VecDeque<PlayedChoice>>>;
+
+/// What a recorded choice is made again by.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlayedChoice {
+    /// How many candidates there were.
+    pub of: usize,
+    /// Which was taken.
+    pub index: usize,
+    /// The values of its variables, which hold the numbers drawn for it.
+    pub values: Vec<Value>,
+}
 
 /// How choices are made.
 #[derive(Debug, Clone)]
@@ -57,6 +69,25 @@ impl Choices {
         }
     }
 
+    /// Draws a number for the choice that comes next.
+    pub(crate) fn number(&mut self, draw: &Draw, bounds: &Bounds) -> Result<Value, String> {
+        match self {
+            Choices::First => Ok(draw.number(0)),
+            Choices::Random { seed, step, made } => {
+                use std::hash::Hasher;
+                let mut key = StableHash::new().text("number");
+                key.write(&made.to_le_bytes());
+                key.write(&draw.variable.to_le_bytes());
+                draw_basic(draw.basic, bounds, &mut SplitMix::stream(*seed, *step, key.finish()))
+            }
+            Choices::Recorded(recorded) => {
+                let recorded = recorded.borrow();
+                let value = recorded.front().and_then(|choice| choice.values.get(draw.variable));
+                value.cloned().ok_or_else(|| "the trace drew no number here".to_string())
+            }
+        }
+    }
+
     /// Makes a choice. An error is a sentence for the user.
     pub(crate) fn choose(&mut self, _program: &Program, choice: &Choice<'_>) -> Result<usize, String> {
         match self {
@@ -70,8 +101,8 @@ impl Choices {
                 Ok(stream.below(choice.candidates() as u64) as usize)
             }
             Choices::Recorded(recorded) => match recorded.borrow_mut().pop_front() {
-                Some((of, index)) if of == choice.candidates() => Ok(index),
-                Some((of, _)) => {
+                Some(PlayedChoice { of, index, .. }) if of == choice.candidates() => Ok(index),
+                Some(PlayedChoice { of, .. }) => {
                     Err(format!("the trace chose among {of} candidates here, now there are {}", choice.candidates()))
                 }
                 None => Err("the trace made no choice here".to_string()),

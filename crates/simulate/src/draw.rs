@@ -148,7 +148,8 @@ fn several<T>(
     (0..count).map(|_| one(random)).collect()
 }
 
-fn draw_basic(basic: Basic, bounds: &Bounds, random: &mut SplitMix) -> Result<Value, String> {
+/// Draws a value of a basic domain.
+pub(crate) fn draw_basic(basic: Basic, bounds: &Bounds, random: &mut SplitMix) -> Result<Value, String> {
     let real = |random: &mut SplitMix| {
         let (low, high) = bounds.reals;
         let cents = random.between((low * 100.0).ceil() as i64, (high * 100.0).floor() as i64);

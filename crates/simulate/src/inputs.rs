@@ -3,12 +3,12 @@
 //! [`Inputs`] is the machine's [`Environment`]: layers of [`Source`]s, the first that has a value for a location
 //! gives it; a policy for choices; a clock. It notes what it gave, so that the run's record is complete.
 
-use machine::{Choice, Environment, Location, LocationRef, Machine, TimeUnit, Value};
+use machine::{Choice, Draw, Environment, Location, LocationRef, Machine, TimeUnit, Value};
 use program::{DomainId, Program};
 
 use crate::choose::{ChoiceMade, Choices};
 use crate::clock::{Clock, StepClock};
-use crate::draw::Carriers;
+use crate::draw::{Bounds, Carriers};
 
 /// A question for an input.
 #[derive(Debug)]
@@ -72,6 +72,8 @@ pub struct Inputs {
     choices: Choices,
     clock: Box<dyn Clock>,
     carriers: Carriers,
+    /// What numbers drawn for choices are bounded by.
+    bounds: Bounds,
     pub(crate) step: u64,
     pub(crate) chosen: Vec<ChoiceMade>,
     pub(crate) times: Vec<(TimeUnit, i64)>,
@@ -99,6 +101,7 @@ impl Inputs {
             choices: Choices::First,
             clock: Box::new(StepClock::default()),
             carriers: Carriers::default(),
+            bounds: Bounds::default(),
             step: 0,
             chosen: Vec::new(),
             times: Vec::new(),
@@ -168,6 +171,10 @@ impl Environment for Inputs {
             }
             (None, None) => Err(format!("no value is given for {} in step {}", location.show(program), self.step)),
         }
+    }
+
+    fn number(&mut self, _program: &Program, draw: &Draw) -> Result<Value, String> {
+        self.choices.number(draw, &self.bounds)
     }
 
     fn choose(&mut self, program: &Program, choice: &Choice<'_>) -> Result<usize, String> {

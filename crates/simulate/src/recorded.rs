@@ -11,7 +11,7 @@ use std::sync::Arc;
 use machine::{Limits, Location, TimeUnit, Value};
 use program::Program;
 
-use crate::choose::Choices;
+use crate::choose::{ChoiceMade, Choices, PlayedChoice};
 use crate::clock::Clock;
 use crate::inputs::{Ask, Inputs, Source};
 use crate::run::{Options, Run};
@@ -73,8 +73,7 @@ impl Recorded {
         match expected {
             Record::Initial { inputs, times, .. } => self.play(inputs, &[], times, &[]),
             Record::Step(step) | Record::Attempt(step) => {
-                let choices: Vec<_> = step.choices.iter().map(|choice| (choice.of, choice.index)).collect();
-                self.play(&step.inputs, &step.writes, &step.times, &choices);
+                self.play(&step.inputs, &step.writes, &step.times, &step.choices);
             }
             Record::Back { .. } => {}
             // Whoever ended the run from outside is not here to do it again.
@@ -94,14 +93,16 @@ impl Recorded {
         inputs: &[(Location, Value)],
         writes: &[(Location, Value)],
         times: &[(TimeUnit, i64)],
-        choices: &[(usize, usize)],
+        choices: &[ChoiceMade],
     ) {
         *self.tape.borrow_mut() = Tape {
             inputs: inputs.iter().cloned().collect(),
             writes: writes.to_vec(),
             times: times.iter().copied().collect(),
         };
-        *self.choices.borrow_mut() = choices.iter().copied().collect();
+        let played =
+            |choice: &ChoiceMade| PlayedChoice { of: choice.of, index: choice.index, values: choice.values.clone() };
+        *self.choices.borrow_mut() = choices.iter().map(played).collect();
     }
 }
 

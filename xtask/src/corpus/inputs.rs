@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use machine::{Choice, Environment, LocationRef, Machine, TimeUnit, Value};
+use machine::{Choice, Draw, Environment, LocationRef, Machine, Real, TimeUnit, Value};
 use program::{DomainId, DomainKind, FunctionKind, Program};
 use syntax::Span;
 
@@ -95,6 +95,8 @@ fn some_values(machine: &mut Machine, program: &Program, domain: DomainId) -> Ve
 pub struct RecordedInputs<'a> {
     values: BTreeMap<&'a str, &'a str>,
     samples: &'a Samples,
+    /// The numbers that the state after the step has: one drawn is among them, if anything came of it.
+    numbers: Vec<Value>,
     /// Our elements by their names in the record.
     renaming: &'a BTreeMap<String, String>,
     /// Inputs beyond the record are no choices.
@@ -125,7 +127,8 @@ impl<'a> RecordedInputs<'a> {
             values.entry(location.as_str()).or_insert(value.as_str());
         }
         let (made, chosen, beyond) = (Vec::new(), Vec::new(), Vec::new());
-        RecordedInputs { values, samples, renaming, strict, plan, habits, made, chosen, beyond }
+        let numbers = numbers(step);
+        RecordedInputs { values, samples, numbers, renaming, strict, plan, habits, made, chosen, beyond }
     }
 
     fn take(&mut self, of: usize, habit: usize) -> usize {
@@ -153,6 +156,15 @@ impl Environment for RecordedInputs<'_> {
         Ok(samples.get(index).cloned().unwrap_or_default())
     }
 
+    fn number(&mut self, _program: &Program, draw: &Draw) -> Result<Value, String> {
+        let admitted: Vec<Value> = self.numbers.iter().filter(|number| draw.admits(number)).cloned().collect();
+        if admitted.is_empty() {
+            return Ok(draw.number(0));
+        }
+        let index = self.take(admitted.len(), 0);
+        Ok(admitted[index].clone())
+    }
+
     fn choose(&mut self, _program: &Program, choice: &Choice<'_>) -> Result<usize, String> {
         let habit = self.habits.map_or(0, |habits| habits.index(choice));
         let index = self.take(choice.candidates(), habit);
@@ -173,6 +185,19 @@ impl Environment for RecordedInputs<'_> {
             0
         }))
     }
+}
+
+fn numbers(step: &Step) -> Vec<Value> {
+    let texts = step.after.iter().flatten().map(|(_, value)| value.as_str());
+    let mut numbers: Vec<Value> = texts
+        .filter_map(|text| {
+            let real = || text.parse().ok().filter(|_| text.contains('.')).and_then(Real::new).map(Value::Real);
+            text.parse().ok().map(Value::Integer).or_else(real)
+        })
+        .collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    numbers
 }
 
 /// The plan after this one in the order of a count, the last choice fastest; none after the last.

@@ -368,3 +368,23 @@ fn switch_and_let_and_elseif() {
         "#]],
     );
 }
+
+#[test]
+fn a_number_is_drawn_where_nothing_guards_it() {
+    check(
+        "signature:
+            controlled a: Integer
+            controlled b: Real
+            controlled c: Boolean
+        definitions:
+            main rule r_Main = par
+                choose $x in Integer, $y in Boolean do par a := $x c := $y endpar
+                choose $r in Real with true do b := $r
+            endpar
+        default init s0: function a = 5",
+        1,
+        expect![[r#"
+            1: a=0 b=0.0 c=true
+        "#]],
+    );
+}

@@ -121,3 +121,67 @@ fn pre_reads_the_state_before_the_step() {
         "#]],
     );
 }
+
+#[test]
+fn an_initial_value_is_not_held_against_the_codomain() {
+    check(
+        "signature:
+            domain Level subsetof Integer
+            controlled level: Level
+            controlled seen: Integer
+        definitions:
+            domain Level = {0:10}
+            main rule r_Main = if level = 15 then level := 3 else level := level + 8 endif
+        default init s0: function level = 15",
+        3,
+        expect![[r#"
+            1: level=3
+            2: 11 is not in Level, the domain of level
+        "#]],
+    );
+}
+
+#[test]
+fn an_initial_value_holds_for_all_arguments() {
+    check(
+        "signature:
+            domain Card subsetof Integer
+            dynamic abstract domain Node
+            controlled current: Card
+            controlled valid: Card -> Boolean
+            controlled marks: Node -> Integer
+            controlled seen: Boolean
+            controlled total: Integer
+        definitions:
+            domain Card = {1:3}
+            main rule r_Main = par
+                seen := valid(current) and valid(7)
+                seq valid(9) := false skip endseq
+                extend Node with $n do seq marks($n) := marks($n) + 1 total := marks($n) endseq
+            endpar
+        default init s0: function valid($c in Card) = true function marks($n in Node) = 5",
+        2,
+        expect![[r#"
+            1: valid(9)=false marks(node!1)=6 seen=true total=6
+            2: marks(node!2)=6
+        "#]],
+    );
+}
+
+#[test]
+fn an_input_is_asked_for_whatever_its_initial_value() {
+    check(
+        "signature:
+            monitored m: Integer
+            controlled a: Integer
+            controlled b: Integer
+        definitions:
+            main rule r_Main = a := m
+        default init s0: function m = 70 function b = 5",
+        2,
+        expect![[r#"
+            1: a=1
+            2: a=2
+        "#]],
+    );
+}

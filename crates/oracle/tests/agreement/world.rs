@@ -34,7 +34,7 @@ impl World {
         world
     }
 
-    fn number(&self, about: &str) -> usize {
+    fn hash(&self, about: &str) -> usize {
         let hash = about.bytes().fold(self.seed ^ 0xcbf2_9ce4_8422_2325, |hash, byte| {
             (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
         });
@@ -44,14 +44,18 @@ impl World {
     fn input(&mut self, location: &Location) -> Value {
         let Symbol::Function(function) = location.symbol else { panic!("inputs are values of functions") };
         let pool = &self.pools[&function];
-        let value = pool[self.number(&format!("{location:?}")) % pool.len()].clone();
+        let value = pool[self.hash(&format!("{location:?}")) % pool.len()].clone();
         let twice = self.asked.insert(location.clone(), value.clone());
         assert!(twice.is_none(), "asked twice in one step for {location:?}");
         value
     }
 
+    fn drawn(&self, variable: usize) -> i64 {
+        (self.hash(&format!("number {variable} of choice {}", self.choices.len())) % 7) as i64
+    }
+
     fn choice(&mut self, candidates: Vec<Vec<Value>>) -> usize {
-        let index = self.number(&format!("choice {}", self.choices.len())) % candidates.len();
+        let index = self.hash(&format!("choice {}", self.choices.len())) % candidates.len();
         self.choices.push(candidates);
         index
     }
@@ -67,8 +71,16 @@ impl oracle::Environment for World {
         Ok(self.choice(candidates.to_vec()))
     }
 
+    fn number(&mut self, _model: &Model, variable: usize, basic: Basic) -> Result<Value, String> {
+        let number = self.drawn(variable);
+        Ok(match basic {
+            Basic::Real => Value::Real(Double::new(number as f64).expect("a number")),
+            _ => Value::Integer(number),
+        })
+    }
+
     fn time(&mut self, unit: Tick) -> Result<i64, String> {
-        Ok(self.number(&format!("{unit:?}")) as i64)
+        Ok(self.hash(&format!("{unit:?}")) as i64)
     }
 }
 
@@ -91,8 +103,16 @@ impl machine::Environment for Machines<'_> {
         Ok(self.0.choice((0..choice.candidates()).map(candidate).collect()))
     }
 
+    fn number(&mut self, _program: &Program, draw: &machine::Draw) -> Result<machine::Value, String> {
+        let number = self.0.drawn(draw.variable);
+        Ok(match draw.basic {
+            Basic::Real => machine::Value::Real(machine::Real::new(number as f64).expect("a number")),
+            _ => machine::Value::Integer(number),
+        })
+    }
+
     fn time(&mut self, unit: machine::TimeUnit) -> Result<i64, String> {
-        Ok(self.0.number(&format!("{unit:?}")) as i64)
+        Ok(self.0.hash(&format!("{unit:?}")) as i64)
     }
 }
 
