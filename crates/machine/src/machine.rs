@@ -34,6 +34,8 @@ pub struct Step {
     pub updates: usize,
     /// Whether any of them changed a value or a domain grew.
     pub changed: bool,
+    /// Whether a domain grew.
+    pub grown: bool,
 }
 
 /// A copy of a whole state, to go back to.
@@ -146,10 +148,13 @@ impl Machine {
             let span = program.procedure(procedure).span;
             executor.enter(procedure, 0, span)
         });
-        if outcome.is_err() {
-            self.discard();
+        match outcome {
+            Ok(()) => Ok(()),
+            Err(fault) => {
+                self.discard();
+                Err(fault)
+            }
         }
-        outcome
     }
 
     /// Applies the update set prepared. The inputs of the step can still be read until
@@ -158,7 +163,7 @@ impl Machine {
         let Machine { program, core, overwritten, .. } = self;
         overwritten.clear();
         let created = core.updates.created().len();
-        let mut step = Step { updates: core.updates.len() + created, changed: created > 0 };
+        let mut step = Step { updates: core.updates.len() + created, changed: created > 0, grown: created > 0 };
         for update in core.updates.updates() {
             if update.value.is_undef() {
                 // A shared location that the machine has made undef is not asked for.

@@ -30,14 +30,19 @@ impl fmt::Display for ShowValue<'_> {
         let program = self.program;
         match self.value {
             Value::Undef => f.write_str("undef"),
-            Value::Boolean(b) => write!(f, "{b}"),
+            Value::Boolean(b) => f.write_str(if *b { "true" } else { "false" }),
             Value::Integer(n) => write!(f, "{n}"),
             Value::Real(r) => real(f, r.get()),
             Value::Enum(domain, index) => match &program.domain(*domain).kind {
                 DomainKind::Enum { literals } => f.write_str(&literals[*index as usize]),
                 _ => write!(f, "?{index}"),
             },
-            Value::Element(domain, index) => f.write_str(&element_name(program, *domain, *index)),
+            Value::Element(domain, index) => match &program.domain(*domain).kind {
+                DomainKind::Abstract { elements, .. } if (*index as usize) < elements.len() => {
+                    f.write_str(&elements[*index as usize])
+                }
+                _ => f.write_str(&element_name(program, *domain, *index)),
+            },
             Value::Char(c) => write!(f, "'{}'", escaped(&c.to_string(), '\'')),
             Value::Rule(procedure) => write!(f, "<<{}>>", program.procedure(*procedure).name),
             Value::Complex(parts) => {

@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
+use std::hash::Hasher;
 use std::rc::Rc;
 
 use machine::{Choice, Draw, Value};
@@ -50,7 +51,9 @@ pub enum Choices {
         /// The step being made.
         step: u64,
         /// How many choices the step has made so far.
-        made: u64,
+        made: usize,
+        /// What the first, second, … choice of a step is drawn by; grows with the step that makes the most.
+        keys: Vec<u64>,
     },
     /// As a trace has it: how many candidates there were and which was taken, in the order of the step.
     Recorded(Played),
@@ -59,7 +62,7 @@ pub enum Choices {
 impl Choices {
     /// Random choices from a seed.
     pub fn random(seed: u64) -> Self {
-        Choices::Random { seed, step: 0, made: 0 }
+        Choices::Random { seed, step: 0, made: 0, keys: Vec::new() }
     }
 
     pub(crate) fn begin(&mut self, now: u64) {
@@ -73,10 +76,9 @@ impl Choices {
     pub(crate) fn number(&mut self, draw: &Draw, bounds: &Bounds) -> Result<Value, String> {
         match self {
             Choices::First => Ok(draw.number(0)),
-            Choices::Random { seed, step, made } => {
-                use std::hash::Hasher;
+            Choices::Random { seed, step, made, .. } => {
                 let mut key = StableHash::new().text("number");
-                key.write(&made.to_le_bytes());
+                key.write(&(*made as u64).to_le_bytes());
                 key.write(&draw.variable.to_le_bytes());
                 draw_basic(draw.basic, bounds, &mut SplitMix::stream(*seed, *step, key.finish()))
             }
@@ -92,12 +94,12 @@ impl Choices {
     pub(crate) fn choose(&mut self, _program: &Program, choice: &Choice<'_>) -> Result<usize, String> {
         match self {
             Choices::First => Ok(0),
-            Choices::Random { seed, step, made } => {
-                use std::hash::Hasher;
-                let mut key = StableHash::new().text("choose");
-                key.write(&made.to_le_bytes());
+            Choices::Random { seed, step, made, keys } => {
+                if *made == keys.len() {
+                    keys.push(key(*made as u64));
+                }
+                let mut stream = SplitMix::stream(*seed, *step, keys[*made]);
                 *made += 1;
-                let mut stream = SplitMix::stream(*seed, *step, key.finish());
                 Ok(stream.below(choice.candidates() as u64) as usize)
             }
             Choices::Recorded(recorded) => match recorded.borrow_mut().pop_front() {
@@ -109,4 +111,11 @@ impl Choices {
             },
         }
     }
+}
+
+/// What a choice is drawn by: how many the step has made before.
+fn key(made: u64) -> u64 {
+    let mut hash = StableHash::new().text("choose");
+    hash.write(&made.to_le_bytes());
+    hash.finish()
 }

@@ -3,8 +3,8 @@
 //! The default advances by a fixed amount each step, so that a run is the same every time; a shell may hand in the
 //! real one. INVARIANT: within a step the default clock stands still.
 
-use machine::{LocationRef, TimeUnit};
-use program::Program;
+use machine::TimeUnit;
+use program::Function;
 
 /// Tells the time.
 pub trait Clock {
@@ -64,10 +64,9 @@ impl LibraryTime {
     }
 }
 
-/// Whether a location is the clock of a time library.
-pub(crate) fn library_time(program: &Program, location: LocationRef<'_>) -> Option<LibraryTime> {
-    let function = program.function(location.function);
-    if !function.library || !location.arguments.is_empty() {
+/// Whether a function is the clock of a time library.
+pub(crate) fn library_time(function: &Function) -> Option<LibraryTime> {
+    if !function.library || !function.parameters.is_empty() {
         return None;
     }
     let (unit, divisor) = match function.name.as_str() {

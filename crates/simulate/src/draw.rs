@@ -3,7 +3,6 @@
 //! In: a domain, the carriers of the domains whose elements the state knows, bounds for infinite domains, a stream
 //! of random bits. Out: a value of the domain. INVARIANT: the value is in the domain in the current state.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use machine::{Machine, Real, Value};
@@ -43,7 +42,8 @@ impl Default for Bounds {
 /// The elements of abstract and concrete domains that inputs range over.
 #[derive(Debug, Clone, Default)]
 pub struct Carriers {
-    elements: BTreeMap<DomainId, Vec<Value>>,
+    /// By domain.
+    elements: Vec<Option<Vec<Value>>>,
     fixed: Vec<DomainId>,
     growing: Vec<DomainId>,
 }
@@ -51,7 +51,7 @@ pub struct Carriers {
 impl Carriers {
     /// The domains that values of inputs may contain.
     pub(crate) fn of_inputs(program: &Program) -> Carriers {
-        let mut carriers = Carriers::default();
+        let mut carriers = Carriers { elements: vec![None; program.domains.len()], ..Carriers::default() };
         let inputs = program.functions.iter();
         for function in inputs.filter(|f| matches!(f.kind, FunctionKind::Monitored | FunctionKind::Shared)) {
             carriers.need(program, function.codomain);
@@ -84,7 +84,7 @@ impl Carriers {
     pub(crate) fn fill(&mut self, machine: &mut Machine) {
         for domain in self.fixed.iter().chain(&self.growing) {
             if let Ok(elements) = machine.elements(*domain) {
-                self.elements.insert(*domain, elements);
+                self.elements[domain.0 as usize] = Some(elements);
             }
         }
     }
@@ -93,14 +93,14 @@ impl Carriers {
     pub(crate) fn refresh(&mut self, machine: &mut Machine) {
         for domain in &self.growing {
             if let Ok(elements) = machine.elements(*domain) {
-                self.elements.insert(*domain, elements);
+                self.elements[domain.0 as usize] = Some(elements);
             }
         }
     }
 
     /// The elements of a domain, if known.
     pub fn get(&self, domain: DomainId) -> Option<&[Value]> {
-        self.elements.get(&domain).map(Vec::as_slice)
+        self.elements.get(domain.0 as usize)?.as_deref()
     }
 }
 

@@ -3,11 +3,11 @@
 //! [`Inputs`] is the machine's [`Environment`]: layers of [`Source`]s, the first that has a value for a location
 //! gives it; a policy for choices; a clock. It notes what it gave, so that the run's record is complete.
 
-use machine::{Choice, Draw, Environment, Location, LocationRef, Machine, TimeUnit, Value};
+use machine::{Choice, Draw, Environment, Fault, Location, LocationRef, Machine, TimeUnit, Value};
 use program::{DomainId, Program};
 
 use crate::choose::{ChoiceMade, Choices};
-use crate::clock::{Clock, StepClock};
+use crate::clock::{Clock, LibraryTime, StepClock, library_time};
 use crate::draw::{Bounds, Carriers};
 
 /// A question for an input.
@@ -74,6 +74,10 @@ pub struct Inputs {
     carriers: Carriers,
     /// What numbers drawn for choices are bounded by.
     bounds: Bounds,
+    /// By function: the time library's clock that it is.
+    times_of: Vec<Option<LibraryTime>>,
+    /// A domain may have got elements since the carriers were read.
+    pub(crate) grown: bool,
     pub(crate) step: u64,
     pub(crate) chosen: Vec<ChoiceMade>,
     pub(crate) times: Vec<(TimeUnit, i64)>,
@@ -102,6 +106,8 @@ impl Inputs {
             clock: Box::new(StepClock::default()),
             carriers: Carriers::default(),
             bounds: Bounds::default(),
+            times_of: Vec::new(),
+            grown: false,
             step: 0,
             chosen: Vec::new(),
             times: Vec::new(),
@@ -131,26 +137,38 @@ impl Inputs {
     pub(crate) fn prepare(&mut self, machine: &mut Machine) {
         self.carriers = Carriers::of_inputs(machine.program());
         self.carriers.fill(machine);
+        self.times_of = machine.program().functions.iter().map(library_time).collect();
     }
 
     /// Begins a step: what was noted of the last one is forgotten, what the environment writes is written.
-    pub(crate) fn begin(&mut self, step: u64, machine: &mut Machine) -> Result<Vec<(Location, Value)>, machine::Fault> {
+    pub(crate) fn begin(
+        &mut self,
+        step: u64,
+        machine: &mut Machine,
+        written: &mut Vec<(Location, Value)>,
+    ) -> Result<(), Box<Fault>> {
         self.step = step;
         self.chosen.clear();
         self.times.clear();
         self.clock.begin(step);
         self.choices.begin(step);
-        self.carriers.refresh(machine);
-        let mut written: Vec<(Location, Value)> = Vec::new();
+        if std::mem::take(&mut self.grown) {
+            self.carriers.refresh(machine);
+        }
+        written.clear();
         for layer in &mut self.layers {
-            for (location, value) in layer.writes(step) {
+            let writes = layer.writes(step);
+            if writes.is_empty() {
+                continue;
+            }
+            for (location, value) in writes {
                 if !written.iter().any(|(earlier, _)| *earlier == location) {
-                    machine.set(&location, value.clone())?;
+                    machine.set(&location, value.clone()).map_err(Box::new)?;
                     written.push((location, value));
                 }
             }
         }
-        Ok(written)
+        Ok(())
     }
 
     pub(crate) fn finish(&mut self, step: u64, back: bool) {
@@ -162,7 +180,7 @@ impl Inputs {
 
 impl Environment for Inputs {
     fn monitored(&mut self, program: &Program, location: LocationRef<'_>, codomain: DomainId) -> Result<Value, String> {
-        let time = crate::clock::library_time(program, location);
+        let time = self.times_of.get(location.function.0 as usize).copied().flatten();
         match (self.ask(program, location, codomain, time.is_some())?, time) {
             (Some(value), _) => Ok(value),
             (None, Some(time)) => Ok(Value::Integer(time.of(&mut *self.clock)?)),

@@ -28,5 +28,5 @@ pub use positional::Positional;
 pub use random::{RandomSource, SplitMix};
 pub use read::{Written, expected, read_location, read_value, read_written};
 pub use recorded::{Parted, Recorded};
-pub use run::{Invariants, Options, Run};
+pub use run::{Invariants, Options, Passed, Run};
 pub use trace::{End, Header, Record, StepRecord, Violation};

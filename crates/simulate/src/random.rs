@@ -5,9 +5,10 @@
 //! the choice within the step), never on the order of asking. The same seed gives the same run for ever, and adding
 //! an input to a model leaves the values of the others as they were.
 
+use std::fmt;
 use std::hash::{Hash, Hasher};
 
-use machine::{LocationRef, Value};
+use machine::Value;
 use program::Program;
 
 use crate::draw::{Bounds, draw};
@@ -87,18 +88,25 @@ impl Hasher for StableHash {
     }
 }
 
-/// What a location is drawn by: its function's name and its arguments.
-fn location_key(program: &Program, location: LocationRef<'_>) -> u64 {
-    let hash = StableHash::new().text(&program.function(location.function).name);
-    if location.arguments.is_empty() { hash.finish() } else { arguments_key(hash, program, location.arguments) }
+impl fmt::Write for StableHash {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.write(text.as_bytes());
+        Ok(())
+    }
 }
 
-fn arguments_key(mut hash: StableHash, program: &Program, arguments: &[Value]) -> u64 {
+/// What a location is drawn by: its function's name, which is hashed already, and its arguments.
+fn location_key(name: StableHash, program: &Program, arguments: &[Value]) -> u64 {
+    use fmt::Write;
     use machine::Show;
+    let mut hash = name;
     for argument in arguments {
         match argument {
             Value::Integer(n) => n.to_le_bytes().hash(&mut hash),
-            other => hash = hash.text(&other.show(program).to_string()),
+            other => {
+                write!(hash, "{}", other.show(program)).expect("a hash takes every text");
+                hash = hash.text("");
+            }
         }
     }
     hash.finish()
@@ -109,12 +117,14 @@ fn arguments_key(mut hash: StableHash, program: &Program, arguments: &[Value]) -
 pub struct RandomSource {
     seed: u64,
     bounds: Bounds,
+    /// The hashes of functions' names, by function, as they are asked for.
+    names: Vec<Option<StableHash>>,
 }
 
 impl RandomSource {
     /// Inputs from a seed; infinite domains are cut to the bounds.
     pub fn new(seed: u64, bounds: Bounds) -> Self {
-        RandomSource { seed, bounds }
+        RandomSource { seed, bounds, names: Vec::new() }
     }
 }
 
@@ -123,7 +133,14 @@ impl Source for RandomSource {
         if ask.clock {
             return Ok(None);
         }
-        let key = location_key(ask.program, ask.location);
+        let function = ask.location.function.0 as usize;
+        if self.names.len() <= function {
+            self.names.resize(ask.program.functions.len(), None);
+        }
+        let name = self.names[function]
+            .get_or_insert_with(|| StableHash::new().text(&ask.program.functions[function].name))
+            .clone();
+        let key = location_key(name, ask.program, ask.location.arguments);
         let mut stream = SplitMix::stream(self.seed, ask.step, key);
         let value = draw(ask.program, ask.carriers, &self.bounds, ask.codomain, &mut stream).map_err(|reason| {
             format!("no random value can be drawn for {}: {reason}", ask.location.show(ask.program))

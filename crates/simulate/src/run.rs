@@ -64,8 +64,11 @@ pub struct Run {
     machine: Machine,
     inputs: Inputs,
     options: Options,
-    invariants: Vec<usize>,
-    history: VecDeque<Snapshot>,
+    /// Indices of the invariants that read inputs.
+    over_inputs: Vec<usize>,
+    /// Indices of the other invariants.
+    over_states: Vec<usize>,
+    history: VecDeque<Box<Snapshot>>,
     made: u64,
     phase: Phase,
 }
@@ -78,17 +81,51 @@ enum Phase {
     Ended,
 }
 
+/// What steps without records did.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Passed {
+    /// How many were made.
+    pub steps: u64,
+    /// How many of them changed the state.
+    pub changed: u64,
+    /// How many updates their update sets held.
+    pub updates: u64,
+}
+
+impl Passed {
+    fn count(&mut self, step: &StepRecord) {
+        self.steps += 1;
+        self.changed += u64::from(step.changed);
+        self.updates += step.updates as u64;
+    }
+}
+
+/// What became of a step.
+enum Made {
+    /// It was made.
+    Step,
+    /// It could not be made.
+    Attempt,
+    /// Something else came instead.
+    Other(Box<Record>),
+}
+
 impl Run {
     /// A run that has not begun.
     pub fn new(program: Arc<Program>, limits: Limits, mut inputs: Inputs, options: Options) -> Run {
-        let properties = program.properties.iter().enumerate();
-        let invariants = match options.invariants {
-            Invariants::Ignore => Vec::new(),
-            _ => properties.filter(|(_, p)| p.kind == PropertyKind::Invariant).map(|(index, _)| index).collect(),
+        let checked = options.invariants != Invariants::Ignore;
+        let invariants = |reads_monitored: bool| {
+            let properties = program.properties.iter().enumerate();
+            let wanted = properties.filter(|(_, property)| {
+                checked && property.kind == PropertyKind::Invariant && property.reads_monitored == reads_monitored
+            });
+            wanted.map(|(index, _)| index).collect()
         };
+        let (over_inputs, over_states) = (invariants(true), invariants(false));
         inputs.keep = options.keep;
         let machine = Machine::new(program, limits);
-        Run { machine, inputs, options, invariants, history: VecDeque::new(), made: 0, phase: Phase::New }
+        let (history, phase) = (VecDeque::new(), Phase::New);
+        Run { machine, inputs, options, over_inputs, over_states, history, made: 0, phase }
     }
 
     /// The machine in its current state.
@@ -141,13 +178,11 @@ impl Run {
         let times = std::mem::take(&mut self.inputs.times);
         let inputs = if self.options.keep { self.machine.inputs() } else { Vec::new() };
         let values = if self.options.keep { self.machine.locations() } else { Vec::new() };
-        let violations = match self.check_invariants(false) {
-            Ok(violations) => violations,
-            Err(fault) => {
-                self.stop_with(End::Fault(Box::new(fault)));
-                Vec::new()
-            }
-        };
+        let mut violations = Vec::new();
+        if let Err(fault) = self.check_invariants(false, &mut violations) {
+            violations.clear();
+            self.stop_with(End::Fault(fault));
+        }
         self.judge(&violations);
         if self.phase == Phase::Running {
             self.check_until();
@@ -155,45 +190,79 @@ impl Run {
         Record::Initial { inputs, times, values, violations }
     }
 
-    fn step(&mut self) -> Record {
-        let step = self.made + 1;
-        let before = (self.options.history > 0).then(|| self.machine.snapshot());
-        let mut record = StepRecord { step, ..StepRecord::default() };
-        let prepared = self.inputs.begin(step, &mut self.machine).and_then(|writes| {
-            record.writes = writes;
-            self.machine.prepare(&mut self.inputs)
-        });
-        let prepared = prepared.and_then(|()| self.check_invariants(true));
-        match prepared {
-            Err(fault) => return self.failed(record, fault, before),
-            Ok(violations) => {
-                record.violations = violations;
-                self.judge(&record.violations);
+    /// Makes steps until as many are made as are wanted or the run ends, and keeps no record of them.
+    pub fn pass(&mut self, steps: u64) -> Passed {
+        let mut passed = Passed::default();
+        let mut record = StepRecord::default();
+        while passed.steps < steps {
+            let bounded = self.options.steps.is_some_and(|steps| self.made >= steps);
+            if self.phase != Phase::Running || bounded || self.options.keep {
+                match self.advance() {
+                    Some(Record::Step(step)) => passed.count(&step),
+                    Some(Record::Initial { .. } | Record::Back { .. }) => {}
+                    Some(Record::Attempt(_) | Record::End(_)) | None => break,
+                }
+                continue;
+            }
+            record.step = self.made + 1;
+            record.violations.clear();
+            match self.make(&mut record) {
+                Made::Step => passed.count(&record),
+                Made::Attempt | Made::Other(_) => break,
             }
         }
-        self.note_inputs(&mut record);
-        if self.phase != Phase::Running {
-            self.machine.discard();
-            return Record::Attempt(record);
-        }
-        self.commit(&mut record, before);
-        Record::Step(record)
+        passed
     }
 
-    fn commit(&mut self, record: &mut StepRecord, before: Option<Snapshot>) {
+    fn step(&mut self) -> Record {
+        let mut record = StepRecord { step: self.made + 1, ..StepRecord::default() };
+        match self.make(&mut record) {
+            Made::Step => Record::Step(record),
+            Made::Attempt => Record::Attempt(record),
+            Made::Other(record) => *record,
+        }
+    }
+
+    /// Makes the step that the record has the number of.
+    fn make(&mut self, record: &mut StepRecord) -> Made {
+        let before = (self.options.history > 0).then(|| Box::new(self.machine.snapshot()));
+        if let Err(fault) = self.prepare(record) {
+            return self.failed(record, *fault, before);
+        }
+        self.judge(&record.violations);
+        self.note_inputs(record);
+        if self.phase != Phase::Running {
+            self.machine.discard();
+            return Made::Attempt;
+        }
+        self.commit(record, before);
+        Made::Step
+    }
+
+    fn prepare(&mut self, record: &mut StepRecord) -> Result<(), Box<Fault>> {
+        self.inputs.begin(record.step, &mut self.machine, &mut record.writes)?;
+        if let Err(fault) = self.machine.prepare(&mut self.inputs) {
+            return Err(Box::new(fault));
+        }
+        if self.over_inputs.is_empty() { Ok(()) } else { self.check_invariants(true, &mut record.violations) }
+    }
+
+    fn commit(&mut self, record: &mut StepRecord, before: Option<Box<Snapshot>>) {
         let step = self.machine.commit();
         self.made += 1;
+        self.inputs.grown |= step.grown;
         record.updates = step.updates;
         record.changed = step.changed;
         if self.options.keep {
             record.changes = self.machine.changes();
         }
-        match self.check_invariants(false) {
-            Ok(violations) => record.violations.extend(violations),
-            Err(fault) => self.stop_with(End::Fault(Box::new(fault))),
+        let checked =
+            if self.over_states.is_empty() { Ok(()) } else { self.check_invariants(false, &mut record.violations) };
+        if let Err(fault) = checked {
+            self.stop_with(End::Fault(fault));
         }
         self.judge(&record.violations);
-        if self.phase == Phase::Running {
+        if self.phase == Phase::Running && self.options.until.is_some() {
             self.check_until();
         }
         if step.updates == 0 && self.options.stop_on_empty {
@@ -211,22 +280,24 @@ impl Run {
     }
 
     /// A step that could not be made: the model's fault, or the user at the prompt wants something else.
-    fn failed(&mut self, mut record: StepRecord, fault: Fault, before: Option<Snapshot>) -> Record {
+    #[cold]
+    fn failed(&mut self, record: &mut StepRecord, fault: Fault, before: Option<Box<Snapshot>>) -> Made {
         self.machine.discard();
         let end = self.trouble(fault);
         if let End::Quit = end {
-            return self.end(End::Quit);
+            return Made::Other(Box::new(self.end(End::Quit)));
         }
         if self.inputs.signal == Some(Signal::Back) {
             self.inputs.signal = None;
-            return self.back(before);
+            return Made::Other(Box::new(self.back(before)));
         }
-        self.note_inputs(&mut record);
+        self.note_inputs(record);
         self.stop_with(end);
-        Record::Attempt(record)
+        Made::Attempt
     }
 
-    fn back(&mut self, before: Option<Snapshot>) -> Record {
+    fn back(&mut self, before: Option<Box<Snapshot>>) -> Record {
+        self.inputs.grown = true;
         // From the first step one can only ask that step's inputs again.
         if let Some(snapshot) = self.history.pop_back() {
             self.machine.restore(&snapshot);
@@ -273,16 +344,20 @@ impl Run {
         }
     }
 
-    /// Evaluates the invariants that read inputs, or those that do not.
-    fn check_invariants(&mut self, reads_monitored: bool) -> Result<Vec<Violation>, Fault> {
-        let mut violations = Vec::new();
+    /// Evaluates the invariants that read inputs, or those that do not. On a fault no violation is added.
+    fn check_invariants(&mut self, reads_monitored: bool, violations: &mut Vec<Violation>) -> Result<(), Box<Fault>> {
+        let invariants = if reads_monitored { &self.over_inputs } else { &self.over_states };
+        let found = violations.len();
         let program = Arc::clone(self.machine.program());
-        for index in &self.invariants {
+        for index in invariants {
             let property = &program.properties[*index];
-            if property.reads_monitored != reads_monitored {
-                continue;
-            }
-            let value = self.machine.evaluate(&property.formula, &mut self.inputs)?;
+            let value = match self.machine.evaluate(&property.formula, &mut self.inputs) {
+                Ok(value) => value,
+                Err(fault) => {
+                    violations.truncate(found);
+                    return Err(Box::new(fault));
+                }
+            };
             if value != Value::Boolean(true) {
                 violations.push(Violation {
                     name: property.name.clone(),
@@ -292,6 +367,6 @@ impl Run {
                 });
             }
         }
-        Ok(violations)
+        Ok(())
     }
 }

@@ -1,0 +1,112 @@
+//! Runs as a whole: steps with and without records make the same run, and a seed draws the same values for ever.
+
+use std::sync::Arc;
+
+use machine::{Limits, Show};
+use program::Program;
+use simulate::{Bounds, Choices, Inputs, Invariants, Options, RandomSource, Record, Run};
+use syntax::SourceFile;
+
+struct NoFiles;
+
+impl model::Loader for NoFiles {
+    fn load(&mut self, _importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        Err(format!("no file {path}"))
+    }
+}
+
+/// Inputs of several domains, with arguments and without; choices; a domain that grows and is drawn from.
+const MODEL: &str = "asm test
+import StandardLibrary
+signature:
+    enum domain Colour = {RED | GREEN | BLUE}
+    abstract domain Robot
+    dynamic abstract domain Job
+    domain Small subsetof Integer
+    static wall: Robot
+    static eve: Robot
+    monitored colour: Colour
+    monitored level: Small
+    monitored anything: Integer
+    monitored seen: Prod(Robot, Small) -> Boolean
+    monitored liked: Colour -> Natural
+    monitored job: Job
+    controlled last: Colour
+    controlled sum: Integer
+    controlled count: Robot -> Integer
+    controlled picked: Small
+    controlled current: Job
+definitions:
+    domain Small = {1 : 4}
+    invariant inv_sum over sum: sum < 1000000
+    invariant inv_level over level: level > 0
+    main rule r_main = par
+        last := colour
+        sum := sum + anything + liked(colour)
+        forall $r in Robot with seen($r, level) do count($r) := count($r) + 1
+        choose $s in Small, $t in Small with $s < $t do picked := $t - $s
+        choose $c in Colour with true do skip
+        if sum > 5 then extend Job with $j do current := $j
+        else if (exist $k in Job with true) then current := job endif endif
+    endpar
+default init s0:
+    function sum = 0
+    function count($r in Robot) = 0
+";
+
+fn program() -> Arc<Program> {
+    let checked = model::check(SourceFile::new("test.asm", MODEL), &mut NoFiles);
+    let errors: Vec<_> = checked.diagnostics.iter().filter(|d| d.severity == syntax::Severity::Error).collect();
+    assert!(errors.is_empty(), "{errors:#?}");
+    Arc::new(program::lower(&checked.model).expect("small enough"))
+}
+
+fn run(program: &Arc<Program>, keep: bool) -> Run {
+    let inputs = Inputs::new().with(RandomSource::new(7, Bounds::default())).choosing(Choices::random(7));
+    let options = Options { steps: Some(300), keep, invariants: Invariants::Report, ..Options::default() };
+    Run::new(Arc::clone(program), Limits::default(), inputs, options)
+}
+
+#[test]
+fn passing_makes_the_same_steps() {
+    let program = program();
+    let mut recorded = run(&program, true);
+    let (mut steps, mut changed) = (0, 0);
+    while let Some(record) = recorded.advance() {
+        if let Record::Step(step) = record {
+            steps += 1;
+            changed += u64::from(step.changed);
+        }
+    }
+    let mut passed = run(&program, false);
+    let first = passed.pass(100);
+    let rest = passed.pass(1_000);
+    assert_eq!((first.steps, first.steps + rest.steps, first.changed + rest.changed), (100, steps, changed));
+    assert_eq!(steps, 300);
+    assert_eq!(passed.machine().locations(), recorded.machine().locations());
+}
+
+#[test]
+fn a_seed_draws_the_same_values_for_ever() {
+    let program = program();
+    let mut run = run(&program, true);
+    let mut shown = String::new();
+    for _ in 0..4 {
+        match run.advance() {
+            Some(Record::Step(step)) => {
+                for (location, value) in &step.inputs {
+                    shown += &format!("{}={} ", location.show(&program), value.show(&program));
+                }
+                let chosen: Vec<_> = step.choices.iter().map(|choice| choice.index).collect();
+                shown += &format!("chosen {chosen:?}\n");
+            }
+            _ => continue,
+        }
+    }
+    expect_test::expect![[r#"
+        colour=BLUE anything=5 liked(BLUE)=10 level=1 seen(wall,1)=true seen(eve,1)=true chosen [2, 2]
+        colour=BLUE anything=-4 liked(BLUE)=9 level=1 seen(wall,1)=true seen(eve,1)=false chosen [1, 1]
+        colour=BLUE anything=-1 liked(BLUE)=4 level=4 seen(wall,4)=true seen(eve,4)=true chosen [4, 1]
+    "#]]
+    .assert_eq(&shown);
+}
