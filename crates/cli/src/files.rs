@@ -1,15 +1,26 @@
-//! Reading and writing files: bounded, UTF-8 only, never half written.
+//! Reading and writing files: bounded, text only, never half written.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
-use syntax::SourceFile;
+use syntax::{NotText, SourceFile};
 
 use crate::failure::Failure;
 
 /// Reads a text file of at most `limit` bytes.
 pub fn read_text(path: &Path, limit: u64) -> Result<String, Failure> {
+    String::from_utf8(read_bytes(path, limit)?)
+        .map_err(|error| Failure::NotUtf8 { path: path.to_path_buf(), offset: error.utf8_error().valid_up_to() })
+}
+
+/// Reads a model or a scenario of at most `limit` bytes; one that is not UTF-8 is read as far as it is text.
+pub fn read_source(path: &Path, limit: u64) -> Result<SourceFile, Failure> {
+    SourceFile::decode(path.display().to_string(), read_bytes(path, limit)?)
+        .map_err(|NotText { offset }| Failure::NotUtf8 { path: path.to_path_buf(), offset })
+}
+
+fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Failure> {
     let wrap = |error| Failure::of_file("read", path, error);
     let file = File::open(path).map_err(wrap)?;
     if file.metadata().map_err(wrap)?.is_dir() {
@@ -21,8 +32,7 @@ pub fn read_text(path: &Path, limit: u64) -> Result<String, Failure> {
     if bytes.len() as u64 > limit {
         return Err(Failure::TooLarge { path: path.to_path_buf(), limit });
     }
-    String::from_utf8(bytes)
-        .map_err(|error| Failure::NotUtf8 { path: path.to_path_buf(), offset: error.utf8_error().valid_up_to() })
+    Ok(bytes)
 }
 
 /// Finds imported files on the disk, relative to the importing file and then to the working folder.
@@ -35,7 +45,7 @@ pub struct Disk {
 impl Disk {
     /// The root file, under the name it was given.
     pub fn root(&self, path: &Path) -> Result<SourceFile, Failure> {
-        Ok(SourceFile::new(path.display().to_string(), read_text(path, self.limit)?))
+        read_source(path, self.limit)
     }
 }
 
@@ -47,8 +57,8 @@ impl model::Loader for Disk {
         let folder = Path::new(&importer.name).parent().unwrap_or(Path::new(""));
         let beside = tidy(&folder.join(&written));
         let found = if beside.exists() { beside } else { PathBuf::from(&written) };
-        match read_text(&found, self.limit) {
-            Ok(text) => Ok(SourceFile::new(found.display().to_string(), text)),
+        match read_source(&found, self.limit) {
+            Ok(source) => Ok(source),
             Err(Failure::Missing(_)) => Err(format!("there is no file {}", tidy(&folder.join(&written)).display())),
             Err(failure) => Err(failure.to_string()),
         }

@@ -60,7 +60,7 @@ fn snippet<'a>(sources: &'a Sources, file: FileId, labels: &[(&'a Label, bool)])
     let to = labels.iter().map(|(label, _)| label.span.end as usize).max().unwrap_or(0);
     let window = window(text, from.min(text.len()), to.min(text.len()));
     let line = source.line_column(window.start as u32).line as usize;
-    let mut snippet = Snippet::source(Cow::Borrowed(&text[window.clone()])).line_start(line).path(source.name.as_str());
+    let mut snippet = Snippet::source(shown(&text[window.clone()])).line_start(line).path(source.name.as_str());
     for (label, primary) in labels {
         let kind = if *primary { AnnotationKind::Primary } else { AnnotationKind::Context };
         let annotation = kind.span(underlined(label.span, text, &window));
@@ -68,6 +68,16 @@ fn snippet<'a>(sources: &'a Sources, file: FileId, labels: &[(&'a Label, bool)])
         snippet = snippet.annotation(labelled);
     }
     Element::from(snippet)
+}
+
+/// A piece of a text without the carriage returns of Windows' line ends, which would be shown as glyphs.
+fn shown(text: &str) -> Cow<'_, str> {
+    if text.contains('\r') { Cow::Owned(text.replace('\r', "")) } else { Cow::Borrowed(text) }
+}
+
+/// How many bytes of a text are shown.
+fn shown_len(text: &str) -> usize {
+    text.len() - text.matches('\r').count()
 }
 
 /// The bytes of a line on either side of a fault that are worth looking at; a line may have millions.
@@ -94,7 +104,7 @@ fn underlined(span: Span, text: &str, window: &Range<usize>) -> Range<usize> {
     let end = (span.end as usize).clamp(start, window.end);
     let first_line = text[start..end].find('\n').map_or(end, |at| start + at);
     let end = first_line.max(start);
-    start - window.start..end - window.start
+    shown_len(&text[window.start..start])..shown_len(&text[window.start..end])
 }
 
 #[cfg(test)]
@@ -125,6 +135,13 @@ mod tests {
         let text = rendered("x := 1\n\n\n\n\n\n\nx := 2\n", &[13..19, 0..6]);
         assert!(text.contains("x := 1") && text.contains("x := 2") && text.contains("and there"), "{text}");
         assert!(text.contains("a.asm:8:1"), "{text}");
+    }
+
+    #[test]
+    fn the_line_ends_of_windows_are_not_shown() {
+        let text = rendered("asm a\r\nx := 1\r\ny\r\n", &[7..13]);
+        assert_eq!(text.lines().nth(3), Some("2 | x := 1"), "{text:?}");
+        assert!(rendered("asm a\r", &[0..5]).contains("1 | asm a\n"), "{text:?}");
     }
 
     #[test]

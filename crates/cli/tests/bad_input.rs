@@ -41,8 +41,10 @@ fn model(name: &str, rule: &str) -> String {
 #[test]
 fn invalid_utf8() {
     let folder = folder();
-    write(folder.path(), "Bytes.asm", b"asm Bytes\n\xff\xfe");
+    write(folder.path(), "Bytes.asm", b"asm Bytes\n\xff\xfe\0");
     check(folder.path(), &["check", "Bytes.asm"], 2, "not UTF-8 text: byte 10");
+    write(folder.path(), "Bytes.asm", b"asm Bytes\n\xff\xfe");
+    check(folder.path(), &["check", "Bytes.asm"], 1, "byte 0xFF at offset 10");
 }
 
 #[test]

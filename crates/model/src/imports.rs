@@ -65,6 +65,7 @@ impl Reader<'_> {
         let broken = parse.diagnostics.iter().any(|fault| {
             fault.severity == Severity::Error && header_end.is_none_or(|end| fault.primary.span.start <= u32::from(end))
         });
+        self.faults.extend(source.foreign.map(|foreign| foreign.warning(file)));
         self.faults.extend(parse.diagnostics);
 
         let mut imports = Vec::new();

@@ -104,8 +104,9 @@ impl<'a> Expansion<'a> {
         let loaded = self.blocks.load(self.sources.file(importer), name);
         let found = match loaded {
             Ok(source) => {
-                let text = source.text.clone();
+                let (text, foreign) = (source.text.clone(), source.foreign);
                 let file = self.sources.add(source);
+                self.faults.extend(foreign.map(|foreign| foreign.warning(file)));
                 let parsed = syntax::parse_avalla(file, &text);
                 self.faults.extend(parsed.diagnostics.iter().cloned());
                 let tree = ScenarioFile::cast(parsed.syntax())?;

@@ -27,7 +27,8 @@ pub struct Parsed {
 /// Parses a scenario that is already among the sources.
 pub fn parse(sources: &Sources, file: FileId) -> Parsed {
     let parsed = syntax::parse_avalla(file, &sources.file(file).text);
-    let diagnostics = parsed.diagnostics.clone();
+    let foreign = sources.file(file).foreign.map(|foreign| foreign.warning(file));
+    let diagnostics = foreign.into_iter().chain(parsed.diagnostics.iter().cloned()).collect();
     let tree = ScenarioFile::cast(parsed.syntax());
     let path = tree.as_ref().and_then(|tree| Some((tree.model_path()?, tree.model_token()?)));
     let model = path.map(|(path, token)| (path, Span::new(file, token.text_range())));

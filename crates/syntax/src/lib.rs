@@ -12,6 +12,7 @@ pub mod kind;
 pub mod source;
 
 mod dump;
+mod encoding;
 mod fault;
 mod format;
 mod grammar;
@@ -22,6 +23,7 @@ mod token_set;
 
 pub use diagnostic::{Diagnostic, Label, Severity};
 pub use dump::dump;
+pub use encoding::{Foreign, NotText};
 pub use fault::IDS as FAULT_IDS;
 pub use format::format;
 pub use invariant::assert_invariants;

@@ -7,6 +7,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use crate::encoding::{Foreign, NotText, decode};
+
 /// Names one file within a [`Sources`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct FileId(pub u32);
@@ -56,6 +58,8 @@ pub struct SourceFile {
     pub name: String,
     /// The whole text.
     pub text: Arc<str>,
+    /// What shows that its bytes were not UTF-8.
+    pub foreign: Option<Foreign>,
     line_starts: Vec<u32>,
 }
 
@@ -64,7 +68,16 @@ impl SourceFile {
     pub fn new(name: impl Into<String>, text: impl Into<Arc<str>>) -> Self {
         let text = text.into();
         let line_starts = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at as u32 + 1)).collect();
-        SourceFile { name: name.into(), text, line_starts }
+        SourceFile { name: name.into(), text, foreign: None, line_starts }
+    }
+
+    /// Takes the bytes of a file for text: UTF-8, or else Windows-1252.
+    ///
+    /// # Errors
+    /// They are no text.
+    pub fn decode(name: impl Into<String>, bytes: Vec<u8>) -> Result<Self, NotText> {
+        let (text, foreign) = decode(bytes)?;
+        Ok(SourceFile { foreign, ..SourceFile::new(name, text) })
     }
 
     /// The position of a byte offset; one past the end is allowed.

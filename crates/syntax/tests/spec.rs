@@ -6,7 +6,9 @@
 #![allow(clippy::disallowed_methods, reason = "a test reads the pages it is about")]
 
 use std::path::PathBuf;
-use syntax::{FAULT_IDS, FileId, MAX_FAULTS, Parse, assert_invariants, parse_asmetal, parse_avalla, parse_term};
+use syntax::{
+    FAULT_IDS, FileId, MAX_FAULTS, Parse, SourceFile, assert_invariants, parse_asmetal, parse_avalla, parse_term,
+};
 
 fn page(name: &str) -> String {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../spec/{name}.md"));
@@ -79,6 +81,7 @@ fn each_fault_has_a_page_whose_example_shows_it() {
         let example = blocks.iter().find(|block| block.info.ends_with(" fault"));
         match (example, *id) {
             (None, "file-too-large" | "too-many-faults") => {} // too long for a page; see below and `limits.rs`
+            (None, "not-utf8") => {}                           // a page is UTF-8; see below
             (None, _) => panic!("the page of {id} has no example"),
             (Some(block), _) => {
                 let parse = parse(block).expect("an example that can be parsed");
@@ -92,6 +95,12 @@ fn each_fault_has_a_page_whose_example_shows_it() {
 fn the_fault_of_too_many_faults() {
     let text = format!("asm a signature: definitions: main rule r_a = par {} endpar", "x = 1 ".repeat(MAX_FAULTS + 1));
     assert_eq!(ids(&parse_asmetal(FileId(0), &text)).last(), Some(&"too-many-faults"));
+}
+
+#[test]
+fn the_fault_of_a_text_that_is_not_utf8() {
+    let source = SourceFile::decode("a.asm", b"asm a // caff\xe8".to_vec()).expect("a text");
+    assert_eq!(source.foreign.map(|foreign| foreign.warning(FileId(0)).id), Some("not-utf8"));
 }
 
 #[test]

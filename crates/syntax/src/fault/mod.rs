@@ -32,6 +32,7 @@ pub const IDS: &[&str] = &[
     "missing-section",
     "name-class",
     "nested-too-deeply",
+    "not-utf8",
     "number-form",
     "quantifier-parentheses",
     "rule-in-term",
