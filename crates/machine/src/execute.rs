@@ -7,7 +7,7 @@ use program::{DomainId, DomainKind, FunctionId, Program, Slot};
 use syntax::Span;
 
 use crate::coverage::Coverage;
-use crate::environment::{Environment, TimeUnit};
+use crate::environment::{Choice, Environment, TimeUnit};
 use crate::fault::{Fault, FaultKind};
 use crate::limits::Limits;
 use crate::location::LocationRef;
@@ -57,6 +57,48 @@ pub(crate) struct Core {
     /// By function: its locations are read without asking anybody (but one that is undef may yet have an initial
     /// value).
     pub plain: Vec<bool>,
+    /// The choices of this step.
+    pub choices: Choices,
+}
+
+/// The choices made in a step, so that one begun anew makes the same.
+#[derive(Debug, Default)]
+pub(crate) struct Choices {
+    made: Vec<usize>,
+    /// How many of them the step has made so far.
+    again: usize,
+}
+
+impl Choices {
+    /// Lets the environment choose, unless this choice was made before the step was begun anew.
+    pub fn choose(
+        &mut self,
+        environment: &mut dyn Environment,
+        program: &Program,
+        choice: &Choice<'_>,
+    ) -> Result<usize, String> {
+        let chosen = match self.made.get(self.again) {
+            Some(chosen) => *chosen,
+            None => {
+                let chosen = environment.choose(program, choice)?;
+                self.made.push(chosen);
+                chosen
+            }
+        };
+        self.again += 1;
+        Ok(chosen)
+    }
+
+    /// A new step begins.
+    pub fn forget(&mut self) {
+        self.made.clear();
+        self.again = 0;
+    }
+
+    /// The step begins anew.
+    pub fn repeat(&mut self) {
+        self.again = 0;
+    }
 }
 
 /// One call's view of program, core and environment.

@@ -18,6 +18,7 @@ mod location;
 mod machine;
 mod membership;
 mod memo;
+mod native;
 mod perform;
 mod print;
 mod start;

@@ -23,10 +23,10 @@ pub(crate) struct Version(u64);
 
 /// Where the values of one function are kept.
 #[derive(Debug, Clone)]
-struct Shelf {
-    base: u32,
-    dimensions: Box<[Dimension]>,
-    for_good: bool,
+pub(crate) struct Shelf {
+    pub base: u32,
+    pub dimensions: Box<[Dimension]>,
+    pub for_good: bool,
 }
 
 /// The values kept.
@@ -50,7 +50,7 @@ impl Memo {
     /// Decides which functions' values are kept.
     pub fn lay_out(&mut self, program: &Program, contents: &dyn Fn(DomainId) -> Option<Vec<Value>>) {
         let repeatable = closed_under(program, &|term| is_repeatable(program, term));
-        let fixed = closed_under(program, &|term| is_repeatable(program, term) && is_fixed(program, term));
+        let fixed = fixed_functions(program);
         let mut next = 0u32;
         for (index, function) in program.functions.iter().enumerate() {
             let Some(definition) = &function.definition else { continue };
@@ -89,6 +89,16 @@ impl Memo {
         self.values[place as usize] = value;
     }
 
+    /// Where the values of each function are kept.
+    pub fn shelves(&self) -> &[Option<Shelf>] {
+        &self.shelves
+    }
+
+    /// The values, their marks and the version of the state, as compiled code reads them.
+    pub fn view(&mut self) -> (*mut Value, *mut u64, u64) {
+        (self.values.as_mut_ptr(), self.versions.as_mut_ptr(), self.current)
+    }
+
     /// The state has changed to one it never was before.
     #[inline]
     pub fn changed(&mut self) {
@@ -105,6 +115,16 @@ impl Memo {
     pub fn back_to(&mut self, version: Version) {
         self.current = version.0;
     }
+}
+
+/// By function: its definition depends on its arguments alone.
+pub(crate) fn fixed_functions(program: &Program) -> Vec<bool> {
+    closed_under(program, &|term| is_repeatable(program, term) && is_fixed(program, term))
+}
+
+/// Whether a term depends on its variables alone, given which functions do.
+pub(crate) fn is_fixed_term(program: &Program, term: TermId, fixed: &[bool]) -> bool {
+    everywhere(program, term, fixed, &|term| is_repeatable(program, term) && is_fixed(program, term))
 }
 
 /// How many terms a definition has, counted up to `enough`.

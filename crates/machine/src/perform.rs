@@ -388,8 +388,9 @@ impl<'a> Executor<'a> {
         if candidates == 0 {
             return if_none.map_or(Ok(()), |rule| self.perform(rule));
         }
-        let choice = Choice { span, values: &self.core.frames[start..], variables: binders.len() };
-        let chosen = match self.environment.choose(program, &choice) {
+        let Executor { core, environment, .. } = self;
+        let choice = Choice { span, values: &core.frames[start..], variables: binders.len() };
+        let chosen = match core.choices.choose(*environment, program, &choice) {
             Ok(chosen) if chosen < candidates => chosen,
             Ok(chosen) => {
                 let reason = format!("choice {chosen} of {candidates} candidates does not exist");
@@ -444,7 +445,7 @@ impl<'a> Executor<'a> {
     }
 
     /// Makes a fresh element of a dynamic domain.
-    fn create(&mut self, domain: DomainId, span: Span) -> Outcome<Value> {
+    pub fn create(&mut self, domain: DomainId, span: Span) -> Outcome<Value> {
         let base = self.base_domain(domain);
         let carrier = &mut self.core.store.carriers[base.0 as usize];
         if u64::from(carrier.fresh) >= self.limits.locations.min(u64::from(u32::MAX - 1)) {

@@ -44,6 +44,7 @@ impl Core {
             coverage: None,
             initials: vec![None; program.functions.len()],
             plain: vec![false; program.functions.len()],
+            choices: crate::execute::Choices::default(),
         };
         core.reset_carriers(program);
         Executor { program, core: &mut core, environment: &mut Closed, limits }.fill_contents();

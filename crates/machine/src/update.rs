@@ -14,19 +14,21 @@ use crate::layout::LocationIndex;
 use crate::store::Store;
 use crate::value::Value;
 
-/// One update: what a location is to become, and who says so.
+/// One update: what a location is to become, and who says so. Compiled code writes them by their layout.
 #[derive(Debug, Clone)]
+#[repr(C)]
 pub(crate) struct Update {
     pub location: LocationIndex,
-    pub value: Value,
     pub rule: RuleId,
+    pub value: Value,
     /// The location's stamp before this update.
-    previous: Stamp,
+    pub previous: Stamp,
 }
 
 /// Which unit holds an update of a location, and where on the stack. Unit 0 is none.
 #[derive(Debug, Clone, Copy, Default)]
-struct Stamp {
+#[repr(C)]
+pub(crate) struct Stamp {
     unit: u32,
     index: u32,
 }
@@ -65,8 +67,8 @@ pub(crate) struct Clash {
 /// The update set of the running step.
 #[derive(Debug, Default)]
 pub(crate) struct Updates {
-    stack: Vec<Update>,
-    stamps: Vec<Stamp>,
+    pub stack: Vec<Update>,
+    pub stamps: Vec<Stamp>,
     log: Vec<Overwritten>,
     /// Elements made by `extend`, with the domain that gets them.
     created: Vec<(DomainId, Value)>,
@@ -97,6 +99,24 @@ impl Updates {
         self.stamps.clear();
         self.met.clear();
         (self.units, self.merges) = (0, 0);
+    }
+
+    /// The current unit.
+    pub fn unit(&self) -> u32 {
+        self.unit
+    }
+
+    /// Makes stamps for so many locations at least.
+    pub fn cover(&mut self, locations: usize) {
+        if self.stamps.len() < locations {
+            self.stamps.resize(locations, Stamp::default());
+        }
+    }
+
+    /// The current unit's update of a location.
+    pub fn held(&self, location: LocationIndex) -> Option<&Update> {
+        let stamp = self.stamps.get(location as usize)?;
+        (stamp.unit == self.unit).then(|| &self.stack[stamp.index as usize])
     }
 
     /// How many updates the step has so far.

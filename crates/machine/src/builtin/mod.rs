@@ -145,7 +145,7 @@ impl<'a> Executor<'a> {
             return Ok(Value::Undef);
         }
         let choice = Choice { span, values: elements, variables: 1 };
-        match self.environment.choose(self.program, &choice) {
+        match self.core.choices.choose(self.environment, self.program, &choice) {
             Ok(chosen) if chosen < elements.len() => Ok(elements[chosen].clone()),
             Ok(chosen) => {
                 let reason = format!("choice {chosen} of {} candidates does not exist", elements.len());

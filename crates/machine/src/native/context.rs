@@ -1,0 +1,208 @@
+//! What compiled code sees of the machine: pointers into the store, the update set and the kept values.
+//!
+//! INVARIANT: while compiled code runs, the lengths here are the true ones; [`Context::enter`] hands them back to
+//! the machine before a helper works on it, [`Context::leave`] takes pointers and lengths anew. Compiled code
+//! reads and writes the fields by their offsets, so their order is part of the interface.
+#![allow(unsafe_code)]
+
+use std::mem::offset_of;
+
+use crate::execute::{Core, Executor};
+use crate::native::Tables;
+use crate::update::{Stamp, Update};
+use crate::value::Value;
+
+/// LIMIT: compound values that one statement may hold at a time.
+const TEMPORARIES: usize = 1 << 16;
+/// LIMIT: candidates of a choice, times its variables; where there are more the step is interpreted.
+const CANDIDATES: usize = 1 << 20;
+
+/// The view of compiled code.
+#[repr(C)]
+#[derive(Debug)]
+pub(super) struct Context {
+    pub values: *mut Value,
+    pub given: *mut u32,
+    pub stamps: *mut Stamp,
+    pub stack: *mut Update,
+    pub held: u64,
+    pub capacity: u64,
+    pub unit: u64,
+    pub epoch: u64,
+    pub kept: *mut Value,
+    pub versions: *mut u64,
+    pub version: u64,
+    /// Values of the running statements, a stack.
+    pub temporaries: *mut Value,
+    pub temporary: u64,
+    /// The candidates of a choice.
+    pub candidates: *mut Value,
+    pub candidate: u64,
+    pub candidate_capacity: u64,
+    pub depth: u64,
+    /// The executor of the running step.
+    executor: *mut Executor<'static>,
+    /// What belongs to the compiled code.
+    tables: *mut Tables,
+}
+
+/// Where the fields are.
+#[derive(Debug)]
+pub(super) struct Offset;
+
+#[allow(non_upper_case_globals, reason = "named as the fields are")]
+impl Offset {
+    pub const values: i32 = offset_of!(Context, values) as i32;
+    pub const given: i32 = offset_of!(Context, given) as i32;
+    pub const stamps: i32 = offset_of!(Context, stamps) as i32;
+    pub const stack: i32 = offset_of!(Context, stack) as i32;
+    pub const held: i32 = offset_of!(Context, held) as i32;
+    pub const capacity: i32 = offset_of!(Context, capacity) as i32;
+    pub const unit: i32 = offset_of!(Context, unit) as i32;
+    pub const epoch: i32 = offset_of!(Context, epoch) as i32;
+    pub const kept: i32 = offset_of!(Context, kept) as i32;
+    pub const versions: i32 = offset_of!(Context, versions) as i32;
+    pub const version: i32 = offset_of!(Context, version) as i32;
+    pub const temporary: i32 = offset_of!(Context, temporary) as i32;
+    pub const candidates: i32 = offset_of!(Context, candidates) as i32;
+    pub const candidate: i32 = offset_of!(Context, candidate) as i32;
+    pub const candidate_capacity: i32 = offset_of!(Context, candidate_capacity) as i32;
+    pub const depth: i32 = offset_of!(Context, depth) as i32;
+}
+
+/// The working memory of compiled code, kept from step to step.
+#[derive(Debug, Default)]
+pub(super) struct Memory {
+    temporaries: Vec<Value>,
+    candidates: Vec<Value>,
+}
+
+impl Context {
+    /// A view for one step.
+    pub fn new(executor: &mut Executor<'_>, tables: &mut Tables, memory: &mut Memory) -> Context {
+        memory.temporaries.reserve(TEMPORARIES);
+        memory.candidates.reserve(CANDIDATES.min(1 << 12));
+        let mut context = Context {
+            values: std::ptr::null_mut(),
+            given: std::ptr::null_mut(),
+            stamps: std::ptr::null_mut(),
+            stack: std::ptr::null_mut(),
+            held: 0,
+            capacity: 0,
+            unit: 0,
+            epoch: 0,
+            kept: std::ptr::null_mut(),
+            versions: std::ptr::null_mut(),
+            version: 0,
+            temporaries: memory.temporaries.as_mut_ptr(),
+            temporary: 0,
+            candidates: memory.candidates.as_mut_ptr(),
+            candidate: 0,
+            candidate_capacity: memory.candidates.capacity() as u64,
+            depth: 0,
+            executor: std::ptr::from_mut(executor).cast::<Executor<'static>>(),
+            tables,
+        };
+        context.leave(executor.core);
+        context
+    }
+
+    /// Takes pointers and lengths from the machine.
+    pub fn leave(&mut self, core: &mut Core) {
+        core.updates.cover(core.store.len());
+        self.values = core.store.values.as_mut_ptr();
+        self.given = core.store.given.as_mut_ptr();
+        self.stamps = core.updates.stamps.as_mut_ptr();
+        self.stack = core.updates.stack.as_mut_ptr();
+        self.held = core.updates.stack.len() as u64;
+        self.capacity = core.updates.stack.capacity() as u64;
+        self.unit = u64::from(core.updates.unit());
+        self.epoch = u64::from(core.epoch);
+        (self.kept, self.versions, self.version) = core.memo.view();
+    }
+
+    /// Hands the lengths back to the machine.
+    pub fn enter(&mut self, core: &mut Core) {
+        debug_assert!(self.held <= self.capacity);
+        // SAFETY: compiled code has written every update below `held`, which it keeps at or below the capacity.
+        unsafe { core.updates.stack.set_len(self.held as usize) };
+    }
+
+    /// Runs a helper on the machine.
+    ///
+    /// # Safety
+    /// `context` comes from [`Context::new`], whose executor and tables still live; nothing else uses them now.
+    pub unsafe fn with<T>(context: *mut Context, helper: impl FnOnce(&mut Executor<'static>, &mut Context) -> T) -> T {
+        // SAFETY: as the caller promises; compiled code holds no reference while a helper runs.
+        let (context, executor) = unsafe { (&mut *context, &mut *(*context).executor) };
+        context.enter(executor.core);
+        let result = helper(executor, context);
+        context.leave(executor.core);
+        result
+    }
+
+    /// What belongs to the compiled code.
+    ///
+    /// # Safety
+    /// As for [`Context::with`].
+    pub unsafe fn tables<'c>(context: *mut Context) -> &'c mut Tables {
+        // SAFETY: as the caller promises.
+        unsafe { &mut *(*context).tables }
+    }
+
+    /// Keeps a value until the statement ends; null where there is no room.
+    pub fn keep(&mut self, value: Value) -> *const Value {
+        if self.temporary as usize >= TEMPORARIES {
+            return std::ptr::null();
+        }
+        // SAFETY: the memory is reserved for that many values, and none lives at this place.
+        unsafe {
+            let place = self.temporaries.add(self.temporary as usize);
+            place.write(value);
+            self.temporary += 1;
+            place
+        }
+    }
+
+    /// Forgets the values kept since there were `mark`.
+    pub fn release(&mut self, mark: u64) {
+        while self.temporary > mark {
+            self.temporary -= 1;
+            // SAFETY: values below the mark reached were written by `keep` and not dropped since.
+            unsafe { self.temporaries.add(self.temporary as usize).drop_in_place() };
+        }
+    }
+
+    /// Makes room for more candidates; false at the limit.
+    pub fn more_candidates(&mut self, memory: &mut Memory) -> bool {
+        let filled = self.candidate as usize;
+        let wanted = 2 * self.candidate_capacity as usize;
+        if wanted > CANDIDATES {
+            return false;
+        }
+        // SAFETY: that many were written; the vector's length goes back to 0 before anything else uses it.
+        unsafe {
+            memory.candidates.set_len(filled);
+            memory.candidates.reserve_exact(wanted - filled);
+            self.candidates = memory.candidates.as_mut_ptr();
+            memory.candidates.set_len(0);
+        }
+        self.candidate_capacity = wanted as u64;
+        true
+    }
+
+    /// The candidates written, which are forgotten by [`Context::drop_candidates`].
+    pub fn candidate_slice(&self) -> &[Value] {
+        // SAFETY: compiled code has written that many.
+        unsafe { std::slice::from_raw_parts(self.candidates, self.candidate as usize) }
+    }
+
+    /// Forgets the candidates.
+    pub fn drop_candidates(&mut self) {
+        for index in 0..self.candidate as usize {
+            // SAFETY: written by compiled code, dropped once.
+            unsafe { self.candidates.add(index).drop_in_place() };
+        }
+        self.candidate = 0;
+    }
+}

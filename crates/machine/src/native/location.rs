@@ -1,0 +1,324 @@
+//! Locations: their numbers, reading them, updating them.
+//!
+//! A location of a dense function is found by arithmetic on its arguments; one outside the array, or of a sparse
+//! function, by a helper.
+
+use cranelift_codegen::ir::condcodes::IntCC;
+use cranelift_codegen::ir::{self, InstBuilder, types};
+use program::{FunctionId, FunctionKind, RuleId, TermId};
+
+use crate::layout::{Dimension, DimensionKind, Layout};
+use crate::membership::Membership;
+use crate::native::context::Offset;
+use crate::native::helper::Helper;
+use crate::native::shape::{Kind, Operand, Scalar};
+use crate::native::translate::{FLAGS, Translator};
+use crate::update::Update;
+use crate::value::Value;
+
+/// Where a location is: its number, and a byte that is zero where the number must be looked up instead.
+struct Found {
+    index: ir::Value,
+    inside: Option<ir::Value>,
+}
+
+impl Translator<'_, '_> {
+    /// The offset of arguments in an array, and a byte that is zero where they lie outside; none if never.
+    pub fn offset(&mut self, dimensions: &[Dimension], arguments: &[Operand]) -> Option<(ir::Value, Option<ir::Value>)> {
+        let mut offset: Option<ir::Value> = None;
+        let mut inside: Option<ir::Value> = None;
+        for (dimension, argument) in dimensions.iter().zip(arguments) {
+            let size = i64::from(dimension.size);
+            let (kind, low) = match dimension.kind {
+                DimensionKind::Boolean => (Kind::Boolean, 0),
+                DimensionKind::Enum(domain) => (Kind::Enum(domain), 0),
+                DimensionKind::Element(domain) => (Kind::Element(domain), 0),
+                DimensionKind::Integer { low } => (Kind::Integer, low),
+            };
+            let scalar = match argument {
+                Operand::Scalar(scalar) if scalar.kind == kind => *scalar,
+                Operand::Boxed(_) | Operand::Stored(_) => self.scalar(*argument, kind),
+                _ => return None,
+            };
+            let mut checks = Vec::from_iter(scalar.flag);
+            let mut index = scalar.value;
+            if kind == Kind::Boolean {
+                index = self.builder.ins().uextend(types::I64, index);
+            } else {
+                if low != 0 {
+                    index = self.builder.ins().iadd_imm(index, low.wrapping_neg());
+                }
+                let fits = scalar.range.is_some_and(|(a, b)| low <= a && b < low + size);
+                if !fits {
+                    checks.push(self.builder.ins().icmp_imm(IntCC::UnsignedLessThan, index, size));
+                }
+            }
+            for check in checks {
+                inside = Some(match inside {
+                    Some(before) => self.builder.ins().band(before, check),
+                    None => check,
+                });
+            }
+            offset = Some(match offset {
+                Some(before) => {
+                    let scaled = self.builder.ins().imul_imm(before, size);
+                    self.builder.ins().iadd(scaled, index)
+                }
+                None => index,
+            });
+        }
+        Some((offset?, inside))
+    }
+
+    fn find(&mut self, function: FunctionId, arguments: &[Operand]) -> Option<Found> {
+        match self.plan.layouts[function.0 as usize].clone() {
+            Layout::Single(index) => Some(Found { index: self.word(i64::from(index)), inside: None }),
+            Layout::Dense { base, dimensions, .. } => {
+                let (offset, inside) = self.offset(&dimensions, arguments)?;
+                let index = self.builder.ins().iadd_imm(offset, i64::from(base));
+                Some(Found { index, inside })
+            }
+            Layout::None | Layout::Sparse => None,
+        }
+    }
+
+    /// Reads a location.
+    pub fn read(&mut self, function: FunctionId, arguments: &[Operand], term: TermId) -> Operand {
+        let program = self.program;
+        let declared = program.function(function);
+        if Some(function) == program.self_function
+            && let Some(agent) = self.agent
+        {
+            return Operand::Scalar(agent);
+        }
+        if let Some(element) = declared.element
+            && let Some(kind) = self.kind(declared.codomain)
+        {
+            let value = self.word(i64::from(element));
+            return Operand::Scalar(Scalar::defined(kind, value).within(i64::from(element), i64::from(element)));
+        }
+        if matches!(declared.kind, FunctionKind::Static | FunctionKind::Derived) {
+            return Operand::Undef;
+        }
+        let kind = self.kind_of(term);
+        let direct = self.plan.plain[function.0 as usize];
+        let asked = matches!(declared.kind, FunctionKind::Monitored | FunctionKind::Shared)
+            && !self.plan.lazy[function.0 as usize];
+        let found = if direct || asked { self.find(function, arguments) } else { None };
+        let Some(Found { index, inside }) = found else {
+            return self.read_elsewhere(function, arguments, kind);
+        };
+        let conditional = matches!(declared.kind, FunctionKind::Monitored | FunctionKind::Shared);
+        match (inside, conditional, kind) {
+            (None, false, Some(kind)) => {
+                let place = self.stored(index);
+                Operand::Scalar(self.stored_scalar(place, kind))
+            }
+            (None, false, None) => Operand::Stored(index),
+            (inside, conditional, kind) => {
+                let pointer = self.variable(types::I64);
+                let (fast, slow, done) = (self.block(), self.block(), self.block());
+                self.builder.set_cold_block(slow);
+                if let Some(inside) = inside {
+                    let next = self.block();
+                    self.branch(inside, next, slow);
+                    self.switch(next);
+                }
+                if conditional {
+                    // An index outside the array must not be read: it is looked at only behind `inside`.
+                    let ready = match declared.kind {
+                        FunctionKind::Monitored => {
+                            let given = self.field(Offset::given);
+                            let place = self.element(given, index, 2);
+                            let given = self.builder.ins().uload32(FLAGS, place, 0);
+                            let epoch = self.field(Offset::epoch);
+                            self.builder.ins().icmp(IntCC::Equal, given, epoch)
+                        }
+                        _ => {
+                            let place = self.stored(index);
+                            let tag = self.load(types::I64, place, 0);
+                            self.builder.ins().icmp_imm(IntCC::NotEqual, tag, 0)
+                        }
+                    };
+                    self.branch(ready, fast, slow);
+                } else {
+                    self.jump(fast);
+                }
+                self.switch(fast);
+                let place = self.stored(index);
+                self.set(pointer, place);
+                self.jump(done);
+                self.switch(slow);
+                let pointers = self.pointers(arguments);
+                let (id, count) = (self.word(i64::from(function.0)), self.word(arguments.len() as i64));
+                let value = self.call_for_value(Helper::Read, &[self.context, id, pointers, count]);
+                self.set(pointer, value);
+                self.jump(done);
+                self.switch(done);
+                let pointer = self.get(pointer);
+                match kind {
+                    Some(kind) => Operand::Scalar(self.stored_scalar(pointer, kind)),
+                    None => {
+                        // The store may grow before the value is used.
+                        let pinned = self.call_for_value(Helper::Keep, &[self.context, pointer]);
+                        Operand::Boxed(pinned)
+                    }
+                }
+            }
+        }
+    }
+
+    fn read_elsewhere(&mut self, function: FunctionId, arguments: &[Operand], kind: Option<Kind>) -> Operand {
+        let pointers = self.pointers(arguments);
+        let (id, count) = (self.word(i64::from(function.0)), self.word(arguments.len() as i64));
+        let value = self.call_for_value(Helper::Read, &[self.context, id, pointers, count]);
+        match kind {
+            Some(kind) => Operand::Scalar(self.unboxed(value, kind)),
+            None => Operand::Boxed(value),
+        }
+    }
+
+    /// A scalar out of the store, where a location holds values of its kind and undef alone.
+    fn stored_scalar(&mut self, place: ir::Value, kind: Kind) -> Scalar {
+        let tag = self.load(types::I64, place, 0);
+        let flag = self.builder.ins().icmp_imm(IntCC::Equal, tag, kind.tag());
+        let value = self.payload(place, kind);
+        Scalar { kind, value, flag: Some(flag), range: None }
+    }
+
+    /// Adds the update `function(arguments) := value`, the value translated first.
+    pub fn update(&mut self, function: FunctionId, arguments: &[Operand], value: Operand, rule: RuleId) {
+        self.check_codomain(function, value);
+        let direct = self.plan.plain[function.0 as usize]
+            || (self.program.function(function).kind == FunctionKind::Shared
+                && !self.plan.lazy[function.0 as usize]);
+        let found = if direct { self.find(function, arguments) } else { None };
+        let index = match found {
+            Some(Found { index, inside: None }) => index,
+            Some(Found { index, inside: Some(inside) }) => {
+                let number = self.variable(types::I64);
+                let (fast, slow, done) = (self.block(), self.block(), self.block());
+                self.builder.set_cold_block(slow);
+                self.branch(inside, fast, slow);
+                self.switch(fast);
+                self.set(number, index);
+                self.jump(done);
+                self.switch(slow);
+                let located = self.locate(function, arguments);
+                self.set(number, located);
+                self.jump(done);
+                self.switch(done);
+                self.get(number)
+            }
+            None => self.locate(function, arguments),
+        };
+        self.push(index, value, rule);
+    }
+
+    fn locate(&mut self, function: FunctionId, arguments: &[Operand]) -> ir::Value {
+        let pointers = self.pointers(arguments);
+        let (id, count) = (self.word(i64::from(function.0)), self.word(arguments.len() as i64));
+        self.call_for_number(Helper::Locate, &[self.context, id, pointers, count])
+    }
+
+    /// Gives the step up where a value lies outside the codomain.
+    fn check_codomain(&mut self, function: FunctionId, value: Operand) {
+        let membership = self.plan.codomains[function.0 as usize].clone();
+        let bounds = match (&membership, value) {
+            (Membership::Any, _) | (_, Operand::Undef) => return,
+            (Membership::Natural, Operand::Scalar(Scalar { kind: Kind::Integer, .. })) => Some((0, i64::MAX)),
+            (Membership::Between(low, high), Operand::Scalar(Scalar { kind: Kind::Integer, .. })) => {
+                Some((*low, *high))
+            }
+            (Membership::Domain(domain), Operand::Scalar(Scalar { kind: Kind::Element(_), .. })) => {
+                self.plan.numbers(*domain)
+            }
+            _ => None,
+        };
+        match (bounds, value) {
+            (Some((low, high)), Operand::Scalar(scalar)) => {
+                let (a, b) = scalar.bounds();
+                if low <= a && b <= high {
+                    return;
+                }
+                let shifted = self.builder.ins().iadd_imm(scalar.value, low.wrapping_neg());
+                let width = self.word(high.wrapping_sub(low));
+                let mut inside = self.builder.ins().icmp(IntCC::UnsignedLessThanOrEqual, shifted, width);
+                if let Some(flag) = scalar.flag {
+                    let undef = self.builder.ins().icmp_imm(IntCC::Equal, flag, 0);
+                    inside = self.builder.ins().bor(inside, undef);
+                }
+                self.require(inside);
+            }
+            _ => {
+                let pointer = self.boxed(value);
+                let id = self.word(i64::from(function.0));
+                let inside = self.call(Helper::Member, &[self.context, id, pointer]);
+                self.require(inside);
+            }
+        }
+    }
+
+    /// Adds an update to the current unit: [`crate::update::Updates::push`] in line.
+    fn push(&mut self, index: ir::Value, value: Operand, rule: RuleId) {
+        use std::mem::offset_of;
+        let stamps = self.field(Offset::stamps);
+        let stamp = self.element(stamps, index, 3);
+        let previous = self.load(types::I64, stamp, 0);
+        let holder = self.builder.ins().band_imm(previous, 0xffff_ffff);
+        let unit = self.field(Offset::unit);
+        let met = self.builder.ins().icmp(IntCC::Equal, holder, unit);
+        let (conflict, fresh, room, write, done) =
+            (self.block(), self.block(), self.block(), self.block(), self.block());
+        self.builder.set_cold_block(conflict);
+        self.builder.set_cold_block(room);
+        self.branch(met, conflict, fresh);
+
+        self.switch(conflict);
+        let pointer = self.boxed(value);
+        self.call_or_bail(Helper::Agrees, &[self.context, index, pointer]);
+        self.jump(done);
+
+        self.switch(fresh);
+        let held = self.field(Offset::held);
+        let capacity = self.field(Offset::capacity);
+        let full = self.builder.ins().icmp(IntCC::Equal, held, capacity);
+        self.branch(full, room, write);
+        self.switch(room);
+        self.call_or_bail(Helper::Grow, &[self.context]);
+        self.jump(write);
+
+        self.switch(write);
+        let high = self.builder.ins().ishl_imm(held, 32);
+        let mark = self.builder.ins().bor(unit, high);
+        self.store(mark, stamp, 0);
+        let stack = self.field(Offset::stack);
+        let entry = self.element(stack, held, 5);
+        let identity = self.builder.ins().bor_imm(index, i64::from(rule.0) << 32);
+        self.store(identity, entry, offset_of!(Update, location) as i32);
+        self.store(previous, entry, offset_of!(Update, previous) as i32);
+        let at = offset_of!(Update, value) as i32;
+        match value {
+            Operand::Undef => {
+                let undef = self.word(0);
+                self.store(undef, entry, at);
+            }
+            Operand::Scalar(scalar) => {
+                let (tag, payload) = self.words(scalar);
+                self.store(tag, entry, at);
+                self.store(payload, entry, at + 8);
+            }
+            Operand::Boxed(_) | Operand::Stored(_) => {
+                let pointer = self.boxed(value);
+                let place = self.builder.ins().iadd_imm(entry, i64::from(at));
+                self.call(Helper::Copy, &[pointer, place]);
+            }
+        }
+        let held = self.builder.ins().iadd_imm(held, 1);
+        self.set_field(Offset::held, held);
+        self.jump(done);
+        self.switch(done);
+    }
+}
+
+const _: () = assert!(size_of::<Update>() == 32 && size_of::<Value>() == 16);

@@ -1,0 +1,184 @@
+//! The compiled engine: the main rule as machine code.
+//!
+//! In: a program and a started machine. Out: code that computes the update set of a step on the machine's own store
+//! and update set, by Cranelift. It computes what the interpreter ([`crate::perform`], [`crate::evaluate`]) computes
+//! as long as nothing is at fault. Where a step meets a fault, or anything that is not translated in full, it is
+//! *abandoned*: rolled back and interpreted, with the inputs and choices already made. So each fault is told by one
+//! piece of code, and a program needs no translation for what is rare. See docs/adr/0003-compiled-engine.md.
+#![allow(unsafe_code)]
+
+mod arithmetic;
+mod binder;
+mod context;
+mod helper;
+mod location;
+mod plan;
+mod rule;
+mod runtime;
+mod shape;
+mod term;
+mod translate;
+mod unit;
+
+use cranelift_codegen::ir::{InstBuilder, UserFuncName, types};
+use cranelift_codegen::settings::{self, Configurable};
+use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
+use cranelift_jit::{JITBuilder, JITModule};
+use cranelift_module::{FuncId, Linkage, Module, default_libcall_names};
+use program::{ProcedureId, Program};
+
+use crate::execute::{Core, Executor};
+use context::Context;
+use helper::{Helpers, signature};
+use plan::{Fixed, Plan, RunningTables as Tables};
+use translate::{Translator, UnitKey};
+
+/// The compiled entry: the context, to a status that is not zero where the step is abandoned.
+type Entry = unsafe extern "C" fn(*mut Context) -> i64;
+
+/// LIMIT: after so many steps the share of abandoned ones decides whether the code is used further.
+const TRIAL: u64 = 64;
+
+/// A program's main rule, compiled.
+pub(crate) struct Engine {
+    entry: Entry,
+    main: ProcedureId,
+    tables: Tables,
+    runs: u64,
+    abandoned: u64,
+    /// Owns the code.
+    module: Option<JITModule>,
+}
+
+impl std::fmt::Debug for Engine {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Engine").field("runs", &self.runs).field("abandoned", &self.abandoned).finish_non_exhaustive()
+    }
+}
+
+impl Drop for Engine {
+    fn drop(&mut self) {
+        if let Some(module) = self.module.take() {
+            // SAFETY: the code runs only within `run`, which borrows the engine.
+            unsafe { module.free_memory() };
+        }
+    }
+}
+
+impl Engine {
+    /// Compiles the main rule for a started machine; none on a machine that Cranelift has no code for.
+    pub fn compile(program: &Program, core: &Core) -> Option<Engine> {
+        let main = program.main?;
+        let mut flags = settings::builder();
+        flags.set("opt_level", "speed").ok()?;
+        flags.set("is_pic", "false").ok()?;
+        flags.set("enable_verifier", if cfg!(debug_assertions) { "true" } else { "false" }).ok()?;
+        let isa = cranelift_native::builder().ok()?.finish(settings::Flags::new(flags)).ok()?;
+        let mut builder = JITBuilder::with_isa(isa, default_libcall_names());
+        Helpers::register(&mut builder);
+        let mut module = JITModule::new(builder);
+        let helpers = Helpers::declare(&mut module)?;
+        let mut plan = Plan::new(program, core, helpers);
+
+        let entry = signature(&module, &[types::I64], &[types::I64]);
+        let entry = module.declare_function("entry", Linkage::Local, &entry).ok()?;
+        let mut scratch = FunctionBuilderContext::new();
+        define(program, &mut module, &mut plan, &mut scratch, None, main, entry)?;
+        while let Some((key, id)) = plan.queue.pop() {
+            define(program, &mut module, &mut plan, &mut scratch, Some(key), main, id)?;
+        }
+        module.finalize_definitions().ok()?;
+        let code = module.get_finalized_function(entry);
+        // SAFETY: the code was just defined with this signature.
+        let entry = unsafe { std::mem::transmute::<*const u8, Entry>(code) };
+        Some(Engine { entry, main, tables: plan.tables, runs: 0, abandoned: 0, module: Some(module) })
+    }
+
+    /// Whether running the code has paid so far.
+    pub fn pays(&self) -> bool {
+        self.runs < TRIAL || self.abandoned * 8 < self.runs
+    }
+
+    /// Computes the update set of a procedure; false where the step must be interpreted instead.
+    pub fn run(&mut self, executor: &mut Executor<'_>, procedure: ProcedureId) -> bool {
+        if procedure != self.main {
+            return false;
+        }
+        self.runs += 1;
+        let myself = executor.program.self_function.and_then(|function| executor.core.store.find(function, &[]));
+        let former = myself.map(|index| executor.core.store.values[index as usize].clone());
+        let tables = &raw mut self.tables;
+        // SAFETY: the context refers to the executor and the tables, which outlive it; while the code runs nothing
+        // else uses them. The code was compiled for this program and this layout of the store.
+        unsafe {
+            let mut memory = std::mem::take(&mut (*tables).memory);
+            let mut context = Context::new(executor, &mut *tables, &mut memory);
+            (*tables).memory = memory;
+            let status = (self.entry)(&raw mut context);
+            context.enter(executor.core);
+            if status == 0 {
+                debug_assert!(context.temporary == 0 && context.candidate == 0);
+                return true;
+            }
+            context.release(0);
+            context.drop_candidates();
+        }
+        self.abandoned += 1;
+        self.tables.clear();
+        executor.core.frames.clear();
+        executor.core.calls.clear();
+        (executor.core.base, executor.core.depth, executor.core.iterations) = (0, 0, 0);
+        if executor.core.updates.roll_back(&mut executor.core.store) {
+            executor.core.memo.changed();
+        }
+        if let (Some(index), Some(value)) = (myself, former) {
+            executor.core.store.values[index as usize] = value;
+        }
+        for carrier in &mut executor.core.store.carriers {
+            carrier.fresh = carrier.count;
+        }
+        false
+    }
+}
+
+/// Builds one function: the entry, or a unit.
+fn define(
+    program: &Program,
+    module: &mut JITModule,
+    plan: &mut Plan,
+    scratch: &mut FunctionBuilderContext,
+    key: Option<UnitKey>,
+    main: ProcedureId,
+    id: FuncId,
+) -> Option<()> {
+    let mut code = module.make_context();
+    code.func.signature = match key {
+        Some(key) => unit::unit_signature(program, module, key),
+        None => signature(module, &[types::I64], &[types::I64]),
+    };
+    code.func.name = UserFuncName::user(0, id.as_u32());
+    {
+        let mut builder = FunctionBuilder::new(&mut code.func, scratch);
+        let start = builder.create_block();
+        builder.append_block_params_for_function_params(start);
+        builder.switch_to_block(start);
+        let parameters = builder.block_params(start).to_vec();
+        let mut translator = Translator::new(builder, module, plan, program, parameters[0]);
+        match key {
+            Some(key) => translator.unit(key, &parameters[1..]),
+            None => {
+                translator.main(main);
+                let good = translator.word(0);
+                translator.builder.ins().return_(&[good]);
+                translator.switch(translator.bail);
+                let bad = translator.word(1);
+                translator.builder.ins().return_(&[bad]);
+            }
+        }
+        translator.builder.seal_all_blocks();
+        translator.builder.finalize();
+    }
+    module.define_function(id, &mut code).ok()?;
+    module.clear_context(&mut code);
+    Some(())
+}

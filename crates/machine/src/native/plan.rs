@@ -1,0 +1,300 @@
+//! What the translator knows of the program and its state's layout, and what it leaves to the running code.
+//!
+//! In: the program and the machine's core after its start. Out: decisions (what is inlined, what is tabulated) and
+//! the [`Tables`] that compiled code refers to by number.
+
+use std::sync::Arc;
+
+use cranelift_module::FuncId;
+use program::{
+    Builtin, DomainId, DomainKind, FunctionKind, ProcedureId, Program, Rule, RuleId, Term, TermId,
+};
+
+use crate::execute::Core;
+use crate::layout::Layout;
+use crate::membership::Membership;
+use crate::memo::{self, Shelf};
+use crate::native::Tables;
+use crate::native::binder::consecutive;
+use crate::native::helper::Helpers;
+use crate::native::shape::{Kind, Scalar};
+use crate::native::translate::UnitKey;
+use crate::update::{Sequence, Unit};
+use crate::value::Value;
+
+/// LIMIT: a body of more terms and rules is translated once, where it is called from more than one place.
+const INLINE: usize = 60;
+/// LIMIT: a function of more terms and rules inlines no more.
+const BODY: usize = 8_000;
+/// LIMIT: nested inlining.
+const DEPTH: usize = 24;
+/// LIMIT: entries of a table of a fixed term.
+const TABLE: i64 = 1 << 16;
+
+static UNDEF: Value = Value::Undef;
+
+/// A term that depends on nothing but its variables, tabulated over their values.
+#[derive(Debug)]
+pub(super) struct Fixed {
+    pub term: TermId,
+    pub spill: u64,
+    /// By entry: whether it has been evaluated.
+    pub states: Vec<u8>,
+    pub values: Vec<Value>,
+}
+
+/// The running code's own data.
+#[derive(Debug, Default)]
+pub(crate) struct RunningTables {
+    /// Frames opened for the interpreter: their size and the slots that are handed over.
+    pub spills: Vec<(u32, Vec<u32>)>,
+    pub fixed: Vec<Fixed>,
+    /// Units and sequences open now.
+    pub units: Vec<Unit>,
+    pub sequences: Vec<(Sequence, memo::Version)>,
+    pub memory: super::context::Memory,
+    /// Arrays that code refers to.
+    pinned: Vec<Arc<Vec<Value>>>,
+    /// The constants, at fixed addresses.
+    constants: Arc<Vec<Value>>,
+}
+
+/// The knowledge of one compilation.
+#[derive(Debug)]
+pub(super) struct Plan {
+    pub helpers: Helpers,
+    pub constants: Arc<Vec<Value>>,
+    pub layouts: Vec<Layout>,
+    pub codomains: Vec<Membership>,
+    pub contents: Vec<Option<Arc<Vec<Value>>>>,
+    /// By function: read without asking anybody.
+    pub plain: Vec<bool>,
+    /// By function: some initial values are still to be evaluated.
+    pub lazy: Vec<bool>,
+    pub shelves: Vec<Option<Shelf>>,
+    /// By function: its definition depends on no state.
+    fixed: Vec<bool>,
+    /// How often each unit is called in the program's text.
+    procedure_calls: Vec<u32>,
+    definition_calls: Vec<u32>,
+    pub units: Vec<(UnitKey, FuncId)>,
+    pub queue: Vec<(UnitKey, FuncId)>,
+    pub tables: Tables,
+}
+
+impl Plan {
+    /// Looks at a program and a started core.
+    pub fn new(program: &Program, core: &Core, helpers: Helpers) -> Plan {
+        let mut procedure_calls = vec![0; program.procedures.len()];
+        let mut definition_calls = vec![0; program.functions.len()];
+        for rule in &program.rules {
+            if let Rule::Call { procedure, .. } | Rule::TurboCall { procedure, .. } = rule {
+                procedure_calls[procedure.0 as usize] += 1;
+            }
+        }
+        for term in &program.terms {
+            match term {
+                Term::Define { function, .. } => definition_calls[function.0 as usize] += 1,
+                Term::Rule(procedure) => procedure_calls[procedure.0 as usize] += 1,
+                _ => {}
+            }
+        }
+        let constants = Arc::new(core.constants.clone());
+        Plan {
+            helpers,
+            constants: Arc::clone(&constants),
+            layouts: core.store.layouts.clone(),
+            codomains: core.codomains.clone(),
+            contents: core.contents.clone(),
+            plain: core.plain.clone(),
+            lazy: core.initials.iter().map(Option::is_some).collect(),
+            shelves: core.memo.shelves().to_vec(),
+            fixed: memo::fixed_functions(program),
+            procedure_calls,
+            definition_calls,
+            units: Vec::new(),
+            queue: Vec::new(),
+            tables: Tables { constants, ..Tables::default() },
+        }
+    }
+
+    /// The address of undef.
+    pub fn undef(&self) -> *const Value {
+        &raw const UNDEF
+    }
+
+    /// Keeps an array alive as long as the code.
+    pub fn pin(&mut self, values: Arc<Vec<Value>>) {
+        self.tables.pinned.push(values);
+    }
+
+    /// The number of a list of slots.
+    pub fn spill(&mut self, frame: u32, slots: Vec<u32>) -> usize {
+        let entry = (frame, slots);
+        if let Some(known) = self.tables.spills.iter().position(|spill| *spill == entry) {
+            return known;
+        }
+        self.tables.spills.push(entry);
+        self.tables.spills.len() - 1
+    }
+
+    /// The bounds of a domain whose elements are consecutive numbers in every state.
+    pub fn numbers(&self, domain: DomainId) -> Option<(i64, i64)> {
+        self.contents[domain.0 as usize].as_ref().and_then(|values| consecutive(values))
+    }
+
+    /// The numbers that a scalar may have, as far as they are bounded.
+    pub fn bounds(&self, program: &Program, scalar: Scalar) -> Option<(i64, i64)> {
+        let all = match scalar.kind {
+            Kind::Boolean => Some((0, 1)),
+            Kind::Enum(domain) | Kind::Element(domain) => match &program.domain(domain).kind {
+                DomainKind::Enum { literals } => Some((0, literals.len() as i64 - 1)),
+                DomainKind::Abstract { elements, dynamic: false } => Some((0, elements.len() as i64 - 1)),
+                _ => None,
+            },
+            _ => None,
+        };
+        scalar.range.or(all)
+    }
+
+    /// The type domain of a domain.
+    pub fn base(&self, program: &Program, domain: DomainId) -> DomainId {
+        match &program.domain(domain).kind {
+            DomainKind::Concrete { base, .. } => *base,
+            _ => domain,
+        }
+    }
+
+    /// Procedures that occur as values and take so many arguments.
+    pub fn rule_values(&self, program: &Program, arity: usize) -> Vec<ProcedureId> {
+        let mut found: Vec<ProcedureId> = program
+            .terms
+            .iter()
+            .filter_map(|term| if let Term::Rule(procedure) = term { Some(*procedure) } else { None })
+            .chain(program.agents.iter().map(|entry| entry.procedure))
+            .filter(|procedure| program.procedure(*procedure).parameters.len() == arity)
+            .collect();
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
+    /// Whether every agent that a scalar may be has a program.
+    pub fn all_have_program(&self, program: &Program, agent: Scalar) -> bool {
+        let (Kind::Element(base), Some((low, high))) = (agent.kind, self.bounds(program, agent)) else { return false };
+        (low..=high).all(|number| {
+            let element = Value::Element(base, number as u32);
+            program.agents.iter().any(|entry| {
+                entry.domain == base
+                    || self.contents[entry.domain.0 as usize].as_ref().is_some_and(|all| all.contains(&element))
+            })
+        })
+    }
+
+    /// Where `self` is kept.
+    pub fn self_location(&self, program: &Program) -> Option<u32> {
+        match self.layouts[program.self_function?.0 as usize] {
+            Layout::Single(index) => Some(index),
+            _ => None,
+        }
+    }
+
+    /// Whether a unit is small enough, or used once, to be translated where it is called.
+    pub fn is_small(&self, program: &Program, key: UnitKey, weight: usize, depth: usize) -> bool {
+        let (own, calls) = match key {
+            UnitKey::Procedure(id) => {
+                (weight_of_rule(program, program.procedure(id).body), self.procedure_calls[id.0 as usize])
+            }
+            UnitKey::Definition(id) => {
+                let Some(definition) = &program.function(id).definition else { return false };
+                (weight_of_term(program, definition.body), self.definition_calls[id.0 as usize])
+            }
+        };
+        depth < DEPTH && weight + own < BODY && (own <= INLINE || calls <= 1)
+    }
+
+    /// Whether a term depends on nothing but its variables and is worth a table.
+    pub fn is_fixed(&self, program: &Program, term: TermId) -> bool {
+        is_worth(program, term) && memo::is_fixed_term(program, term, &self.fixed)
+    }
+
+    /// A table for a fixed term.
+    pub fn table(&mut self, term: TermId, spill: usize, entries: i64) -> Option<(usize, *const u8, *const Value)> {
+        if !(1..=TABLE).contains(&entries) {
+            return None;
+        }
+        let entries = entries as usize;
+        let fixed =
+            Fixed { term, spill: spill as u64, states: vec![0; entries], values: vec![Value::Undef; entries] };
+        let (states, values) = (fixed.states.as_ptr(), fixed.values.as_ptr());
+        self.tables.fixed.push(fixed);
+        Some((self.tables.fixed.len() - 1, states, values))
+    }
+
+    /// The variables that occur in a term, sorted.
+    pub fn slots_of_term(&self, program: &Program, term: TermId, slots: &mut Vec<u32>) {
+        if let Term::Slot(slot) = program.term(term)
+            && !slots.contains(&slot.0)
+        {
+            slots.push(slot.0);
+        }
+        program.each_child_of_term(term, &mut |child| self.slots_of_term(program, child, slots));
+        slots.sort_unstable();
+    }
+
+    /// The variables that occur in a rule, sorted.
+    pub fn slots_of_rule(&self, program: &Program, rule: RuleId, slots: &mut Vec<u32>) {
+        program.each_term_of_rule(rule, &mut |term| self.slots_of_term(program, term, slots));
+        program.each_child_of_rule(rule, &mut |child| self.slots_of_rule(program, child, slots));
+    }
+}
+
+/// Whether evaluating a term anew costs more than looking it up.
+fn is_worth(program: &Program, term: TermId) -> bool {
+    let here = match program.term(term) {
+        Term::Define { function, .. } => !program.function(*function).library,
+        Term::Quantified { .. }
+        | Term::Comprehension { .. }
+        | Term::Range { .. }
+        | Term::Collection { .. }
+        | Term::Tuple(_) => true,
+        Term::Domain(domain) => {
+            !matches!(program.domain(*domain).kind, DomainKind::Basic(_)) && is_static_domain(program, *domain)
+        }
+        Term::Builtin { builtin, .. } => matches!(
+            builtin,
+            Builtin::SetContains | Builtin::SetNotIn | Builtin::SeqAt | Builtin::MapAt | Builtin::IntPower
+        ),
+        _ => false,
+    };
+    let mut worth = here;
+    program.each_child_of_term(term, &mut |child| worth = worth || is_worth(program, child));
+    worth
+}
+
+fn is_static_domain(program: &Program, domain: DomainId) -> bool {
+    match &program.domain(domain).kind {
+        DomainKind::Enum { .. } => true,
+        DomainKind::Abstract { dynamic, .. } | DomainKind::Concrete { dynamic, .. } => !dynamic,
+        _ => false,
+    }
+}
+
+/// How many terms and rules a rule holds, calls not followed.
+fn weight_of_rule(program: &Program, rule: RuleId) -> usize {
+    let mut weight = 1;
+    program.each_term_of_rule(rule, &mut |term| weight += weight_of_term(program, term));
+    program.each_child_of_rule(rule, &mut |child| weight += weight_of_rule(program, child));
+    weight
+}
+
+fn weight_of_term(program: &Program, term: TermId) -> usize {
+    let mut weight = 1;
+    program.each_child_of_term(term, &mut |child| weight += weight_of_term(program, child));
+    weight
+}
+
+/// Whether a function's values are those of an update at most: not asked for.
+pub(super) fn is_owned(kind: FunctionKind) -> bool {
+    matches!(kind, FunctionKind::Controlled | FunctionKind::Out | FunctionKind::Local)
+}

@@ -1,0 +1,389 @@
+//! Rules: the counterpart of [`crate::perform`].
+
+use cranelift_codegen::ir::condcodes::IntCC;
+use cranelift_codegen::ir::{InstBuilder, types};
+use program::{Binder, BinderList, ProcedureId, Rule, RuleId, Slot, TermId, TermList};
+
+use crate::native::context::Offset;
+use crate::native::helper::Helper;
+use crate::native::shape::{Bound, Kind, Operand, Scalar};
+use crate::native::translate::{Frame, Translator, UnitKey};
+
+impl Translator<'_, '_> {
+    /// Translates a rule.
+    pub fn rule(&mut self, id: RuleId) {
+        self.weight += 1;
+        let program = self.program;
+        match program.rule(id) {
+            Rule::Skip => {}
+            Rule::Update { function, arguments, value } => self.statement(|this| {
+                let value = this.term(*value);
+                let value = this.outlasting(value);
+                let arguments = this.arguments(*arguments);
+                this.update(*function, &arguments, value, id);
+            }),
+            Rule::Call { procedure, arguments } => self.statement(|this| {
+                let operands = this.arguments(*arguments);
+                this.procedure(*procedure, &operands);
+            }),
+            Rule::TurboCall { procedure, arguments } => self.statement(|this| {
+                this.call(Helper::Open, &[this.context]);
+                let operands = this.arguments(*arguments);
+                this.procedure(*procedure, &operands);
+                this.call_or_bail(Helper::Join, &[this.context]);
+            }),
+            Rule::Par(rules) => {
+                for rule in program.rule_list(*rules) {
+                    self.rule(*rule);
+                }
+            }
+            Rule::Seq(rules) => {
+                self.call(Helper::BeginSequence, &[self.context]);
+                for rule in program.rule_list(*rules) {
+                    self.part(*rule);
+                }
+                self.call_or_bail(Helper::EndSequence, &[self.context]);
+            }
+            Rule::If { guards, rules } => {
+                let (guards, rules) = (program.term_list(*guards), program.rule_list(*rules));
+                let done = self.block();
+                for (guard, rule) in guards.iter().zip(rules) {
+                    let (then, next) = (self.block(), self.block());
+                    self.guard_statement(*guard, then, next);
+                    self.switch(then);
+                    self.rule(*rule);
+                    self.jump(done);
+                    self.switch(next);
+                }
+                if let Some(rule) = rules.get(guards.len()) {
+                    self.rule(*rule);
+                }
+                self.jump(done);
+                self.switch(done);
+            }
+            Rule::Switch { subject, values, rules } => self.statement(|this| {
+                let (values, rules) = (program.term_list(*values), program.rule_list(*rules));
+                let subject = this.term(*subject);
+                let subject = this.bound(subject).into();
+                let done = this.block();
+                for (value, rule) in values.iter().zip(rules) {
+                    let value = this.term(*value);
+                    let equal = this.equal(subject, value);
+                    let (then, next) = (this.block(), this.block());
+                    this.branch(equal, then, next);
+                    this.switch(then);
+                    this.rule(*rule);
+                    this.jump(done);
+                    this.switch(next);
+                }
+                if let Some(rule) = rules.get(values.len()) {
+                    this.rule(*rule);
+                }
+                this.jump(done);
+                this.switch(done);
+            }),
+            Rule::Let { slot, value, body } => self.statement(|this| {
+                let value = this.term(*value);
+                let bound = this.bound(value);
+                this.bind(*slot, bound);
+                this.rule(*body);
+            }),
+            Rule::Forall { binders, condition, body } => self.statement(|this| {
+                this.each_binding(program.binder_list(*binders), &mut |this| match condition {
+                    None => this.rule(*body),
+                    Some(condition) => {
+                        let (then, next) = (this.block(), this.block());
+                        this.guard(*condition, then, next);
+                        this.switch(then);
+                        this.rule(*body);
+                        this.jump(next);
+                        this.switch(next);
+                    }
+                });
+            }),
+            Rule::Choose { binders, condition, body, if_none } => {
+                self.choose(id, *binders, *condition, *body, *if_none);
+            }
+            Rule::Extend { domain, first, count, body } => {
+                let base = self.plan.base(program, *domain);
+                for offset in 0..*count {
+                    let domain = self.word(i64::from(domain.0));
+                    let number = self.call_for_number(Helper::Create, &[self.context, domain]);
+                    let element = Scalar::defined(Kind::Element(base), number);
+                    self.bind(Slot(first.0 + offset), Bound::Scalar(element));
+                }
+                self.rule(*body);
+            }
+            Rule::Iterate(body) => self.repeat(None, *body, true),
+            Rule::While { condition, body } => self.repeat(Some(*condition), *body, true),
+            Rule::RecursiveWhile { condition, body } => self.repeat(Some(*condition), *body, false),
+            Rule::RunAgent { agent } => self.run_agent(*agent),
+            Rule::RunValue { rule, arguments } => self.run_value(*rule, *arguments),
+            Rule::Return { .. } | Rule::Local { .. } => self.interpreted_rule(id),
+        }
+    }
+
+    /// An operand that stays valid while others are evaluated.
+    fn outlasting(&mut self, operand: Operand) -> Operand {
+        operand
+    }
+
+    /// A guard as a statement of its own: what it kept is forgotten on both ways.
+    fn guard_statement(&mut self, guard: TermId, then: cranelift_codegen::ir::Block, next: cranelift_codegen::ir::Block) {
+        let before = std::mem::replace(&mut self.keeps, false);
+        let mark = self.field(Offset::temporary);
+        let (yes, no) = (self.block(), self.block());
+        self.guard(guard, yes, no);
+        let keeps = std::mem::replace(&mut self.keeps, before);
+        for (from, to) in [(yes, then), (no, next)] {
+            self.switch(from);
+            if keeps {
+                self.release(mark);
+            }
+            self.jump(to);
+        }
+    }
+
+    /// One part of a sequence; gives whether it made updates.
+    fn part(&mut self, rule: RuleId) -> cranelift_codegen::ir::Value {
+        self.call(Helper::Open, &[self.context]);
+        self.rule(rule);
+        self.call(Helper::ApplyUnit, &[self.context])
+    }
+
+    fn repeat(&mut self, condition: Option<TermId>, body: RuleId, while_updates: bool) {
+        self.call(Helper::BeginSequence, &[self.context]);
+        let (head, inner, done) = (self.block(), self.block(), self.block());
+        self.jump(head);
+        self.switch(head);
+        match condition {
+            Some(condition) => self.guard_statement(condition, inner, done),
+            None => self.jump(inner),
+        }
+        self.switch(inner);
+        let any = self.part(body);
+        if while_updates {
+            let next = self.block();
+            self.branch(any, next, done);
+            self.switch(next);
+        }
+        self.call_or_bail(Helper::Iteration, &[self.context]);
+        self.jump(head);
+        self.switch(done);
+        self.call_or_bail(Helper::EndSequence, &[self.context]);
+    }
+
+    /// A rule that the interpreter runs.
+    fn interpreted_rule(&mut self, id: RuleId) {
+        let program = self.program;
+        let mut slots = Vec::new();
+        self.plan.slots_of_rule(program, id, &mut slots);
+        let (spill, values) = self.spill(slots);
+        let rule = self.word(i64::from(id.0));
+        self.call_or_bail(Helper::Perform, &[self.context, rule, spill, values]);
+    }
+
+    // ---- calls
+
+    /// Runs a procedure on operands.
+    fn procedure(&mut self, procedure: ProcedureId, operands: &[Operand]) {
+        let key = UnitKey::Procedure(procedure);
+        if !self.inlines(key) {
+            return self.call_procedure(procedure, operands);
+        }
+        let declared = self.program.procedure(procedure);
+        let slots: Vec<Bound> = operands.iter().map(|operand| self.bound(*operand)).collect();
+        self.frames.push(Frame { unit: key, size: declared.frame, slots });
+        self.rule(declared.body);
+        self.frames.pop();
+    }
+
+    /// Runs the one of some procedures whose number this is.
+    fn dispatch(
+        &mut self,
+        number: cranelift_codegen::ir::Value,
+        candidates: &[ProcedureId],
+        run: &mut dyn FnMut(&mut Self, ProcedureId),
+    ) {
+        let done = self.block();
+        for candidate in candidates {
+            let (then, next) = (self.block(), self.block());
+            let is = self.builder.ins().icmp_imm(IntCC::Equal, number, i64::from(candidate.0));
+            self.branch(is, then, next);
+            self.switch(then);
+            run(self, *candidate);
+            self.jump(done);
+            self.switch(next);
+        }
+        self.jump(self.bail);
+        self.switch(done);
+    }
+
+    fn run_value(&mut self, rule: TermId, arguments: TermList) {
+        self.statement(|this| {
+            let value = this.term(rule);
+            let value = this.scalar(value, Kind::Rule);
+            let value = this.defined(value);
+            let operands: Vec<Operand> = this.arguments(arguments);
+            let operands: Vec<Operand> = operands.into_iter().map(|operand| this.bound(operand).into()).collect();
+            let candidates = this.plan.rule_values(this.program, operands.len());
+            this.dispatch(value.value, &candidates, &mut |this, procedure| {
+                let turbo = this.program.procedure(procedure).turbo;
+                if turbo {
+                    this.call(Helper::Open, &[this.context]);
+                }
+                this.procedure(procedure, &operands);
+                if turbo {
+                    this.call_or_bail(Helper::Join, &[this.context]);
+                }
+            });
+        });
+    }
+
+    /// Runs the program of an agent, which `self` is within it.
+    fn run_agent(&mut self, agent: TermId) {
+        let program = self.program;
+        self.statement(|this| {
+            let operand = this.term(agent);
+            let mut candidates: Vec<ProcedureId> = program.agents.iter().map(|entry| entry.procedure).collect();
+            candidates.sort_unstable();
+            candidates.dedup();
+            let operand = match this.kind_of(agent) {
+                Some(kind) => {
+                    let scalar = this.scalar(operand, kind);
+                    Operand::Scalar(this.defined(scalar))
+                }
+                None => operand,
+            };
+            let number = match (&candidates[..], operand) {
+                // Every agent that can be meant has the one program.
+                ([only], Operand::Scalar(scalar)) if this.plan.all_have_program(program, scalar) => {
+                    this.word(i64::from(only.0))
+                }
+                _ => {
+                    let pointer = this.boxed(operand);
+                    this.call_for_number(Helper::AgentProgram, &[this.context, pointer])
+                }
+            };
+            let Some(index) = this.plan.self_location(program) else {
+                return this.dispatch(number, &candidates, &mut |this, procedure| this.procedure(procedure, &[]));
+            };
+            let (Operand::Scalar(scalar), Some(_)) = (operand, this.kind_of(agent)) else { return this.give_up() };
+            let index = this.word(i64::from(index));
+            let place = this.stored(index);
+            let former = (this.load(types::I64, place, 0), this.load(types::I64, place, 8));
+            let (tag, payload) = this.words(scalar);
+            this.store(tag, place, 0);
+            this.store(payload, place, 8);
+            let outer = this.agent.replace(scalar);
+            this.dispatch(number, &candidates, &mut |this, procedure| this.procedure(procedure, &[]));
+            this.agent = outer;
+            let place = this.stored(index);
+            this.store(former.0, place, 0);
+            this.store(former.1, place, 8);
+        });
+    }
+
+    // ---- choice
+
+    fn choose(
+        &mut self,
+        id: RuleId,
+        binders: BinderList,
+        condition: Option<TermId>,
+        body: RuleId,
+        if_none: Option<RuleId>,
+    ) {
+        let binders: &[Binder] = self.program.binder_list(binders);
+        let variables = binders.len() as i64;
+        self.statement(|this| {
+            this.each_binding(binders, &mut |this| {
+                let (fits, next) = (this.block(), this.block());
+                match condition {
+                    Some(condition) => this.guard(condition, fits, next),
+                    None => this.jump(fits),
+                }
+                this.switch(fits);
+                this.candidate(binders);
+                this.jump(next);
+                this.switch(next);
+            });
+            let count = this.field(Offset::candidate);
+            let (some, none, done) = (this.block(), this.block(), this.block());
+            this.branch(count, some, none);
+
+            this.switch(some);
+            let (rule, width) = (this.word(i64::from(id.0)), this.word(variables));
+            let chosen = this.call_for_number(Helper::Choose, &[this.context, rule, width]);
+            let candidates = this.field(Offset::candidates);
+            let mut compound = false;
+            for (offset, binder) in binders.iter().enumerate() {
+                let first = this.builder.ins().imul_imm(chosen, variables);
+                let index = this.builder.ins().iadd_imm(first, offset as i64);
+                let place = this.element(candidates, index, 4);
+                let bound = match this.slot(binder.slot) {
+                    Bound::Scalar(scalar) => {
+                        let value = this.payload(place, scalar.kind);
+                        let flag = scalar.flag.map(|_| {
+                            let tag = this.load(types::I64, place, 0);
+                            this.builder.ins().icmp_imm(IntCC::NotEqual, tag, 0)
+                        });
+                        Bound::Scalar(Scalar { value, flag, ..scalar })
+                    }
+                    _ => {
+                        compound = true;
+                        Bound::Boxed(this.call_for_value(Helper::Keep, &[this.context, place]))
+                    }
+                };
+                this.bind(binder.slot, bound);
+            }
+            if compound {
+                this.call(Helper::DropCandidates, &[this.context]);
+            } else {
+                let zero = this.word(0);
+                this.set_field(Offset::candidate, zero);
+            }
+            this.rule(body);
+            this.jump(done);
+
+            this.switch(none);
+            if let Some(rule) = if_none {
+                this.rule(rule);
+            }
+            this.jump(done);
+            this.switch(done);
+        });
+    }
+
+    /// Writes the variables of a choice as one more candidate.
+    fn candidate(&mut self, binders: &[Binder]) {
+        let count = self.field(Offset::candidate);
+        let after = self.builder.ins().iadd_imm(count, binders.len() as i64);
+        let capacity = self.field(Offset::candidate_capacity);
+        let full = self.builder.ins().icmp(IntCC::UnsignedGreaterThan, after, capacity);
+        let (room, write) = (self.block(), self.block());
+        self.builder.set_cold_block(room);
+        self.branch(full, room, write);
+        self.switch(room);
+        self.call_or_bail(Helper::MoreCandidates, &[self.context]);
+        self.jump(write);
+        self.switch(write);
+        let candidates = self.field(Offset::candidates);
+        for (offset, binder) in binders.iter().enumerate() {
+            let first = self.element(candidates, count, 4);
+            let place = self.builder.ins().iadd_imm(first, 16 * offset as i64);
+            match self.slot(binder.slot) {
+                Bound::Scalar(scalar) => {
+                    let (tag, payload) = self.words(scalar);
+                    self.store(tag, place, 0);
+                    self.store(payload, place, 8);
+                }
+                other => {
+                    let pointer = self.boxed(other.into());
+                    self.call(Helper::Copy, &[pointer, place]);
+                }
+            }
+        }
+        self.set_field(Offset::candidate, after);
+    }
+}

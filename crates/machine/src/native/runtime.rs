@@ -1,0 +1,445 @@
+//! What compiled code calls: the machine's own operations, with values passed by pointer.
+//!
+//! Every helper works on the machine that the context belongs to. One that meets a fault says so (null, −1 or 1)
+//! and drops it: the step is then rolled back and interpreted, which reports it ([`crate::native`]). INVARIANT: what
+//! a helper does to the machine, rolling back the update set undoes, or doing it again does nothing.
+#![allow(unsafe_code)]
+
+use std::mem::ManuallyDrop;
+
+use program::{DomainId, DomainKind, FunctionId, RuleId, Term, TermId};
+use smallvec::SmallVec;
+use syntax::{FileId, Span};
+
+use crate::environment::Choice;
+use crate::evaluate::collection;
+use crate::execute::{Executor, Outcome};
+use crate::native::Tables;
+use crate::native::context::Context;
+use crate::value::Value;
+
+type Pointer = *mut Context;
+
+const NOWHERE: Span = Span { file: FileId(0), start: 0, end: 0 };
+/// The step cannot go on here.
+const BAIL: i64 = 1;
+
+/// Operands, not owned: bit copies of values that live elsewhere.
+type Operands = SmallVec<[ManuallyDrop<Value>; 6]>;
+
+/// A slice of values out of borrowed ones.
+fn slice(operands: &Operands) -> &[Value] {
+    // SAFETY: `ManuallyDrop<Value>` has the layout of `Value`.
+    unsafe { std::slice::from_raw_parts(operands.as_ptr().cast::<Value>(), operands.len()) }
+}
+
+/// # Safety
+/// `pointers` are `count` pointers to living values.
+unsafe fn borrow(pointers: *const *const Value, count: u64) -> Operands {
+    // SAFETY: as the caller promises; the copies are never dropped and do not outlive the originals.
+    (0..count as usize).map(|i| unsafe { ManuallyDrop::new(std::ptr::read(*pointers.add(i))) }).collect()
+}
+
+fn kept(context: &mut Context, outcome: Outcome<Value>) -> *const Value {
+    match outcome {
+        Ok(value) => context.keep(value),
+        Err(_) => std::ptr::null(),
+    }
+}
+
+fn status(outcome: Outcome<()>) -> i64 {
+    if outcome.is_ok() { 0 } else { BAIL }
+}
+
+/// Room for one more update.
+///
+/// # Safety
+/// Of every helper: it is called by code compiled for the context's program, with what that code was given.
+pub unsafe extern "C" fn grow(context: Pointer) -> i64 {
+    // SAFETY: see above.
+    unsafe {
+        Context::with(context, |executor, _| {
+            let stack = &mut executor.core.updates.stack;
+            if stack.len() as u64 >= executor.limits.updates {
+                return BAIL;
+            }
+            let room = (stack.len() as u64 * 2).clamp(64, executor.limits.updates.max(64));
+            stack.reserve_exact(room as usize - stack.len());
+            0
+        })
+    }
+}
+
+/// Whether the current unit's update of a location has this value.
+pub unsafe extern "C" fn agrees(context: Pointer, location: i64, value: *const Value) -> i64 {
+    // SAFETY: see `grow`.
+    unsafe {
+        let value = &*value;
+        Context::with(context, |executor, _| {
+            if executor.core.updates.held(location as u32).is_some_and(|held| held.value == *value) { 0 } else { BAIL }
+        })
+    }
+}
+
+/// The value of a location, asked for where it is an input.
+pub unsafe extern "C" fn read(
+    context: Pointer,
+    function: i64,
+    arguments: *const *const Value,
+    count: u64,
+) -> *const Value {
+    // SAFETY: see `grow`.
+    unsafe {
+        let arguments = borrow(arguments, count);
+        Context::with(context, |executor, context| {
+            let value = executor.read(FunctionId(function as u32), slice(&arguments), NOWHERE);
+            kept(context, value)
+        })
+    }
+}
+
+/// The number of a location about to be updated.
+pub unsafe extern "C" fn locate(
+    context: Pointer,
+    function: i64,
+    arguments: *const *const Value,
+    count: u64,
+) -> i64 {
+    // SAFETY: see `grow`.
+    unsafe {
+        let arguments = borrow(arguments, count);
+        let function = FunctionId(function as u32);
+        Context::with(context, |executor, _| {
+            if executor.core.initials[function.0 as usize].is_some()
+                && executor.read(function, slice(&arguments), NOWHERE).is_err()
+            {
+                return -1;
+            }
+            if executor.core.store.len() as u64 > executor.limits.locations {
+                return -1;
+            }
+            i64::from(executor.core.store.number(function, slice(&arguments)))
+        })
+    }
+}
+
+/// Whether a value may be written to a function.
+pub unsafe extern "C" fn member(context: Pointer, function: i64, value: *const Value) -> i64 {
+    // SAFETY: see `grow`.
+    unsafe {
+        let value = &*value;
+        Context::with(context, |executor, _| i64::from(executor.is_member(FunctionId(function as u32), value)))
+    }
+}
+
+/// Applies a library function, or builds a tuple or collection.
+pub unsafe extern "C" fn apply(
+    context: Pointer,
+    term: i64,
+    operands: *const *const Value,
+    count: u64,
+) -> *const Value {
+    // SAFETY: see `grow`.
+    unsafe {
+        let operands = borrow(operands, count);
+        Context::with(context, |executor, context| {
+            let id = TermId(term as u32);
+            let outcome = match executor.program.term(id) {
+                Term::Builtin { builtin, .. } => executor.apply(*builtin, slice(&operands), id),
+                Term::Tuple(_) => Ok(Value::tuple(slice(&operands).to_vec())),
+                Term::Collection { kind, .. } => Ok(collection(*kind, slice(&operands).to_vec())),
+                _ => unreachable!("only these are applied"),
+            };
+            kept(context, outcome)
+        })
+    }
+}
+
+/// A component of a tuple, where the tuple keeps it; null of anything else.
+pub unsafe extern "C" fn component(tuple: *const Value, index: i64) -> *const Value {
+    // SAFETY: see `grow`.
+    match unsafe { &*tuple } {
+        Value::Tuple(parts) => &parts[index as usize],
+        _ => std::ptr::null(),
+    }
+}
+
+/// Whether two values are equal.
+pub unsafe extern "C" fn equal(left: *const Value, right: *const Value) -> i64 {
+    // SAFETY: see `grow`.
+    unsafe { i64::from(*left == *right) }
+}
+
+/// Writes a copy of a value to a place that holds none.
+pub unsafe extern "C" fn copy(value: *const Value, place: *mut Value) {
+    // SAFETY: see `grow`.
+    unsafe { place.write((*value).clone()) }
+}
+
+/// Keeps a copy of a value until the statement ends.
+pub unsafe extern "C" fn keep(context: Pointer, value: *const Value) -> *const Value {
+    // SAFETY: see `grow`.
+    unsafe { (*context).keep((*value).clone()) }
+}
+
+/// Ends a statement.
+pub unsafe extern "C" fn release(context: Pointer, mark: u64) {
+    // SAFETY: see `grow`.
+    unsafe { (*context).release(mark) }
+}
+
+/// Opens a frame with the variables that an interpreted part reads.
+///
+/// # Safety
+/// `values` are as many living values as the spill lists slots.
+unsafe fn in_spilled_frame<T>(
+    context: Pointer,
+    spill: u64,
+    values: *const *const Value,
+    body: impl FnOnce(&mut Executor<'static>) -> Outcome<T>,
+) -> Option<T> {
+    // SAFETY: as the caller promises.
+    unsafe {
+        let (frame, slots) = &Context::tables(context).spills[spill as usize];
+        let values = borrow(values, slots.len() as u64);
+        let slots: &[u32] = slots;
+        let frame = *frame;
+        Context::with(context, |executor, _| {
+            let start = executor.core.frames.len();
+            executor.core.frames.resize(start + frame as usize, Value::Undef);
+            for (slot, value) in slots.iter().zip(slice(&values)) {
+                executor.core.frames[start + *slot as usize] = value.clone();
+            }
+            executor.in_frame(start, frame, NOWHERE, body).ok()
+        })
+    }
+}
+
+/// Evaluates a term by interpretation.
+pub unsafe extern "C" fn evaluate(
+    context: Pointer,
+    term: i64,
+    spill: u64,
+    values: *const *const Value,
+) -> *const Value {
+    // SAFETY: see `grow`.
+    unsafe {
+        match in_spilled_frame(context, spill, values, |executor| executor.evaluate(TermId(term as u32))) {
+            Some(value) => (*context).keep(value),
+            None => std::ptr::null(),
+        }
+    }
+}
+
+/// Runs a rule by interpretation.
+pub unsafe extern "C" fn perform(context: Pointer, rule: i64, spill: u64, values: *const *const Value) -> i64 {
+    // SAFETY: see `grow`.
+    unsafe {
+        let done = in_spilled_frame(context, spill, values, |executor| executor.perform(RuleId(rule as u32)));
+        if done.is_some() { 0 } else { BAIL }
+    }
+}
+
+/// The elements of a domain as a sequence.
+pub unsafe extern "C" fn elements(context: Pointer, domain: i64) -> *const Value {
+    // SAFETY: see `grow`.
+    unsafe {
+        Context::with(context, |executor, context| {
+            let outcome = executor.listed(DomainId(domain as u32), NOWHERE).map(Value::Seq);
+            kept(context, outcome)
+        })
+    }
+}
+
+/// Where the elements of a collection are and how many, written to two words.
+pub unsafe extern "C" fn range(context: Pointer, collection: *const Value, out: *mut [u64; 2]) -> i64 {
+    // SAFETY: see `grow`.
+    unsafe {
+        let items: &[Value] = match &*collection {
+            Value::Set(items) | Value::Seq(items) => items,
+            Value::Map(entries) => {
+                let pairs = entries.iter().map(|(key, value)| Value::tuple(vec![key.clone(), value.clone()]));
+                let place = (*context).keep(Value::seq(pairs.collect()));
+                return if place.is_null() { BAIL } else { range(context, place, out) };
+            }
+            Value::Bag(counts) => {
+                let all = counts.iter().flat_map(|(value, n)| std::iter::repeat_n(value.clone(), *n as usize));
+                let place = (*context).keep(Value::seq(all.collect()));
+                return if place.is_null() { BAIL } else { range(context, place, out) };
+            }
+            _ => return BAIL,
+        };
+        *out = [items.as_ptr() as u64, items.len() as u64];
+    }
+    0
+}
+
+/// Begins a `seq`.
+pub unsafe extern "C" fn begin_sequence(context: Pointer) {
+    // SAFETY: see `grow`.
+    unsafe {
+        let tables = Context::tables(context);
+        Context::with(context, |executor, _| {
+            let version = executor.core.memo.version();
+            tables.sequences.push((executor.core.updates.begin_sequence(), version));
+        });
+    }
+}
+
+/// Ends a `seq`, joining its net effect to the unit around it.
+pub unsafe extern "C" fn end_sequence(context: Pointer) -> i64 {
+    // SAFETY: see `grow`.
+    unsafe {
+        let tables = Context::tables(context);
+        Context::with(context, |executor, _| {
+            let Some((sequence, version)) = tables.sequences.pop() else { return BAIL };
+            let core = &mut *executor.core;
+            core.memo.back_to(version);
+            let ended = core.updates.end_sequence(sequence, &mut core.store, &|_, _| false);
+            i64::from(ended.is_err())
+        })
+    }
+}
+
+/// Opens a unit.
+pub unsafe extern "C" fn open(context: Pointer) {
+    // SAFETY: see `grow`.
+    unsafe {
+        let tables = Context::tables(context);
+        Context::with(context, |executor, _| tables.units.push(executor.core.updates.open()));
+    }
+}
+
+/// Ends a part of a `seq`; tells whether it made updates.
+pub unsafe extern "C" fn apply_unit(context: Pointer) -> i64 {
+    // SAFETY: see `grow`.
+    unsafe {
+        let tables = Context::tables(context);
+        Context::with(context, |executor, _| {
+            let Some(unit) = tables.units.pop() else { return 0 };
+            let core = &mut *executor.core;
+            let any = !core.updates.is_empty(unit);
+            core.updates.apply(unit, &mut core.store);
+            if any {
+                core.memo.changed();
+            }
+            i64::from(any)
+        })
+    }
+}
+
+/// Ends a turbo call's unit.
+pub unsafe extern "C" fn join(context: Pointer) -> i64 {
+    // SAFETY: see `grow`.
+    unsafe {
+        let tables = Context::tables(context);
+        Context::with(context, |executor, _| match tables.units.pop() {
+            Some(unit) => i64::from(executor.core.updates.join(unit, None).is_err()),
+            None => BAIL,
+        })
+    }
+}
+
+/// Counts a round of a loop.
+pub unsafe extern "C" fn iteration(context: Pointer) -> i64 {
+    // SAFETY: see `grow`.
+    unsafe { Context::with(context, |executor, _| status(executor.count_iteration(NOWHERE))) }
+}
+
+/// Makes a fresh element; its number.
+pub unsafe extern "C" fn create(context: Pointer, domain: i64) -> i64 {
+    // SAFETY: see `grow`.
+    unsafe {
+        Context::with(context, |executor, _| match executor.create(DomainId(domain as u32), NOWHERE) {
+            Ok(Value::Element(_, number)) => i64::from(number),
+            _ => -1,
+        })
+    }
+}
+
+/// Lets the environment choose among the candidates written; its index.
+pub unsafe extern "C" fn choose(context: Pointer, rule: i64, variables: u64) -> i64 {
+    // SAFETY: see `grow`.
+    unsafe {
+        Context::with(context, |executor, context| {
+            let values = context.candidate_slice();
+            let count = values.len() / variables.max(1) as usize;
+            if values.len() as u64 > executor.limits.collection {
+                return -1;
+            }
+            let span = executor.program.rule_span(RuleId(rule as u32));
+            let choice = Choice { span, values, variables: variables as usize };
+            match executor.core.choices.choose(executor.environment, executor.program, &choice) {
+                Ok(chosen) if chosen < count => chosen as i64,
+                _ => -1,
+            }
+        })
+    }
+}
+
+/// Makes room for more candidates.
+pub unsafe extern "C" fn more_candidates(context: Pointer) -> i64 {
+    // SAFETY: see `grow`.
+    unsafe {
+        let tables = Context::tables(context);
+        if (*context).more_candidates(&mut tables.memory) { 0 } else { BAIL }
+    }
+}
+
+/// Forgets the candidates.
+pub unsafe extern "C" fn drop_candidates(context: Pointer) {
+    // SAFETY: see `grow`.
+    unsafe { (*context).drop_candidates() }
+}
+
+/// The program of an agent.
+pub unsafe extern "C" fn agent_program(context: Pointer, agent: *const Value) -> i64 {
+    // SAFETY: see `grow`.
+    unsafe {
+        let agent = &*agent;
+        Context::with(context, |executor, _| executor.agent_program(agent).map_or(-1, |id| i64::from(id.0)))
+    }
+}
+
+/// Evaluates an entry of a table of fixed terms.
+pub unsafe extern "C" fn fill(context: Pointer, table: u64, entry: i64, values: *const *const Value) -> i64 {
+    // SAFETY: see `grow`.
+    unsafe {
+        let (term, spill) = {
+            let table = &Context::tables(context).fixed[table as usize];
+            (table.term, table.spill)
+        };
+        let value = in_spilled_frame(context, spill, values, |executor| executor.evaluate(term));
+        let table: &mut super::Fixed = &mut Context::tables(context).fixed[table as usize];
+        match value {
+            Some(value) => {
+                table.values[entry as usize] = value;
+                table.states[entry as usize] = 1;
+                0
+            }
+            None => BAIL,
+        }
+    }
+}
+
+/// Keeps the value of a derived function at a place for the state as it is.
+pub unsafe extern "C" fn keep_derived(context: Pointer, place: i64, mark: i64, value: *const Value) {
+    // SAFETY: see `grow`.
+    unsafe {
+        let value = (*value).clone();
+        Context::with(context, |executor, _| executor.core.memo.keep((place as u32, mark as u64), value));
+    }
+}
+
+/// Whether the domain is one whose elements are numbered without gaps now.
+pub(super) fn is_plain_abstract(executor: &Executor<'_>, domain: DomainId) -> bool {
+    matches!(&executor.program.domain(domain).kind, DomainKind::Abstract { dynamic: false, .. })
+}
+
+impl Tables {
+    /// Forgets what an abandoned step left.
+    pub fn clear(&mut self) {
+        self.units.clear();
+        self.sequences.clear();
+    }
+}

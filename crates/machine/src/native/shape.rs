@@ -1,0 +1,162 @@
+//! How a value lies in a register: the kinds of scalar, and what is known of one while translating.
+//!
+//! In: a domain of the program. Out: a [`Kind`], if its values fit a register. INVARIANT: a [`Scalar`] without a
+//! flag is never undef; one with a range lies in it.
+
+use cranelift_codegen::ir::{self, Type, types};
+use model::Basic;
+use program::{DomainId, DomainKind, Program};
+
+/// A kind of value that fits a register.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Boolean,
+    Integer,
+    Real,
+    /// By its place among the literals.
+    Enum(DomainId),
+    /// By its number.
+    Element(DomainId),
+    Char,
+    Rule,
+}
+
+impl Kind {
+    /// The kind of a domain's values; none if they are compound or of several kinds.
+    pub fn of(program: &Program, domain: DomainId) -> Option<Kind> {
+        Some(match &program.domain(domain).kind {
+            DomainKind::Basic(Basic::Boolean) => Kind::Boolean,
+            DomainKind::Basic(Basic::Integer | Basic::Natural) => Kind::Integer,
+            DomainKind::Basic(Basic::Real) => Kind::Real,
+            DomainKind::Basic(Basic::Char) => Kind::Char,
+            DomainKind::Enum { .. } => Kind::Enum(domain),
+            DomainKind::Abstract { .. } => Kind::Element(domain),
+            DomainKind::Concrete { base, .. } => return Kind::of(program, *base),
+            DomainKind::Rule(_) => Kind::Rule,
+            _ => return None,
+        })
+    }
+
+    /// The tag of [`crate::Value`]: the place of the variant in its declaration (a test holds it to that).
+    pub fn tag(self) -> i64 {
+        match self {
+            Kind::Boolean => 1,
+            Kind::Integer => 2,
+            Kind::Real => 3,
+            Kind::Enum(_) => 4,
+            Kind::Element(_) => 5,
+            Kind::Char => 6,
+            Kind::Rule => 7,
+        }
+    }
+
+    /// The type of its register.
+    pub fn register(self) -> Type {
+        match self {
+            Kind::Boolean => types::I8,
+            Kind::Real => types::F64,
+            _ => types::I64,
+        }
+    }
+}
+
+/// A value in a register.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scalar {
+    pub kind: Kind,
+    pub value: ir::Value,
+    /// Not zero where the value is defined; none if it always is.
+    pub flag: Option<ir::Value>,
+    /// Bounds of an integer, or of the number of an element or literal; both included.
+    pub range: Option<(i64, i64)>,
+}
+
+impl Scalar {
+    /// A value that is never undef.
+    pub fn defined(kind: Kind, value: ir::Value) -> Scalar {
+        Scalar { kind, value, flag: None, range: None }
+    }
+
+    /// The same, within bounds.
+    pub fn within(self, low: i64, high: i64) -> Scalar {
+        Scalar { range: Some((low, high)), ..self }
+    }
+
+    /// The bounds, those of the register where nothing is known.
+    pub fn bounds(&self) -> (i64, i64) {
+        self.range.unwrap_or((i64::MIN, i64::MAX))
+    }
+
+    /// Its one possible value.
+    pub fn constant(&self) -> Option<i64> {
+        self.range.filter(|(low, high)| low == high).map(|(low, _)| low)
+    }
+}
+
+/// What a term was translated to.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Operand {
+    /// The value undef.
+    Undef,
+    Scalar(Scalar),
+    /// A pointer to a [`crate::Value`] that stays where it is until the statement ends.
+    Boxed(ir::Value),
+    /// The number of a location of the store, whose address changes when the store grows.
+    Stored(ir::Value),
+}
+
+/// What a variable is bound to.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Bound {
+    Scalar(Scalar),
+    Boxed(ir::Value),
+    Undef,
+}
+
+impl From<Bound> for Operand {
+    fn from(bound: Bound) -> Operand {
+        match bound {
+            Bound::Scalar(scalar) => Operand::Scalar(scalar),
+            Bound::Boxed(pointer) => Operand::Boxed(pointer),
+            Bound::Undef => Operand::Undef,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::value::{Real, Value};
+
+    /// The first word of a value, its tag.
+    #[allow(unsafe_code)]
+    fn words(value: &Value) -> [u64; 2] {
+        // SAFETY: a value is two words, both written for the variants below save padding, which is not looked at.
+        unsafe { *std::ptr::from_ref(value).cast::<[u64; 2]>() }
+    }
+
+    #[test]
+    fn tags_are_those_of_values() {
+        let domain = DomainId(7);
+        let cases = [
+            (Kind::Boolean, Value::Boolean(true), 1),
+            (Kind::Integer, Value::Integer(-3), -3i64 as u64),
+            (Kind::Real, Value::Real(Real::new(1.5).expect("a number")), 1.5f64.to_bits()),
+            (Kind::Enum(domain), Value::Enum(domain, 9), 7 | 9 << 32),
+            (Kind::Element(domain), Value::Element(domain, 9), 7 | 9 << 32),
+            (Kind::Char, Value::Char('x'), u64::from('x')),
+            (Kind::Rule, Value::Rule(program::ProcedureId(5)), 5),
+        ];
+        for (kind, value, payload) in cases {
+            let [tag, word] = words(&value);
+            assert_eq!(tag, kind.tag() as u64, "{value:?}");
+            let mask = match kind {
+                Kind::Boolean => 0xff,
+                Kind::Char | Kind::Rule => 0xffff_ffff,
+                _ => u64::MAX,
+            };
+            assert_eq!(word & mask, payload, "{value:?}");
+        }
+        assert_eq!(words(&Value::Undef)[0], 0);
+    }
+}

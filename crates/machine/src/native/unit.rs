@@ -1,0 +1,337 @@
+//! Units: bodies that are called, and tables of fixed terms.
+//!
+//! A unit takes the context and, for each parameter, a register and a flag, or a pointer. It gives a status (a
+//! procedure), a state and a register (a scalar definition; the state is 0 undef, 1 defined, 2 the step is given up),
+//! or a pointer, null where the step is given up.
+
+use cranelift_codegen::ir::condcodes::IntCC;
+use cranelift_codegen::ir::{self, InstBuilder, Signature, Type, types};
+use cranelift_jit::JITModule;
+use cranelift_module::{Linkage, Module};
+use program::{DomainId, FunctionId, ProcedureId, Program, Slot, TermId};
+
+use crate::native::context::Offset;
+use crate::native::helper::{Helper, signature};
+use crate::native::shape::{Bound, Kind, Operand, Scalar};
+use crate::native::translate::{Frame, Translator, UnitKey};
+
+/// LIMIT: calls inside each other in compiled code; a step that needs more is interpreted.
+const NESTED: i64 = 400;
+
+/// The domains of a unit's parameters and, for a definition, of its values.
+pub(super) fn interface(program: &Program, key: UnitKey) -> (Vec<DomainId>, Option<DomainId>) {
+    match key {
+        UnitKey::Procedure(id) => (program.procedure(id).parameters.clone(), None),
+        UnitKey::Definition(id) => {
+            let function = program.function(id);
+            let domain = function.definition.as_ref().map(|definition| program.term_domain(definition.body));
+            (function.parameters.clone(), domain)
+        }
+    }
+}
+
+/// The signature of a unit.
+pub(super) fn unit_signature(program: &Program, module: &JITModule, key: UnitKey) -> Signature {
+    let (parameters, result) = interface(program, key);
+    let mut types: Vec<Type> = vec![types::I64];
+    for parameter in parameters {
+        match Kind::of(program, parameter) {
+            Some(kind) => types.extend([kind.register(), types::I8]),
+            None => types.push(types::I64),
+        }
+    }
+    let results = match (key, result.map(|domain| Kind::of(program, domain))) {
+        (UnitKey::Procedure(_), _) => vec![types::I8],
+        (_, Some(Some(kind))) => vec![types::I8, kind.register()],
+        _ => vec![types::I64],
+    };
+    signature(module, &types, &results)
+}
+
+impl Translator<'_, '_> {
+    /// Whether a unit is translated where it is called.
+    pub fn inlines(&self, key: UnitKey) -> bool {
+        !self.frames.iter().any(|frame| frame.unit == key)
+            && self.plan.is_small(self.program, key, self.weight, self.frames.len())
+    }
+
+    /// Translates the whole of a unit, whose entry block is current, its parameters those of the block.
+    pub fn unit(&mut self, key: UnitKey, parameters: &[ir::Value]) {
+        let program = self.program;
+        let (domains, result) = interface(program, key);
+        let mut slots = Vec::new();
+        let mut rest = parameters.iter().copied();
+        for domain in domains {
+            let mut next = || rest.next().expect("as the signature says");
+            slots.push(match Kind::of(program, domain) {
+                Some(kind) => {
+                    let (value, flag) = (next(), next());
+                    Bound::Scalar(Scalar { kind, value, flag: Some(flag), range: None })
+                }
+                None => Bound::Boxed(next()),
+            });
+        }
+        let depth = self.field(Offset::depth);
+        let deep = self.builder.ins().icmp_imm(IntCC::UnsignedGreaterThan, depth, NESTED);
+        self.refuse(deep);
+        let deeper = self.builder.ins().iadd_imm(depth, 1);
+        self.set_field(Offset::depth, deeper);
+        match key {
+            UnitKey::Procedure(id) => {
+                let procedure = program.procedure(id);
+                self.frames.push(Frame { unit: key, size: procedure.frame, slots });
+                self.rule(procedure.body);
+                self.set_field(Offset::depth, depth);
+                let good = self.byte(0);
+                self.builder.ins().return_(&[good]);
+                self.switch(self.bail);
+                let bad = self.byte(1);
+                self.builder.ins().return_(&[bad]);
+            }
+            UnitKey::Definition(id) => {
+                let definition = program.function(id).definition.as_ref().expect("a unit has one");
+                self.frames.push(Frame { unit: key, size: definition.frame, slots });
+                let operand = self.term(definition.body);
+                self.set_field(Offset::depth, depth);
+                match result.and_then(|domain| Kind::of(program, domain)) {
+                    Some(kind) => {
+                        let scalar = self.scalar(operand, kind);
+                        let state = match scalar.flag {
+                            Some(flag) => flag,
+                            None => self.byte(1),
+                        };
+                        self.builder.ins().return_(&[state, scalar.value]);
+                        self.switch(self.bail);
+                        let bad = self.byte(2);
+                        let nothing = match kind {
+                            Kind::Real => self.builder.ins().f64const(0.0),
+                            Kind::Boolean => self.byte(0),
+                            _ => self.word(0),
+                        };
+                        self.builder.ins().return_(&[bad, nothing]);
+                    }
+                    None => {
+                        let pointer = self.pinned(operand);
+                        // A scalar's box lies in this function's own frame.
+                        let pointer = match operand {
+                            Operand::Scalar(_) => self.call_for_value(Helper::Keep, &[self.context, pointer]),
+                            _ => pointer,
+                        };
+                        self.builder.ins().return_(&[pointer]);
+                        self.switch(self.bail);
+                        let null = self.word(0);
+                        self.builder.ins().return_(&[null]);
+                    }
+                }
+            }
+        }
+        self.frames.pop();
+    }
+
+    /// Calls a unit; gives its results.
+    fn call_unit(&mut self, key: UnitKey, operands: &[Operand]) -> Vec<ir::Value> {
+        let program = self.program;
+        let (domains, _) = interface(program, key);
+        let mut arguments = vec![self.context];
+        for (domain, operand) in domains.iter().zip(operands) {
+            match Kind::of(program, *domain) {
+                Some(kind) => {
+                    let scalar = self.scalar(*operand, kind);
+                    let flag = match scalar.flag {
+                        Some(flag) => flag,
+                        None => self.byte(1),
+                    };
+                    arguments.extend([scalar.value, flag]);
+                }
+                None => arguments.push(self.pinned(*operand)),
+            }
+        }
+        let known = self.plan.units.iter().find(|(unit, _)| *unit == key).map(|(_, id)| *id);
+        let id = match known {
+            Some(id) => id,
+            None => {
+                let name = format!("unit{}", self.plan.units.len());
+                let signature = unit_signature(program, self.module, key);
+                let id = self
+                    .module
+                    .declare_function(&name, Linkage::Local, &signature)
+                    .expect("a new name in a module under construction");
+                self.plan.units.push((key, id));
+                self.plan.queue.push((key, id));
+                id
+            }
+        };
+        let reference = self.module.declare_func_in_func(id, self.builder.func);
+        let call = self.builder.ins().call(reference, &arguments);
+        self.builder.inst_results(call).to_vec()
+    }
+
+    /// Calls a procedure.
+    pub fn call_procedure(&mut self, procedure: ProcedureId, operands: &[Operand]) {
+        let status = self.call_unit(UnitKey::Procedure(procedure), operands)[0];
+        self.refuse(status);
+    }
+
+    /// The value of a definition, kept from earlier in this state or computed by a call.
+    pub fn call_definition(&mut self, function: FunctionId, operands: &[Operand], id: TermId) -> Operand {
+        let kind = self.kind_of(id);
+        let body = self.program.function(function).definition.as_ref().map(|d| self.program.term_domain(d.body));
+        let returned = body.and_then(|domain| self.kind(domain));
+        let shelf = self.plan.shelves[function.0 as usize].clone();
+        let place = shelf.and_then(|shelf| {
+            let (offset, inside) = match shelf.dimensions.len() {
+                0 => (self.word(0), None),
+                _ => self.offset(&shelf.dimensions, operands)?,
+            };
+            let place = self.builder.ins().iadd_imm(offset, i64::from(shelf.base));
+            let mark = if shelf.for_good {
+                self.word(1)
+            } else {
+                let version = self.field(Offset::version);
+                self.builder.ins().iadd_imm(version, 1)
+            };
+            Some((place, mark, inside))
+        });
+        let Some((place, mark, inside)) = place else {
+            let results = self.call_unit(UnitKey::Definition(function), operands);
+            return self.returned(&results, returned, kind);
+        };
+        let pointer = self.variable(types::I64);
+        let (look, found, compute, done) = (self.block(), self.block(), self.block(), self.block());
+        match inside {
+            Some(inside) => self.branch(inside, look, compute),
+            None => self.jump(look),
+        }
+        self.switch(look);
+        let versions = self.field(Offset::versions);
+        let version = self.element(versions, place, 3);
+        let version = self.load(types::I64, version, 0);
+        let holds = self.builder.ins().icmp(IntCC::Equal, version, mark);
+        self.branch(holds, found, compute);
+
+        self.switch(found);
+        let kept = self.field(Offset::kept);
+        let entry = self.element(kept, place, 4);
+        self.set(pointer, entry);
+        self.jump(done);
+
+        self.switch(compute);
+        let results = self.call_unit(UnitKey::Definition(function), operands);
+        let value = self.returned(&results, returned, returned);
+        let value = self.boxed(value);
+        self.set(pointer, value);
+        match inside {
+            Some(inside) => {
+                let keep = self.block();
+                self.branch(inside, keep, done);
+                self.switch(keep);
+                self.call(Helper::KeepDerived, &[self.context, place, mark, value]);
+                self.jump(done);
+            }
+            None => {
+                self.call(Helper::KeepDerived, &[self.context, place, mark, value]);
+                self.jump(done);
+            }
+        }
+        self.switch(done);
+        let pointer = self.get(pointer);
+        match kind {
+            Some(kind) => Operand::Scalar(self.unboxed(pointer, kind)),
+            // A kept value may be replaced before this one is used.
+            None => Operand::Boxed(self.call_for_value(Helper::Keep, &[self.context, pointer])),
+        }
+    }
+
+    fn returned(&mut self, results: &[ir::Value], returned: Option<Kind>, wanted: Option<Kind>) -> Operand {
+        match returned {
+            Some(kind) => {
+                let given_up = self.builder.ins().icmp_imm(IntCC::Equal, results[0], 2);
+                self.refuse(given_up);
+                Operand::Scalar(Scalar { kind, value: results[1], flag: Some(results[0]), range: None })
+            }
+            None => {
+                self.keeps = true;
+                self.require(results[0]);
+                match wanted {
+                    Some(kind) => Operand::Scalar(self.unboxed(results[0], kind)),
+                    None => Operand::Boxed(results[0]),
+                }
+            }
+        }
+    }
+
+    /// A fixed term out of its table.
+    pub fn fixed(&mut self, id: TermId) -> Option<Operand> {
+        let program = self.program;
+        if !self.plan.is_fixed(program, id) {
+            return None;
+        }
+        let mut slots = Vec::new();
+        self.plan.slots_of_term(program, id, &mut slots);
+        let own = self.plan.own_slots(program, id);
+        slots.retain(|slot| !own.contains(slot));
+        let mut entries = 1i64;
+        let mut index: Option<ir::Value> = None;
+        let mut columns = Vec::new();
+        for slot in &slots {
+            let Bound::Scalar(scalar) = self.slot(Slot(*slot)) else { return None };
+            if scalar.flag.is_some() {
+                return None;
+            }
+            let (low, high) = self.plan.bounds(program, scalar)?;
+            let size = high.checked_sub(low)?.checked_add(1)?;
+            entries = entries.checked_mul(size)?;
+            columns.push((scalar, low, size));
+        }
+        if !(1..=1 << 16).contains(&entries) {
+            return None;
+        }
+        for (scalar, low, size) in columns {
+            let mut column = scalar.value;
+            if scalar.kind == Kind::Boolean {
+                column = self.builder.ins().uextend(types::I64, column);
+            }
+            if low != 0 {
+                column = self.builder.ins().iadd_imm(column, low.wrapping_neg());
+            }
+            index = Some(match index {
+                Some(before) => {
+                    let scaled = self.builder.ins().imul_imm(before, size);
+                    self.builder.ins().iadd(scaled, column)
+                }
+                None => column,
+            });
+        }
+        let index = match index {
+            Some(index) => index,
+            None => self.word(0),
+        };
+        let frame = self.frame().size;
+        let spill = self.plan.spill(frame, slots.clone());
+        let (table, states, values) = self.plan.table(id, spill, entries)?;
+        let states = self.address(states);
+        let state = self.builder.ins().iadd(states, index);
+        let state = self.load(types::I8, state, 0);
+        let (fill, ready) = (self.block(), self.block());
+        self.builder.set_cold_block(fill);
+        self.branch(state, ready, fill);
+        self.switch(fill);
+        let operands: Vec<Operand> = slots.iter().map(|slot| self.slot(Slot(*slot)).into()).collect();
+        let pointers = self.pointers(&operands);
+        let table = self.word(table as i64);
+        self.call_or_bail(Helper::Fill, &[self.context, table, index, pointers]);
+        self.jump(ready);
+        self.switch(ready);
+        let values = self.address(values);
+        let pointer = self.element(values, index, 4);
+        Some(match self.kind_of(id) {
+            Some(kind) => {
+                let tag = self.load(types::I64, pointer, 0);
+                let flag = self.builder.ins().icmp_imm(IntCC::Equal, tag, kind.tag());
+                let value = self.payload(pointer, kind);
+                Operand::Scalar(Scalar { kind, value, flag: Some(flag), range: None })
+            }
+            None => Operand::Boxed(pointer),
+        })
+    }
+}
