@@ -7,7 +7,7 @@ use program::{DomainId, DomainKind, FunctionId, Program, Slot};
 use syntax::Span;
 
 use crate::coverage::Coverage;
-use crate::environment::{Choice, Environment, TimeUnit};
+use crate::environment::{Choice, Draw, Environment, TimeUnit};
 use crate::fault::{Fault, FaultKind};
 use crate::limits::Limits;
 use crate::location::LocationRef;
@@ -67,6 +67,9 @@ pub(crate) struct Choices {
     made: Vec<usize>,
     /// How many of them the step has made so far.
     again: usize,
+    /// The same for numbers.
+    drawn: Vec<Value>,
+    drawn_again: usize,
 }
 
 impl Choices {
@@ -89,15 +92,31 @@ impl Choices {
         Ok(chosen)
     }
 
+    /// Lets the environment draw a number, unless this one was drawn before the step was begun anew.
+    pub fn number(
+        &mut self,
+        environment: &mut dyn Environment,
+        program: &Program,
+        draw: &Draw,
+    ) -> Result<Value, String> {
+        if self.drawn_again == self.drawn.len() {
+            let number = environment.number(program, draw)?;
+            self.drawn.push(number);
+        }
+        self.drawn_again += 1;
+        Ok(self.drawn[self.drawn_again - 1].clone())
+    }
+
     /// A new step begins.
     pub fn forget(&mut self) {
         self.made.clear();
-        self.again = 0;
+        self.drawn.clear();
+        self.repeat();
     }
 
     /// The step begins anew.
     pub fn repeat(&mut self) {
-        self.again = 0;
+        (self.again, self.drawn_again) = (0, 0);
     }
 }
 

@@ -31,6 +31,6 @@ pub use environment::{Choice, Closed, Draw, Environment, TimeUnit};
 pub use fault::{ClashSide, Fault, FaultKind};
 pub use limits::Limits;
 pub use location::{Location, LocationRef};
-pub use machine::{Change, Machine, Snapshot, Step};
+pub use machine::{Change, EngineChoice, Machine, Snapshot, Step};
 pub use print::{Show, ShowValue, element_name};
 pub use value::{Real, Value};

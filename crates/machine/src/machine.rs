@@ -11,6 +11,7 @@ use crate::execute::{Core, Executor, Outcome};
 use crate::fault::{Fault, FaultKind};
 use crate::limits::Limits;
 use crate::location::Location;
+use crate::native::Engine;
 use crate::store::Store;
 use crate::value::Value;
 
@@ -46,6 +47,31 @@ pub struct Snapshot {
     initials: Vec<Option<u32>>,
 }
 
+/// What makes the steps. Both give the same steps and the same faults.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum EngineChoice {
+    /// Interpreted at first, compiled once the run has become long enough to pay for it.
+    #[default]
+    Automatic,
+    /// The program is walked over.
+    Interpreted,
+    /// Machine code from the first step on, where there is any for this processor.
+    Compiled,
+}
+
+/// LIMIT: steps made, and an eighth of their updates, before the main rule is compiled.
+const COMPILED_AFTER: u64 = 256;
+
+/// The compiled engine, as far as it has come.
+#[derive(Debug, Default)]
+struct EngineState {
+    choice: EngineChoice,
+    /// Steps made, and an eighth of their updates.
+    work: u64,
+    tried: bool,
+    code: Option<Box<Engine>>,
+}
+
 /// A machine: a program and its current state.
 #[derive(Debug)]
 pub struct Machine {
@@ -53,8 +79,9 @@ pub struct Machine {
     limits: Limits,
     core: Core,
     steps: u64,
-    /// What the last commit overwrote: location, value before, the update rule's place.
-    overwritten: Vec<(u32, Value, Span)>,
+    /// The update set on the stack is committed: where an update changed anything it holds the value before.
+    settled: bool,
+    engine: EngineState,
     /// A step was committed since inputs were last forgotten.
     stale: bool,
     /// Sparse locations at the last compaction.
@@ -65,7 +92,16 @@ impl Machine {
     /// A machine whose locations are all undef: see [`Machine::start`].
     pub fn new(program: Arc<Program>, limits: Limits) -> Machine {
         let core = Core::new(&program, limits);
-        Machine { program, limits, core, steps: 0, overwritten: Vec::new(), stale: false, compacted: 0 }
+        Machine {
+            program,
+            limits,
+            core,
+            steps: 0,
+            settled: false,
+            engine: EngineState::default(),
+            stale: false,
+            compacted: 0,
+        }
     }
 
     /// The program.
@@ -95,7 +131,7 @@ impl Machine {
         self.core = Core::new(&self.program, self.limits);
         self.core.coverage = coverage;
         self.steps = 0;
-        self.overwritten.clear();
+        self.settled = false;
         self.execute(environment, |executor, _| executor.start())
     }
 
@@ -139,11 +175,17 @@ impl Machine {
         environment: &mut dyn Environment,
     ) -> Result<(), Fault> {
         self.discard();
+        self.settled = false;
+        self.core.updates.release();
         if self.stale {
             self.forget_inputs();
         }
         self.core.iterations = 0;
+        self.core.choices.forget();
         self.core.updates.begin();
+        if self.runs_compiled(procedure, environment) {
+            return Ok(());
+        }
         let outcome = self.execute(environment, |executor, program| {
             let span = program.procedure(procedure).span;
             executor.enter(procedure, 0, span)
@@ -157,14 +199,52 @@ impl Machine {
         }
     }
 
+    /// Which engine makes the steps; [`EngineChoice::Automatic`] if nobody says.
+    pub fn use_engine(&mut self, choice: EngineChoice) {
+        self.engine = EngineState { choice, ..EngineState::default() };
+    }
+
+    /// Computes the update set by compiled code, if there is any or it is due; false where the step is to be
+    /// interpreted.
+    fn runs_compiled(&mut self, procedure: ProcedureId, environment: &mut dyn Environment) -> bool {
+        let EngineState { choice, work, tried, code } = &mut self.engine;
+        let due = match choice {
+            EngineChoice::Interpreted => return false,
+            EngineChoice::Compiled => true,
+            EngineChoice::Automatic => *work > COMPILED_AFTER,
+        };
+        if !due || self.core.coverage.is_some() || self.program.main != Some(procedure) {
+            return false;
+        }
+        if !*tried {
+            *tried = true;
+            *code = Engine::compile(&self.program, &self.core).map(Box::new);
+        }
+        let Some(engine) = code else { return false };
+        if !engine.pays() && *choice == EngineChoice::Automatic {
+            *code = None;
+            return false;
+        }
+        let Machine { program, core, limits, .. } = self;
+        core.frames.clear();
+        core.calls.clear();
+        (core.base, core.depth) = (0, 0);
+        let mut executor = Executor { program, core, environment, limits: *limits };
+        if engine.run(&mut executor, procedure) {
+            return true;
+        }
+        core.choices.repeat();
+        core.updates.begin();
+        false
+    }
+
     /// Applies the update set prepared. The inputs of the step can still be read until
     /// [`Machine::forget_inputs`].
     pub fn commit(&mut self) -> Step {
-        let Machine { program, core, overwritten, .. } = self;
-        overwritten.clear();
+        let Machine { program, core, .. } = self;
         let created = core.updates.created().len();
         let mut step = Step { updates: core.updates.len() + created, changed: created > 0, grown: created > 0 };
-        for update in core.updates.updates() {
+        for update in &mut core.updates.stack {
             if update.value.is_undef() {
                 // A shared location that the machine has made undef is not asked for.
                 let function = core.store.function_of(update.location);
@@ -174,8 +254,7 @@ impl Machine {
             }
             let value = &mut core.store.values[update.location as usize];
             if *value != update.value {
-                let before = std::mem::replace(value, update.value.clone());
-                overwritten.push((update.location, before, program.rule_span(update.rule)));
+                std::mem::swap(value, &mut update.value);
                 step.changed = true;
             }
         }
@@ -188,15 +267,20 @@ impl Machine {
                 carrier.elements.sort_unstable();
             }
         }
-        core.updates.release();
+        core.updates.settle();
         core.memo.changed();
+        self.settled = true;
         self.stale = true;
         self.steps += 1;
+        self.engine.work += 1 + step.updates as u64 / 8;
         step
     }
 
     /// Drops the update set prepared.
     pub fn discard(&mut self) {
+        if self.settled {
+            return;
+        }
         let core = &mut self.core;
         if core.updates.roll_back(&mut core.store) {
             core.memo.changed();
@@ -205,16 +289,20 @@ impl Machine {
 
     /// What the last committed step changed, in the canonical order of locations.
     pub fn changes(&self) -> Vec<Change> {
-        let mut changes: Vec<Change> = self
-            .overwritten
-            .iter()
-            .map(|(index, before, span)| Change {
-                location: self.core.store.location(*index),
-                before: before.clone(),
-                after: self.core.store.values[*index as usize].clone(),
-                span: *span,
+        if !self.settled {
+            return Vec::new();
+        }
+        let core = &self.core;
+        let changed = core.updates.stack.iter().filter_map(|update| {
+            let after = &core.store.values[update.location as usize];
+            (update.value != *after).then(|| Change {
+                location: core.store.location(update.location),
+                before: update.value.clone(),
+                after: after.clone(),
+                span: self.program.rule_span(update.rule),
             })
-            .collect();
+        });
+        let mut changes: Vec<Change> = changed.collect();
         changes.sort_by(|a, b| a.location.cmp(&b.location));
         changes
     }
@@ -243,7 +331,7 @@ impl Machine {
             let program = &self.program;
             core.store.compact(&|location| program.function(location.function).kind != FunctionKind::Monitored);
             core.updates.renumbered();
-            self.overwritten.clear();
+            core.updates.release();
             self.compacted = core.store.sparse_len();
         }
     }
@@ -337,7 +425,8 @@ impl Machine {
         self.core.updates.renumbered();
         self.core.memo.changed();
         self.steps = snapshot.steps;
-        self.overwritten.clear();
+        self.core.updates.release();
+        self.settled = false;
     }
 
     /// Counts from now on which rules run.

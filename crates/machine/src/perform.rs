@@ -432,7 +432,7 @@ impl<'a> Executor<'a> {
         for (variable, binder) in binders.iter().enumerate() {
             let Some(basic) = numbers(binder) else { continue };
             let draw = Draw { span, variable, basic };
-            match self.environment.number(program, &draw) {
+            match self.core.choices.number(self.environment, program, &draw) {
                 Ok(value) if draw.admits(&value) => self.bind(binder.slot, value),
                 Ok(value) => {
                     let reason = format!("{} is no {basic:?}", value.show(program));

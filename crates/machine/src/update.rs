@@ -124,14 +124,15 @@ impl Updates {
         self.stack.len()
     }
 
-    /// The updates of the step, once it is computed.
-    pub fn updates(&self) -> &[Update] {
-        &self.stack
-    }
-
     /// The elements made in the step.
     pub fn created(&self) -> &[(DomainId, Value)] {
         &self.created
+    }
+
+    /// The update set has been applied: what remains on the stack is a record of it.
+    pub fn settle(&mut self) {
+        self.log.clear();
+        self.created.clear();
     }
 
     /// Empties the update set, keeping its memory.

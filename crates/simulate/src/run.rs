@@ -7,7 +7,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use machine::{Fault, FaultKind, Limits, Machine, Snapshot, Value};
+use machine::{EngineChoice, Fault, FaultKind, Limits, Machine, Snapshot, Value};
 use program::{Expression, Program, PropertyKind};
 
 use crate::inputs::{Inputs, Signal};
@@ -42,6 +42,8 @@ pub struct Options {
     pub keep: bool,
     /// How many steps can be taken back.
     pub history: usize,
+    /// What makes the steps.
+    pub engine: EngineChoice,
 }
 
 impl Default for Options {
@@ -54,6 +56,7 @@ impl Default for Options {
             invariants: Invariants::Stop,
             keep: true,
             history: 0,
+            engine: EngineChoice::Automatic,
         }
     }
 }
@@ -123,7 +126,8 @@ impl Run {
         };
         let (over_inputs, over_states) = (invariants(true), invariants(false));
         inputs.keep = options.keep;
-        let machine = Machine::new(program, limits);
+        let mut machine = Machine::new(program, limits);
+        machine.use_engine(options.engine);
         let (history, phase) = (VecDeque::new(), Phase::New);
         Run { machine, inputs, options, over_inputs, over_states, history, made: 0, phase }
     }

@@ -19,11 +19,8 @@ impl Translator<'_, '_> {
             (Builtin::Eq | Builtin::Neq, [left, right]) => {
                 let (left, right) = (self.term(*left), self.term(*right));
                 let equal = self.equal(left, right);
-                let value = if builtin == Builtin::Eq {
-                    equal
-                } else {
-                    self.builder.ins().icmp_imm(IntCC::Equal, equal, 0)
-                };
+                let value =
+                    if builtin == Builtin::Eq { equal } else { self.builder.ins().icmp_imm(IntCC::Equal, equal, 0) };
                 Operand::Scalar(Scalar::defined(Kind::Boolean, value))
             }
             (Builtin::IsDef | Builtin::IsUndef, [operand]) => {
@@ -42,8 +39,7 @@ impl Translator<'_, '_> {
             (Builtin::SetIsEmpty | Builtin::SetNotEmpty | Builtin::SeqIsEmpty, [operand]) => {
                 match self.count(*operand) {
                     Some(Operand::Scalar(count)) => {
-                        let condition =
-                            if builtin == Builtin::SetNotEmpty { IntCC::NotEqual } else { IntCC::Equal };
+                        let condition = if builtin == Builtin::SetNotEmpty { IntCC::NotEqual } else { IntCC::Equal };
                         let value = self.builder.ins().icmp_imm(condition, count.value, 0);
                         Operand::Scalar(Scalar::defined(Kind::Boolean, value))
                     }

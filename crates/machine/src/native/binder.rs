@@ -80,7 +80,7 @@ impl Translator<'_, '_> {
     fn walk_collection(&mut self, collection: ir::Value, kind: Option<Kind>) -> Walk {
         let slot = self.builder.create_sized_stack_slot(StackSlotData::new(StackSlotKind::ExplicitSlot, 16, 3));
         let out = self.builder.ins().stack_addr(types::I64, slot, 0);
-        self.keeps = true;
+        self.note_kept();
         self.call_or_bail(Helper::Range, &[self.context, collection, out]);
         let (start, count) = (self.load(types::I64, out, 0), self.load(types::I64, out, 8));
         Walk::Values { start, count, kind }

@@ -24,7 +24,11 @@ struct Found {
 
 impl Translator<'_, '_> {
     /// The offset of arguments in an array, and a byte that is zero where they lie outside; none if never.
-    pub fn offset(&mut self, dimensions: &[Dimension], arguments: &[Operand]) -> Option<(ir::Value, Option<ir::Value>)> {
+    pub fn offset(
+        &mut self,
+        dimensions: &[Dimension],
+        arguments: &[Operand],
+    ) -> Option<(ir::Value, Option<ir::Value>)> {
         let mut offset: Option<ir::Value> = None;
         let mut inside: Option<ir::Value> = None;
         for (dimension, argument) in dimensions.iter().zip(arguments) {
@@ -86,10 +90,16 @@ impl Translator<'_, '_> {
     pub fn read(&mut self, function: FunctionId, arguments: &[Operand], term: TermId) -> Operand {
         let program = self.program;
         let declared = program.function(function);
-        if Some(function) == program.self_function
-            && let Some(agent) = self.agent
-        {
-            return Operand::Scalar(agent);
+        if Some(function) == program.self_function {
+            match (self.agent, self.plan.self_location(program), self.kind_of(term)) {
+                (Some(agent), ..) => return Operand::Scalar(agent),
+                (None, Some(index), Some(kind)) => {
+                    let index = self.word(i64::from(index));
+                    let place = self.stored(index);
+                    return Operand::Scalar(self.stored_scalar(place, kind));
+                }
+                _ => {}
+            }
         }
         if let Some(element) = declared.element
             && let Some(kind) = self.kind(declared.codomain)
@@ -101,9 +111,13 @@ impl Translator<'_, '_> {
             return Operand::Undef;
         }
         let kind = self.kind_of(term);
-        let direct = self.plan.plain[function.0 as usize];
-        let asked = matches!(declared.kind, FunctionKind::Monitored | FunctionKind::Shared)
-            && !self.plan.lazy[function.0 as usize];
+        let lazy = self.plan.lazy[function.0 as usize];
+        let direct = self.plan.plain[function.0 as usize] && !lazy;
+        let asked = match declared.kind {
+            FunctionKind::Monitored => true,
+            FunctionKind::Shared => !lazy,
+            _ => false,
+        };
         let found = if direct || asked { self.find(function, arguments) } else { None };
         let Some(Found { index, inside }) = found else {
             return self.read_elsewhere(function, arguments, kind);
@@ -189,9 +203,9 @@ impl Translator<'_, '_> {
     /// Adds the update `function(arguments) := value`, the value translated first.
     pub fn update(&mut self, function: FunctionId, arguments: &[Operand], value: Operand, rule: RuleId) {
         self.check_codomain(function, value);
-        let direct = self.plan.plain[function.0 as usize]
-            || (self.program.function(function).kind == FunctionKind::Shared
-                && !self.plan.lazy[function.0 as usize]);
+        let owned =
+            self.plan.plain[function.0 as usize] || self.program.function(function).kind == FunctionKind::Shared;
+        let direct = owned && !self.plan.lazy[function.0 as usize];
         let found = if direct { self.find(function, arguments) } else { None };
         let index = match found {
             Some(Found { index, inside: None }) => index,

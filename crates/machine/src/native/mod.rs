@@ -30,7 +30,7 @@ use program::{ProcedureId, Program};
 use crate::execute::{Core, Executor};
 use context::Context;
 use helper::{Helpers, signature};
-use plan::{Fixed, Plan, RunningTables as Tables};
+use plan::{Fixed, Plan, Tables};
 use translate::{Translator, UnitKey};
 
 /// The compiled entry: the context, to a status that is not zero where the step is abandoned.

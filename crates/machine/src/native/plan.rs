@@ -6,15 +6,12 @@
 use std::sync::Arc;
 
 use cranelift_module::FuncId;
-use program::{
-    Builtin, DomainId, DomainKind, FunctionKind, ProcedureId, Program, Rule, RuleId, Term, TermId,
-};
+use program::{Builtin, DomainId, DomainKind, ProcedureId, Program, Rule, RuleId, Term, TermId};
 
 use crate::execute::Core;
 use crate::layout::Layout;
 use crate::membership::Membership;
 use crate::memo::{self, Shelf};
-use crate::native::Tables;
 use crate::native::binder::consecutive;
 use crate::native::helper::Helpers;
 use crate::native::shape::{Kind, Scalar};
@@ -45,7 +42,7 @@ pub(super) struct Fixed {
 
 /// The running code's own data.
 #[derive(Debug, Default)]
-pub(crate) struct RunningTables {
+pub(crate) struct Tables {
     /// Frames opened for the interpreter: their size and the slots that are handed over.
     pub spills: Vec<(u32, Vec<u32>)>,
     pub fixed: Vec<Fixed>,
@@ -55,8 +52,6 @@ pub(crate) struct RunningTables {
     pub memory: super::context::Memory,
     /// Arrays that code refers to.
     pinned: Vec<Arc<Vec<Value>>>,
-    /// The constants, at fixed addresses.
-    constants: Arc<Vec<Value>>,
 }
 
 /// The knowledge of one compilation.
@@ -107,14 +102,14 @@ impl Plan {
             codomains: core.codomains.clone(),
             contents: core.contents.clone(),
             plain: core.plain.clone(),
-            lazy: core.initials.iter().map(Option::is_some).collect(),
+            lazy: program.functions.iter().enumerate().map(|(index, _)| is_lazy(core, index)).collect(),
             shelves: core.memo.shelves().to_vec(),
             fixed: memo::fixed_functions(program),
             procedure_calls,
             definition_calls,
             units: Vec::new(),
             queue: Vec::new(),
-            tables: Tables { constants, ..Tables::default() },
+            tables: Tables { pinned: vec![constants], ..Tables::default() },
         }
     }
 
@@ -224,8 +219,7 @@ impl Plan {
             return None;
         }
         let entries = entries as usize;
-        let fixed =
-            Fixed { term, spill: spill as u64, states: vec![0; entries], values: vec![Value::Undef; entries] };
+        let fixed = Fixed { term, spill: spill as u64, states: vec![0; entries], values: vec![Value::Undef; entries] };
         let (states, values) = (fixed.states.as_ptr(), fixed.values.as_ptr());
         self.tables.fixed.push(fixed);
         Some((self.tables.fixed.len() - 1, states, values))
@@ -242,11 +236,38 @@ impl Plan {
         slots.sort_unstable();
     }
 
+    /// The variables that a term binds itself.
+    pub fn own_slots(&self, program: &Program, term: TermId) -> Vec<u32> {
+        let mut own = Vec::new();
+        let mut open = vec![term];
+        while let Some(id) = open.pop() {
+            match program.term(id) {
+                Term::Let { slot, .. } => own.push(slot.0),
+                Term::Comprehension { binders, .. } | Term::Quantified { binders, .. } => {
+                    own.extend(program.binder_list(*binders).iter().map(|binder| binder.slot.0));
+                }
+                _ => {}
+            }
+            program.each_child_of_term(id, &mut |child| open.push(child));
+        }
+        own
+    }
+
     /// The variables that occur in a rule, sorted.
     pub fn slots_of_rule(&self, program: &Program, rule: RuleId, slots: &mut Vec<u32>) {
         program.each_term_of_rule(rule, &mut |term| self.slots_of_term(program, term, slots));
         program.each_child_of_rule(rule, &mut |child| self.slots_of_rule(program, child, slots));
     }
+}
+
+/// Whether some location of a function that has a number may yet get an initial value.
+fn is_lazy(core: &Core, function: usize) -> bool {
+    core.initials[function].is_some()
+        && match &core.store.layouts[function] {
+            Layout::Single(index) => core.store.given[*index as usize] == 0,
+            Layout::Dense { base, len, .. } => core.store.given[*base as usize..(*base + *len) as usize].contains(&0),
+            Layout::None | Layout::Sparse => true,
+        }
 }
 
 /// Whether evaluating a term anew costs more than looking it up.
@@ -292,9 +313,4 @@ fn weight_of_term(program: &Program, term: TermId) -> usize {
     let mut weight = 1;
     program.each_child_of_term(term, &mut |child| weight += weight_of_term(program, child));
     weight
-}
-
-/// Whether a function's values are those of an update at most: not asked for.
-pub(super) fn is_owned(kind: FunctionKind) -> bool {
-    matches!(kind, FunctionKind::Controlled | FunctionKind::Out | FunctionKind::Local)
 }

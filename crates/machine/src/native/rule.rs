@@ -2,7 +2,8 @@
 
 use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{InstBuilder, types};
-use program::{Binder, BinderList, ProcedureId, Rule, RuleId, Slot, TermId, TermList};
+use model::Basic;
+use program::{Binder, BinderList, DomainKind, ProcedureId, Rule, RuleId, Slot, Term, TermId, TermList};
 
 use crate::native::context::Offset;
 use crate::native::helper::Helper;
@@ -18,7 +19,6 @@ impl Translator<'_, '_> {
             Rule::Skip => {}
             Rule::Update { function, arguments, value } => self.statement(|this| {
                 let value = this.term(*value);
-                let value = this.outlasting(value);
                 let arguments = this.arguments(*arguments);
                 this.update(*function, &arguments, value, id);
             }),
@@ -123,13 +123,13 @@ impl Translator<'_, '_> {
         }
     }
 
-    /// An operand that stays valid while others are evaluated.
-    fn outlasting(&mut self, operand: Operand) -> Operand {
-        operand
-    }
-
     /// A guard as a statement of its own: what it kept is forgotten on both ways.
-    fn guard_statement(&mut self, guard: TermId, then: cranelift_codegen::ir::Block, next: cranelift_codegen::ir::Block) {
+    fn guard_statement(
+        &mut self,
+        guard: TermId,
+        then: cranelift_codegen::ir::Block,
+        next: cranelift_codegen::ir::Block,
+    ) {
         let before = std::mem::replace(&mut self.keeps, false);
         let mark = self.field(Offset::temporary);
         let (yes, no) = (self.block(), self.block());
@@ -181,6 +181,17 @@ impl Translator<'_, '_> {
         let (spill, values) = self.spill(slots);
         let rule = self.word(i64::from(id.0));
         self.call_or_bail(Helper::Perform, &[self.context, rule, spill, values]);
+    }
+
+    /// The main rule of the program.
+    pub fn main(&mut self, main: ProcedureId) {
+        self.frames.push(Frame {
+            unit: UnitKey::Procedure(main),
+            size: self.program.procedure(main).frame,
+            slots: Vec::new(),
+        });
+        self.rule(self.program.procedure(main).body);
+        self.frames.pop();
     }
 
     // ---- calls
@@ -296,6 +307,15 @@ impl Translator<'_, '_> {
     ) {
         let binders: &[Binder] = self.program.binder_list(binders);
         let variables = binders.len() as i64;
+        let infinite = |binder: &Binder| match self.program.term(binder.range) {
+            Term::Domain(domain) => {
+                matches!(self.program.domain(*domain).kind, DomainKind::Basic(basic) if basic != Basic::Boolean)
+            }
+            _ => false,
+        };
+        if binders.iter().any(infinite) {
+            return self.interpreted_rule(id);
+        }
         self.statement(|this| {
             this.each_binding(binders, &mut |this| {
                 let (fits, next) = (this.block(), this.block());

@@ -7,7 +7,7 @@
 
 use std::mem::ManuallyDrop;
 
-use program::{DomainId, DomainKind, FunctionId, RuleId, Term, TermId};
+use program::{DomainId, FunctionId, RuleId, Term, TermId};
 use smallvec::SmallVec;
 use syntax::{FileId, Span};
 
@@ -99,20 +99,16 @@ pub unsafe extern "C" fn read(
 }
 
 /// The number of a location about to be updated.
-pub unsafe extern "C" fn locate(
-    context: Pointer,
-    function: i64,
-    arguments: *const *const Value,
-    count: u64,
-) -> i64 {
+pub unsafe extern "C" fn locate(context: Pointer, function: i64, arguments: *const *const Value, count: u64) -> i64 {
     // SAFETY: see `grow`.
     unsafe {
         let arguments = borrow(arguments, count);
         let function = FunctionId(function as u32);
         Context::with(context, |executor, _| {
-            if executor.core.initials[function.0 as usize].is_some()
-                && executor.read(function, slice(&arguments), NOWHERE).is_err()
-            {
+            let found = executor.core.store.find(function, slice(&arguments));
+            let initial = executor.core.initials[function.0 as usize].is_some()
+                && found.is_none_or(|index| executor.core.store.given[index as usize] == 0);
+            if initial && executor.read(function, slice(&arguments), NOWHERE).is_err() {
                 return -1;
             }
             if executor.core.store.len() as u64 > executor.limits.locations {
@@ -133,12 +129,7 @@ pub unsafe extern "C" fn member(context: Pointer, function: i64, value: *const V
 }
 
 /// Applies a library function, or builds a tuple or collection.
-pub unsafe extern "C" fn apply(
-    context: Pointer,
-    term: i64,
-    operands: *const *const Value,
-    count: u64,
-) -> *const Value {
+pub unsafe extern "C" fn apply(context: Pointer, term: i64, operands: *const *const Value, count: u64) -> *const Value {
     // SAFETY: see `grow`.
     unsafe {
         let operands = borrow(operands, count);
@@ -369,7 +360,7 @@ pub unsafe extern "C" fn choose(context: Pointer, rule: i64, variables: u64) -> 
             }
             let span = executor.program.rule_span(RuleId(rule as u32));
             let choice = Choice { span, values, variables: variables as usize };
-            match executor.core.choices.choose(executor.environment, executor.program, &choice) {
+            match executor.core.choices.choose(&mut *executor.environment, executor.program, &choice) {
                 Ok(chosen) if chosen < count => chosen as i64,
                 _ => -1,
             }
@@ -429,11 +420,6 @@ pub unsafe extern "C" fn keep_derived(context: Pointer, place: i64, mark: i64, v
         let value = (*value).clone();
         Context::with(context, |executor, _| executor.core.memo.keep((place as u32, mark as u64), value));
     }
-}
-
-/// Whether the domain is one whose elements are numbered without gaps now.
-pub(super) fn is_plain_abstract(executor: &Executor<'_>, domain: DomainId) -> bool {
-    matches!(&executor.program.domain(domain).kind, DomainKind::Abstract { dynamic: false, .. })
 }
 
 impl Tables {

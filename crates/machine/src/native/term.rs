@@ -5,6 +5,7 @@ use cranelift_codegen::ir::{self, Block, InstBuilder, types};
 use cranelift_frontend::Variable;
 use program::{Builtin, CollectionKind, FunctionId, Quantifier, Term, TermId, TermList};
 
+use crate::native::context::Offset;
 use crate::native::helper::Helper;
 use crate::native::shape::{Bound, Kind, Operand, Scalar};
 use crate::native::translate::{Frame, Translator, UnitKey};
@@ -71,9 +72,7 @@ impl Translator<'_, '_> {
                 self.bind(*slot, bound);
                 self.term(*body)
             }
-            Term::Quantified { quantifier, binders, condition } => {
-                self.quantified(*quantifier, *binders, *condition)
-            }
+            Term::Quantified { quantifier, binders, condition } => self.quantified(*quantifier, *binders, *condition),
             Term::Tuple(list) | Term::Collection { elements: list, .. } => {
                 let operands = self.terms(*list);
                 self.apply(id, &operands)
@@ -106,7 +105,8 @@ impl Translator<'_, '_> {
 
     fn constant(&mut self, index: u32) -> Operand {
         let pointer: *const Value = &self.plan.constants[index as usize];
-        let (kind, n) = match &self.plan.constants[index as usize] {
+        let constants = std::sync::Arc::clone(&self.plan.constants);
+        let (kind, n) = match &constants[index as usize] {
             Value::Undef => return Operand::Undef,
             Value::Real(real) => {
                 let value = self.builder.ins().f64const(real.get());
@@ -306,9 +306,7 @@ impl Translator<'_, '_> {
             },
             (Operand::Scalar(a), Operand::Scalar(b)) if a.kind == b.kind => {
                 let same = match a.kind {
-                    Kind::Real => {
-                        self.builder.ins().fcmp(ir::condcodes::FloatCC::Equal, a.value, b.value)
-                    }
+                    Kind::Real => self.builder.ins().fcmp(ir::condcodes::FloatCC::Equal, a.value, b.value),
                     _ => self.builder.ins().icmp(IntCC::Equal, a.value, b.value),
                 };
                 match (a.flag, b.flag) {
@@ -364,6 +362,7 @@ impl Translator<'_, '_> {
         let zero = self.word(0);
         self.set(count, zero);
         let done = self.block();
+        let (mark, keepers) = (self.field(Offset::temporary), self.keepers);
         // Counts the witnesses of an existential formula, the counterexamples of a universal one.
         self.each_binding(program.binder_list(binders), &mut |this| {
             let (witness, next) = (this.block(), this.block());
@@ -387,6 +386,10 @@ impl Translator<'_, '_> {
         });
         self.jump(done);
         self.switch(done);
+        // A loop that is left early has not ended its statements.
+        if self.keepers > keepers {
+            self.release(mark);
+        }
         let count = self.get(count);
         let wanted = if quantifier == Quantifier::Forall { 0 } else { 1 };
         let value = self.builder.ins().icmp_imm(IntCC::Equal, count, wanted);

@@ -6,9 +6,7 @@
 //! in one place. INVARIANT: inputs and choices are asked for in the interpreter's order.
 
 use cranelift_codegen::ir::condcodes::IntCC;
-use cranelift_codegen::ir::{
-    self, Block, FuncRef, InstBuilder, MemFlags, StackSlotData, StackSlotKind, Type, types,
-};
+use cranelift_codegen::ir::{self, Block, FuncRef, InstBuilder, MemFlags, StackSlotData, StackSlotKind, Type, types};
 use cranelift_frontend::{FunctionBuilder, Variable};
 use cranelift_jit::JITModule;
 use program::{DomainId, FunctionId, ProcedureId, Program, TermId};
@@ -51,6 +49,8 @@ pub(super) struct Translator<'t, 'f> {
     pub agent: Option<Scalar>,
     /// A compound value was kept since the last mark.
     pub keeps: bool,
+    /// How many places have been translated that keep one.
+    pub keepers: usize,
     /// Terms and rules translated into this function.
     pub weight: usize,
     references: Vec<(Helper, FuncRef)>,
@@ -77,6 +77,7 @@ impl<'t, 'f> Translator<'t, 'f> {
             frames: Vec::new(),
             agent: None,
             keeps: false,
+            keepers: 0,
             weight: 0,
             references: Vec::new(),
         }
@@ -200,10 +201,16 @@ impl<'t, 'f> Translator<'t, 'f> {
     /// Calls a helper that gives a pointer, null where the step cannot go on. The value lives as long as the
     /// statement.
     pub fn call_for_value(&mut self, helper: Helper, arguments: &[ir::Value]) -> ir::Value {
-        self.keeps = true;
+        self.note_kept();
         let pointer = self.call(helper, arguments);
         self.require(pointer);
         pointer
+    }
+
+    /// Code that keeps a compound value has been translated.
+    pub fn note_kept(&mut self) {
+        self.keeps = true;
+        self.keepers += 1;
     }
 
     /// Calls a helper that gives a status, not zero where the step cannot go on.

@@ -250,7 +250,7 @@ impl Translator<'_, '_> {
                 Operand::Scalar(Scalar { kind, value: results[1], flag: Some(results[0]), range: None })
             }
             None => {
-                self.keeps = true;
+                self.note_kept();
                 self.require(results[0]);
                 match wanted {
                     Some(kind) => Operand::Scalar(self.unboxed(results[0], kind)),

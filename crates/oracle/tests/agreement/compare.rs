@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use machine::{FaultKind, Limits, Machine};
+use machine::{EngineChoice, FaultKind, Limits, Machine};
 use model::{DomainKind, Model, PropertyKind};
 use oracle::{Bounds, Fault, Location, Oracle, Symbol, Value};
 use program::Program;
@@ -20,6 +20,8 @@ pub struct Plan {
     pub steps: u64,
     /// Of both.
     pub bounds: Bounds,
+    /// Of the machine.
+    pub engine: EngineChoice,
 }
 
 /// What was run in agreement.
@@ -67,6 +69,7 @@ pub fn run(model: &Model, program: Program, plan: Plan) -> Result<Outcome, Disag
         program,
         outcome: Outcome::default(),
     };
+    pair.machine.use_engine(plan.engine);
     let world = World::new(model, &mut pair.oracle, plan.seed);
     if !pair.together(
         "start",

@@ -20,6 +20,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use compare::{Disagreement, Outcome, Plan};
 use files::{Disk, NoFiles};
+use machine::EngineChoice;
 use oracle::Bounds;
 use syntax::{Severity, SourceFile};
 
@@ -109,7 +110,8 @@ fn random_models() {
             }
             let seed = first + case;
             let bounds = Bounds { iterations: 200, depth: 50, elements: 2000 };
-            let plan = Plan { seed, steps: 6, bounds };
+            let engine = if seed.is_multiple_of(3) { EngineChoice::Interpreted } else { EngineChoice::Compiled };
+            let plan = Plan { seed, steps: 6, bounds, engine };
             if std::env::var("GROUNDSTATE_TRACE").is_ok() {
                 eprintln!("begin {seed}");
             }
@@ -165,8 +167,9 @@ fn random_models() {
 #[test]
 fn models_of_the_library_and_the_examples() {
     let mut run = 0;
-    for path in files::models() {
-        let plan = Plan { seed: 1, steps: setting("GROUNDSTATE_STEPS", 50), bounds: Bounds::default() };
+    let engines = [EngineChoice::Interpreted, EngineChoice::Compiled];
+    for (path, engine) in files::models().into_iter().flat_map(|path| engines.map(|engine| (path.clone(), engine))) {
+        let plan = Plan { seed: 1, steps: setting("GROUNDSTATE_STEPS", 50), bounds: Bounds::default(), engine };
         let name = path.display().to_string();
         let text = std::fs::read_to_string(&path).expect("a readable file");
         let found = deep(|| {
