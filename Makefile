@@ -29,8 +29,8 @@ scenarios: $(GROUNDSTATE)
 fuzz: ## the fuzz targets, for a short time
 	sh fuzz/run.sh 15
 
-bench: ## steps per second and peak memory of this project's models
-	$(CARGO) xtask bench
+bench: ## steps per second and peak memory; with CORPUS=path also of the public models with a reference
+	$(CARGO) xtask bench $(if $(CORPUS),--corpus $(CORPUS))
 
 corpus: ## make corpus CORPUS=path: compare with recorded results of the public corpus
 	$(CARGO) xtask corpus $(CORPUS)

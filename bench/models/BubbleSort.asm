@@ -1,5 +1,5 @@
-/* Bubble sort, one swap a step: any two neighbours in the wrong order change places until none are left, then the
-   array is turned round again. The twin of ../native/bubble_sort.cpp, step by step. */
+/* Bubble sort, one swap a step: any two neighbours in the wrong order change places until none are left.
+   The twin of ../native/bubble_sort.cpp, step by step. */
 asm BubbleSort
 
 import ../../library/std/StandardLibrary
@@ -23,9 +23,6 @@ definitions:
 				a($i + 1) := a($i)
 				swaps := swaps + 1
 			endpar
-		ifnone
-			forall $j in Index with true do
-				a($j) := 63 - $j
 
 default init s0:
 	function a($i in Index) = 63 - $i

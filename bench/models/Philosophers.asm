@@ -12,23 +12,17 @@ signature:
 	controlled eating: Philosopher -> Boolean
 	controlled hungry: Philosopher -> Boolean
 	controlled meals: Integer
+	controlled steps: Integer
 
 definitions:
 	domain Philosopher = { 0 : 4 }
 
 	main rule r_Main =
-		choose $p in Philosopher with true do
-			let ($right = ($p + 1) mod 5) in
-				if eating($p) then
+		par
+			choose $p in Philosopher with true do
+				let ($right = ($p + 1) mod 5) in
 					par
-						owner($p) := undef
-						owner($right) := undef
-						eating($p) := false
-						hungry($p) := false
-					endpar
-				else
-					if hungry($p) then
-						if isUndef(owner($p)) and isUndef(owner($right)) then
+						if hungry($p) and not eating($p) and isUndef(owner($p)) and isUndef(owner($right)) then
 							par
 								owner($p) := $p
 								owner($right) := $p
@@ -36,13 +30,24 @@ definitions:
 								meals := meals + 1
 							endpar
 						endif
-					else
-						hungry($p) := true
-					endif
-				endif
-			endlet
+						if eating($p) then
+							par
+								owner($p) := undef
+								owner($right) := undef
+								eating($p) := false
+								hungry($p) := false
+							endpar
+						endif
+						if not hungry($p) and not eating($p) then
+							hungry($p) := true
+						endif
+					endpar
+				endlet
+			steps := steps + 1
+		endpar
 
 default init s0:
 	function eating($p in Philosopher) = false
 	function hungry($p in Philosopher) = true
 	function meals = 0
+	function steps = 0

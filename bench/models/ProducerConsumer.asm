@@ -18,6 +18,7 @@ signature:
 	controlled taken: Slot
 	controlled item: Integer
 	controlled total: Integer
+	controlled steps: Integer
 
 definitions:
 	domain Array = { 0 : 1 }
@@ -68,6 +69,7 @@ definitions:
 			r_produce[]
 			r_consume[]
 			r_swap[]
+			steps := steps + 1
 		endpar
 
 default init s0:
@@ -79,3 +81,4 @@ default init s0:
 	function taken = 0
 	function item = 1
 	function total = 0
+	function steps = 0

@@ -1,16 +1,11 @@
 // Five philosophers, one chosen a step: the twin of ../models/Philosophers.asm.
 #include "driver.hpp"
 
-// One update of a location, as it stands in an update set.
-struct Update {
-    int* location;
-    int value;
-};
-
 struct Philosophers {
     static constexpr int nobody = -1;
     int owner[5], eating[5] = {}, hungry[5];
     int meals = 0;
+    volatile long steps = 0;
     Random random;
 
     Philosophers() {
@@ -19,24 +14,23 @@ struct Philosophers {
 
     void step() {
         const int p = static_cast<int>(random.below(5)), right = (p + 1) % 5;
-        Update updates[8];
+        Update updates[16];
         int count = 0;
+        if (hungry[p] && !eating[p] && owner[p] == nobody && owner[right] == nobody) {
+            updates[count++] = {&owner[p], p};
+            updates[count++] = {&owner[right], p};
+            updates[count++] = {&eating[p], 1};
+            updates[count++] = {&meals, meals + 1};
+        }
         if (eating[p]) {
             updates[count++] = {&owner[p], nobody};
             updates[count++] = {&owner[right], nobody};
             updates[count++] = {&eating[p], 0};
             updates[count++] = {&hungry[p], 0};
-        } else if (hungry[p]) {
-            if (owner[p] == nobody && owner[right] == nobody) {
-                updates[count++] = {&owner[p], p};
-                updates[count++] = {&owner[right], p};
-                updates[count++] = {&eating[p], 1};
-                updates[count++] = {&meals, meals + 1};
-            }
-        } else {
-            updates[count++] = {&hungry[p], 1};
         }
+        if (!hungry[p] && !eating[p]) updates[count++] = {&hungry[p], 1};
         for (int i = 0; i < count; ++i) *updates[i].location = updates[i].value;
+        steps = steps + 1;
     }
 
     void print() const {
@@ -47,11 +41,8 @@ struct Philosophers {
                 std::printf("owner(%d)=%d\n", i, owner[i]);
             std::printf("eating(%d)=%s\nhungry(%d)=%s\n", i, eating[i] ? "true" : "false", i, hungry[i] ? "true" : "false");
         }
-        std::printf("meals=%d\n", meals);
+        std::printf("meals=%d\nsteps=%ld\n", meals, steps);
     }
 };
 
-int main(int argc, char** argv) {
-    Philosophers program;
-    return run(argc, argv, program);
-}
+int main(int argc, char** argv) { return run<Philosophers>(argc, argv); }

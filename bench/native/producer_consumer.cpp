@@ -1,16 +1,11 @@
 // A producer and a consumer over a swinging buffer: the twin of ../models/ProducerConsumer.asm.
 #include "driver.hpp"
 
-// One update of a location, as it stands in an update set.
-struct Update {
-    int* location;
-    int value;
-};
-
 struct ProducerConsumer {
     enum Mode { busy, done };
     int buffer[2][8] = {};
     int producer = busy, consumer = done, front = 0, written = 0, taken = 0, item = 1, total = 0;
+    volatile long steps = 0;
 
     void step() {
         Update updates[16];
@@ -40,17 +35,15 @@ struct ProducerConsumer {
             updates[count++] = {&consumer, busy};
         }
         for (int i = 0; i < count; ++i) *updates[i].location = updates[i].value;
+        steps = steps + 1;
     }
 
     void print() const {
         for (int a = 0; a < 2; ++a)
             for (int s = 0; s < 8; ++s) std::printf("buffer(%d,%d)=%d\n", a, s, buffer[a][s]);
         std::printf("producer=%s\nconsumer=%s\n", producer == busy ? "BUSY" : "DONE", consumer == busy ? "BUSY" : "DONE");
-        std::printf("front=%d\nwritten=%d\ntaken=%d\nitem=%d\ntotal=%d\n", front, written, taken, item, total);
+        std::printf("front=%d\nwritten=%d\ntaken=%d\nitem=%d\ntotal=%d\nsteps=%ld\n", front, written, taken, item, total, steps);
     }
 };
 
-int main(int argc, char** argv) {
-    ProducerConsumer program;
-    return run(argc, argv, program);
-}
+int main(int argc, char** argv) { return run<ProducerConsumer>(argc, argv); }

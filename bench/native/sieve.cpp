@@ -5,18 +5,20 @@
 
 struct Sieve {
     std::vector<int> x, next;
-    std::vector<char> composite;
+    std::vector<char> composite, marked;
     long p = 2;
 
-    Sieve() : x(10000), next(10000), composite(10001) {
+    Sieve() : x(10000), next(10000), composite(10001), marked(10001) {
         for (int i = 0; i < 10000; ++i) x[i] = i;
     }
 
     void step() {
         for (int i = 0; i < 10000; ++i) next[i] = (x[i] * 75 + 74) % 65537;
-        if (p <= 10000 && !composite[p])
-            for (long k = 2; k <= 5000; ++k)
-                if (p * k <= 10000) composite[p * k] = 1;
+        if (p <= 10000 && !composite[p]) {
+            for (int k = 2; k <= 5000; ++k)
+                if (p * k <= 10000) marked[p * k] = 1;
+            composite = marked;
+        }
         x.swap(next);
         ++p;
     }
@@ -28,7 +30,4 @@ struct Sieve {
     }
 };
 
-int main(int argc, char** argv) {
-    Sieve program;
-    return run(argc, argv, program);
-}
+int main(int argc, char** argv) { return run<Sieve>(argc, argv); }

@@ -1,7 +1,9 @@
 //! `groundstate bench MODEL…`: steps per second and peak memory.
 //!
-//! A model is warmed up, then stepped for several windows with random inputs, its state going on from one to the
-//! next; where it cannot go on it starts again. Median and spread are over the windows.
+//! A model is warmed up by a fixed number of steps, then stepped for several windows with random inputs, its state
+//! going on from one to the next; where it cannot go on it starts again. Median and spread are over the windows. The
+//! digest is of the state after the fixed steps: with the same seed it is the same in every run and on every engine.
+//! How many steps changed the state says whether the model worked at all or had come to rest.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -9,7 +11,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use groundstate::simulate::{Bounds, Choices, Inputs, Invariants, Options, RandomSource, Run};
+use groundstate::simulate::{Bounds, Choices, Inputs, Invariants, Options, Passed, RandomSource, Run};
+use machine::{Machine, Show};
 use program::Program;
 use serde::Serialize;
 
@@ -25,8 +28,11 @@ pub struct Arguments {
     /// Models
     #[arg(required = true, value_name = "MODEL")]
     models: Vec<PathBuf>,
-    /// How many windows
-    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..=1_000))]
+    /// How many steps are made before the first window; the digest is of the state after them
+    #[arg(long, value_name = "N", default_value_t = 1_000, value_parser = clap::value_parser!(u64).range(1..))]
+    steps: u64,
+    /// How many windows; with 0 the steps before them are what is measured
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(0..=1_000))]
     windows: u32,
     /// The length of a window, in milliseconds
     #[arg(long, value_name = "MS", default_value_t = 300)]
@@ -48,6 +54,12 @@ struct Measured {
     lowest: f64,
     highest: f64,
     windows: u32,
+    /// The steps that the digest is after.
+    steps: u64,
+    digest: String,
+    /// Of all steps, how many in a hundred changed the state.
+    changed_percent: f64,
+    updates_per_step: f64,
     restarts: u64,
     load_ms: f64,
     peak_memory_mb: Option<f64>,
@@ -57,7 +69,12 @@ struct Measured {
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     interrupt::listen();
     if shell.talks() {
-        writeln!(shell.out(), "{:>12} {:>22} {:>9} {:>9}  model", "steps/s", "lowest..highest", "load ms", "peak MB")?;
+        let names = ["steps/s", "lowest..highest", "changed", "updates", "load ms", "peak MB", "digest"];
+        let [rate, spread, changed, updates, load, peak, digest] = names;
+        writeln!(
+            shell.out(),
+            "{rate:>12} {spread:>22} {changed:>7} {updates:>7} {load:>7} {peak:>7} {digest:>16}  model"
+        )?;
     }
     for path in &arguments.models {
         if interrupt::asked() {
@@ -89,13 +106,21 @@ fn measure(
     load_ms: f64,
 ) -> Result<Measured, Failure> {
     let window = Duration::from_millis(arguments.window_ms.max(1));
-    let mut stepper = Stepper { shell, arguments, program, run: None, seed: arguments.seed, restarts: 0, chunk: 1 };
-    stepper.window(path, window)?;
+    let mut stepper = Stepper::new(shell, arguments, program, path);
+    let first = stepper.part(Until::Steps(arguments.steps))?;
+    let digest = stepper.run.as_ref().map_or(0, |run| digest(run.machine()));
     let mut rates = Vec::new();
+    if arguments.windows == 0 {
+        rates.push(first);
+    } else {
+        stepper.part(Until::Time(window))?;
+    }
     for _ in 0..arguments.windows {
-        rates.push(stepper.window(path, window)?);
+        rates.push(stepper.part(Until::Time(window))?);
     }
     rates.sort_by(f64::total_cmp);
+    let Stepper { total, restarts, .. } = stepper;
+    let steps = total.steps.max(1) as f64;
     Ok(Measured {
         r#type: "bench",
         model: path.display().to_string(),
@@ -103,65 +128,105 @@ fn measure(
         lowest: rates[0],
         highest: rates[rates.len() - 1],
         windows: arguments.windows,
-        restarts: stepper.restarts,
+        steps: arguments.steps,
+        digest: format!("{digest:016x}"),
+        changed_percent: total.changed as f64 / steps * 100.0,
+        updates_per_step: total.updates as f64 / steps,
+        restarts,
         load_ms,
         peak_memory_mb: peak_memory_mb(),
     })
+}
+
+/// FNV-1a over all locations and values of the state, as they would be written.
+fn digest(machine: &Machine) -> u64 {
+    let mut hash = 0xcbf2_9ce4_8422_2325u64;
+    for (location, value) in machine.locations() {
+        let text = format!("{}={}\n", location.show(machine.program()), value.show(machine.program()));
+        for byte in text.bytes() {
+            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+    hash
+}
+
+/// How long a part of the measurement lasts.
+#[derive(Clone, Copy)]
+enum Until {
+    Steps(u64),
+    Time(Duration),
 }
 
 struct Stepper<'a> {
     shell: &'a Shell,
     arguments: &'a Arguments,
     program: Arc<Program>,
+    path: &'a Path,
     run: Option<Run>,
     seed: u64,
     restarts: u64,
+    /// What all steps did.
+    total: Passed,
     /// How many steps are made between two looks at the clock.
     chunk: u64,
 }
 
-impl Stepper<'_> {
+impl<'a> Stepper<'a> {
+    fn new(shell: &'a Shell, arguments: &'a Arguments, program: Arc<Program>, path: &'a Path) -> Self {
+        let (run, seed, total) = (None, arguments.seed, Passed::default());
+        Stepper { shell, arguments, program, path, run, seed, restarts: 0, total, chunk: 1 }
+    }
+
     /// Steps for a while and gives the rate. A start is not timed.
-    fn window(&mut self, path: &Path, window: Duration) -> Result<f64, Failure> {
+    fn part(&mut self, until: Until) -> Result<f64, Failure> {
         let mut steps = 0u64;
         let mut spent = Duration::ZERO;
         let mut fruitless = 0;
-        while spent < window && !interrupt::asked() {
+        let over = |steps: u64, spent: Duration| match until {
+            Until::Steps(wanted) => steps >= wanted,
+            Until::Time(window) => spent >= window,
+        };
+        while !over(steps, spent) && !interrupt::asked() {
             let mut run = match self.run.take() {
                 Some(run) => run,
                 None => self.start(),
             };
             let before = steps;
             let began = Instant::now();
+            let mut now = Duration::ZERO;
             let ended = loop {
-                let looked = began.elapsed();
-                let passed = run.pass(self.chunk);
+                let wanted = match until {
+                    Until::Steps(wanted) => self.chunk.min(wanted - steps),
+                    Until::Time(_) => self.chunk,
+                };
+                let passed = run.pass(wanted);
                 steps += passed.steps;
-                let now = began.elapsed();
-                if passed.steps < self.chunk {
+                self.total += passed;
+                let looked = std::mem::replace(&mut now, began.elapsed());
+                if passed.steps < wanted {
                     break true;
                 }
                 // The clock is looked at every tenth of a millisecond or so.
-                if now - looked < Duration::from_micros(50) {
+                if now - looked < Duration::from_micros(50) && wanted == self.chunk {
                     self.chunk *= 2;
                 }
-                if spent + now >= window {
+                if over(steps, spent + now) || interrupt::asked() {
                     break false;
                 }
             };
-            spent += began.elapsed();
+            spent += now;
             if ended {
                 self.restarts += 1;
                 fruitless = if steps == before { fruitless + 1 } else { 0 };
                 if fruitless > 100 {
-                    let message = format!("{} cannot make a step with random inputs", path.display());
+                    let message = format!("{} cannot make a step with random inputs", self.path.display());
                     return Err(Failure::usage_with_help(message, "`groundstate run --random` shows why"));
                 }
             } else {
                 self.run = Some(run);
             }
         }
-        Ok(steps as f64 / spent.as_secs_f64())
+        Ok(steps as f64 / spent.as_secs_f64().max(1e-9))
     }
 
     fn start(&mut self) -> Run {
@@ -198,11 +263,14 @@ fn show(shell: &mut Shell, measured: &Measured) -> Result<(), Failure> {
         1 => " (restarted once)".to_string(),
         many => format!(" (restarted {many} times)"),
     };
+    let changed = format!("{:.0} %", measured.changed_percent);
     writeln!(
         shell.out(),
-        "{:>12} {spread:>22} {:>9.1} {memory:>9}  {}{restarts}",
+        "{:>12} {spread:>22} {changed:>7} {:>7.1} {:>7.1} {memory:>7} {:>16}  {}{restarts}",
         round(measured.steps_per_second),
+        measured.updates_per_step,
         measured.load_ms,
+        measured.digest,
         measured.model,
     )?;
     Ok(())

@@ -95,6 +95,14 @@ pub struct Passed {
     pub updates: u64,
 }
 
+impl std::ops::AddAssign for Passed {
+    fn add_assign(&mut self, more: Passed) {
+        self.steps += more.steps;
+        self.changed += more.changed;
+        self.updates += more.updates;
+    }
+}
+
 impl Passed {
     fn count(&mut self, step: &StepRecord) {
         self.steps += 1;

@@ -17,6 +17,8 @@ pub struct Measured {
     pub lowest: f64,
     /// The fastest window.
     pub highest: f64,
+    /// Of a hundred steps, how many changed the state.
+    pub changed_percent: f64,
     /// How often the model could not go on and began again.
     pub restarts: u64,
     /// Reading, checking and lowering.
@@ -30,9 +32,22 @@ pub struct Measured {
 /// # Errors
 /// What the command says against the model.
 pub fn measure(binary: &Path, model: &Path, effort: Effort) -> Result<Measured, Failure> {
+    let (windows, window) = (effort.windows.to_string(), effort.window_ms.to_string());
+    bench(binary, model, &["--windows", &windows, "--window-ms", &window])
+}
+
+/// Makes so many steps of one model, with random inputs, and measures them as a whole.
+///
+/// # Errors
+/// What the command says against the model.
+pub fn make_steps(binary: &Path, model: &Path, steps: u64) -> Result<Measured, Failure> {
+    bench(binary, model, &["--windows", "0", "--steps", &steps.to_string()])
+}
+
+fn bench(binary: &Path, model: &Path, options: &[&str]) -> Result<Measured, Failure> {
     let output = Command::new(binary)
-        .args(["bench", "--format", "json", "--windows", &effort.windows.to_string()])
-        .args(["--window-ms", &effort.window_ms.to_string()])
+        .args(["bench", "--format", "json"])
+        .args(options)
         .arg(model)
         .output()
         .map_err(|error| format!("{} cannot be run: {error}", binary.display()))?;

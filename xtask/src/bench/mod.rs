@@ -5,6 +5,7 @@
 //! clock; wrong results of a twin are a fault. bench/README.md says how each figure is made.
 
 mod command;
+mod memory;
 mod models;
 mod process;
 mod twins;
@@ -44,6 +45,7 @@ pub fn run(words: &[String]) -> Result<Outcome, Failure> {
     println!("{}", describe_machine());
     models::own(&binary, effort, only)?;
     process::whole(&binary, effort, only)?;
+    memory::peaks(&binary, if quick { 10_000 } else { 1_000_000 }, only)?;
     let twins = twins::compare(effort, only)?;
     if let Some(corpus) = arguments.option("--corpus") {
         models::reference(&binary, effort, Path::new(corpus), only)?;

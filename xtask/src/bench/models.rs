@@ -43,7 +43,8 @@ pub fn own(binary: &Path, effort: Effort, only: &str) -> Result<(), Failure> {
     }
     if !rows.is_empty() {
         println!("Steps per second on one core, random inputs, invariants not evaluated\n");
-        println!("{}", table(&["model", "steps/s", "lowest", "highest", "restarts", "load ms", "peak MB"], &rows));
+        let head = ["model", "steps/s", "lowest", "highest", "changed %", "restarts", "load ms", "peak MB"];
+        println!("{}", table(&head, &rows));
     }
     Ok(())
 }
@@ -54,6 +55,7 @@ fn row(model: &str, measured: &Measured) -> Vec<String> {
         figure(measured.steps_per_second),
         figure(measured.lowest),
         figure(measured.highest),
+        figure(measured.changed_percent),
         measured.restarts.to_string(),
         figure(measured.load_ms),
         measured.peak_memory_mb.map_or_else(|| "?".to_string(), figure),
@@ -80,16 +82,18 @@ pub fn reference(binary: &Path, effort: Effort, corpus: &Path, only: &str) -> Re
             Ok(measured) => {
                 let ratio = measured.steps_per_second / reference.steps_per_second;
                 ratios.push(ratio);
-                let cells = [figure(measured.steps_per_second), peer, figure(ratio)];
+                let (here, changed) = (figure(measured.steps_per_second), figure(measured.changed_percent));
+                let cells = [here, peer, figure(ratio), changed, measured.restarts.to_string()];
                 rows.push([reference.name.clone()].into_iter().chain(cells).collect());
             }
             Err(reason) => rows.push(vec![reference.name.clone(), format!("({reason})"), peer]),
         }
     }
     println!("Models of the public corpus against the peer's published figures\n");
-    println!("{}", table(&["model", "steps/s", "peer", "times"], &rows));
+    println!("{}", table(&["model", "steps/s", "peer", "times", "changed %", "restarts"], &rows));
     if let Some(mean) = geometric_mean(&ratios) {
-        println!("geometric mean of {} ratios: {}\n", ratios.len(), figure(mean));
+        let least = ratios.iter().copied().fold(f64::INFINITY, f64::min);
+        println!("{} ratios: geometric mean {}, least {}\n", ratios.len(), figure(mean), figure(least));
     }
     Ok(())
 }

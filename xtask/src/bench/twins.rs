@@ -1,16 +1,17 @@
 //! The five programs: a C++ program and its AsmetaL twin, step by step the same, in one session.
 //!
 //! In: bench/native/*.cpp, compiled with -O2, and bench/models/*.asm. Out: steps per second of both and their ratio.
-//! First both make the same number of steps with the same choices and their final states are compared, location by
-//! location; a difference is a fault. Without g++ there is nothing to compare with, and that is said.
+//! Both make the same number of steps from their initial states with the same choices, again and again for as long as
+//! is measured; their final states are compared, location by location, and a difference is a fault. Without g++ there is
+//! nothing to compare with, and that is said.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-use machine::{Choice, Environment, Limits, LocationRef, Machine, Show, TimeUnit, Value};
+use machine::{Choice, Environment, Limits, LocationRef, Machine, Show, Snapshot, Step, TimeUnit, Value};
 use model::Loader;
 use program::{DomainId, Program};
 use syntax::SourceFile;
@@ -18,13 +19,13 @@ use syntax::SourceFile;
 use super::{Effort, figure, table};
 use crate::{Failure, Outcome, repository};
 
-/// A program, its model, and after how many steps their states are compared.
+/// A program, its model, and how many steps both make from the initial state.
 const TWINS: &[(&str, &str, u64)] = &[
-    ("bubble_sort", "BubbleSort", 5000),
-    ("sieve", "Sieve", 200),
-    ("philosophers", "Philosophers", 20_000),
-    ("life", "Life", 200),
-    ("producer_consumer", "ProducerConsumer", 20_000),
+    ("bubble_sort", "BubbleSort", 20_160),
+    ("sieve", "Sieve", 500),
+    ("philosophers", "Philosophers", 100_000),
+    ("life", "Life", 500),
+    ("producer_consumer", "ProducerConsumer", 100_000),
 ];
 
 /// Compares and measures all twins.
@@ -51,12 +52,13 @@ pub fn compare(effort: Effort, only: &str) -> Result<Outcome, Failure> {
             outcome = Outcome::AtFault;
             continue;
         }
-        let here = engine_rate(&program, effort)?;
-        let there = native_rate(&native, effort)?;
-        rows.push(vec![(*name).to_string(), figure(here), figure(there), figure(there / here)]);
+        let here = engine_rate(&program, *steps, effort)?;
+        let there = native_rate(&native, *steps, effort)?;
+        let cells = [here, there, there / here].map(figure);
+        rows.push([(*name).to_string(), steps.to_string()].into_iter().chain(cells).collect());
     }
     println!("Native twins (g++ -O2), the same steps with the same choices, final states equal\n");
-    println!("{}", table(&["program", "engine steps/s", "native steps/s", "native is … times faster"], &rows));
+    println!("{}", table(&["program", "steps", "engine steps/s", "native steps/s", "native is … times faster"], &rows));
     Ok(outcome)
 }
 
@@ -94,6 +96,12 @@ fn load(model: &str) -> Result<Arc<Program>, Failure> {
 /// xorshift64, the same as in bench/native/driver.hpp. SYNC(random)
 struct Random(u64);
 
+impl Default for Random {
+    fn default() -> Self {
+        Random(88_172_645_463_325_252)
+    }
+}
+
 impl Environment for Random {
     fn monitored(
         &mut self,
@@ -116,25 +124,53 @@ impl Environment for Random {
     }
 }
 
-fn started(program: &Arc<Program>) -> Result<(Machine, Random), Failure> {
-    let mut machine = Machine::new(Arc::clone(program), Limits::default());
-    let mut random = Random(0x2545_F491_4F6C_DD1D);
-    machine.start(&mut random).map_err(|fault| fault.show(program).to_string())?;
-    Ok((machine, random))
+/// A model at its initial state, to which it can go back.
+struct Twin {
+    machine: Machine,
+    initial: Snapshot,
+    random: Random,
+}
+
+impl Twin {
+    fn new(program: &Arc<Program>) -> Result<Twin, Failure> {
+        let mut machine = Machine::new(Arc::clone(program), Limits::default());
+        let mut random = Random::default();
+        machine.start(&mut random).map_err(|fault| fault.show(program).to_string())?;
+        let initial = machine.snapshot();
+        Ok(Twin { machine, initial, random })
+    }
+
+    /// Makes steps. One that has nothing to do (the array is sorted) does not count: the machine goes back to its
+    /// initial state, as the native program does.
+    fn make(&mut self, steps: u64) -> Result<(), Failure> {
+        let mut made = 0;
+        while made < steps {
+            let step = self.machine.step(&mut self.random);
+            match step.map_err(|fault| fault.show(self.machine.program()).to_string())? {
+                Step { updates: 0, .. } => self.machine.restore(&self.initial),
+                _ => made += 1,
+            }
+        }
+        Ok(())
+    }
+
+    fn go_back(&mut self) {
+        self.machine.restore(&self.initial);
+        self.random = Random::default();
+    }
 }
 
 /// The first location in which the two differ after so many steps.
 fn difference(native: &Path, program: &Arc<Program>, steps: u64) -> Result<Option<String>, Failure> {
-    let (mut machine, mut random) = started(program)?;
-    for _ in 0..steps {
-        machine.step(&mut random).map_err(|fault| fault.show(program).to_string())?;
-    }
+    let mut twin = Twin::new(program)?;
+    twin.make(steps)?;
+    let machine = twin.machine;
     let ours: BTreeMap<String, String> = machine
         .locations()
         .iter()
         .map(|(location, value)| (location.show(program).to_string(), value.show(program).to_string()))
         .collect();
-    let (_, theirs) = run_native(native, steps)?;
+    let (_, theirs) = run_native(native, steps, 1)?;
     for (location, value) in &theirs {
         let mine = ours.get(location).map_or("undef", String::as_str);
         if mine != value {
@@ -146,8 +182,8 @@ fn difference(native: &Path, program: &Arc<Program>, steps: u64) -> Result<Optio
 }
 
 /// The seconds a native program took, and its final state.
-fn run_native(native: &Path, steps: u64) -> Result<(f64, Vec<(String, String)>), Failure> {
-    let output = Command::new(native).arg(steps.to_string()).output();
+fn run_native(native: &Path, steps: u64, rounds: u64) -> Result<(f64, Vec<(String, String)>), Failure> {
+    let output = Command::new(native).args([steps.to_string(), rounds.to_string()]).output();
     let output = output.map_err(|error| format!("{}: {error}", native.display()))?;
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let seconds = text.lines().find_map(|line| line.strip_prefix("# seconds ")).and_then(|rest| rest.parse().ok());
@@ -155,33 +191,35 @@ fn run_native(native: &Path, steps: u64) -> Result<(f64, Vec<(String, String)>),
     Ok((seconds.ok_or("a native program does not tell its time")?, values.collect()))
 }
 
-/// The median of the windows, each at least as long as asked for.
-fn engine_rate(program: &Arc<Program>, effort: Effort) -> Result<f64, Failure> {
-    let (mut machine, mut random) = started(program)?;
+/// The median of the windows, each at least as long as asked for: rounds of so many steps from the initial state,
+/// the going back not timed.
+fn engine_rate(program: &Arc<Program>, steps: u64, effort: Effort) -> Result<f64, Failure> {
+    let mut twin = Twin::new(program)?;
     let mut window = || -> Result<f64, Failure> {
-        let (began, mut steps) = (Instant::now(), 0u64);
-        loop {
-            for _ in 0..8 {
-                machine.step(&mut random).map_err(|fault| fault.show(program).to_string())?;
-            }
-            steps += 8;
-            let spent = began.elapsed();
-            if spent.as_millis() as u64 >= effort.window_ms {
-                return Ok(steps as f64 / spent.as_secs_f64());
-            }
+        let (mut spent, mut rounds) = (Duration::ZERO, 0u64);
+        while (spent.as_millis() as u64) < effort.window_ms {
+            twin.go_back();
+            let began = Instant::now();
+            twin.make(steps)?;
+            spent += began.elapsed();
+            rounds += 1;
         }
+        Ok((rounds * steps) as f64 / spent.as_secs_f64())
     };
     window()?;
     median((0..effort.windows.max(1)).map(|_| window()).collect::<Result<Vec<f64>, _>>()?)
 }
 
-fn native_rate(native: &Path, effort: Effort) -> Result<f64, Failure> {
-    let mut steps = 64;
-    // As many steps as fill a window.
-    while run_native(native, steps)?.0 * 1e3 < effort.window_ms as f64 && steps < 1 << 40 {
-        steps *= 2;
+fn native_rate(native: &Path, steps: u64, effort: Effort) -> Result<f64, Failure> {
+    let mut rounds = 1;
+    // As many rounds as fill a window.
+    while run_native(native, steps, rounds)?.0 * 1e3 < effort.window_ms as f64 && rounds < 1 << 32 {
+        rounds *= 2;
     }
-    let rates = (0..effort.windows.max(1)).map(|_| Ok(steps as f64 / run_native(native, steps)?.0));
+    let rates = (0..effort.windows.max(1)).map(|_| {
+        let seconds = run_native(native, steps, rounds)?.0;
+        Ok((rounds * steps) as f64 / seconds)
+    });
     median(rates.collect::<Result<Vec<f64>, Failure>>()?)
 }
 
