@@ -15,8 +15,9 @@ demo: $(GROUNDSTATE) ## check the library, run the complete controller for a sec
 
 test: lint unit scenarios fuzz ## everything that must hold before a change lands
 
-lint:
+lint: $(GROUNDSTATE)
 	$(CARGO) fmt --all --check
+	$(GROUNDSTATE) fmt --check library examples bench/models
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
 
 unit:

@@ -12,9 +12,9 @@ signature:
 	controlled swaps: Integer
 
 definitions:
-	domain Index = { 0 : 63 }
+	domain Index = {0 : 63}
 	// the left one of two neighbours
-	domain Place = { 0 : 62 }
+	domain Place = {0 : 62}
 
 	main rule r_Main =
 		choose $i in Place with a($i) > a($i + 1) do

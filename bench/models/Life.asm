@@ -14,7 +14,7 @@ signature:
 	derived neighbours: Prod(Coordinate, Coordinate) -> Integer
 
 definitions:
-	domain Coordinate = { 0 : 31 }
+	domain Coordinate = {0 : 31}
 
 	function wrap($n in Integer) = ($n + 32) mod 32
 
@@ -22,8 +22,14 @@ definitions:
 		if alive(wrap($x), wrap($y)) then 1 else 0 endif
 
 	function neighbours($x in Coordinate, $y in Coordinate) =
-		count($x - 1, $y - 1) + count($x, $y - 1) + count($x + 1, $y - 1) + count($x - 1, $y)
-		+ count($x + 1, $y) + count($x - 1, $y + 1) + count($x, $y + 1) + count($x + 1, $y + 1)
+		count($x - 1, $y - 1)
+		+ count($x, $y - 1)
+		+ count($x + 1, $y - 1)
+		+ count($x - 1, $y)
+		+ count($x + 1, $y)
+		+ count($x - 1, $y + 1)
+		+ count($x, $y + 1)
+		+ count($x + 1, $y + 1)
 
 	main rule r_Main =
 		par

@@ -15,7 +15,7 @@ signature:
 	controlled steps: Integer
 
 definitions:
-	domain Philosopher = { 0 : 4 }
+	domain Philosopher = {0 : 4}
 
 	main rule r_Main =
 		par

@@ -21,8 +21,8 @@ signature:
 	controlled steps: Integer
 
 definitions:
-	domain Array = { 0 : 1 }
-	domain Slot = { 0 : 7 }
+	domain Array = {0 : 1}
+	domain Slot = {0 : 7}
 
 	rule r_produce =
 		if producer = BUSY then

@@ -14,9 +14,9 @@ signature:
 	controlled p: Integer
 
 definitions:
-	domain Index = { 0 : 9999 }
-	domain Number = { 0 : 10000 }
-	domain Factor = { 2 : 5000 }
+	domain Index = {0 : 9999}
+	domain Number = {0 : 10000}
+	domain Factor = {2 : 5000}
 
 	main rule r_Main =
 		par

@@ -5,8 +5,8 @@ asm CoffeeMachine
 import ../../library/std/StandardLibrary
 
 signature:
-	enum domain Product = { COFFEE | TEA | MILK }
-	enum domain Button = { PUSH_COFFEE | PUSH_TEA | PUSH_MILK | PUSH_RETURN | NO_BUTTON }
+	enum domain Product = {COFFEE | TEA | MILK}
+	enum domain Button = {PUSH_COFFEE | PUSH_TEA | PUSH_MILK | PUSH_RETURN | NO_BUTTON}
 	domain Coin subsetof Integer
 
 	static price: Product -> Integer
@@ -25,7 +25,7 @@ signature:
 	derived canSell: Product -> Boolean
 
 definitions:
-	domain Coin = { 0, 10, 20, 50 }
+	domain Coin = {0, 10, 20, 50}
 
 	function price($p in Product) =
 		switch $p

@@ -18,15 +18,15 @@ signature:
 	derived finished: Boolean
 
 definitions:
-	domain Operand = { 1 : 120 }
+	domain Operand = {1 : 120}
 
 	function divides($d in Integer, $n in Integer) = $n mod $d = 0
 
 	function finished = smaller = 0
 
 	turbo rule r_gcdLoop($a in Integer, $b in Integer) in Integer =
-		local u: Integer [ u := $a ]
-		local v: Integer [ v := $b ]
+		local u: Integer [u := $a]
+		local v: Integer [v := $b]
 		seq
 			while v != 0 do
 				par
@@ -44,8 +44,8 @@ definitions:
 		endif
 
 	// a step keeps the common divisors, so the last non-zero operand is the greatest of them
-	invariant inv_divisors over larger, smaller: eq(commonDivisors,
-		{$d in Operand | divides($d, larger) and divides($d, smaller) : $d})
+	invariant inv_divisors over larger, smaller:
+		eq(commonDivisors, {$d in Operand | divides($d, larger) and divides($d, smaller) : $d})
 	invariant inv_agree over byLoop, byRecursion: byLoop = byRecursion
 	invariant inv_result over larger: not finished or larger = byLoop
 

@@ -17,7 +17,7 @@ signature:
 	derived population: Integer
 
 definitions:
-	domain Coordinate = { 0 : 11 }
+	domain Coordinate = {0 : 11}
 
 	function side = 12
 	function offsets = [(-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1)]

@@ -5,7 +5,7 @@ asm Hanoi
 import ../../library/std/StandardLibrary
 
 signature:
-	enum domain Peg = { LEFT | CENTRE | RIGHT }
+	enum domain Peg = {LEFT | CENTRE | RIGHT}
 
 	monitored target: Peg
 	controlled place: Peg

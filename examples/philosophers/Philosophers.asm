@@ -75,11 +75,12 @@ definitions:
 		endif
 
 	// neighbours share a fork
-	invariant inv_neighbours over owner: not (exists $p in Philosopher, $q in Philosopher with
-		$p != $q and eating($p) and eating($q) and rightFork($p) = leftFork($q))
+	invariant inv_neighbours over owner:
+		not (exists $p in Philosopher, $q in Philosopher with
+			$p != $q and eating($p) and eating($q) and rightFork($p) = leftFork($q))
 	// nobody holds a single fork
-	invariant inv_bothOrNone over owner: (forall $p in Philosopher with
-		(owner(leftFork($p)) = $p) iff (owner(rightFork($p)) = $p))
+	invariant inv_bothOrNone over owner:
+		(forall $p in Philosopher with (owner(leftFork($p)) = $p) iff (owner(rightFork($p)) = $p))
 
 	main rule r_Main =
 		choose $p in Philosopher with true do program($p)

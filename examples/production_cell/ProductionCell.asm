@@ -13,9 +13,9 @@ signature:
 	static press: Device
 	static depositBelt: Device
 
-	enum domain ArmState = { AT_FEED | TO_PRESS_FULL | AT_PRESS | TO_DEPOSIT_FULL }
-	enum domain PressState = { OPEN_EMPTY | CLOSING | FORGING | OPENING | OPEN_FORGED }
-	enum domain Item = { BLANK | PLATE }
+	enum domain ArmState = {AT_FEED | TO_PRESS_FULL | AT_PRESS | TO_DEPOSIT_FULL}
+	enum domain PressState = {OPEN_EMPTY | CLOSING | FORGING | OPENING | OPEN_FORGED}
+	enum domain Item = {BLANK | PLATE}
 
 	// a new blank lies at the start of the feed belt
 	monitored blankArrives: Boolean

@@ -8,7 +8,7 @@ signature:
 	dynamic abstract domain Node
 	static root: Node
 
-	enum domain Order = { GROW | CUT | CLOSE | REST }
+	enum domain Order = {GROW | CUT | CLOSE | REST}
 	monitored order: Order
 
 	controlled successors: Node -> Powerset(Node)

@@ -14,7 +14,7 @@ signature:
 	derived sorted: Boolean
 
 definitions:
-	domain Position = { 1 : 12 }
+	domain Position = {1 : 12}
 
 	function inversions =
 		size({$p in Position, $q in Position | $p < $q and item($p) > item($q) : ($p, $q)})

@@ -80,8 +80,11 @@ default init s0:
 		endswitch
 	// All synchronous tasks begin with tick 0.
 	function task_periodStart($t in Task) =
-		if isDef(vision_period($t)) then - vision_period($t)
-		else if isDef(motion_period($t)) then - motion_period($t) else 0 endif endif
+		if isDef(vision_period($t)) then
+			-vision_period($t)
+		else
+			if isDef(motion_period($t)) then -motion_period($t) else 0 endif
+		endif
 	function task_timeInWait($t in Task) = 0
 	function task_cycles($t in Task) = 0
 	function task_deadlinesMet($t in Task) = 0
@@ -175,8 +178,11 @@ default init s0:
 		endswitch
 	// the operator plans for 30 ms
 	function time($p in SchedulePhase) =
-		if $p = operator_plan then 300
-		else if visionPhase($p) then vision_time($p) else motion_time($p) endif endif
+		if $p = operator_plan then
+			300
+		else
+			if visionPhase($p) then vision_time($p) else motion_time($p) endif
+		endif
 	function nextPhase($p in SchedulePhase) =
 		switch $p
 			case operator_wait: operator_plan

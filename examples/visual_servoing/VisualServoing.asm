@@ -30,7 +30,7 @@ default init s0:
 			case robot_task: 22
 			otherwise undef
 		endswitch
-	function task_periodStart($t in Task) = if isDef(vision_period($t)) then - vision_period($t) else 0 endif
+	function task_periodStart($t in Task) = if isDef(vision_period($t)) then -vision_period($t) else 0 endif
 	function task_timeInWait($t in Task) = 0
 	function task_cycles($t in Task) = 0
 	function task_deadlinesMet($t in Task) = 0
@@ -41,8 +41,11 @@ default init s0:
 
 	function sem_permits($s in Semaphore) = 1
 	function sem_users($s in Semaphore) =
-		if $s = camera_to_vs_lock then [camera_task, visual_servoing_task]
-		else [robot_task, visual_servoing_task] endif
+		if $s = camera_to_vs_lock then
+			[camera_task, visual_servoing_task]
+		else
+			[robot_task, visual_servoing_task]
+		endif
 	function sem_state($s in Semaphore, $t in Task) = READY
 	function sem_illegalPost($s in Semaphore) = false
 	function semaq($s in Semaphore) = []

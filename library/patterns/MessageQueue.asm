@@ -34,7 +34,7 @@ signature:
 	derived mq_sound: MessageQueue -> Boolean
 
 definitions:
-	domain QueueSlot = { 0 : 15 }
+	domain QueueSlot = {0 : 15}
 
 	function mq_length($q in MessageQueue) =
 		mq_sent($q) - mq_taken($q)

@@ -22,12 +22,12 @@ signature:
 	domain Scheduler subsetof Agent
 	abstract domain SchedulePhase
 
-	enum domain PhaseAction = { WAITING_TRIGGER | ELABORATING | WRITING_ON_SB | READING_FROM_SB | SENDING | RECEIVING }
-	enum domain PatternState = { WRITING | READING | MANAGING_SB }
-	enum domain SyncPriority = { MASTER | SLAVE }
+	enum domain PhaseAction = {WAITING_TRIGGER | ELABORATING | WRITING_ON_SB | READING_FROM_SB | SENDING | RECEIVING}
+	enum domain PatternState = {WRITING | READING | MANAGING_SB}
+	enum domain SyncPriority = {MASTER | SLAVE}
 
 	// What a task is seen to do: an observation, not a control state
-	enum domain Activity = { IDLE | ELABORATION | READ_ACCESS | WRITE_ACCESS | LOCK_WAIT | LOCK_HELD | MESSAGE_ACCESS }
+	enum domain Activity = {IDLE | ELABORATION | READ_ACCESS | WRITE_ACCESS | LOCK_WAIT | LOCK_HELD | MESSAGE_ACCESS}
 
 	// Configuration of a scheduler and its phases
 	controlled scheduler_mainThread: Scheduler -> Task

@@ -20,7 +20,7 @@ signature:
 	abstract domain Semaphore
 
 	// State of a task with respect to one semaphore: outside, in line, inside.
-	enum domain TaskCSState = { READY | WAITING | EXECUTION }
+	enum domain TaskCSState = {READY | WAITING | EXECUTION}
 
 	// Configuration
 	controlled sem_permits: Semaphore -> Integer
@@ -50,7 +50,8 @@ definitions:
 
 	// Those queued earlier and still waiting, then the newcomers in order of priority.
 	function sem_line($s in Semaphore) =
-		union([$t in semaq($s) | sem_state($s, $t) = WAITING : $t],
+		union(
+			[$t in semaq($s) | sem_state($s, $t) = WAITING : $t],
 			[$u in sem_users($s) | sem_state($s, $u) = WAITING and not contains(semaq($s), $u) : $u])
 
 	function sem_granted($s in Semaphore, $t in Task) =

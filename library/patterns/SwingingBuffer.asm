@@ -67,7 +67,7 @@ signature:
 	derived sb_accounted: SwingingBuffer -> Boolean
 
 definitions:
-	domain ArrayIndex = { 0 : 7 }
+	domain ArrayIndex = {0 : 7}
 
 	// The sequence number the next reading will see.
 	function sb_newestSequence($b in SwingingBuffer) =
@@ -78,8 +78,7 @@ definitions:
 
 	// Reader and writer never work on one array.
 	function sb_disjoint($b in SwingingBuffer) =
-		indexRead($b) != indexWrite($b)
-		and (isUndef(sb_writingArray($b)) or sb_writingArray($b) != sb_readingArray($b))
+		indexRead($b) != indexWrite($b) and (isUndef(sb_writingArray($b)) or sb_writingArray($b) != sb_readingArray($b))
 
 	// The reader's array is the newest one handed over, and readings never go back in time.
 	function sb_newest($b in SwingingBuffer) =
@@ -89,8 +88,10 @@ definitions:
 	// No datum disappears without being counted.
 	function sb_accounted($b in SwingingBuffer) =
 		sb_written($b) = sb_swaps($b) + sb_overwritten($b) + (if sb_pending($b) then 1 else 0 endif)
-		and sb_swaps($b) = sb_delivered($b) + sb_unread($b)
-			+ (if sb_newestSequence($b) != sb_receivedSequence($b) then 1 else 0 endif)
+		and sb_swaps($b)
+			= sb_delivered($b)
+				+ sb_unread($b)
+				+ (if sb_newestSequence($b) != sb_receivedSequence($b) then 1 else 0 endif)
 
 	rule r_SwingingBuffer_getLock($b in SwingingBuffer, $t in Task) =
 		r_sem_wait[sem($b), $t]

@@ -12,7 +12,7 @@ export *
 signature:
 	abstract domain Task
 
-	enum domain TaskKind = { SYNCHRONOUS | ASYNCHRONOUS }
+	enum domain TaskKind = {SYNCHRONOUS | ASYNCHRONOUS}
 
 	controlled clock: Integer
 

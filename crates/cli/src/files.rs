@@ -16,8 +16,17 @@ pub fn read_text(path: &Path, limit: u64) -> Result<String, Failure> {
 
 /// Reads a model or a scenario of at most `limit` bytes; one that is not UTF-8 is read as far as it is text.
 pub fn read_source(path: &Path, limit: u64) -> Result<SourceFile, Failure> {
-    SourceFile::decode(path.display().to_string(), read_bytes(path, limit)?)
-        .map_err(|NotText { offset }| Failure::NotUtf8 { path: path.to_path_buf(), offset })
+    decode(path, read_bytes(path, limit)?, limit)
+}
+
+/// The bytes of a model or a scenario, at most `limit` of them.
+pub fn decode(path: &Path, bytes: Vec<u8>, limit: u64) -> Result<SourceFile, Failure> {
+    let path = path.to_path_buf();
+    if bytes.len() as u64 > limit {
+        return Err(Failure::TooLarge { path, limit });
+    }
+    SourceFile::decode(path.display().to_string(), bytes)
+        .map_err(|NotText { offset }| Failure::NotUtf8 { path, offset })
 }
 
 fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Failure> {
@@ -129,14 +138,17 @@ impl Unfinished {
             Target::Direct(mut writer) => writer.flush().map_err(wrap),
             Target::Renamed(writer) => {
                 let file = writer.into_inner().map_err(|error| wrap(error.into_error()))?;
-                allow_reading(file.as_file()).map_err(wrap)?;
+                match std::fs::metadata(&path) {
+                    Ok(replaced) => file.as_file().set_permissions(replaced.permissions()).map_err(wrap)?,
+                    Err(_) => allow_reading(file.as_file()).map_err(wrap)?,
+                }
                 file.persist(&path).map(|_| ()).map_err(|error| wrap(error.error))
             }
         }
     }
 }
 
-/// Temporary files are private; the finished one is an ordinary file.
+/// Temporary files are private; a new one is an ordinary file when it is finished.
 #[cfg(unix)]
 fn allow_reading(file: &File) -> io::Result<()> {
     use std::os::unix::fs::PermissionsExt;

@@ -18,6 +18,7 @@ mod exit;
 mod explain;
 mod failure;
 mod files;
+mod fmt;
 mod inputs;
 mod interrupt;
 mod junit;
@@ -71,6 +72,8 @@ enum Command {
     Dump(dump::Arguments),
     /// Explain a kind of fault by its name
     Explain(explain::Arguments),
+    /// Put models and scenarios into their canonical layout
+    Fmt(fmt::Arguments),
     /// Measure steps per second and memory
     Bench(bench::Arguments),
 }
@@ -110,6 +113,7 @@ fn work(arguments: Arguments) -> Exit {
         Command::Report(arguments) => report::run(&mut shell, &arguments),
         Command::Dump(arguments) => dump::run(&mut shell, &arguments),
         Command::Explain(arguments) => explain::run(&mut shell, &arguments),
+        Command::Fmt(arguments) => fmt::run(&mut shell, &arguments),
         Command::Bench(arguments) => bench::run(&mut shell, &arguments),
     };
     let outcome = outcome.and_then(|exit| shell.flush().map(|()| exit));

@@ -36,6 +36,11 @@ fn assert_formats(parse: &Parse, grammar: fn(FileId, &str) -> Parse) {
     assert!(format(&again) == formatted, "formatting again changes the text: {formatted}");
 }
 
+/// Whether two parses hold the same tokens and comments in the same tree: whether white space is all they differ in.
+pub fn differ_in_layout_only(one: &Parse, other: &Parse) -> bool {
+    words(one) == words(other)
+}
+
 /// All of a tree but its white space; a comment's blanks at its end do not count.
 fn words(parse: &Parse) -> Vec<(SyntaxKind, String)> {
     let root = parse.syntax();

@@ -26,7 +26,7 @@ pub use dump::dump;
 pub use encoding::{Foreign, NotText};
 pub use fault::IDS as FAULT_IDS;
 pub use format::format;
-pub use invariant::assert_invariants;
+pub use invariant::{assert_invariants, differ_in_layout_only};
 pub use kind::{AsmetaL, SyntaxKind};
 pub use parser::{MAX_CHAIN, MAX_FAULTS, MAX_NESTING, MAX_TEXT_BYTES};
 pub use source::{FileId, LineColumn, SourceFile, Sources, Span};

@@ -31,7 +31,8 @@ definitions:
 
 	invariant inv_bounds over mq_sent, mq_taken: mq_sound(queue)
 	// every message arrives, once and in order: they are numbered 1, 2, 3 …
-	invariant inv_order over log: length(log) = mq_taken(queue)
+	invariant inv_order over log:
+		length(log) = mq_taken(queue)
 		and (isEmpty(log) or isUndef(mq_received(queue)) or mq_received(queue) = length(log))
 
 	main rule r_Main =

@@ -41,8 +41,8 @@ definitions:
 	invariant inv_disjoint over sb_writingArray, sb_readingArray: sb_disjoint(buffer)
 	invariant inv_newest over sb_sequence: sb_newest(buffer)
 	invariant inv_accounted over sb_written: sb_accounted(buffer)
-	invariant inv_deadlines over task_deadlinesMissed: interleaved or
-		(forall $t in Task with task_deadlinesMissed($t) = 0)
+	invariant inv_deadlines over task_deadlinesMissed:
+		interleaved or (forall $t in Task with task_deadlinesMissed($t) = 0)
 
 	main rule r_Main =
 		par

@@ -34,8 +34,8 @@ definitions:
 
 	invariant inv_bounds over mq_sent, mq_taken: mq_sound(queue)
 	// messages are numbered; each one is used, once and in order
-	invariant inv_order over used: (forall $n in asSet(used) with indexOf(used, $n) = $n - 1)
-		and length(used) >= mq_taken(queue) - 1
+	invariant inv_order over used:
+		(forall $n in asSet(used) with indexOf(used, $n) = $n - 1) and length(used) >= mq_taken(queue) - 1
 
 	main rule r_Main =
 		par

@@ -6,7 +6,7 @@ import ../../std/StandardLibrary
 import ../MessageQueue
 
 signature:
-	enum domain Sender = { LEFT | RIGHT }
+	enum domain Sender = {LEFT | RIGHT}
 	static queue: MessageQueue
 	controlled accepted: Sender -> Integer
 	monitored message: Sender -> Integer

@@ -41,8 +41,8 @@ definitions:
 	invariant inv_permits over sem_state: size(inside(pool)) <= 2
 	invariant inv_sound over sem_state: (forall $s in Semaphore with sem_sound($s))
 	// whoever may enter is in line
-	invariant inv_line over semaq: (forall $s in Semaphore, $t in Task with
-		sem_granted($s, $t) implies contains(sem_line($s), $t))
+	invariant inv_line over semaq:
+		(forall $s in Semaphore, $t in Task with sem_granted($s, $t) implies contains(sem_line($s), $t))
 
 	main rule r_Main =
 		par

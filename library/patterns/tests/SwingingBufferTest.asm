@@ -8,7 +8,7 @@ import ../Semaphore
 import ../SwingingBuffer
 
 signature:
-	enum domain Command = { NOTHING | WRITE | END_WRITE | SWAP | READ | END_READ | BLIND_SWAP }
+	enum domain Command = {NOTHING | WRITE | END_WRITE | SWAP | READ | END_READ | BLIND_SWAP}
 
 	static buffer: SwingingBuffer
 

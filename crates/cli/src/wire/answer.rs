@@ -14,6 +14,8 @@ pub enum Answer<'a> {
     /// What `test` came to.
     #[serde(rename = "summary")]
     Tested { passed: usize, failed: usize, not_run: usize },
+    /// What `fmt` did with a file, or with `--check` would do.
+    Formatted { file: &'a str, changed: bool },
     /// Where a replay parts from its trace.
     Parted { step: u64, trace: &'a str, now: &'a str },
     /// The page of a kind of fault.

@@ -28,7 +28,11 @@ pub(super) fn node(node: &SyntaxNode) -> Document {
         match separator {
             Own | OwnIndented | OwnIndentedTwice | Section => {
                 lines.push(group(std::mem::take(&mut line)));
-                lines.push(own_line(&element, separator, !first_own || node.kind() == SOURCE_FILE));
+                lines.push(own_line(
+                    &element,
+                    separator,
+                    !first_own || matches!(node.kind(), SOURCE_FILE | SCENARIO_FILE),
+                ));
                 first_own = !matches!(separator, OwnIndented | OwnIndentedTwice);
             }
             FoldAlone if is_rule(element.kind()) => {

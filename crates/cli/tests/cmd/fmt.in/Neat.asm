@@ -1,0 +1,6 @@
+asm Neat
+
+signature:
+
+definitions:
+	main rule r_Main = skip

@@ -1,0 +1,4 @@
+asm Broken
+signature:
+definitions:
+  main rule r_Main = par skip

@@ -1,0 +1,6 @@
+asm Old // caffè
+
+signature:
+
+definitions:
+	main rule r_Main = skip
