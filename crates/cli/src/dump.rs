@@ -16,7 +16,7 @@ pub struct Arguments {
     /// Which hand-over
     #[arg(value_enum)]
     stage: Stage,
-    /// A model; for the tree also a scenario
+    /// A model; for the tree also a scenario or a chart; for the chart a chart
     file: PathBuf,
 }
 
@@ -29,6 +29,8 @@ enum Stage {
     Model,
     /// The program that the machine runs
     Program,
+    /// The chart that a chart file means
+    Chart,
 }
 
 /// Runs the command.
@@ -44,6 +46,10 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
             }
             checked.model.dump()
         }
+        Stage::Chart => match crate::chart::read(shell, &arguments.file)? {
+            Ok((_, chart)) => chart::dump(&chart),
+            Err(exit) => return Ok(exit),
+        },
         Stage::Program => match load(shell, &arguments.file)? {
             Ok(loaded) => program::dump(&loaded.program),
             Err(exit) => return Ok(exit),
@@ -57,8 +63,12 @@ fn tree(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let mut sources = syntax::Sources::default();
     let file = sources.add(shell.disk().root(&arguments.file)?);
     let text = &sources.file(file).text;
-    let scenario = arguments.file.extension().is_some_and(|extension| extension == "avalla");
-    let parse = if scenario { syntax::parse_avalla(file, text) } else { syntax::parse_asmetal(file, text) };
+    let extension = arguments.file.extension().and_then(|extension| extension.to_str());
+    let parse = match extension {
+        Some("avalla") => syntax::parse_avalla(file, text),
+        Some("chart") => syntax::parse_chart(file, text),
+        _ => syntax::parse_asmetal(file, text),
+    };
     write!(shell.out(), "{}", syntax::dump(&parse.syntax()))?;
     shell.diagnostics(&sources, &parse.diagnostics)?;
     Ok(if groundstate::has_errors(&parse.diagnostics) { Exit::Model } else { Exit::Good })

@@ -11,6 +11,7 @@
 )]
 
 mod bench;
+mod chart;
 mod check;
 mod coverage;
 mod dump;
@@ -68,6 +69,8 @@ enum Command {
     Replay(replay::Arguments),
     /// Run a model and write the run as a page: timeline, deadlines, waiting, coverage
     Report(Box<report::Arguments>),
+    /// Draw charts, build models from them
+    Chart(chart::Arguments),
     /// Show what a stage hands to the next
     Dump(dump::Arguments),
     /// Explain a kind of fault by its name
@@ -111,6 +114,7 @@ fn work(arguments: Arguments) -> Exit {
         Command::Test(arguments) => test::run(&mut shell, &arguments),
         Command::Replay(arguments) => replay::run(&mut shell, &arguments),
         Command::Report(arguments) => report::run(&mut shell, &arguments),
+        Command::Chart(arguments) => chart::run(&mut shell, &arguments),
         Command::Dump(arguments) => dump::run(&mut shell, &arguments),
         Command::Explain(arguments) => explain::run(&mut shell, &arguments),
         Command::Fmt(arguments) => fmt::run(&mut shell, &arguments),

@@ -2,16 +2,18 @@
 //!
 //! In: any bytes. Out: nothing, or a panic that names the broken invariant.
 
-use crate::{Diagnostic, FileId, MAX_FAULTS, Parse, SyntaxKind, format, parse_asmetal, parse_avalla, parse_term};
+use crate::{
+    Diagnostic, FileId, MAX_FAULTS, Parse, SyntaxKind, format, parse_asmetal, parse_avalla, parse_chart, parse_term,
+};
 
-/// Parses any bytes as a model, a scenario and a term, and asserts what holds of every parse.
+/// Parses any bytes as a model, a scenario, a chart and a term, and asserts what holds of every parse.
 ///
 /// # Panics
 ///
 /// When the parser breaks one of its promises.
 pub fn assert_invariants(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
-    for grammar in [parse_asmetal, parse_avalla, parse_term] {
+    for grammar in [parse_asmetal, parse_avalla, parse_chart, parse_term] {
         let parse = grammar(FileId(0), &text);
         assert_formats(&parse, grammar);
         assert_lossless(&parse, &text);

@@ -1,6 +1,6 @@
 //! The kinds of tokens and nodes of the lossless tree.
 //!
-//! One enum serves AsmetaL and Avalla. Keywords are tokens of their own; `and or xor not mod implies iff` are
+//! One enum serves AsmetaL, Avalla and charts. Keywords are tokens of their own; `and or xor not mod implies iff` are
 //! ordinary [`SyntaxKind::FUNCTION_ID`] tokens, as they may be called as functions (spec/language.md, 1.1).
 
 #![allow(non_camel_case_types, missing_docs, reason = "rowan's convention: kinds are written as in the grammar")]
@@ -90,6 +90,19 @@ kinds! {
     UNTIL_KW = "until", WITHIN_KW = "within", EXEC_KW = "exec", PICK_KW = "pick", BEGIN_KW = "begin", END_KW = "end",
     EXECBLOCK_KW = "execblock", EXPECT_KW = "expect",
 
+    // Keywords of charts (only there)
+    CHART_KW = "chart", MACHINE_KW = "machine", ENDMACHINE_KW = "endmachine", PATTERN_KW = "pattern",
+    ENDPATTERN_KW = "endpattern", CONTROL_KW = "control", INITIAL_KW = "initial", STATE_KW = "state", GUARD_KW = "guard",
+    ACTION_KW = "action", INSTANCE_KW = "instance", OF_KW = "of", TO_KW = "to", REFINE_KW = "refine", BY_KW = "by",
+    ENTER_KW = "enter", EXIT_KW = "exit", YES_KW = "yes", NO_KW = "no", SEQUENCE_KW = "sequence", LAYOUT_KW = "layout",
+    ENDLAYOUT_KW = "endlayout", AT_KW = "at",
+    SYSTEM_KW = "system", ENDSYSTEM_KW = "endsystem", TICK_KW = "tick", COMPONENT_KW = "component",
+    ENDCOMPONENT_KW = "endcomponent", SYNCHRONOUS_KW = "synchronous", ASYNCHRONOUS_KW = "asynchronous",
+    PERIOD_KW = "period", OFFSET_KW = "offset", DEADLINE_KW = "deadline", AWAITS_KW = "awaits", READ_KW = "read",
+    ELABORATE_KW = "elaborate", WRITE_KW = "write", AS_KW = "as", CHANNEL_KW = "channel", FROM_KW = "from",
+    SWINGING_KW = "swinging", BUFFER_KW = "buffer", QUEUE_KW = "queue", VALUE_KW = "value", MASTER_KW = "master",
+    SENSOR_KW = "sensor", ACTUATOR_KW = "actuator",
+
     // Nodes: the file
     SOURCE_FILE, MACHINE_NAME, IMPORT, IMPORT_SELECTION, NAME_REF, EXPORT, SIGNATURE, DEFINITIONS,
 
@@ -117,6 +130,11 @@ kinds! {
 
     // Node: a single term (`--until TERM`)
     TERM_FILE,
+
+    // Nodes: charts
+    CHART_FILE, MACHINE_CHART, CONTROL_VARIABLE, CONTROL_STATE, GUARD_SHAPE, ACTION_SHAPE, PATTERN_INSTANCE, LINK,
+    REFINEMENT, CHART_PATH, PATH_STOP, SEQUENCE, LAYOUT, PLACEMENT, COORDINATE,
+    SYSTEM_CHART, TICK, COMPONENT, COMPONENT_KIND, PHASE, CHANNEL, CHANNEL_KIND, DEVICE, CONNECTION, QUANTITY,
 }
 
 impl SyntaxKind {

@@ -4,7 +4,7 @@
 //! faults found on the way. Parsing never fails, never panics, and knows no second file; the tree holds no
 //! semantic facts. Later stages read the tree through the typed views of [`ast`] only.
 //!
-//! The grammar is that of `spec/language.md`: AsmetaL and the scenario language Avalla.
+//! The grammar is that of `spec/language.md` (AsmetaL), `spec/avalla.md` (scenarios) and `spec/charts.md`.
 
 pub mod ast;
 pub mod diagnostic;
@@ -50,7 +50,8 @@ pub struct Parse {
 }
 
 impl Parse {
-    /// The root of the tree: a [`SyntaxKind::SOURCE_FILE`] or [`SyntaxKind::SCENARIO_FILE`].
+    /// The root of the tree: a [`SyntaxKind::SOURCE_FILE`], [`SyntaxKind::SCENARIO_FILE`] or
+    /// [`SyntaxKind::CHART_FILE`].
     pub fn syntax(&self) -> SyntaxNode {
         SyntaxNode::new_root(self.green.clone())
     }
@@ -64,6 +65,11 @@ pub fn parse_asmetal(file: FileId, text: &str) -> Parse {
 /// Parses a scenario file (`.avalla`).
 pub fn parse_avalla(file: FileId, text: &str) -> Parse {
     parser::parse(file, text, Mode::Avalla, SyntaxKind::SCENARIO_FILE, grammar::scenario_file)
+}
+
+/// Parses a chart file (`.chart`).
+pub fn parse_chart(file: FileId, text: &str) -> Parse {
+    parser::parse(file, text, Mode::Chart, SyntaxKind::CHART_FILE, grammar::chart_file)
 }
 
 /// Parses a single term, as written on a command line (`--until TERM`).

@@ -1,13 +1,14 @@
 //! The pages in spec/ say the truth: each example parses, and each fault has a page whose example shows it.
 //!
 //! A block ```` ```asmetal ```` is a file, ```` ```asmetal rule ```` and ```` ```asmetal term ```` are fragments,
-//! ```` ```avalla ```` is a scenario; the word `fault` behind these says that the page's own fault is in it.
+//! ```` ```avalla ```` is a scenario, ```` ```chart ```` a chart; the word `fault` behind these says that the page's own fault is in it.
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the pages it is about")]
 
 use std::path::PathBuf;
 use syntax::{
-    FAULT_IDS, FileId, MAX_FAULTS, Parse, SourceFile, assert_invariants, parse_asmetal, parse_avalla, parse_term,
+    FAULT_IDS, FileId, MAX_FAULTS, Parse, SourceFile, assert_invariants, parse_asmetal, parse_avalla, parse_chart,
+    parse_term,
 };
 
 fn page(name: &str) -> String {
@@ -49,6 +50,8 @@ fn parse(block: &Block) -> Option<Parse> {
         }
         ["asmetal", "term"] => parse_term(file, &block.code),
         ["avalla"] => parse_avalla(file, &block.code),
+        ["chart"] => parse_chart(file, &block.code),
+        ["asmetal", "built"] => parse_asmetal(file, &block.code),
         ["ebnf" | "text"] | [] => return None,
         _ => panic!("line {}: a block of an unknown kind: {}", block.line, block.info),
     })
@@ -60,7 +63,7 @@ fn ids(parse: &Parse) -> Vec<&'static str> {
 
 #[test]
 fn the_examples_of_the_language_parse() {
-    for name in ["language", "avalla"] {
+    for name in ["language", "avalla", "charts"] {
         let mut count = 0;
         for block in blocks(&page(name)) {
             let Some(parse) = parse(&block) else { continue };

@@ -3,14 +3,18 @@
 //! A view is a cheap handle on a [`SyntaxNode`]; every accessor may give `None` (or an empty iterator), as the
 //! tree of a faulty text has holes. The parser has already reported those, so a reader skips them in silence.
 
+mod chart;
 mod file;
 mod rule;
 mod scenario;
+mod system;
 mod term;
 
+pub use chart::*;
 pub use file::*;
 pub use rule::*;
 pub use scenario::*;
+pub use system::*;
 pub use term::*;
 
 use crate::{AsmetaL, SyntaxKind, SyntaxNode, SyntaxToken};

@@ -21,6 +21,7 @@ pub const IDS: &[&str] = &[
     "expected-domain",
     "expected-name",
     "expected-rule",
+    "expected-shape",
     "expected-term",
     "expected-token",
     "file-too-large",

@@ -340,6 +340,13 @@ pub(crate) fn unknown_trouble(found: Found<'_>, whole: bool) -> Diagnostic {
         .with_help(format!("write {choices}"))
 }
 
+/// No item of a chart.
+pub(crate) fn expected_shape(found: Found<'_>, wanted: &str) -> Diagnostic {
+    Diagnostic::error("expected-shape", found.span, format!("expected {wanted}, found {found}"))
+        .because("this starts none, and the text up to the next one is skipped")
+        .with_help("start each with its word: `state`, `guard`, `action`, `instance`; a path with a name and `->`")
+}
+
 /// The limit of nesting.
 pub(crate) fn nested_too_deeply(found: Found<'_>) -> Diagnostic {
     use crate::parser::{MAX_CHAIN, MAX_NESTING};

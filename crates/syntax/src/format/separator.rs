@@ -45,6 +45,7 @@ pub(super) fn part(node: &SyntaxNode, before: SyntaxKind, part: &SyntaxElement) 
     match here {
         SOURCE_FILE | SIGNATURE | DEFINITIONS | INIT => section(here, before, kind),
         SCENARIO_FILE | BLOCK => scenario(here, before, kind),
+        CHART_FILE | MACHINE_CHART | SYSTEM_CHART | COMPONENT | LAYOUT | LINK | COORDINATE => chart(here, before, kind),
         FUNCTION_TERM | MACRO_CALL_RULE | TURBO_CALL_RULE | TERM_RULE => Nothing,
         EXPORT | OVER_LIST | COLLECTION_TERM | IMPORT_SELECTION if before == COMMA => FoldAlone,
         ARGUMENT_LIST | PAREN_TERM | TUPLE_TERM | COLLECTION_TERM | MAP_TERM | PARAMETER_LIST | IMPORT_SELECTION
@@ -75,6 +76,7 @@ pub(super) fn part(node: &SyntaxNode, before: SyntaxKind, part: &SyntaxElement) 
         | INVAR | JUSTICE | COMPASSION | UPDATE_RULE | AGENT_INIT | SCENARIO_INVARIANT => {
             definition(before, kind, goes_on(part))
         }
+        PATTERN_INSTANCE if kind == ARGUMENT_LIST => Nothing,
         EXECBLOCK_COMMAND if before == COLON || kind == COLON => Nothing,
         PICK_COMMAND if before == L_PAREN || matches!(kind, L_PAREN | R_PAREN) => Nothing,
         SET_COMMAND | PICK_COMMAND if before == ASSIGN => Fold,
@@ -100,6 +102,20 @@ fn scenario(here: SyntaxKind, before: SyntaxKind, kind: SyntaxKind) -> Separator
         (_, END_KW) => Own,
         _ if here == BLOCK => OwnIndented,
         _ => Own,
+    }
+}
+
+/// Sections of a chart, and the items in them.
+fn chart(here: SyntaxKind, before: SyntaxKind, kind: SyntaxKind) -> Separator {
+    match kind {
+        _ if here == CHART_FILE && before == CHART_KW => Space,
+        IMPORT if before == IMPORT => Own,
+        _ if here == CHART_FILE => Section,
+        _ if matches!(here, LINK | COORDINATE) => Nothing,
+        PARAMETER_LIST => Nothing,
+        GENERIC_ID | STRING | LINK | COMPONENT_KIND => Space,
+        ENDMACHINE_KW | ENDPATTERN_KW | ENDSYSTEM_KW | ENDCOMPONENT_KW | ENDLAYOUT_KW => Own,
+        _ => OwnIndented,
     }
 }
 

@@ -23,6 +23,11 @@ pub(super) fn scenario(text: &str) -> String {
     whole(&crate::parse_avalla(FileId(0), text))
 }
 
+/// The tree of a chart.
+pub(super) fn chart(text: &str) -> String {
+    whole(&crate::parse_chart(FileId(0), text))
+}
+
 /// The tree of a rule, and of what stands behind it.
 pub(super) fn rule(text: &str) -> String {
     let parse = crate::parse_asmetal(FileId(0), &format!("asm a signature: definitions: rule r_a = {text}"));

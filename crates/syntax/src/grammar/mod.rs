@@ -1,4 +1,4 @@
-//! The grammar of AsmetaL and Avalla as a recursive descent, one file a layer (spec/language.md).
+//! The grammar of AsmetaL, Avalla and charts as a recursive descent, one file a layer (spec/language.md).
 //!
 //! Each function parses one construct at the cursor and leaves the cursor behind it. On a fault it reports, keeps
 //! what was read as part of the tree, and stops at a token from which a caller can go on.
@@ -6,6 +6,7 @@
 mod binding;
 #[cfg(test)]
 mod brief;
+mod chart;
 mod collection;
 mod conditional;
 mod domain;
@@ -20,8 +21,10 @@ mod recovery;
 mod rule;
 mod scenario;
 mod sets;
+mod system;
 mod term;
 
+pub(crate) use chart::chart_file;
 pub(crate) use file::source_file;
 pub(crate) use operator::power_of;
 pub(crate) use scenario::scenario_file;

@@ -22,6 +22,7 @@ pub(crate) use word::classify;
 pub(crate) enum Mode {
     AsmetaL,
     Avalla,
+    Chart,
 }
 
 /// A token: it ends where the next one starts.
@@ -176,6 +177,8 @@ impl<'t> Lexer<'t> {
                 IMPORT_KW => self.context = Context::Path,
                 _ => {}
             },
+            Mode::Chart if kind == IMPORT_KW => self.context = Context::Path,
+            Mode::Chart => {}
             Mode::Avalla => match text {
                 "scenario" if self.significant_before() == 0 => self.context = Context::Name,
                 "load" if !self.path_seen && (self.significant_before() <= 2 || self.starts_line()) => {

@@ -1,0 +1,105 @@
+//! A chart's parts into a file that is there: what the chart decides is replaced, what is missing is added, the rest stays.
+//!
+//! In: the file's text, without errors. Out: the new text; every byte outside the replaced items is the old one.
+
+use std::collections::BTreeSet;
+
+use syntax::ast::trimmed_range;
+use syntax::{Diagnostic, FileId, Severity, SyntaxKind, SyntaxKind::*, SyntaxNode};
+
+use super::module::{Item, Parts, quoted};
+use crate::chart::Chart;
+
+/// One change of the text.
+struct Edit {
+    start: usize,
+    end: usize,
+    text: String,
+}
+
+/// The parts, merged into a text.
+pub(super) fn into(text: &str, chart: &Chart, parts: &Parts) -> Result<String, Vec<Diagnostic>> {
+    let parse = syntax::parse_asmetal(FileId(0), text);
+    if parse.diagnostics.iter().any(|fault| fault.severity == Severity::Error) {
+        return Err(parse.diagnostics);
+    }
+    let root = parse.syntax();
+    let Some(signature) = section(&root, SIGNATURE) else { return Ok(super::module::fresh(chart, parts)) };
+    let definitions = section(&root, DEFINITIONS);
+    let mut edits = Vec::new();
+    imports(&root, parts, &mut edits);
+    items(&signature, &parts.declarations, &mut edits);
+    if let Some(definitions) = definitions {
+        items(&definitions, &parts.definitions, &mut edits);
+    }
+    let mut end = String::new();
+    if section(&root, MAIN_RULE).is_none() {
+        end.extend(parts.main.iter().map(|main| format!("\n{main}")));
+        if section(&root, INIT).is_none() {
+            end.extend(parts.init.iter().map(|init| format!("\n{init}")));
+        }
+    }
+    edits.push(Edit { start: text.len(), end: text.len(), text: end });
+    Ok(apply(text, edits))
+}
+
+fn section(root: &SyntaxNode, kind: SyntaxKind) -> Option<SyntaxNode> {
+    root.children().find(|node| node.kind() == kind)
+}
+
+fn imports(root: &SyntaxNode, parts: &Parts, edits: &mut Vec<Edit>) {
+    let there: Vec<SyntaxNode> = root.children().filter(|node| node.kind() == IMPORT).collect();
+    let has = |path: &String| there.iter().any(|node| node.text().to_string().trim_end().ends_with(path.as_str()));
+    let missing = parts.imports.iter().filter(|path| !has(path));
+    let text: String = missing.map(|path| format!("\nimport {}", quoted(path))).collect();
+    let name = root.children().find(|node| node.kind() == MACHINE_NAME);
+    if let Some(before) = there.last().or(name.as_ref()) {
+        let at = usize::from(trimmed_range(before).end());
+        edits.push(Edit { start: at, end: at, text });
+    }
+}
+
+/// The name that an item declares: the first name in it.
+fn declared(node: &SyntaxNode) -> Option<String> {
+    let names = [FUNCTION_ID, DOMAIN_ID, ENUM_ID, RULE_ID];
+    let tokens = node.descendants_with_tokens().filter_map(|element| element.into_token());
+    tokens.into_iter().find(|token| names.contains(&token.kind())).map(|token| token.text().to_string())
+}
+
+fn items(section: &SyntaxNode, wanted: &[Item], edits: &mut Vec<Edit>) {
+    let mut there = BTreeSet::new();
+    for node in section.children() {
+        let Some(name) = declared(&node) else { continue };
+        if let Some(item) = wanted.iter().find(|item| item.name == name && item.decided) {
+            let range = trimmed_range(&node);
+            let body = without_note(&item.text).trim_end().to_string();
+            edits.push(Edit { start: range.start().into(), end: range.end().into(), text: body });
+        }
+        there.insert(name);
+    }
+    let missing = wanted.iter().filter(|item| !there.contains(&item.name));
+    let text: String = missing.map(|item| format!("\n\n{}", item.text.trim_end())).collect();
+    let at = usize::from(trimmed_range(section).end());
+    edits.push(Edit { start: at, end: at, text });
+}
+
+/// Without the comment above: the file has its own.
+fn without_note(text: &str) -> &str {
+    let mut rest = text;
+    while let Some(("", behind)) = rest.split_once("//").map(|(before, behind)| (before.trim(), behind)) {
+        rest = behind.split_once('\n').map_or("", |(_, rest)| rest);
+    }
+    rest
+}
+
+fn apply(text: &str, mut edits: Vec<Edit>) -> String {
+    edits.sort_by_key(|edit| (edit.start, edit.end));
+    let mut out = String::new();
+    let mut at = 0;
+    for edit in edits {
+        out.push_str(&text[at..edit.start]);
+        out.push_str(&edit.text);
+        at = edit.end;
+    }
+    out + &text[at..]
+}

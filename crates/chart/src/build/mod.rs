@@ -1,0 +1,38 @@
+//! Chart → AsmetaL: one readable rule a machine, in the shape of the paper's Listing 2.
+//!
+//! In: a chart without errors, what its imports declare ([`Known`]), and the text of the file as it stands, if there is
+//! one. Out: the new text. What charts decide (the machines' rules, the control states) is written anew; every other
+//! declaration and definition that the file has stays as it is, and what is missing is added.
+
+mod known;
+mod merge;
+mod module;
+mod rule;
+
+pub use known::Known;
+
+use crate::chart::Chart;
+
+/// What is built.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Built {
+    /// The whole file.
+    pub text: String,
+    /// Names of rules and functions that were made and are still to be written, in order.
+    pub to_write: Vec<String>,
+}
+
+/// Builds the specification of a chart.
+///
+/// # Errors
+/// The faults of `existing`, which is not touched then.
+pub fn build(chart: &Chart, known: &Known, existing: Option<&str>) -> Result<Built, Vec<syntax::Diagnostic>> {
+    let parts = module::parts(chart, known);
+    let to_write = parts.to_write.clone();
+    let text = match existing {
+        None => module::fresh(chart, &parts),
+        Some(text) => merge::into(text, chart, &parts)?,
+    };
+    let parse = syntax::parse_asmetal(syntax::FileId(0), &text);
+    Ok(Built { text: syntax::format(&parse), to_write })
+}

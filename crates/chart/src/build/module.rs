@@ -1,0 +1,351 @@
+//! What a chart's file consists of: the names that are made, the stubs of what is still to be written, the machines' rules.
+//!
+//! In: a chart, and the names that its imports have. Out: [`Parts`], and from these the text of a new file. A machine
+//! with a control variable of its own makes the file an `asm` that runs; a file of patterns alone is a `module`.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use super::known::Known;
+use super::rule::machine_rule;
+use crate::chart::{Chart, Control, Machine, Shape, ShapeId, ShapeKind};
+use crate::flow::is_block;
+
+/// A declaration or definition by its name.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Item {
+    /// The name it declares.
+    pub(super) name: String,
+    /// Its text.
+    pub(super) text: String,
+    /// The chart alone decides it: it is written anew each time.
+    pub(super) decided: bool,
+}
+
+/// What the file consists of.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Parts {
+    /// Imports.
+    pub(super) imports: Vec<String>,
+    /// For the signature.
+    pub(super) declarations: Vec<Item>,
+    /// For the definitions.
+    pub(super) definitions: Vec<Item>,
+    /// The main rule and the initial state of a file that runs.
+    pub(super) main: Option<String>,
+    /// See there.
+    pub(super) init: Option<String>,
+    /// Names still to be written by hand.
+    pub(super) to_write: Vec<String>,
+}
+
+/// The name of a machine's rule.
+pub(crate) fn rule_name(machine: &Machine) -> String {
+    match &machine.rule {
+        Some(link) => link.name.clone(),
+        None => format!("r_{}", machine.name),
+    }
+}
+
+/// The value of the control variable in a state or block: the linked one, or one made of the shape's name. Literals are
+/// one name space, so a name that a machine with another control variable has as well gets the machine's before it.
+pub(crate) fn state_value(chart: &Chart, machine: &Machine, id: ShapeId) -> String {
+    let shape = machine.shape(id);
+    if let (Some(link), ShapeKind::State { .. }) = (&shape.link, &shape.kind) {
+        return link.text.clone();
+    }
+    let value = literal(&shape.name);
+    let others = chart.machines.iter().filter(|other| control_name(other) != control_name(machine));
+    let taken = others.flat_map(|other| &other.shapes).any(|other| match (&other.kind, &other.link) {
+        (ShapeKind::State { .. }, Some(link)) => link.text == value,
+        (ShapeKind::State { .. } | ShapeKind::Instance(_), _) => literal(&other.name) == value,
+        _ => false,
+    });
+    if taken { format!("{}_{value}", literal(&machine.name)) } else { value }
+}
+
+/// The function that holds the control state.
+fn control_name(machine: &Machine) -> Option<&str> {
+    match machine.control.as_ref()? {
+        Control::Linked(link) => Some(&link.name),
+        Control::Made { name, .. } => Some(name),
+    }
+}
+
+/// `waitingTrigger` as `WAITING_TRIGGER`.
+fn literal(name: &str) -> String {
+    let mut text = String::new();
+    let mut before = '_';
+    for letter in name.chars() {
+        if letter.is_uppercase() && before.is_lowercase() {
+            text.push('_');
+        }
+        text.extend(letter.to_uppercase());
+        before = letter;
+    }
+    if text.starts_with(|c: char| c.is_ascii_uppercase()) && text[1..].starts_with(|c: char| c.is_ascii_uppercase()) {
+        text
+    } else {
+        format!("STATE_{text}")
+    }
+}
+
+/// The control variable as a location.
+pub(crate) fn control_location(machine: &Machine) -> Option<String> {
+    Some(match machine.control.as_ref()? {
+        Control::Linked(link) => link.text.clone(),
+        Control::Made { name, .. } => applied(name, machine, '(', ')'),
+    })
+}
+
+fn applied(name: &str, machine: &Machine, open: char, close: char) -> String {
+    let variables: Vec<&str> = machine.parameters.iter().map(|parameter| parameter.variable.as_str()).collect();
+    match (variables.is_empty(), open) {
+        (true, '(') => name.to_string(),
+        _ => format!("{name}{open}{}{close}", variables.join(", ")),
+    }
+}
+
+/// The term of a guard or the rule of an action.
+pub(crate) fn call(machine: &Machine, shape: &Shape) -> String {
+    match (&shape.link, &shape.kind) {
+        (Some(link), _) => link.text.clone(),
+        (None, ShapeKind::Guard) => applied(&function_name(&shape.name), machine, '(', ')'),
+        (None, _) => applied(&format!("r_{}", shape.name), machine, '[', ']'),
+    }
+}
+
+fn function_name(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map(|first| first.to_lowercase().chain(letters).collect()).unwrap_or_default()
+}
+
+/// A text with variables replaced, each whole.
+pub(crate) fn substituted(text: &str, variables: &[&str], values: &[String]) -> String {
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some(at) = rest.find('$') {
+        let end =
+            rest[at + 1..].find(|c: char| !c.is_ascii_alphanumeric() && c != '_').map_or(rest.len(), |n| at + 1 + n);
+        let variable = &rest[at..end];
+        out.push_str(&rest[..at]);
+        match variables.iter().position(|known| *known == variable).and_then(|index| values.get(index)) {
+            Some(value) => out.push_str(value),
+            None => out.push_str(variable),
+        }
+        rest = &rest[end..];
+    }
+    out + rest
+}
+
+/// All parts of a chart's file.
+pub(super) fn parts(chart: &Chart, known: &Known) -> Parts {
+    let mut parts = Parts { imports: chart.imports.clone(), ..Parts::default() };
+    if !known.terms.contains("isUndef") {
+        parts.imports.insert(0, "StandardLibrary".to_string()); // the built-in one
+    }
+    let runs = |machine: &&Machine| !machine.is_pattern && matches!(machine.control, Some(Control::Made { .. }));
+    domains(chart, known, &mut parts);
+    controls(chart, known, &mut parts);
+    for machine in &chart.machines {
+        for shape in &machine.shapes {
+            stub(machine, shape, known, &mut parts);
+        }
+    }
+    for machine in &chart.machines {
+        let name = rule_name(machine);
+        let text = format!("// {}\n{}", machine.text.replace('\n', " "), machine_rule(chart, machine, &name));
+        parts.definitions.push(Item { name, text, decided: true });
+    }
+    if chart.machines.iter().any(|machine| runs(&machine)) {
+        let machines: Vec<&Machine> = chart.machines.iter().filter(|machine| !machine.is_pattern).collect();
+        parts.main = Some(main_rule(&machines));
+        parts.init = Some(initial_state(chart, &machines.into_iter().filter(runs).collect::<Vec<_>>()));
+    }
+    parts
+}
+
+fn add(items: &mut Vec<Item>, name: &str, text: String, decided: bool) -> bool {
+    let new = !items.iter().any(|item| item.name == name);
+    if new {
+        items.push(Item { name: name.to_string(), text, decided });
+    }
+    new
+}
+
+/// Domains of parameters that nothing declares: one element each, so that the file runs.
+fn domains(chart: &Chart, known: &Known, parts: &mut Parts) {
+    for parameter in chart.machines.iter().flat_map(|machine| &machine.parameters) {
+        let domain = &parameter.domain;
+        let simple = domain.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+        if simple && !known.domains.contains(domain) {
+            add(&mut parts.declarations, domain, format!("abstract domain {domain}\n"), false);
+            let element = format!("{}1", function_name(domain));
+            add(&mut parts.declarations, &element, format!("static {element}: {domain}\n"), false);
+        }
+    }
+}
+
+/// Control variables and the domains of their values.
+fn controls(chart: &Chart, known: &Known, parts: &mut Parts) {
+    let mut made: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let mut order: Vec<(&Machine, String)> = Vec::new();
+    for machine in &chart.machines {
+        let name = match &machine.control {
+            Some(Control::Made { name, .. }) => name.clone(),
+            Some(Control::Linked(link)) if !known.terms.contains(&link.name) && link.is_application => {
+                link.name.clone()
+            }
+            _ => continue,
+        };
+        let blocks = machine
+            .numbered()
+            .filter(|(id, shape)| matches!(shape.kind, ShapeKind::State { .. }) || is_block(chart, machine, *id));
+        let values = made.entry(name.clone()).or_default();
+        for value in blocks.map(|(id, _)| state_value(chart, machine, id)).filter(|value| !known.terms.contains(value))
+        {
+            if !values.contains(&value) {
+                values.push(value);
+            }
+        }
+        order.push((machine, name));
+    }
+    for (machine, name) in order {
+        let domain = capitalised(&name) + if name.ends_with("State") { "" } else { "State" };
+        let values = &made[&name];
+        let text = format!("// the control states\nenum domain {domain} = {{ {} }}\n", values.join(" | "));
+        add(&mut parts.declarations, &domain, text, true);
+        let of: Vec<&str> = machine.parameters.iter().map(|parameter| parameter.domain.as_str()).collect();
+        let of = match of[..] {
+            [] => String::new(),
+            [one] => format!("{one} -> "),
+            _ => format!("Prod({}) -> ", of.join(", ")),
+        };
+        add(&mut parts.declarations, &name, format!("controlled {name}: {of}{domain}\n"), false);
+    }
+}
+
+fn capitalised(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
+}
+
+/// The domains of the arguments of an application whose arguments are parameters of the machine.
+fn parameters_of(machine: &Machine, text: &str) -> Option<Vec<(String, String)>> {
+    let Some((_, rest)) = text.split_once(['(', '[']) else { return Some(Vec::new()) };
+    let inner = rest.trim_end().trim_end_matches([')', ']']).trim();
+    if inner.is_empty() {
+        return Some(Vec::new());
+    }
+    let domain_of = |variable: &str| {
+        let known = machine.parameters.iter().find(|parameter| parameter.variable == variable)?;
+        Some((variable.to_string(), known.domain.clone()))
+    };
+    inner.split(',').map(|argument| domain_of(argument.trim())).collect()
+}
+
+/// What a guard or an action stands for, if nothing declares it: a monitored function, a rule that does nothing yet.
+fn stub(machine: &Machine, shape: &Shape, known: &Known, parts: &mut Parts) {
+    let text = call(machine, shape);
+    let is_application = shape.link.as_ref().is_none_or(|link| link.is_application);
+    let name = text.split(['(', '[', ' ']).next().unwrap_or_default();
+    let Some(parameters) = parameters_of(machine, &text).filter(|_| is_application) else { return };
+    let note = match &shape.refinement {
+        Some(refinement) => match &refinement.by {
+            Some(by) => format!("// to be refined by {by}\n"),
+            None => "// to be refined\n".to_string(),
+        },
+        None => format!("// {}\n", shape.text.replace('\n', " ")),
+    };
+    let added = match shape.kind {
+        ShapeKind::Guard if !known.terms.contains(name) => {
+            let of: Vec<&str> = parameters.iter().map(|(_, domain)| domain.as_str()).collect();
+            let of = match of[..] {
+                [] => String::new(),
+                [one] => format!("{one} -> "),
+                _ => format!("Prod({}) -> ", of.join(", ")),
+            };
+            add(&mut parts.declarations, name, format!("{note}monitored {name}: {of}Boolean\n"), false)
+        }
+        ShapeKind::Action if !known.rules.contains(name) => {
+            let of: Vec<String> =
+                parameters.iter().map(|(variable, domain)| format!("{variable} in {domain}")).collect();
+            let of = if of.is_empty() { String::new() } else { format!("({})", of.join(", ")) };
+            add(&mut parts.definitions, name, format!("{note}rule {name}{of} = skip\n"), false)
+        }
+        _ => false,
+    };
+    if added {
+        parts.to_write.push(name.to_string());
+    }
+}
+
+fn main_rule(machines: &[&Machine]) -> String {
+    let call = |machine: &&Machine| {
+        let name = rule_name(machine);
+        let call = applied(&name, machine, '[', ']');
+        if machine.parameters.is_empty() {
+            return call;
+        }
+        let binders: Vec<String> = machine
+            .parameters
+            .iter()
+            .map(|parameter| format!("{} in {}", parameter.variable, parameter.domain))
+            .collect();
+        format!("forall {} with true do {call}", binders.join(", "))
+    };
+    let calls: Vec<String> = machines.iter().map(call).collect();
+    match &calls[..] {
+        [one] => format!("main rule r_Main =\n{one}\n"),
+        several => format!("main rule r_Main =\npar\n{}\nendpar\n", several.join("\n")),
+    }
+}
+
+fn initial_state(chart: &Chart, machines: &[&Machine]) -> String {
+    let mut text = "default init s0:\n".to_string();
+    let mut seen = Vec::new();
+    for machine in machines {
+        let (Some(Control::Made { name, .. }), Some(initial)) = (&machine.control, machine.initial()) else { continue };
+        if seen.contains(name) {
+            continue;
+        }
+        seen.push(name.clone());
+        let parameters: Vec<String> = machine
+            .parameters
+            .iter()
+            .map(|parameter| format!("{} in {}", parameter.variable, parameter.domain))
+            .collect();
+        let parameters = if parameters.is_empty() { String::new() } else { format!("({})", parameters.join(", ")) };
+        let _ = writeln!(text, "function {name}{parameters} = {}", state_value(chart, machine, initial));
+    }
+    text
+}
+
+/// A new file.
+pub(super) fn fresh(chart: &Chart, parts: &Parts) -> String {
+    let word = if parts.main.is_some() { "asm" } else { "module" };
+    let mut text = format!(
+        "/* Made from {0}.chart. The rules of its machines and the domains of its control states are written\n   anew from there; all else is kept. */\n{word} {0}\n\n",
+        chart.name
+    );
+    for import in &parts.imports {
+        let _ = writeln!(text, "import {}", quoted(import));
+    }
+    if parts.main.is_none() {
+        text.push_str("\nexport *\n");
+    }
+    text.push_str("\nsignature:\n");
+    text.extend(parts.declarations.iter().map(|item| item.text.as_str()));
+    text.push_str("\ndefinitions:\n");
+    for item in &parts.definitions {
+        let _ = writeln!(text, "{}", item.text);
+    }
+    text.extend(parts.main.as_deref());
+    text.extend(parts.init.iter().map(|init| format!("\n{init}")));
+    text
+}
+
+/// A path as an import takes it.
+pub(super) fn quoted(path: &str) -> String {
+    if path.contains(' ') { format!("\"{path}\"") } else { path.to_string() }
+}

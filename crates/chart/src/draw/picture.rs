@@ -1,0 +1,106 @@
+//! Where everything lies: boxes, lines and labels with their coordinates, for the SVG and for tests that measure it.
+//!
+//! Lengths are CSS pixels, to the right and down from the upper left corner.
+
+/// What a shape looks like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Figure {
+    /// A control state.
+    Circle,
+    /// A guard.
+    Hexagon,
+    /// An action.
+    Rectangle,
+    /// A pattern instance.
+    Block,
+    /// Where the entering arrow starts.
+    Enter,
+    /// Where a floating exit arrow ends.
+    Exit,
+}
+
+/// A shape with its place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Placed {
+    /// The name in the chart; `enter`; or `exit` and a number.
+    pub id: String,
+    /// What it looks like.
+    pub figure: Figure,
+    /// Drawn dashed.
+    pub dashed: bool,
+    /// Drawn with a double line: the machine starts here.
+    pub initial: bool,
+    /// The text in it.
+    pub lines: Vec<String>,
+    /// Left end.
+    pub x: f64,
+    /// Upper end.
+    pub y: f64,
+    /// Width.
+    pub width: f64,
+    /// Height.
+    pub height: f64,
+}
+
+/// A text beside a shape or a line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Label {
+    /// The text.
+    pub text: String,
+    /// A link to the specification; else the exit of a guard.
+    pub is_link: bool,
+    /// Left end.
+    pub x: f64,
+    /// Upper end.
+    pub y: f64,
+    /// Width.
+    pub width: f64,
+    /// Height.
+    pub height: f64,
+}
+
+/// An arrow: its corners from the start to the tip.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Line {
+    /// The index of the box it starts at.
+    pub from: usize,
+    /// The index of the box it ends at.
+    pub to: usize,
+    /// The corners, each right of, left of, above or below the one before.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// A placed drawing.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Picture {
+    /// Shapes.
+    pub boxes: Vec<Placed>,
+    /// Arrows.
+    pub lines: Vec<Line>,
+    /// Links and exits of guards.
+    pub labels: Vec<Label>,
+    /// The heading, and the link of the whole machine beside it.
+    pub heading: (String, Option<String>),
+    /// Width of the whole.
+    pub width: f64,
+    /// Height of the whole.
+    pub height: f64,
+}
+
+impl Picture {
+    /// Moves everything down, and makes the whole at least this wide.
+    pub(super) fn make_room(&mut self, above: f64, width: f64) {
+        let right = ((width - self.width) / 2.0).max(0.0);
+        self.width = self.width.max(width);
+        self.height += above;
+        for shape in &mut self.boxes {
+            (shape.x, shape.y) = (shape.x + right, shape.y + above);
+        }
+        for label in &mut self.labels {
+            (label.x, label.y) = (label.x + right, label.y + above);
+        }
+        for point in self.lines.iter_mut().flat_map(|line| &mut line.points) {
+            *point = (point.0 + right, point.1 + above);
+        }
+    }
+}

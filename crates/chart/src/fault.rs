@@ -1,0 +1,143 @@
+//! The faults of charts: one constructor each, so that all texts are seen together.
+//!
+//! In: the place, and what is there. Out: a diagnostic whose id is one of [`IDS`] and has a page `spec/faults/<id>.md`.
+
+use syntax::{Diagnostic, Span};
+
+/// The ids of all faults this crate reports, in alphabetical order.
+pub const IDS: &[&str] = &[
+    "circular-path",
+    "control-variable",
+    "dead-end",
+    "duplicate-shape",
+    "forked-path",
+    "guard-exit",
+    "initial-state",
+    "instance-arguments",
+    "machine-state",
+    "misplaced-exit",
+    "unknown-shape",
+    "unreachable-shape",
+];
+
+/// A way over guards and actions that comes back to itself.
+pub(crate) fn circular_path(span: Span, name: &str) -> Diagnostic {
+    Diagnostic::error("circular-path", span, format!("the path comes back to `{name}` without a control state"))
+        .because("all guards and actions of a path fire in one step, so this step would never end")
+        .with_help("put a control state on the way")
+}
+
+/// No control variable, or two.
+pub(crate) fn no_control(span: Span, machine: &str) -> Diagnostic {
+    Diagnostic::error("control-variable", span, format!("`{machine}` has control states and no control variable"))
+        .because("the control states are the values of a variable")
+        .with_help("write `control NAME` to have one made, or `control {f($x)}` for a location of the specification")
+}
+
+/// A second control variable.
+pub(crate) fn second_control(span: Span, first: Span) -> Diagnostic {
+    Diagnostic::error("control-variable", span, "a second control variable")
+        .because("a machine has one")
+        .with_label(first, "the first one")
+        .with_help("remove one, or split the machine in two")
+}
+
+/// A shape from which nothing goes on.
+pub(crate) fn dead_end(span: Span, kind: &str, name: &str) -> Diagnostic {
+    Diagnostic::error("dead-end", span, format!("no arrow leads on from the {kind} `{name}`"))
+        .because("a path ends at a control state or, in a pattern, at `exit`")
+        .with_help(format!("write a path `{name} -> …` on to a control state"))
+}
+
+/// Two things of one name.
+pub(crate) fn duplicate(span: Span, what: &str, name: &str, first: Span) -> Diagnostic {
+    Diagnostic::error("duplicate-shape", span, format!("a second {what} `{name}`"))
+        .because("paths and layouts could not tell the two apart")
+        .with_label(first, "the first one")
+        .with_help("rename one of them")
+}
+
+/// Two ways on from an action.
+pub(crate) fn forked_path(span: Span, kind: &str, name: &str, first: Span) -> Diagnostic {
+    Diagnostic::error("forked-path", span, format!("a second arrow out of the {kind} `{name}`"))
+        .because("a path goes on in one way; only control states start several")
+        .with_label(first, "the first arrow leads here")
+        .with_help("test a guard to choose between the two, or start both paths at the control state")
+}
+
+/// An arrow out of a guard that says neither yes nor no.
+pub(crate) fn bare_guard(span: Span, name: &str) -> Diagnostic {
+    Diagnostic::error("guard-exit", span, format!("the arrow out of the guard `{name}` says neither yes nor no"))
+        .because("a guard has two exits")
+        .with_help(format!("write `{name} yes -> …` or `{name} no -> …`"))
+}
+
+/// `yes` or `no` behind something else than a guard.
+pub(crate) fn needless_exit(span: Span, name: &str) -> Diagnostic {
+    Diagnostic::error("guard-exit", span, format!("`{name}` is no guard"))
+        .because("only guards have the exits yes and no")
+        .with_help("remove `yes` or `no`, or declare the shape as a guard")
+}
+
+/// None or several initial states.
+pub(crate) fn no_initial(span: Span, machine: &str) -> Diagnostic {
+    Diagnostic::error("initial-state", span, format!("`{machine}` has no initial state"))
+        .because("a machine starts in one of its control states")
+        .with_help("write `initial state NAME` for one of them")
+}
+
+/// A second initial state, or one in a pattern.
+pub(crate) fn needless_initial(span: Span, first: Option<Span>) -> Diagnostic {
+    match first {
+        Some(first) => Diagnostic::error("initial-state", span, "a second initial state")
+            .because("a machine starts in one of its control states")
+            .with_label(first, "the first one")
+            .with_help("remove `initial` from one of them"),
+        None => Diagnostic::error("initial-state", span, "a pattern has no initial state")
+            .because("a pattern is entered by its arrow, when its control variable is undef")
+            .with_help("remove `initial`, and write a path `enter -> …`"),
+    }
+}
+
+/// Arguments that do not fit the pattern.
+pub(crate) fn arguments(span: Span, pattern: &str, wanted: usize, given: usize, declared: Span) -> Diagnostic {
+    let count = if wanted == 1 { "1 argument".to_string() } else { format!("{wanted} arguments") };
+    Diagnostic::error("instance-arguments", span, format!("`{pattern}` takes {count}, {given} given"))
+        .because("an instance gives each parameter of its pattern a term")
+        .with_label(declared, "the pattern")
+        .with_help(format!("give {count}"))
+}
+
+/// A second control state with the same value.
+pub(crate) fn same_value(span: Span, value: &str, first: Span) -> Diagnostic {
+    Diagnostic::error("machine-state", span, format!("a second control state with the value `{value}`"))
+        .because("the machine could not tell the two apart")
+        .with_label(first, "the first one")
+        .with_help("link each control state to a value of its own")
+}
+
+/// `enter` or `exit` where they cannot stand.
+pub(crate) fn misplaced_exit(span: Span, word: &str, reason: &str) -> Diagnostic {
+    Diagnostic::error("misplaced-exit", span, format!("`{word}` cannot stand here"))
+        .because(reason)
+        .with_help("only patterns are entered and left: a path starts at `enter` and ends at `exit`")
+}
+
+/// A name that nothing declares.
+pub(crate) fn unknown(span: Span, what: &str, name: &str, known: &[&str]) -> Diagnostic {
+    let help = match known.iter().find(|known| known.eq_ignore_ascii_case(name)) {
+        Some(close) => format!("is `{close}` meant?"),
+        None if known.is_empty() => "declare it".to_string(),
+        None => format!("declare it, or use one of: {}", known.join(", ")),
+    };
+    Diagnostic::error("unknown-shape", span, format!("there is no {what} `{name}`"))
+        .because("nothing of this name is declared here")
+        .with_help(help)
+}
+
+/// A shape to which no path leads.
+pub(crate) fn unreachable(span: Span, kind: &str, name: &str) -> Diagnostic {
+    Diagnostic::warning("unreachable-shape", span, format!("no path leads to the {kind} `{name}`"))
+        .because("nothing ever comes here")
+        .with_help("lead a path to it, or remove it")
+}

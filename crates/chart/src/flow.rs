@@ -1,0 +1,126 @@
+//! The transitions of a machine: what its arrows come to, step by step (spec/charts.md, "Meaning").
+//!
+//! In: a machine without errors, and its chart. Out: one [`Transition`] for each way from a control state, from the
+//! entering arrow or from a block that has been left, over guards and actions to where the step ends.
+
+use crate::chart::{Chart, End, Machine, ShapeId, ShapeKind};
+
+/// Where a transition starts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Origin {
+    /// The control variable is undef.
+    Enter,
+    /// The control variable has the value of this state.
+    State(ShapeId),
+    /// The machine is in this block, and its pattern has been left.
+    Left(ShapeId),
+}
+
+/// Where a transition ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Target {
+    /// A control state.
+    State(ShapeId),
+    /// A block of a pattern that takes steps: it is entered in this step.
+    Block(ShapeId),
+    /// The control variable becomes undef.
+    Exit,
+}
+
+/// One way from a control state to the next.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Transition {
+    /// Where it starts.
+    pub origin: Origin,
+    /// The guards on the way and whether each holds.
+    pub guards: Vec<(ShapeId, bool)>,
+    /// The actions on the way.
+    pub actions: Vec<ShapeId>,
+    /// Where it ends.
+    pub target: Target,
+}
+
+/// LIMIT: the most transitions of one machine that are looked at; paths that split and join again double each time.
+pub const MAX_TRANSITIONS: usize = 10_000;
+
+/// The transitions of a machine, those of one origin in the order of its arrows.
+pub fn transitions(chart: &Chart, machine: &Machine) -> Vec<Transition> {
+    let mut found = Vec::new();
+    for origin in origins(chart, machine) {
+        let start = match origin {
+            Origin::Enter => End::Enter,
+            Origin::State(id) | Origin::Left(id) => End::Shape(id),
+        };
+        for arrow in machine.out_of(start) {
+            let mut open = vec![(arrow.to, Vec::new(), Vec::new())];
+            while let Some((end, guards, actions)) = open.pop() {
+                if found.len() >= MAX_TRANSITIONS {
+                    return found;
+                }
+                follow(chart, machine, origin, (end, guards, actions), &mut open, &mut found);
+            }
+        }
+    }
+    found
+}
+
+type Way = (End, Vec<(ShapeId, bool)>, Vec<ShapeId>);
+
+fn follow(
+    chart: &Chart,
+    machine: &Machine,
+    origin: Origin,
+    (end, guards, actions): Way,
+    open: &mut Vec<Way>,
+    found: &mut Vec<Transition>,
+) {
+    let id = match end {
+        End::Shape(id) => id,
+        End::Exit => return found.push(Transition { origin, guards, actions, target: Target::Exit }),
+        End::Enter => return,
+    };
+    match machine.shape(id).kind {
+        ShapeKind::State { .. } => found.push(Transition { origin, guards, actions, target: Target::State(id) }),
+        ShapeKind::Instance(_) if is_block(chart, machine, id) => {
+            found.push(Transition { origin, guards, actions, target: Target::Block(id) });
+        }
+        ShapeKind::Guard => {
+            for branch in [false, true] {
+                if let Some(arrow) = machine.branch(id, branch) {
+                    let mut guards = guards.clone();
+                    guards.push((id, branch));
+                    open.push((arrow.to, guards, actions.clone()));
+                }
+            }
+        }
+        ShapeKind::Action | ShapeKind::Instance(_) => {
+            let mut actions = actions;
+            actions.push(id);
+            open.extend(machine.out_of(end).take(1).map(|arrow| (arrow.to, guards.clone(), actions.clone())));
+        }
+    }
+}
+
+/// Where transitions of a machine start, in the order of its shapes.
+pub(crate) fn origins(chart: &Chart, machine: &Machine) -> Vec<Origin> {
+    let enter = machine.is_pattern.then_some(Origin::Enter);
+    let shapes = machine.numbered().filter_map(|(id, shape)| match shape.kind {
+        ShapeKind::State { .. } => Some(Origin::State(id)),
+        ShapeKind::Instance(_) if is_block(chart, machine, id) => Some(Origin::Left(id)),
+        _ => None,
+    });
+    enter.into_iter().chain(shapes).collect()
+}
+
+/// An instance on a path, of a pattern with control states: the machine stays in it until the pattern is left.
+pub(crate) fn is_block(chart: &Chart, machine: &Machine, id: ShapeId) -> bool {
+    let shape = machine.shape(id);
+    let steps = chart.pattern_of(shape).is_none_or(Machine::takes_steps);
+    matches!(shape.kind, ShapeKind::Instance(_)) && steps && !is_beside(machine, id)
+}
+
+/// An instance that no path leads to: its rule runs in every step, in parallel to the paths.
+pub(crate) fn is_beside(machine: &Machine, id: ShapeId) -> bool {
+    matches!(machine.shape(id).kind, ShapeKind::Instance(_))
+        && !machine.arrows.iter().any(|arrow| arrow.to == End::Shape(id) || arrow.from == End::Shape(id))
+}

@@ -1,0 +1,25 @@
+//! Control-state charts: what they mean, and the ways between charts, AsmetaL and pictures.
+//!
+//! In: the tree of a chart file. Out: a [`Chart`] and its faults; from it AsmetaL ([`build()`]) and drawings
+//! ([`draw()`]). The notation is that of the paper (section IV): control states, guards, actions, pattern machines with
+//! an entering arrow and floating exit arrows, pattern instances; its meaning is written in `spec/charts.md`. This crate
+//! gives charts their meaning by the AsmetaL they stand for; it must not execute anything.
+
+pub mod build;
+pub mod draw;
+
+mod chart;
+mod dump;
+mod fault;
+mod flow;
+mod read;
+
+pub use build::{Built, Known, build};
+pub use chart::{
+    Arrow, Chart, Control, End, Layout, Link, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind,
+};
+pub use draw::{draw, drawings};
+pub use dump::dump;
+pub use fault::IDS as FAULT_IDS;
+pub use flow::{Origin, Target, Transition, transitions};
+pub use read::read;

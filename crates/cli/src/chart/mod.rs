@@ -1,0 +1,50 @@
+//! `groundstate chart …`: charts drawn, and models built from them. One file a subcommand.
+
+mod build;
+mod draw;
+
+use std::path::Path;
+
+use ::chart::Chart;
+use clap::{Args, Subcommand};
+use syntax::Sources;
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::shell::Shell;
+
+/// Arguments of `chart`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Write the model that a chart stands for; what is written by hand in it stays
+    Build(build::Arguments),
+    /// Write a chart's machines as pictures
+    Draw(draw::Arguments),
+}
+
+/// Runs the command.
+pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    match &arguments.command {
+        Command::Build(arguments) => build::run(shell, arguments),
+        Command::Draw(arguments) => draw::run(shell, arguments),
+    }
+}
+
+/// Reads a chart; its faults are shown, and with errors there is none.
+pub fn read(shell: &mut Shell, path: &Path) -> Result<Result<(Sources, Chart), Exit>, Failure> {
+    let mut sources = Sources::default();
+    let file = sources.add(shell.disk().root(path)?);
+    let parse = syntax::parse_chart(file, &sources.file(file).text);
+    let (chart, faults) = ::chart::read(file, &parse);
+    shell.diagnostics(&sources, &faults)?;
+    if groundstate::has_errors(&faults) {
+        return Ok(Err(Exit::Model));
+    }
+    Ok(Ok((sources, chart)))
+}

@@ -1,0 +1,227 @@
+//! Views of systems: components, phases, channels, devices and connections (spec/charts.md).
+
+use super::chart::text_of;
+use super::{AstNode, Children, Link, child, children, nodes, token, tokens};
+use crate::{SyntaxKind, SyntaxKind::*, SyntaxToken};
+
+nodes! {
+    /// `system NAME "text" … endsystem`
+    SystemChart = SYSTEM_CHART,
+    /// `tick Q`: how long a step of the machine is.
+    Tick = TICK,
+    /// `component NAME "text" KIND … endcomponent`
+    Component = COMPONENT,
+    /// `synchronous period Q offset Q deadline Q`, `asynchronous awaits NAME`
+    ComponentKind = COMPONENT_KIND,
+    /// `read CHANNEL as NAME Q`, `elaborate NAME Q {rule}`, `write CHANNEL as NAME Q`
+    Phase = PHASE,
+    /// `channel NAME from NAME to NAME KIND`
+    Channel = CHANNEL,
+    /// `swinging buffer N master NAME`, `queue N`, `shared value`
+    ChannelKind = CHANNEL_KIND,
+    /// `sensor NAME "text"`, `actuator NAME "text"`
+    Device = DEVICE,
+    /// `NAME -> NAME`
+    Connection = CONNECTION,
+    /// `NUMBER UNIT`
+    Quantity = QUANTITY,
+}
+
+fn names(node: &crate::SyntaxNode) -> impl Iterator<Item = SyntaxToken> {
+    tokens(node).filter(|token| token.kind() == GENERIC_ID)
+}
+
+impl SystemChart {
+    /// The name.
+    pub fn name(&self) -> Option<SyntaxToken> {
+        token(self.syntax(), GENERIC_ID)
+    }
+    /// The text shown.
+    pub fn text(&self) -> Option<String> {
+        text_of(self.syntax())
+    }
+    /// How long a step is; more than one is a fault.
+    pub fn ticks(&self) -> Children<Tick> {
+        children(self.syntax())
+    }
+    /// The components.
+    pub fn components(&self) -> Children<Component> {
+        children(self.syntax())
+    }
+    /// The channels.
+    pub fn channels(&self) -> Children<Channel> {
+        children(self.syntax())
+    }
+    /// Sensors and actuators.
+    pub fn devices(&self) -> Children<Device> {
+        children(self.syntax())
+    }
+    /// Physical connections.
+    pub fn connections(&self) -> Children<Connection> {
+        children(self.syntax())
+    }
+}
+
+impl Tick {
+    /// The length.
+    pub fn quantity(&self) -> Option<Quantity> {
+        child(self.syntax())
+    }
+}
+
+impl Component {
+    /// The name.
+    pub fn name(&self) -> Option<SyntaxToken> {
+        token(self.syntax(), GENERIC_ID)
+    }
+    /// The text shown.
+    pub fn text(&self) -> Option<String> {
+        text_of(self.syntax())
+    }
+    /// Synchronous or asynchronous.
+    pub fn kind(&self) -> Option<ComponentKind> {
+        child(self.syntax())
+    }
+    /// The phases of a cycle, in order.
+    pub fn phases(&self) -> Children<Phase> {
+        children(self.syntax())
+    }
+}
+
+impl ComponentKind {
+    /// It is synchronous.
+    pub fn is_synchronous(&self) -> bool {
+        token(self.syntax(), SYNCHRONOUS_KW).is_some()
+    }
+    /// The channel whose data an asynchronous component awaits.
+    pub fn awaits(&self) -> Option<SyntaxToken> {
+        token(self.syntax(), GENERIC_ID)
+    }
+    /// The quantity behind `period`, `offset` or `deadline`.
+    pub fn quantity(&self, word: SyntaxKind) -> Option<Quantity> {
+        let word = token(self.syntax(), word)?;
+        let mut next = word.next_sibling_or_token();
+        while let Some(element) = next.filter(|element| element.as_token().is_none_or(|t| t.kind().is_trivia())) {
+            if let Some(node) = element.as_node() {
+                return Quantity::cast(node.clone());
+            }
+            next = element.next_sibling_or_token();
+        }
+        None
+    }
+}
+
+/// What a phase does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum PhaseKind {
+    /// Reads from a channel.
+    Read,
+    /// Computes.
+    Elaborate,
+    /// Writes to a channel.
+    Write,
+}
+
+impl Phase {
+    /// What it does.
+    pub fn kind(&self) -> Option<PhaseKind> {
+        tokens(self.syntax()).find_map(|token| match token.kind() {
+            READ_KW => Some(PhaseKind::Read),
+            ELABORATE_KW => Some(PhaseKind::Elaborate),
+            WRITE_KW => Some(PhaseKind::Write),
+            _ => None,
+        })
+    }
+    /// The channel read or written, or the name of the elaboration.
+    pub fn subject(&self) -> Option<SyntaxToken> {
+        names(self.syntax()).next()
+    }
+    /// The name behind `as`.
+    pub fn name(&self) -> Option<SyntaxToken> {
+        token(self.syntax(), AS_KW)?;
+        names(self.syntax()).nth(1)
+    }
+    /// How long it takes.
+    pub fn time(&self) -> Option<Quantity> {
+        child(self.syntax())
+    }
+    /// The rule of an elaboration.
+    pub fn link(&self) -> Option<Link> {
+        child(self.syntax())
+    }
+}
+
+impl Channel {
+    /// The name.
+    pub fn name(&self) -> Option<SyntaxToken> {
+        names(self.syntax()).next()
+    }
+    /// The component that writes.
+    pub fn from(&self) -> Option<SyntaxToken> {
+        names(self.syntax()).nth(1)
+    }
+    /// The component that reads.
+    pub fn to(&self) -> Option<SyntaxToken> {
+        names(self.syntax()).nth(2)
+    }
+    /// What it is made of.
+    pub fn kind(&self) -> Option<ChannelKind> {
+        child(self.syntax())
+    }
+}
+
+impl ChannelKind {
+    /// It is a swinging buffer.
+    pub fn is_buffer(&self) -> bool {
+        token(self.syntax(), SWINGING_KW).is_some()
+    }
+    /// It is a message queue.
+    pub fn is_queue(&self) -> bool {
+        token(self.syntax(), QUEUE_KW).is_some()
+    }
+    /// The number of arrays or of messages.
+    pub fn size(&self) -> Option<SyntaxToken> {
+        token(self.syntax(), INTEGER)
+    }
+    /// The component behind `master`.
+    pub fn master(&self) -> Option<SyntaxToken> {
+        token(self.syntax(), GENERIC_ID)
+    }
+}
+
+impl Device {
+    /// It is a sensor; else an actuator.
+    pub fn is_sensor(&self) -> bool {
+        token(self.syntax(), SENSOR_KW).is_some()
+    }
+    /// The name.
+    pub fn name(&self) -> Option<SyntaxToken> {
+        token(self.syntax(), GENERIC_ID)
+    }
+    /// The text shown.
+    pub fn text(&self) -> Option<String> {
+        text_of(self.syntax())
+    }
+}
+
+impl Connection {
+    /// Where it starts.
+    pub fn from(&self) -> Option<SyntaxToken> {
+        names(self.syntax()).next()
+    }
+    /// Where it ends.
+    pub fn to(&self) -> Option<SyntaxToken> {
+        names(self.syntax()).nth(1)
+    }
+}
+
+impl Quantity {
+    /// The number as it is written.
+    pub fn number(&self) -> Option<SyntaxToken> {
+        tokens(self.syntax()).find(|token| matches!(token.kind(), INTEGER | REAL))
+    }
+    /// The unit.
+    pub fn unit(&self) -> Option<SyntaxToken> {
+        token(self.syntax(), GENERIC_ID)
+    }
+}

@@ -1,0 +1,256 @@
+//! Systems: components, their phases, the channels between them, and devices (spec/charts.md).
+//!
+//! In: the cursor at `system`. Out: SYSTEM_CHART. Every length of time is a number and a unit.
+
+use super::chart::{block, eat_word, expect_word, keyword, no_item, rule_link, shape_name};
+use crate::SyntaxKind::*;
+use crate::fault;
+use crate::parser::Parser;
+
+/// `system NAME "text" … endsystem`
+pub(super) fn system(p: &mut Parser<'_>) {
+    p.start(SYSTEM_CHART);
+    p.bump_opener_as(SYSTEM_KW, ENDSYSTEM_KW);
+    shape_name(p);
+    p.eat(STRING);
+    block(p, ENDSYSTEM_KW, item);
+    p.finish();
+}
+
+fn starts_item(p: &Parser<'_>) -> bool {
+    keyword(p, &[TICK_KW, COMPONENT_KW, CHANNEL_KW, SENSOR_KW, ACTUATOR_KW]).is_some() || p.peek(1) == ARROW
+}
+
+fn item(p: &mut Parser<'_>) {
+    match keyword(p, &[TICK_KW, COMPONENT_KW, CHANNEL_KW, SENSOR_KW, ACTUATOR_KW]) {
+        _ if p.peek(1) == ARROW => connection(p),
+        Some(TICK_KW) => {
+            p.start(TICK);
+            p.bump_as(TICK_KW);
+            quantity(p);
+            p.finish();
+        }
+        Some(COMPONENT_KW) => component(p),
+        Some(CHANNEL_KW) => channel(p),
+        Some(device) => {
+            p.start(DEVICE);
+            p.bump_as(device);
+            if shape_name(p) {
+                p.eat(STRING);
+            }
+            p.finish();
+        }
+        None => no_item(p, "a component, channel, sensor, actuator or connection", starts_item),
+    }
+}
+
+/// `NUMBER UNIT`
+fn quantity(p: &mut Parser<'_>) {
+    p.start(QUANTITY);
+    if p.eat(REAL) || p.expect(INTEGER, "as a length of time") {
+        shape_name(p);
+    }
+    p.finish();
+}
+
+/// `NAME -> NAME`: a physical connection
+fn connection(p: &mut Parser<'_>) {
+    p.start(CONNECTION);
+    shape_name(p);
+    p.bump();
+    shape_name(p);
+    p.finish();
+}
+
+/// `component NAME "text" KIND … endcomponent`
+fn component(p: &mut Parser<'_>) {
+    p.start(COMPONENT);
+    p.bump_opener_as(COMPONENT_KW, ENDCOMPONENT_KW);
+    if shape_name(p) {
+        p.eat(STRING);
+        kind(p);
+    }
+    block(p, ENDCOMPONENT_KW, phase);
+    p.finish();
+}
+
+/// `synchronous period Q offset Q deadline Q`, `asynchronous awaits NAME`
+fn kind(p: &mut Parser<'_>) {
+    p.start(COMPONENT_KIND);
+    if eat_word(p, ASYNCHRONOUS_KW) {
+        if eat_word(p, AWAITS_KW) {
+            shape_name(p);
+        }
+    } else if expect_word(p, SYNCHRONOUS_KW, "or `asynchronous` behind the name of a component") {
+        if expect_word(p, PERIOD_KW, "behind `synchronous`") {
+            quantity(p);
+        }
+        for word in [OFFSET_KW, DEADLINE_KW] {
+            if eat_word(p, word) {
+                quantity(p);
+            }
+        }
+    }
+    p.finish();
+}
+
+/// `read NAME as NAME Q`, `elaborate NAME Q {rule}`, `write NAME as NAME Q`
+fn phase(p: &mut Parser<'_>) {
+    let Some(word) = keyword(p, &[READ_KW, ELABORATE_KW, WRITE_KW]) else {
+        let starts = |p: &Parser<'_>| keyword(p, &[READ_KW, ELABORATE_KW, WRITE_KW]).is_some();
+        no_item(p, "a phase: `read`, `elaborate` or `write`", |p| starts(p) || starts_item(p));
+        return;
+    };
+    p.start(PHASE);
+    p.bump_as(word);
+    if shape_name(p) {
+        if eat_word(p, AS_KW) {
+            shape_name(p);
+        }
+        if p.at(INTEGER) || p.at(REAL) {
+            quantity(p);
+        }
+        rule_link(p);
+    }
+    p.finish();
+}
+
+/// `channel NAME from NAME to NAME KIND`
+fn channel(p: &mut Parser<'_>) {
+    p.start(CHANNEL);
+    p.bump_as(CHANNEL_KW);
+    if shape_name(p) && expect_word(p, FROM_KW, "behind the name of a channel") {
+        shape_name(p);
+        if expect_word(p, TO_KW, "behind the sender of a channel") {
+            shape_name(p);
+        }
+        channel_kind(p);
+    }
+    p.finish();
+}
+
+/// `swinging buffer N master NAME`, `queue N`, `shared value`
+fn channel_kind(p: &mut Parser<'_>) {
+    p.start(CHANNEL_KIND);
+    if eat_word(p, SWINGING_KW) {
+        if expect_word(p, BUFFER_KW, "behind `swinging`") {
+            p.expect(INTEGER, "as the number of arrays");
+        }
+        if eat_word(p, MASTER_KW) {
+            shape_name(p);
+        }
+    } else if eat_word(p, QUEUE_KW) {
+        p.expect(INTEGER, "as the capacity of the queue");
+    } else if p.at(SHARED_KW) {
+        p.bump();
+        expect_word(p, VALUE_KW, "behind `shared`");
+    } else {
+        let found = p.missing();
+        p.fault(fault::expected_token(found, SWINGING_KW, "or `queue` or `shared` behind a channel"));
+    }
+    p.finish();
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::grammar::brief::chart;
+    use expect_test::{Expect, expect};
+
+    fn check(text: &str, expected: Expect) {
+        expected.assert_eq(&chart(text));
+    }
+
+    #[test]
+    fn systems() {
+        check(
+            "chart C system s \"S\" tick 0.1 ms sensor camera \"Camera\" component grab \"Grab\" synchronous period 10 ms offset 1 ms deadline 9 ms elaborate shot 6 ms {r_shot[]} write frames as w 0.1 ms endcomponent component vs asynchronous awaits frames read frames endcomponent channel frames from grab to vs swinging buffer 2 master vs channel q from vs to grab queue 4 channel v from vs to grab shared value camera -> grab endsystem",
+            expect![[r#"
+                chart
+                C
+                SYSTEM_CHART(
+                  system
+                  s
+                  "S"
+                  TICK(tick QUANTITY(0.1 ms))
+                  DEVICE(sensor camera "Camera")
+                  COMPONENT(
+                    component
+                    grab
+                    "Grab"
+                    COMPONENT_KIND(
+                      synchronous
+                      period
+                      QUANTITY(10 ms)
+                      offset
+                      QUANTITY(1 ms)
+                      deadline
+                      QUANTITY(9 ms))
+                    PHASE(
+                      elaborate
+                      shot
+                      QUANTITY(6 ms)
+                      LINK({ MACRO_CALL(r_shot ARGUMENT_LIST([ ])) }))
+                    PHASE(write frames as w QUANTITY(0.1 ms))
+                    endcomponent)
+                  COMPONENT(
+                    component
+                    vs
+                    COMPONENT_KIND(asynchronous awaits frames)
+                    PHASE(read frames)
+                    endcomponent)
+                  CHANNEL(
+                    channel
+                    frames
+                    from
+                    grab
+                    to
+                    vs
+                    CHANNEL_KIND(swinging buffer 2 master vs))
+                  CHANNEL(channel q from vs to grab CHANNEL_KIND(queue 4))
+                  CHANNEL(channel v from vs to grab CHANNEL_KIND(shared value))
+                  CONNECTION(camera -> grab)
+                  endsystem)"#]],
+        );
+    }
+
+    #[test]
+    fn faults() {
+        check(
+            "chart C system s component c period 1 ms read endcomponent channel x to y endsystem",
+            expect![[r#"
+            chart
+            C
+            SYSTEM_CHART(
+              system
+              s
+              COMPONENT(component c ERROR(period 1 ms read) endcomponent)
+              CHANNEL(channel x)
+              ERROR(to y)
+              endsystem)
+            !expected-token
+            !expected-shape
+            !expected-token
+            !expected-shape"#]],
+        );
+        check(
+            "chart C system s component c synchronous period ms stray 3 endcomponent channel x from a to b endsystem",
+            expect![[r#"
+            chart
+            C
+            SYSTEM_CHART(
+              system
+              s
+              COMPONENT(
+                component
+                c
+                COMPONENT_KIND(synchronous period)
+                ERROR(ms stray 3)
+                endcomponent)
+              CHANNEL(channel x from a to b)
+              endsystem)
+            !expected-token
+            !expected-shape
+            !expected-token"#]],
+        );
+    }
+}
