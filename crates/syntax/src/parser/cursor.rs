@@ -69,9 +69,9 @@ impl<'t> Parser<'t> {
         self.at(EOF) || self.in_scenario && self.at(SEMICOLON)
     }
 
-    /// The current token and the next one touch.
+    /// The current token and the next one that the grammar sees touch.
     pub(crate) fn touches_next(&self) -> bool {
-        self.tokens.get(self.at + 1).is_some_and(|next| !next.kind.is_trivia())
+        self.at + 1 < self.tokens.len() && !self.is_skipped(self.at + 1)
     }
 
     /// The current token and the one before touch.
