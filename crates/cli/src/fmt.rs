@@ -19,7 +19,7 @@ use crate::wire::Answer;
 /// Arguments of `fmt`.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Models (.asm) and scenarios (.avalla), or folders of them; `-` reads standard input and writes standard output
+    /// Models (.asm), scenarios (.avalla) and charts (.chart), or folders of them; `-` reads standard input and writes standard output
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
     /// Write nothing: list the files that are not in this layout, and exit with 1 if there are any
@@ -54,7 +54,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         return standard_input(shell, arguments.check);
     }
     let mut counts = Counts::default();
-    for path in collect(&arguments.paths, &["asm", "avalla"])? {
+    for path in collect(&arguments.paths, &["asm", "avalla", "chart"])? {
         one(shell, &path, arguments.check, &mut counts)?;
     }
     if shell.talks() && !arguments.check {
@@ -139,7 +139,9 @@ fn layout(shell: &mut Shell, source: SourceFile) -> Result<Layout, Failure> {
 /// A scenario begins with the word; a file's name says it, too.
 fn grammar(source: &SourceFile) -> fn(FileId, &str) -> Parse {
     let named = source.name.ends_with(".avalla");
-    if named || (!source.name.ends_with(".asm") && is_scenario(&source.text)) {
+    if source.name.ends_with(".chart") {
+        syntax::parse_chart
+    } else if named || (!source.name.ends_with(".asm") && is_scenario(&source.text)) {
         syntax::parse_avalla
     } else {
         syntax::parse_asmetal
