@@ -6,6 +6,8 @@ use syntax::{Diagnostic, Span};
 
 /// The ids of all faults this crate reports, in alphabetical order.
 pub const IDS: &[&str] = &[
+    "broken-link",
+    "chart-differs",
     "circular-path",
     "control-variable",
     "dead-end",
@@ -16,6 +18,8 @@ pub const IDS: &[&str] = &[
     "instance-arguments",
     "machine-state",
     "misplaced-exit",
+    "not-control-state",
+    "to-refine",
     "unknown-shape",
     "unreachable-shape",
 ];
@@ -140,4 +144,58 @@ pub(crate) fn unreachable(span: Span, kind: &str, name: &str) -> Diagnostic {
     Diagnostic::warning("unreachable-shape", span, format!("no path leads to the {kind} `{name}`"))
         .because("nothing ever comes here")
         .with_help("lead a path to it, or remove it")
+}
+
+/// A link that leads nowhere, or to something of another kind.
+pub(crate) fn broken_link(span: Span, message: &str, help: Option<&str>) -> Diagnostic {
+    let fault = Diagnostic::error("broken-link", span, format!("a link is broken: {message}"))
+        .because("the specification is asked for this");
+    fault.with_help(help.unwrap_or("correct the link, or write what it names"))
+}
+
+/// A case in which the chart and the rule do not do the same.
+pub(crate) fn chart_differs(
+    span: Span,
+    origin: &str,
+    effect: &str,
+    case: &[(String, bool)],
+    chart_does: bool,
+    place: Option<Span>,
+) -> Diagnostic {
+    let tests: Vec<String> =
+        case.iter().map(|(atom, holds)| if *holds { atom.clone() } else { format!("not ({atom})") }).collect();
+    let where_ = if tests.is_empty() { String::new() } else { format!(" where {}", tests.join(" and ")) };
+    let state = match origin {
+        "" => String::new(),
+        "undef" => "on entering, ".to_string(),
+        origin => format!("in {origin}, "),
+    };
+    let (who, other) = if chart_does { ("the chart", "the rule") } else { ("the rule", "the chart") };
+    let fault =
+        Diagnostic::error("chart-differs", span, format!("{state}{who} does `{effect}`{where_}, {other} does not"))
+            .because("the chart's side");
+    let fault = match place {
+        Some(place) => fault
+            .with_label(place, if chart_does { "the rule does it in other cases" } else { "the rule does it here" }),
+        None => fault,
+    };
+    fault.with_help("change the chart or the rule; `groundstate chart build` writes the rule as the chart says")
+}
+
+/// A rule that cannot be compared.
+pub(crate) fn not_control_state(span: Span, name: &str, place: Option<Span>) -> Diagnostic {
+    let fault = Diagnostic::error("not-control-state", span, format!("the rule `{name}` is not in control-state form"))
+        .because("its control variable must be set to literals or undef, in parallel rules, `if`, `switch` and `let`");
+    let fault = match place {
+        Some(place) => fault.with_label(place, "here it is set in another way"),
+        None => fault,
+    };
+    fault.with_help("write it so, or draw what it does as one action of another machine")
+}
+
+/// Something that is to be refined.
+pub(crate) fn to_refine(span: Span, name: &str, by: Option<&str>) -> Diagnostic {
+    let what = by.map_or_else(String::new, |by| format!(" by `{by}`"));
+    let fault = Diagnostic::error("to-refine", span, format!("`{name}` is still to be refined{what}"));
+    Diagnostic { severity: syntax::Severity::Note, ..fault }.because("drawn dashed")
 }

@@ -9,17 +9,24 @@ pub mod build;
 pub mod draw;
 
 mod chart;
+mod check;
 mod dump;
+mod extract;
 mod fault;
 mod flow;
 mod read;
+mod symbolic;
+mod write;
 
 pub use build::{Built, Known, build};
 pub use chart::{
     Arrow, Chart, Control, End, Layout, Link, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind,
 };
+pub use check::{Probed, check, probed};
 pub use draw::{draw, drawings};
 pub use dump::dump;
+pub use extract::{Extracted, extract};
 pub use fault::IDS as FAULT_IDS;
 pub use flow::{Origin, Target, Transition, transitions};
 pub use read::read;
+pub use write::write;

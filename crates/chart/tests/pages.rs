@@ -5,7 +5,7 @@
 
 use std::path::PathBuf;
 
-use chart::{Chart, Known, build, read};
+use chart::{Chart, Known, build, probed, read};
 use model::{Loader, check};
 use syntax::{Diagnostic, FileId, SourceFile, parse_chart};
 
@@ -67,9 +67,16 @@ fn each_fault_has_a_page_whose_example_shows_it() {
     for id in chart::FAULT_IDS {
         let page = page(&format!("faults/{id}"));
         assert!(page.starts_with(&format!("# {id}\n")), "the page of {id} has another title");
-        let (_, code) = blocks(&page).into_iter().find(|(info, _)| info == "chart fault").expect("an example");
-        let ids: Vec<_> = chart(&code).1.iter().map(|fault| fault.id).collect();
-        assert_eq!(ids, [*id]);
+        let blocks = blocks(&page);
+        let block = |wanted: &str| blocks.iter().find(|(info, _)| info == wanted).map(|(_, code)| code.as_str());
+        let (drawn, mut faults) = chart(block("chart fault").expect("an example"));
+        if let Some(specification) = block("asmetal") {
+            let probed = probed(&drawn, specification).expect("the specification parses");
+            let checked = check(SourceFile::new("Lamp.asm", probed.text.as_str()), &mut Nothing);
+            faults.extend(chart::check(&drawn, &probed, &checked));
+        }
+        let ids: Vec<_> = faults.iter().map(|fault| fault.id).collect();
+        assert_eq!(ids, [*id], "{faults:#?}");
     }
 }
 

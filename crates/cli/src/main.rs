@@ -69,7 +69,7 @@ enum Command {
     Replay(replay::Arguments),
     /// Run a model and write the run as a page: timeline, deadlines, waiting, coverage
     Report(Box<report::Arguments>),
-    /// Draw charts, build models from them
+    /// Draw charts, build models from them, compare the two, extract charts from models
     Chart(chart::Arguments),
     /// Show what a stage hands to the next
     Dump(dump::Arguments),

@@ -17,14 +17,16 @@ struct Edit {
     text: String,
 }
 
-/// The parts, merged into a text.
-pub(super) fn into(text: &str, chart: &Chart, parts: &Parts) -> Result<String, Vec<Diagnostic>> {
+/// The parts, merged into a text, and the names that the text declared before.
+pub(super) fn into(text: &str, chart: &Chart, parts: &Parts) -> Result<(String, Vec<String>), Vec<Diagnostic>> {
     let parse = syntax::parse_asmetal(FileId(0), text);
     if parse.diagnostics.iter().any(|fault| fault.severity == Severity::Error) {
         return Err(parse.diagnostics);
     }
     let root = parse.syntax();
-    let Some(signature) = section(&root, SIGNATURE) else { return Ok(super::module::fresh(chart, parts)) };
+    let Some(signature) = section(&root, SIGNATURE) else {
+        return Ok((super::module::fresh(chart, parts), Vec::new()));
+    };
     let definitions = section(&root, DEFINITIONS);
     let mut edits = Vec::new();
     imports(&root, parts, &mut edits);
@@ -40,7 +42,9 @@ pub(super) fn into(text: &str, chart: &Chart, parts: &Parts) -> Result<String, V
         }
     }
     edits.push(Edit { start: text.len(), end: text.len(), text: end });
-    Ok(apply(text, edits))
+    let sections = root.children().filter(|node| matches!(node.kind(), SIGNATURE | DEFINITIONS));
+    let there = sections.flat_map(|section| section.children()).filter_map(|node| declared(&node)).collect();
+    Ok((apply(text, edits), there))
 }
 
 fn section(root: &SyntaxNode, kind: SyntaxKind) -> Option<SyntaxNode> {

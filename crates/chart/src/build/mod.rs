@@ -10,6 +10,8 @@ mod module;
 mod rule;
 
 pub use known::Known;
+pub(crate) use module::{rule_name, state_value};
+pub(crate) use rule::machine_rule;
 
 use crate::chart::Chart;
 
@@ -28,11 +30,11 @@ pub struct Built {
 /// The faults of `existing`, which is not touched then.
 pub fn build(chart: &Chart, known: &Known, existing: Option<&str>) -> Result<Built, Vec<syntax::Diagnostic>> {
     let parts = module::parts(chart, known);
-    let to_write = parts.to_write.clone();
-    let text = match existing {
-        None => module::fresh(chart, &parts),
+    let (text, there) = match existing {
+        None => (module::fresh(chart, &parts), Vec::new()),
         Some(text) => merge::into(text, chart, &parts)?,
     };
+    let to_write = parts.to_write.into_iter().filter(|name| !there.contains(name)).collect();
     let parse = syntax::parse_asmetal(syntax::FileId(0), &text);
     Ok(Built { text: syntax::format(&parse), to_write })
 }

@@ -152,7 +152,7 @@ impl Reader {
 }
 
 /// `timeElapsed` and `time_elapsed` as `Time elapsed`.
-fn spoken(name: &str) -> String {
+pub(crate) fn spoken(name: &str) -> String {
     let mut text = String::new();
     let mut before = ' ';
     for letter in name.chars() {

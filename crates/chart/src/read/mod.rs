@@ -15,6 +15,8 @@ use syntax::{Diagnostic, FileId, Parse, Span};
 use crate::chart::{Chart, Machine, ShapeKind};
 use crate::fault;
 
+pub(crate) use machine::spoken;
+
 /// Reads the chart of a file.
 pub fn read(file: FileId, parse: &Parse) -> (Chart, Vec<Diagnostic>) {
     let mut reader = Reader { file, faults: parse.diagnostics.clone() };

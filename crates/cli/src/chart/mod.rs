@@ -1,7 +1,9 @@
-//! `groundstate chart …`: charts drawn, and models built from them. One file a subcommand.
+//! `groundstate chart …`: charts drawn, models built from them, the two compared. One file a subcommand.
 
 mod build;
+mod check;
 mod draw;
+mod extract;
 
 use std::path::Path;
 
@@ -24,6 +26,10 @@ pub struct Arguments {
 enum Command {
     /// Write the model that a chart stands for; what is written by hand in it stays
     Build(build::Arguments),
+    /// Compare a chart with the model it stands for, transition by transition
+    Check(check::Arguments),
+    /// Write the chart of a model's rules in control-state form
+    Extract(extract::Arguments),
     /// Write a chart's machines as pictures
     Draw(draw::Arguments),
 }
@@ -32,6 +38,8 @@ enum Command {
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     match &arguments.command {
         Command::Build(arguments) => build::run(shell, arguments),
+        Command::Check(arguments) => check::run(shell, arguments),
+        Command::Extract(arguments) => extract::run(shell, arguments),
         Command::Draw(arguments) => draw::run(shell, arguments),
     }
 }

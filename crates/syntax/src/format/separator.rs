@@ -77,6 +77,7 @@ pub(super) fn part(node: &SyntaxNode, before: SyntaxKind, part: &SyntaxElement) 
             definition(before, kind, goes_on(part))
         }
         PATTERN_INSTANCE if kind == ARGUMENT_LIST => Nothing,
+        CONTROL_STATE | GUARD_SHAPE | ACTION_SHAPE | PATTERN_INSTANCE if kind == LINK => FoldAlone,
         EXECBLOCK_COMMAND if before == COLON || kind == COLON => Nothing,
         PICK_COMMAND if before == L_PAREN || matches!(kind, L_PAREN | R_PAREN) => Nothing,
         SET_COMMAND | PICK_COMMAND if before == ASSIGN => Fold,

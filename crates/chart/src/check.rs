@@ -1,0 +1,228 @@
+//! Traceability: whether a chart and its specification say the same, transition by transition.
+//!
+//! In: a chart and the specification's text ([`probed`] puts the chart's own rules beside it, under names of their own),
+//! then what checking that text gave. Out: faults: links that lead nowhere or to the wrong kind, transitions and actions
+//! that only one side has, each with the place on both sides; and notes of what is still to be refined.
+//!
+//! Both rules are executed symbolically for each value of the control variable; what they do under which tests is
+//! compared as propositional formulas over the tests. LIMIT: tests are told apart by their text; up to [`EXACT`] tests of
+//! one effect the comparison is exact, beyond it by the form of the paths.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+use model::{Checked, FunctionId, Model, RuleId};
+use syntax::{Diagnostic, Severity, Span};
+
+use crate::build::{machine_rule, rule_name, state_value};
+use crate::chart::{Chart, Control, Machine, ShapeKind};
+use crate::extract::{controls, values};
+use crate::fault;
+use crate::symbolic::{Depth, Effect, Explorer, Guarded, Path, Reason};
+
+/// LIMIT: so many tests of one effect are compared exactly.
+const EXACT: usize = 14;
+
+/// A specification with the chart's rules in it.
+#[derive(Debug, Clone)]
+pub struct Probed {
+    /// The text.
+    pub text: String,
+    /// Where the rule of each machine stands in it.
+    ranges: Vec<Range<usize>>,
+}
+
+/// Puts the chart's rules at the end of a specification's definitions.
+///
+/// # Errors
+/// The faults of the specification's syntax.
+pub fn probed(chart: &Chart, specification: &str) -> Result<Probed, Vec<Diagnostic>> {
+    let parse = syntax::parse_asmetal(syntax::FileId(0), specification);
+    if parse.diagnostics.iter().any(|fault| fault.severity == Severity::Error) {
+        return Err(parse.diagnostics);
+    }
+    let root = parse.syntax();
+    let definitions = root.children().find(|node| node.kind() == syntax::SyntaxKind::DEFINITIONS);
+    let at = definitions.map_or(specification.len(), |node| syntax::ast::trimmed_range(&node).end().into());
+    let mut text = specification[..at].to_string();
+    let mut ranges = Vec::new();
+    for (index, machine) in chart.machines.iter().enumerate() {
+        text.push_str("\n\n");
+        let start = text.len();
+        text.push_str(&machine_rule(chart, machine, &probe_name(index)));
+        ranges.push(start..text.len());
+    }
+    text.push_str(&specification[at..]);
+    Ok(Probed { text, ranges })
+}
+
+fn probe_name(index: usize) -> String {
+    format!("r_chart_{index}_probe")
+}
+
+/// Compares a chart with its specification.
+pub fn check(chart: &Chart, probed: &Probed, checked: &Checked) -> Vec<Diagnostic> {
+    let mut faults = Vec::new();
+    let root = checked.model.root;
+    for diagnostic in checked.diagnostics.iter().filter(|found| found.severity == Severity::Error) {
+        let place = diagnostic.primary.span;
+        let start = place.start as usize;
+        let machine = probed.ranges.iter().position(|range| place.file == root && range.contains(&start));
+        match machine.map(|index| &chart.machines[index]) {
+            Some(machine) => faults.push(broken(machine, checked.sources.text(place), diagnostic)),
+            None => faults.push(diagnostic.clone()),
+        }
+    }
+    if faults.is_empty() {
+        for (index, machine) in chart.machines.iter().enumerate() {
+            one(chart, machine, &probe_name(index), &checked.model, &mut faults);
+        }
+    }
+    refinements(chart, &mut faults);
+    faults.sort_by_key(|fault| (fault.primary.span.file, fault.primary.span.start));
+    faults.dedup();
+    faults
+}
+
+/// A fault within a probe, told at the link that it comes from.
+fn broken(machine: &Machine, snippet: &str, diagnostic: &Diagnostic) -> Diagnostic {
+    let links = machine.shapes.iter().filter_map(|shape| shape.link.as_ref());
+    let control = match &machine.control {
+        Some(Control::Linked(link)) => Some(link),
+        _ => None,
+    };
+    let all = || links.clone().chain(control);
+    let word = snippet.split(['(', '[', ' ']).next().unwrap_or(snippet);
+    let whole = all().find(|link| link.text.contains(snippet));
+    let place = whole.or_else(|| all().find(|link| link.text.contains(word))).map_or(machine.span, |link| link.span);
+    fault::broken_link(place, &diagnostic.message, diagnostic.help.as_deref())
+}
+
+fn refinements(chart: &Chart, faults: &mut Vec<Diagnostic>) {
+    for shape in chart.machines.iter().flat_map(|machine| &machine.shapes) {
+        if let Some(refinement) = &shape.refinement {
+            faults.push(fault::to_refine(shape.span, &shape.name, refinement.by.as_deref()));
+        }
+    }
+}
+
+fn rule_named(model: &Model, name: &str) -> Option<RuleId> {
+    model.rules.iter().position(|rule| rule.name == name).map(|index| RuleId(index as u32))
+}
+
+fn one(chart: &Chart, machine: &Machine, probe: &str, model: &Model, faults: &mut Vec<Diagnostic>) {
+    let name = rule_name(machine);
+    let place = machine.rule.as_ref().map_or(machine.span, |link| link.span);
+    let (Some(rule), Some(probe)) = (rule_named(model, &name), rule_named(model, probe)) else {
+        faults.push(fault::broken_link(place, &format!("there is no rule `{name}`"), None));
+        return;
+    };
+    if model.rule(rule).parameters.len() != machine.parameters.len() {
+        let message = format!("`{name}` takes {} parameters", model.rule(rule).parameters.len());
+        faults.push(fault::broken_link(place, &message, None));
+        return;
+    }
+    let names: Vec<String> = machine.parameters.iter().map(|parameter| parameter.variable.clone()).collect();
+    let control = match &machine.control {
+        Some(Control::Linked(link)) => Some(link.name.as_str()),
+        Some(Control::Made { name, .. }) => Some(name.as_str()),
+        None => None,
+    };
+    let location =
+        controls(model, probe).into_iter().find(|(id, _)| Some(model.function(*id).name.as_str()) == control);
+    let (function, location, origins) = match location {
+        Some((id, location)) => (id, location, values(model, id).unwrap_or_default()),
+        None => (FunctionId(u32::MAX), String::new(), vec![String::new()]),
+    };
+    for origin in origins {
+        let explorer = Explorer::new(model, function, location.clone(), origin.clone(), Depth::Full);
+        match (explorer.rule(probe, &names), explorer.rule(rule, &names)) {
+            (Ok(drawn), Ok(written)) => {
+                let side = Side { chart, machine, origin: &origin, control: &location };
+                side.compare(&drawn, &written, faults);
+            }
+            (_, Err(reason)) | (Err(reason), _) => {
+                faults.push(fault::not_control_state(place, &name, reason_span(reason)));
+                return;
+            }
+        }
+    }
+}
+
+fn reason_span(reason: Reason) -> Option<Span> {
+    match reason {
+        Reason::Hidden(span) | Reason::Computed(span) => Some(span),
+        Reason::Large => None,
+    }
+}
+
+/// One control state of a machine, on both sides.
+struct Side<'c> {
+    chart: &'c Chart,
+    machine: &'c Machine,
+    origin: &'c str,
+    control: &'c str,
+}
+
+impl Side<'_> {
+    fn compare(&self, drawn: &[Guarded], written: &[Guarded], faults: &mut Vec<Diagnostic>) {
+        let (drawn, written) = (self.by_effect(drawn), self.by_effect(written));
+        let keys: BTreeSet<&str> = drawn.keys().chain(written.keys()).map(String::as_str).collect();
+        for key in keys {
+            let nothing = (Vec::new(), None);
+            let (in_chart, _) = drawn.get(key).unwrap_or(&nothing);
+            let (in_rule, place) = written.get(key).unwrap_or(&nothing);
+            if let Some((holds, chart_does)) = difference(in_chart, in_rule) {
+                faults.push(fault::chart_differs(self.place(), self.origin, key, &holds, chart_does, *place));
+            }
+        }
+    }
+
+    /// The state in the chart.
+    fn place(&self) -> Span {
+        let machine = self.machine;
+        let state = machine.numbered().find(|(id, shape)| {
+            let holds_value = matches!(shape.kind, ShapeKind::State { .. } | ShapeKind::Instance(_));
+            holds_value && state_value(self.chart, machine, *id) == self.origin
+        });
+        state.map_or(machine.span, |(_, shape)| shape.span)
+    }
+
+    /// What is done, each under the paths on which it is; staying where the machine is counts as nothing.
+    fn by_effect(&self, effects: &[Guarded]) -> BTreeMap<String, (Vec<Path>, Option<Span>)> {
+        let mut found: BTreeMap<String, (Vec<Path>, Option<Span>)> = BTreeMap::new();
+        for guarded in effects {
+            let key = match &guarded.effect {
+                Effect::Update { location, value, .. } if location == self.control && value == self.origin => continue,
+                Effect::Update { location, value, .. } => format!("{location} := {value}"),
+                Effect::Rule(text) => text.clone(),
+            };
+            let entry = found.entry(key).or_default();
+            entry.0.push(guarded.path.clone());
+            entry.1.get_or_insert(guarded.span);
+        }
+        found
+    }
+}
+
+/// A case in which one side does something and the other does not, and whether it is the chart that does.
+fn difference(chart: &[Path], rule: &[Path]) -> Option<(Path, bool)> {
+    let atoms: BTreeSet<&str> = chart.iter().chain(rule).flatten().map(|(atom, _)| atom.as_str()).collect();
+    let atoms: Vec<&str> = atoms.into_iter().collect();
+    if atoms.len() > EXACT {
+        let sorted = |paths: &[Path]| -> BTreeSet<BTreeSet<(String, bool)>> {
+            paths.iter().map(|path| path.iter().cloned().collect()).collect()
+        };
+        return (sorted(chart) != sorted(rule)).then(|| (Vec::new(), rule.is_empty()));
+    }
+    for case in 0u32..1 << atoms.len() {
+        let holds = |atom: &str| atoms.iter().position(|known| *known == atom).is_some_and(|at| case >> at & 1 == 1);
+        let done = |paths: &[Path]| paths.iter().any(|path| path.iter().all(|(atom, value)| holds(atom) == *value));
+        let (in_chart, in_rule) = (done(chart), done(rule));
+        if in_chart != in_rule {
+            let path = atoms.iter().map(|atom| ((*atom).to_string(), holds(atom))).collect();
+            return Some((path, in_chart));
+        }
+    }
+    None
+}

@@ -1,0 +1,390 @@
+//! AsmetaL → chart: rules in control-state form, found by what they do, not by how they are written.
+//!
+//! In: a checked model. Out: a [`Chart`] with a machine for each rule that tests and sets a control location (an enum
+//! value or undef) in whatever nesting of `if`, `switch`, `let` and macro calls; and why other rules that set one are no
+//! machines. Building the chart gives rules of the same behaviour. Equal tails of paths share their shapes.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use model::{DomainKind, FunctionId, Literal, Model, RuleId, TermKind};
+
+use crate::chart::{Arrow, Chart, Control, End, Link, Machine, Parameter, Shape, ShapeId, ShapeKind};
+use crate::read::spoken;
+use crate::symbolic::{Depth, Effect, Explorer, Guarded, Path, Reason, consistent};
+
+/// LIMIT: guards, actions and states of one machine.
+const MAX_SHAPES: usize = 1000;
+
+/// What is found in a model.
+#[derive(Debug)]
+pub struct Extracted {
+    /// The machines.
+    pub chart: Chart,
+    /// Rules that set a control location and are not in control-state form, and why.
+    pub others: Vec<(String, String)>,
+}
+
+/// Extracts the machines of a model's own rules; of one rule alone, if it is named.
+///
+/// Without `control` the control location is found: one on which all that the rule does depends. With it, a location of
+/// this function is taken, also where some of what the rule does is done in every state.
+pub fn extract(model: &Model, only: Option<&str>, control: Option<&str>) -> Extracted {
+    let chart = Chart { name: model.name.clone(), imports: Vec::new(), machines: Vec::new(), layouts: BTreeMap::new() };
+    let mut found = Extracted { chart, others: Vec::new() };
+    for (index, rule) in model.rules.iter().enumerate() {
+        let own = rule.span.file == model.root && !rule.turbo;
+        if !only.map_or(own, |name| name == rule.name) {
+            continue;
+        }
+        let id = RuleId(index as u32);
+        let wanted = |function: FunctionId| control.is_none_or(|name| model.function(function).name == name);
+        for (function, location) in controls(model, id).into_iter().filter(|(function, _)| wanted(*function)) {
+            match machine(model, id, function, &location, control.is_none()) {
+                Ok(Some(machine)) => found.chart.machines.push(machine),
+                Ok(None) => {}
+                Err(reason) => found.others.push((rule.name.clone(), told(reason))),
+            }
+        }
+    }
+    found
+}
+
+fn told(reason: Reason) -> String {
+    match reason {
+        Reason::Hidden(_) => "it sets the control location behind `seq`, `forall`, `choose` or the like".to_string(),
+        Reason::Computed(_) => "it sets the control location to a value that is computed".to_string(),
+        Reason::Large => "it is too large".to_string(),
+    }
+}
+
+/// The values of a control function, undef first; none for a function that cannot be one.
+pub(crate) fn values(model: &Model, function: FunctionId) -> Option<Vec<String>> {
+    match model.domains.kind(model.function(function).codomain) {
+        DomainKind::Enum { literals } => {
+            Some(["undef".to_string()].into_iter().chain(literals.iter().cloned()).collect())
+        }
+        _ => None,
+    }
+}
+
+/// The locations that a rule sets to a literal or undef, in the order of the text.
+pub(crate) fn controls(model: &Model, rule: RuleId) -> Vec<(FunctionId, String)> {
+    let mut found: Vec<(FunctionId, String)> = Vec::new();
+    let mut named: BTreeSet<&str> = BTreeSet::new();
+    let explorer = Explorer::new(model, FunctionId(u32::MAX), String::new(), String::new(), Depth::Full);
+    let Ok(effects) = explorer.rule(rule, &[]) else { return found };
+    for guarded in &effects {
+        let Effect::Update { location, constant: true, .. } = &guarded.effect else { continue };
+        if !named.insert(location) {
+            continue;
+        }
+        let name = location.split('(').next().unwrap_or_default();
+        let function = model.functions().find(|(_, function)| function.name == name && !function.library);
+        if let Some((id, _)) = function.filter(|(id, _)| values(model, *id).is_some()) {
+            found.push((id, location.clone()));
+        }
+    }
+    found
+}
+
+fn machine(
+    model: &Model,
+    rule: RuleId,
+    function: FunctionId,
+    control: &str,
+    strict: bool,
+) -> Result<Option<Machine>, Reason> {
+    let values = values(model, function).unwrap_or_default();
+    let mut steps: Vec<(String, Vec<Guarded>)> = Vec::new();
+    let mut tested = false;
+    for value in values {
+        let explorer = Explorer::new(model, function, control.to_string(), value.clone(), Depth::Control);
+        let effects = explorer.rule(rule, &[])?;
+        tested |= explorer.reads() > 0;
+        steps.push((value, effects));
+    }
+    // A rule that does the same in every state has no control states.
+    if !tested || strict && does_always(&steps) {
+        return Ok(None);
+    }
+    let declared = model.rule(rule);
+    let undef = steps.remove(0).1;
+    let initial = initial_value(model, function);
+    // Entered when undef; what starts in a state and never leaves is never undef.
+    let leaves = |guarded: &Guarded| matches!(&guarded.effect, Effect::Update { value, .. } if value == "undef");
+    let left = steps.iter().flat_map(|(_, effects)| effects).any(|found| is_update_of(found, control) && leaves(found));
+    let is_pattern = undef.iter().any(|guarded| is_update_of(guarded, control)) && (left || initial.is_none());
+    let mut graph = Graph { control, nodes: Vec::new(), index: BTreeMap::new() };
+    let enter = if is_pattern { graph.tree(&open(&undef), "undef")? } else { None };
+    let mut starts = Vec::new();
+    for (value, effects) in &steps {
+        if let Some(node) = graph.tree(&open(effects), value)? {
+            starts.push((value.clone(), node));
+        }
+    }
+    let parameters = declared.parameters.iter().map(|id| {
+        let variable = &declared.variables[id.0 as usize];
+        Parameter { variable: variable.name.clone(), domain: model.domains.display(variable.domain) }
+    });
+    let link = Link { text: control.to_string(), name: name_of(control), is_application: true, span: declared.span };
+    let mut machine = Machine {
+        name: declared.name.trim_start_matches("r_").to_string(),
+        is_pattern,
+        parameters: parameters.collect(),
+        text: spoken(declared.name.trim_start_matches("r_")),
+        rule: Some(Link {
+            text: declared.name.clone(),
+            name: declared.name.clone(),
+            is_application: true,
+            span: declared.span,
+        }),
+        control: Some(Control::Linked(link)),
+        shapes: Vec::new(),
+        arrows: Vec::new(),
+        sequences: Vec::new(),
+        span: declared.span,
+    };
+    graph.shapes(&mut machine, enter, &starts, initial.as_deref());
+    Ok((!machine.arrows.is_empty()).then_some(machine))
+}
+
+/// Something is done under the same tests whatever the state: the rule does more than its machine.
+fn does_always(steps: &[(String, Vec<Guarded>)]) -> bool {
+    let Some(((_, first), rest)) = steps.split_first() else { return false };
+    let in_all = |guarded: &Guarded| {
+        let same = |other: &Guarded| other.effect == guarded.effect && other.path == guarded.path;
+        rest.iter().all(|(_, effects)| effects.iter().any(same))
+    };
+    first.iter().any(in_all)
+}
+
+fn is_update_of(guarded: &Guarded, control: &str) -> bool {
+    matches!(&guarded.effect, Effect::Update { location, .. } if location == control)
+}
+
+/// The literal that the default initial state gives to a control function.
+fn initial_value(model: &Model, function: FunctionId) -> Option<String> {
+    let init = &model.inits[model.default_init?];
+    let given = init.functions.iter().find(|given| given.function == function)?;
+    match &given.definition.body.kind {
+        TermKind::Literal(Literal::Enum(domain, index)) => match model.domains.kind(*domain) {
+            DomainKind::Enum { literals } => literals.get(*index as usize).cloned(),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+fn name_of(text: &str) -> String {
+    text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_')
+        .find(|word| !word.is_empty())
+        .unwrap_or(text)
+        .to_string()
+}
+
+/// An effect, with the tests before it that are still to be made.
+type Open<'e> = (Path, &'e Guarded);
+
+fn open(effects: &[Guarded]) -> Vec<Open<'_>> {
+    effects.iter().map(|guarded| (guarded.path.clone(), guarded)).collect()
+}
+
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+enum Node {
+    Guard(String, Option<usize>, Option<usize>),
+    Action(String, usize),
+    /// A value of the control variable; `undef` is the exit.
+    Target(String),
+}
+
+/// Guards, actions and targets; equal ones are one.
+struct Graph<'c> {
+    control: &'c str,
+    nodes: Vec<Node>,
+    index: BTreeMap<Node, usize>,
+}
+
+impl Graph<'_> {
+    fn node(&mut self, node: Node) -> Result<usize, Reason> {
+        if let Some(index) = self.index.get(&node) {
+            return Ok(*index);
+        }
+        if self.nodes.len() >= MAX_SHAPES {
+            return Err(Reason::Large);
+        }
+        self.nodes.push(node.clone());
+        self.index.insert(node, self.nodes.len() - 1);
+        Ok(self.nodes.len() - 1)
+    }
+
+    /// The decisions and actions of some effects; nothing where there is none.
+    fn tree(&mut self, effects: &[Open<'_>], origin: &str) -> Result<Option<usize>, Reason> {
+        if effects.is_empty() {
+            return Ok(None);
+        }
+        let Some((path, _)) = effects.iter().find(|(path, _)| !path.is_empty()) else {
+            return self.leaf(effects, origin).map(Some);
+        };
+        let atom = path[0].0.clone();
+        let side = |wanted: bool| -> Vec<Open<'_>> {
+            let fits = effects.iter().filter(|(path, _)| consistent(path, &vec![(atom.clone(), wanted)]));
+            fits.map(|(path, guarded)| (path.iter().filter(|(known, _)| *known != atom).cloned().collect(), *guarded))
+                .collect()
+        };
+        let (yes, no) = (self.tree(&side(true), origin)?, self.tree(&side(false), origin)?);
+        match (yes, no) {
+            (yes, no) if yes == no => Ok(yes),
+            (yes, no) => self.node(Node::Guard(atom, yes, no)).map(Some),
+        }
+    }
+
+    fn leaf(&mut self, effects: &[Open<'_>], origin: &str) -> Result<usize, Reason> {
+        let mut target = origin.to_string();
+        let mut actions: Vec<String> = Vec::new();
+        for (_, guarded) in effects {
+            match &guarded.effect {
+                Effect::Update { location, value, .. } if location == self.control => target.clone_from(value),
+                Effect::Update { location, value, .. } => actions.push(format!("{location} := {value}")),
+                Effect::Rule(text) => actions.push(text.clone()),
+            }
+        }
+        let mut next = self.node(Node::Target(target))?;
+        let mut seen = BTreeSet::new();
+        for action in actions.into_iter().rev() {
+            if seen.insert(action.clone()) {
+                next = self.node(Node::Action(action, next))?;
+            }
+        }
+        Ok(next)
+    }
+
+    /// The shapes and arrows of a machine.
+    fn shapes(&self, machine: &mut Machine, enter: Option<usize>, starts: &[(String, usize)], initial: Option<&str>) {
+        let mut ends: BTreeMap<usize, End> = BTreeMap::new();
+        let mut states: BTreeMap<String, ShapeId> = BTreeMap::new();
+        let targets = self.nodes.iter().filter_map(|node| match node {
+            Node::Target(value) if value != "undef" => Some(value.as_str()),
+            _ => None,
+        });
+        let values: Vec<&str> = starts.iter().map(|(value, _)| value.as_str()).chain(targets).collect();
+        let first = initial.or(values.first().copied());
+        for value in &values {
+            if !states.contains_key(*value) {
+                let kind = ShapeKind::State { initial: !machine.is_pattern && first == Some(value) };
+                states.insert((*value).to_string(), add(machine, kind, &camel(value), &sentence(value), value));
+            }
+        }
+        for (index, node) in self.nodes.iter().enumerate() {
+            let end = match node {
+                Node::Target(value) => states.get(value).map_or(End::Exit, |id| End::Shape(*id)),
+                Node::Guard(atom, ..) => {
+                    let name = name_of(atom.trim_start_matches("not "));
+                    End::Shape(add(machine, ShapeKind::Guard, &name, &said(atom, &name), atom))
+                }
+                Node::Action(text, _) => {
+                    let name = name_of(text).trim_start_matches("r_").to_string();
+                    let shown = said(text, &name);
+                    let shown = if shown == *text { shown } else { shown.to_uppercase() };
+                    End::Shape(add(machine, ShapeKind::Action, &name, &shown, text))
+                }
+            };
+            ends.insert(index, end);
+        }
+        let span = machine.span;
+        let mut lead = |from: End, branch: Option<bool>, to: Option<usize>| {
+            if let Some(to) = to {
+                machine.arrows.push(Arrow { from, branch, to: ends[&to], span });
+            }
+        };
+        lead(End::Enter, None, enter);
+        for (value, node) in starts {
+            lead(End::Shape(states[value]), None, Some(*node));
+        }
+        for (index, node) in self.nodes.iter().enumerate() {
+            match node {
+                Node::Guard(_, yes, no) => {
+                    lead(ends[&index], Some(true), *yes);
+                    lead(ends[&index], Some(false), *no);
+                }
+                Node::Action(_, next) => lead(ends[&index], None, Some(*next)),
+                Node::Target(_) => {}
+            }
+        }
+    }
+}
+
+/// What a picture says of a term or rule: its name in words, if it is an application, else the whole.
+fn said(text: &str, name: &str) -> String {
+    let plain = text.strip_prefix(name).or(text.strip_prefix("r_").and_then(|rest| rest.strip_prefix(name)));
+    match plain {
+        Some(rest) if rest.is_empty() || is_closed(rest) => spoken(name),
+        _ => text.to_string(),
+    }
+}
+
+/// One pair of brackets from the first character to the last.
+fn is_closed(text: &str) -> bool {
+    let mut depth = 0;
+    for (at, letter) in text.char_indices() {
+        match letter {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            _ => {}
+        }
+        if depth == 0 {
+            return at + 1 == text.len();
+        }
+    }
+    false
+}
+
+fn add(machine: &mut Machine, kind: ShapeKind, name: &str, text: &str, link: &str) -> ShapeId {
+    let taken = |name: &str| WORDS.contains(&name) || machine.shapes.iter().any(|shape| shape.name == name);
+    let mut unique = if name.is_empty() || name.starts_with(|c: char| !c.is_alphabetic()) {
+        "shape".into()
+    } else {
+        name.to_string()
+    };
+    let mut count = 2;
+    while taken(&unique) {
+        unique = format!("{name}{count}");
+        count += 1;
+    }
+    let is_application = is_closed(link.trim_start_matches(|c: char| c.is_ascii_alphanumeric() || c == '_'));
+    let link = Link { text: link.to_string(), name: name_of(link), is_application, span: machine.span };
+    machine.shapes.push(Shape {
+        name: unique,
+        text: text.to_string(),
+        kind,
+        link: Some(link),
+        refinement: None,
+        span: machine.span,
+    });
+    ShapeId(machine.shapes.len() - 1)
+}
+
+/// Words that items of a chart start with, and that paths use; a shape is called otherwise.
+const WORDS: [&str; 15] = [
+    "control", "initial", "state", "guard", "action", "instance", "sequence", "enter", "exit", "yes", "no", "machine",
+    "pattern", "system", "layout",
+];
+
+/// `MANAGING_SB` as `managingSb`.
+fn camel(literal: &str) -> String {
+    let mut out = String::new();
+    for (index, word) in literal.split('_').filter(|word| !word.is_empty()).enumerate() {
+        let word = word.to_lowercase();
+        let mut letters = word.chars();
+        match letters.next() {
+            Some(first) if index > 0 => out.extend(first.to_uppercase().chain(letters)),
+            Some(_) => out.push_str(&word),
+            None => {}
+        }
+    }
+    out
+}
+
+/// `MANAGING_SB` as `Managing sb`.
+fn sentence(literal: &str) -> String {
+    spoken(&literal.to_lowercase())
+}

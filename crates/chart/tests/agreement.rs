@@ -1,0 +1,157 @@
+//! Charts, what is built from them and what is extracted from that say the same; so do the library and its charts.
+
+#![allow(clippy::disallowed_methods, reason = "a test reads the repository's own charts")]
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use chart::{Chart, Known, Origin, Target, build, extract, probed, read, transitions, write};
+use model::{Checked, Loader, check};
+use syntax::{FileId, Severity, SourceFile, parse_chart};
+
+/// The repository's folder of patterns.
+struct Library;
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../library/patterns")
+}
+
+impl Loader for Library {
+    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        let base = if importer.name.contains("std/") { folder().join("../std") } else { folder() };
+        let file = base.join(format!("{path}.asm"));
+        let text = std::fs::read_to_string(&file).map_err(|error| error.to_string())?;
+        Ok(SourceFile::new(format!("{path}.asm"), text))
+    }
+}
+
+fn text(name: &str) -> String {
+    std::fs::read_to_string(folder().join(name)).expect("the library is there")
+}
+
+fn chart(text: &str) -> Chart {
+    let (chart, faults) = read(FileId(0), &parse_chart(FileId(0), text));
+    assert!(faults.iter().all(|fault| fault.severity != Severity::Error), "{faults:#?}\n{text}");
+    chart
+}
+
+fn checked(name: &str, text: &str) -> Checked {
+    let checked = check(SourceFile::new(name, text), &mut Library);
+    let errors: Vec<_> = checked.diagnostics.iter().filter(|fault| fault.severity == Severity::Error).collect();
+    assert!(errors.is_empty(), "{errors:#?}\n{text}");
+    checked
+}
+
+/// The transitions of a chart by what its shapes are linked to; staying where the machine is counts as a target.
+fn meaning(chart: &Chart, rule: &str) -> BTreeSet<String> {
+    let machine = chart.machines.iter().find(|machine| machine.rule.as_ref().is_some_and(|link| link.name == rule));
+    let machine = machine.unwrap_or_else(|| panic!("no machine {rule} in {}", chart.name));
+    let linked = |id| machine.shape(id).link.as_ref().map_or_else(String::new, |link| link.text.clone());
+    let one = |transition: &chart::Transition| {
+        let origin = match transition.origin {
+            Origin::Enter => "enter".to_string(),
+            Origin::State(id) | Origin::Left(id) => linked(id),
+        };
+        let mut guards: Vec<_> =
+            transition.guards.iter().map(|(id, holds)| format!("{} is {holds}", linked(*id))).collect();
+        guards.sort();
+        let actions: BTreeSet<String> = transition.actions.iter().map(|id| linked(*id)).collect();
+        let target = match transition.target {
+            Target::State(id) | Target::Block(id) => linked(id),
+            Target::Exit => "exit".to_string(),
+        };
+        format!("{origin} if {guards:?} does {actions:?} to {target}")
+    };
+    transitions(chart, machine).iter().map(one).collect()
+}
+
+#[test]
+fn the_library_does_what_its_charts_say() {
+    let chart = chart(&text("PatternMachines.chart"));
+    let specification = text("PatternMachines.asm");
+    let probed = probed(&chart, &specification).expect("the library parses");
+    let checked = checked("PatternMachines.asm", &probed.text);
+    assert_eq!(chart::check(&chart, &probed, &checked), []);
+}
+
+#[test]
+fn a_change_of_the_library_is_found() {
+    let chart = chart(&text("PatternMachines.chart"));
+    let specification = text("PatternMachines.asm");
+    for (from, to) in [
+        (
+            "r_SwingingBuffer_endWrite[sharedMemory(scheduler_currentPhase($c))]\n\t\t\t\tr_startManaging",
+            "r_startManaging",
+        ),
+        (
+            "if givesUp($c) then\n\t\t\tpar\n\t\t\t\tr_giveUpSb[$c]\n\t\t\t\tr_startReading",
+            "if givesUp($c) then\n\t\t\tpar\n\t\t\t\tr_startReading",
+        ),
+        ("case READING:", "case WRITING:"),
+        ("sb_ctrlState(scheduler_currentPhase($c)) := undef", "sb_ctrlState(scheduler_currentPhase($c)) := READING"),
+    ] {
+        assert!(specification.contains(from), "the library has no {from:?}");
+        let probed = probed(&chart, &specification.replacen(from, to, 1)).expect("the library parses");
+        let faults = chart::check(&chart, &probed, &checked("PatternMachines.asm", &probed.text));
+        assert!(!faults.is_empty(), "{to} went unseen");
+        assert!(faults.iter().all(|fault| fault.id == "chart-differs"), "{faults:#?}");
+    }
+}
+
+#[test]
+fn built_and_extracted_again() {
+    let chart = chart(&text("PatternMachines.chart"));
+    let specification = text("PatternMachines.asm");
+    let imports: String = chart.imports.iter().map(|import| format!("import {import}\n")).collect();
+    let known =
+        Known::of(&checked("Imports.asm", &format!("module Imports\n{imports}signature:\ndefinitions:\n")).model);
+    let built = build(&chart, &known, Some(&specification)).expect("the library parses");
+    assert_eq!(built.to_write, Vec::<String>::new());
+    let model = checked("PatternMachines.asm", &built.text).model;
+    // What was built does what was there before, and the chart comes out of it again.
+    let extracted = extract(&model, None, None);
+    assert_eq!(extracted.others, []);
+    for rule in ["r_async_master_writing", "r_async_master_reading", "r_sync_master_writing", "r_sync_master_reading"] {
+        assert_eq!(meaning(&extracted.chart, rule), meaning(&chart, rule), "{rule}");
+    }
+    // Its text reads back as itself.
+    let again = crate::chart(&write(&extracted.chart));
+    for machine in &extracted.chart.machines {
+        let rule = &machine.rule.as_ref().expect("an extracted machine has a rule").name;
+        assert_eq!(meaning(&again, rule), meaning(&extracted.chart, rule));
+    }
+}
+
+#[test]
+fn other_shapes_of_one_machine_are_one_chart() {
+    let model = |rules: &str| {
+        let text = format!(
+            "asm Lamp\nimport StandardLibrary\nsignature:\n enum domain Light = {{OFF | ON}}\n controlled light: Light\n \
+             monitored pressed: Boolean\n derived lit: Boolean\ndefinitions:\n function lit = light = ON\n{rules}\n \
+             main rule r_Main = r_lamp[]\n default init s0: function light = OFF"
+        );
+        checked("Lamp.asm", &text).model
+    };
+    let first = extract(
+        &model(
+            "rule r_lamp = par if light = OFF then if pressed then light := ON endif endif if light = ON and pressed then light := OFF endif endpar",
+        ),
+        Some("r_lamp"),
+        None,
+    );
+    assert_eq!(first.chart.machines.len(), 1);
+    for rules in [
+        "rule r_lamp = if pressed then switch light case OFF: light := ON case ON: light := OFF endswitch endif",
+        "rule r_set($l in Light) = light := $l rule r_lamp = if lit and pressed then r_set[OFF] elseif not lit and pressed then r_set[ON] endif",
+        "rule r_lamp = let ($l = light, $p = pressed) in if $l = OFF then if $p then light := ON endif else if not $p then skip else light := OFF endif endif endlet",
+    ] {
+        let other = extract(&model(rules), Some("r_lamp"), None);
+        assert_eq!(meaning(&other.chart, "r_lamp"), meaning(&first.chart, "r_lamp"), "{rules}");
+    }
+    let hidden = extract(
+        &model("rule r_lamp = if light = OFF then seq light := ON light := OFF endseq endif"),
+        Some("r_lamp"),
+        None,
+    );
+    assert!(hidden.chart.machines.is_empty());
+}
