@@ -1,4 +1,4 @@
-//! Each kind of fault of an input file has a page in spec/faults/, and the page's example yields it.
+//! Each kind of fault of a file beside the model (inputs, a report specification) has a page in spec/faults/, and the page's example yields it.
 
 #![allow(clippy::disallowed_methods, reason = "the pages are files, and so is what is given to the command")]
 
@@ -11,16 +11,24 @@ fn block<'p>(page: &'p str, info: &str) -> &'p str {
 
 #[test]
 fn every_fault_has_a_page_that_shows_it() {
-    for id in ["bad-input-file", "bad-input-value", "unknown-input"] {
+    let inputs = &["run", "Lamp.asm", "--input", "file.yaml"][..];
+    let specification = &["report", "Lamp.asm", "--spec", "file.yaml", "--steps", "1"][..];
+    let kinds = [
+        ("bad-input-file", inputs),
+        ("bad-input-value", inputs),
+        ("unknown-input", inputs),
+        ("bad-report-specification", specification),
+    ];
+    for (id, arguments) in kinds {
         let path = format!("{}/../../spec/faults/{id}.md", env!("CARGO_MANIFEST_DIR"));
         let page = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
         assert!(page.starts_with(&format!("# {id}\n")), "the page of {id} has another title");
         let folder = tempfile::tempdir().expect("a temporary folder");
         let write = |name: &str, text| std::fs::write(folder.path().join(name), text).expect("a file");
         write("Lamp.asm", block(&page, "asmetal"));
-        write("inputs.yaml", block(&page, "yaml fault"));
+        write("file.yaml", block(&page, "yaml fault"));
         let output = Command::new(env!("CARGO_BIN_EXE_groundstate"))
-            .args(["run", "Lamp.asm", "--input", "inputs.yaml"])
+            .args(arguments)
             .current_dir(folder.path())
             .output()
             .expect("it starts");

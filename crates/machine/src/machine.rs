@@ -307,6 +307,18 @@ impl Machine {
         changes
     }
 
+    /// Calls `visit` with the function of each location that the last committed step changed, in no order.
+    pub fn each_changed_function(&self, visit: &mut dyn FnMut(FunctionId)) {
+        let core = &self.core;
+        if self.settled {
+            for update in &core.updates.stack {
+                if update.value != core.store.values[update.location as usize] {
+                    visit(core.store.function_of(update.location));
+                }
+            }
+        }
+    }
+
     /// The values that the environment gave since inputs were last forgotten, in the order asked.
     pub fn inputs(&self) -> Vec<(Location, Value)> {
         let store = &self.core.store;

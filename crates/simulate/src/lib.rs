@@ -10,6 +10,7 @@ mod clock;
 mod constants;
 mod draw;
 mod inputs;
+mod invariants;
 mod named;
 mod positional;
 mod random;

@@ -8,9 +8,10 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use machine::{EngineChoice, Fault, FaultKind, Limits, Machine, Snapshot, Value};
-use program::{Expression, Program, PropertyKind};
+use program::{Expression, Program};
 
 use crate::inputs::{Inputs, Signal};
+use crate::invariants::Watch;
 use crate::trace::{End, Record, StepRecord, Violation};
 
 /// What is done about an invariant that does not hold.
@@ -67,10 +68,7 @@ pub struct Run {
     machine: Machine,
     inputs: Inputs,
     options: Options,
-    /// Indices of the invariants that read inputs.
-    over_inputs: Vec<usize>,
-    /// Indices of the other invariants.
-    over_states: Vec<usize>,
+    watch: Watch,
     history: VecDeque<Box<Snapshot>>,
     made: u64,
     phase: Phase,
@@ -124,20 +122,15 @@ enum Made {
 impl Run {
     /// A run that has not begun.
     pub fn new(program: Arc<Program>, limits: Limits, mut inputs: Inputs, options: Options) -> Run {
-        let checked = options.invariants != Invariants::Ignore;
-        let invariants = |reads_monitored: bool| {
-            let properties = program.properties.iter().enumerate();
-            let wanted = properties.filter(|(_, property)| {
-                checked && property.kind == PropertyKind::Invariant && property.reads_monitored == reads_monitored
-            });
-            wanted.map(|(index, _)| index).collect()
+        let watch = match options.invariants {
+            Invariants::Ignore => Watch::default(),
+            _ => Watch::of(&program),
         };
-        let (over_inputs, over_states) = (invariants(true), invariants(false));
         inputs.keep = options.keep;
         let mut machine = Machine::new(program, limits);
         machine.use_engine(options.engine);
         let (history, phase) = (VecDeque::new(), Phase::New);
-        Run { machine, inputs, options, over_inputs, over_states, history, made: 0, phase }
+        Run { machine, inputs, options, watch, history, made: 0, phase }
     }
 
     /// The machine in its current state.
@@ -145,8 +138,9 @@ impl Run {
         &self.machine
     }
 
-    /// The machine, to evaluate terms in its current state.
+    /// The machine, to evaluate terms in its current state or to change it.
     pub fn machine_mut(&mut self) -> &mut Machine {
+        self.watch.forget();
         &mut self.machine
     }
 
@@ -191,8 +185,7 @@ impl Run {
         let inputs = if self.options.keep { self.machine.inputs() } else { Vec::new() };
         let values = if self.options.keep { self.machine.locations() } else { Vec::new() };
         let mut violations = Vec::new();
-        if let Err(fault) = self.check_invariants(false, &mut violations) {
-            violations.clear();
+        if let Err(fault) = self.watch.check_state(&mut self.machine, &mut self.inputs, &mut violations) {
             self.stop_with(End::Fault(fault));
         }
         self.judge(&violations);
@@ -256,7 +249,7 @@ impl Run {
         if let Err(fault) = self.machine.prepare(&mut self.inputs) {
             return Err(Box::new(fault));
         }
-        if self.over_inputs.is_empty() { Ok(()) } else { self.check_invariants(true, &mut record.violations) }
+        self.watch.check_inputs(&mut self.machine, &mut self.inputs, &mut record.violations)
     }
 
     fn commit(&mut self, record: &mut StepRecord, before: Option<Box<Snapshot>>) {
@@ -268,9 +261,8 @@ impl Run {
         if self.options.keep {
             record.changes = self.machine.changes();
         }
-        let checked =
-            if self.over_states.is_empty() { Ok(()) } else { self.check_invariants(false, &mut record.violations) };
-        if let Err(fault) = checked {
+        self.watch.note(&self.machine, step.grown);
+        if let Err(fault) = self.watch.check_state(&mut self.machine, &mut self.inputs, &mut record.violations) {
             self.stop_with(End::Fault(fault));
         }
         self.judge(&record.violations);
@@ -310,6 +302,7 @@ impl Run {
 
     fn back(&mut self, before: Option<Box<Snapshot>>) -> Record {
         self.inputs.grown = true;
+        self.watch.forget();
         // From the first step one can only ask that step's inputs again.
         if let Some(snapshot) = self.history.pop_back() {
             self.machine.restore(&snapshot);
@@ -354,31 +347,5 @@ impl Run {
             Ok(_) => {}
             Err(fault) => self.stop_with(End::Fault(Box::new(fault))),
         }
-    }
-
-    /// Evaluates the invariants that read inputs, or those that do not. On a fault no violation is added.
-    fn check_invariants(&mut self, reads_monitored: bool, violations: &mut Vec<Violation>) -> Result<(), Box<Fault>> {
-        let invariants = if reads_monitored { &self.over_inputs } else { &self.over_states };
-        let found = violations.len();
-        let program = Arc::clone(self.machine.program());
-        for index in invariants {
-            let property = &program.properties[*index];
-            let value = match self.machine.evaluate(&property.formula, &mut self.inputs) {
-                Ok(value) => value,
-                Err(fault) => {
-                    violations.truncate(found);
-                    return Err(Box::new(fault));
-                }
-            };
-            if value != Value::Boolean(true) {
-                violations.push(Violation {
-                    name: property.name.clone(),
-                    span: property.span,
-                    value,
-                    before: reads_monitored,
-                });
-            }
-        }
-        Ok(())
     }
 }

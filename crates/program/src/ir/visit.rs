@@ -3,6 +3,9 @@
 //! For readers that walk a program without regard to what each construct means: the verifier, dependency
 //! searches, generators. A call's procedure is no child: it has a frame of its own.
 
+use std::collections::BTreeSet;
+
+use crate::builtin::Builtin;
 use crate::ir::{BinderList, Expression, Program, Rule, RuleId, Term, TermId};
 use model::{FunctionId, FunctionKind};
 
@@ -122,7 +125,52 @@ impl Program {
         false
     }
 
+    /// The dynamic functions that a closed term reads, directly or through definitions, in order; none if its value
+    /// depends on more than these and the elements of domains: on inputs, the clock, a choice, what an agent runs.
+    pub fn reads(&self, expression: &Expression) -> Option<Vec<FunctionId>> {
+        let mut read = BTreeSet::new();
+        let mut entered = vec![false; self.functions.len()];
+        let mut open = vec![expression.body];
+        while let Some(id) = open.pop() {
+            match self.term(id) {
+                Term::Read { function, .. } | Term::Define { function, .. } => {
+                    if Some(*function) == self.self_function {
+                        return None;
+                    }
+                    match self.function(*function).kind {
+                        FunctionKind::Monitored | FunctionKind::Shared => return None,
+                        FunctionKind::Controlled | FunctionKind::Out | FunctionKind::Local => {
+                            read.insert(*function);
+                        }
+                        FunctionKind::Static | FunctionKind::Derived => {}
+                    }
+                    if !std::mem::replace(&mut entered[function.0 as usize], true) {
+                        open.extend(self.function(*function).definition.as_ref().map(|definition| definition.body));
+                    }
+                }
+                Term::Builtin { builtin, .. } if !depends_on_arguments(*builtin) => return None,
+                _ => {}
+            }
+            self.each_child_of_term(id, &mut |child| open.push(child));
+        }
+        Some(read.into_iter().collect())
+    }
+
     fn each_range(&self, binders: BinderList, visit: &mut dyn FnMut(TermId)) {
         self.binder_list(binders).iter().for_each(|binder| visit(binder.range));
     }
+}
+
+/// Whether the value of a library function depends on its arguments alone.
+fn depends_on_arguments(builtin: Builtin) -> bool {
+    !matches!(
+        builtin,
+        Builtin::ChooseOne
+            | Builtin::Pre
+            | Builtin::Temporal(_)
+            | Builtin::Program
+            | Builtin::TimeNanoseconds
+            | Builtin::TimeMilliseconds
+            | Builtin::TimeSeconds
+    )
 }

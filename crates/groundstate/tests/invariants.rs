@@ -1,0 +1,143 @@
+//! An invariant that is not evaluated anew has the value that evaluating it would give: runs that evaluate only what may
+//! have changed, and runs that evaluate all, record the same.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use groundstate::simulate::{Bounds, Choices, Inputs, Invariants, Options, RandomSource, Record, Run};
+use program::Program;
+use syntax::SourceFile;
+
+struct Files;
+
+#[allow(clippy::disallowed_methods, reason = "the models are files")]
+impl model::Loader for Files {
+    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        let folder = Path::new(&importer.name).parent().expect("a file is in a folder");
+        let found = folder.join(path).with_extension("asm");
+        let text = std::fs::read_to_string(&found).map_err(|error| format!("{}: {error}", found.display()))?;
+        Ok(SourceFile::new(found.display().to_string(), text))
+    }
+}
+
+#[allow(clippy::disallowed_methods, reason = "the models are files")]
+fn models(folder: &Path, found: &mut Vec<PathBuf>) {
+    let entries = std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    for path in entries.map(|entry| entry.expect("an entry").path()) {
+        if path.is_dir() {
+            models(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "asm") {
+            found.push(path);
+        }
+    }
+}
+
+fn load(source: SourceFile) -> Arc<Program> {
+    let name = source.name.clone();
+    Arc::new(groundstate::load(source, &mut Files).unwrap_or_else(|faulty| panic!("{name}: {faulty:#?}")).program)
+}
+
+/// The records of a run; `all` lets every invariant be evaluated in every state.
+fn records(program: &Arc<Program>, steps: u64, seed: u64, all: bool) -> Vec<Record> {
+    let inputs = Inputs::new().with(RandomSource::new(seed, Bounds::default())).choosing(Choices::random(seed));
+    let options = Options { steps: Some(steps), invariants: Invariants::Report, ..Options::default() };
+    let mut run = Run::new(Arc::clone(program), machine::Limits::default(), inputs, options);
+    let mut records = Vec::new();
+    while let Some(record) = run.advance() {
+        if all {
+            run.machine_mut();
+        }
+        records.push(record);
+    }
+    records
+}
+
+/// How many violations the runs recorded.
+fn check(program: &Arc<Program>, steps: u64, name: &str) -> usize {
+    let mut violations = 0;
+    for seed in 0..2 {
+        let (some, all) = (records(program, steps, seed, false), records(program, steps, seed, true));
+        assert_eq!(some.len(), all.len(), "{name}, seed {seed}");
+        for (index, (some, all)) in some.iter().zip(&all).enumerate() {
+            assert_eq!(some, all, "{name}, seed {seed}, record {index}");
+            if let Record::Step(step) = some {
+                violations += step.violations.len();
+            }
+        }
+    }
+    violations
+}
+
+#[test]
+#[allow(clippy::disallowed_methods, reason = "the models are files")]
+fn the_models_of_this_project() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut found = Vec::new();
+    for folder in ["examples", "library/patterns"] {
+        models(&root.join(folder), &mut found);
+    }
+    found.sort();
+    let mut checked = 0;
+    for path in found {
+        let text = std::fs::read_to_string(&path).expect("a model is a text");
+        let program = load(SourceFile::new(path.display().to_string(), text));
+        if program.main.is_some() {
+            check(&program, 40, &path.display().to_string());
+            checked += 1;
+        }
+    }
+    assert!(checked > 15, "{checked} models");
+}
+
+/// What an invariant may depend on: locations, definitions, domains that grow, the clock, shared functions, inputs.
+const DEPENDENCIES: &str = "asm test
+import StandardLibrary
+import TimeLibrary
+signature:
+    enum domain Colour = {RED | GREEN | BLUE}
+    domain Small subsetof Integer
+    dynamic abstract domain Job
+    dynamic domain Chosen subsetof Job
+    monitored colour: Colour
+    monitored go: Boolean
+    shared level: Integer
+    controlled last: Colour
+    controlled count: Colour -> Integer
+    controlled idle: Integer
+    controlled done: Job -> Boolean
+    out shown: Integer
+    derived many: Colour -> Boolean
+    derived some: Boolean
+definitions:
+    domain Small = {0 : 3}
+    function many($c in Colour) = count($c) > 3
+    function some = (exist $c in Colour with many($c))
+    invariant inv_constant over idle: 1 < 2
+    invariant inv_never over idle: idle > 0
+    invariant inv_location over count: count(RED) mod 3 != 1
+    invariant inv_definition over count: not some
+    invariant inv_jobs over Job: (forall $j in Job with isDef(done($j)))
+    invariant inv_growth over Job: size({$j in Job : $j}) < 4
+    invariant inv_clock over idle: currTimeSecs < 50
+    invariant inv_shared over level: level < 5
+    invariant inv_input over colour: colour != BLUE or last = BLUE
+    invariant inv_shown over shown: shown mod 2 = 0
+    main rule r_main = par
+        if go then par last := colour count(colour) := count(colour) + 1 endpar endif
+        if colour = GREEN then extend Job with $j do if go then done($j) := true endif endif
+        if last = GREEN then forall $j in Job do done($j) := true endif
+        if not go then level := level + 1 else if last = RED then level := 0 endif endif
+        if last = BLUE then shown := shown + 1 endif
+    endpar
+default init s0:
+    function count($c in Colour) = 0
+    function idle = 0
+    function shown = 0
+    function level = 0
+";
+
+#[test]
+fn everything_that_an_invariant_may_depend_on() {
+    let program = load(SourceFile::new("test.asm", DEPENDENCIES));
+    assert!(check(&program, 150, "test.asm") > 300);
+}
