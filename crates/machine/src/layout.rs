@@ -2,8 +2,8 @@
 //!
 //! In: the program and the contents of its static domains. Out: one [`Layout`] a function. A function over small
 //! finite domains is *dense*: its locations are an array, and a location's number is computed from its
-//! arguments. All others, and arguments outside the declared domains (undef among them), are *sparse*: numbered
-//! as they come up. INVARIANT: number ↔ location is one to one.
+//! arguments. Of an infinite or growing domain the array covers a window. All other functions, and arguments outside
+//! the array (undef among them), are *sparse*: numbered as they come up. INVARIANT: number ↔ location is one to one.
 
 use program::{DomainId, DomainKind, Function, FunctionKind, Program};
 
@@ -103,8 +103,10 @@ pub(crate) fn dimensions_of(
     domains: &[DomainId],
     contents: &dyn Fn(DomainId) -> Option<Vec<Value>>,
 ) -> Option<(Box<[Dimension]>, u32)> {
-    let dimensions: Box<[Dimension]> =
-        domains.iter().map(|domain| dimension(program, *domain, contents)).collect::<Option<_>>()?;
+    let dimensions: Box<[Dimension]> = domains
+        .iter()
+        .map(|domain| dimension(program, *domain, contents).or_else(|| window(program, *domain, domains.len())))
+        .collect::<Option<_>>()?;
     let len = dimensions.iter().fold(1u64, |len, dimension| len.saturating_mul(u64::from(dimension.size)));
     (1..=DENSE_LIMIT).contains(&len).then_some((dimensions, len as u32))
 }
@@ -130,7 +132,7 @@ fn dimension(
         DomainKind::Enum { literals } => {
             Some(Dimension { kind: DimensionKind::Enum(domain), size: literals.len() as u32 })
         }
-        DomainKind::Abstract { elements, .. } => {
+        DomainKind::Abstract { elements, dynamic: false } => {
             Some(Dimension { kind: DimensionKind::Element(domain), size: elements.len() as u32 })
         }
         DomainKind::Concrete { base, .. } => match &program.domain(*base).kind {
@@ -139,6 +141,24 @@ fn dimension(
             DomainKind::Enum { .. } | DomainKind::Abstract { .. } => dimension(program, *base, contents),
             _ => None,
         },
+        _ => None,
+    }
+}
+
+/// A part of an infinite or growing domain: the values that most models use of it. Others are sparse.
+fn window(program: &Program, domain: DomainId, parameters: usize) -> Option<Dimension> {
+    let size = match parameters {
+        1 => 256,
+        2 => 32,
+        _ => return None,
+    };
+    match &program.domain(domain).kind {
+        DomainKind::Basic(model::Basic::Integer) => Some(Dimension { kind: DimensionKind::Integer { low: -4 }, size }),
+        DomainKind::Basic(model::Basic::Natural) => Some(Dimension { kind: DimensionKind::Integer { low: 0 }, size }),
+        DomainKind::Abstract { elements, .. } => {
+            Some(Dimension { kind: DimensionKind::Element(domain), size: elements.len() as u32 + size / 4 })
+        }
+        DomainKind::Concrete { base, .. } => window(program, *base, parameters),
         _ => None,
     }
 }

@@ -11,7 +11,7 @@ use crate::execute::{Core, Executor, Outcome};
 use crate::fault::{Fault, FaultKind};
 use crate::limits::Limits;
 use crate::location::Location;
-use crate::native::Engine;
+use crate::native::{self, Engine};
 use crate::store::Store;
 use crate::value::Value;
 
@@ -81,6 +81,8 @@ pub struct Machine {
     steps: u64,
     /// The update set on the stack is committed: where an update changed anything it holds the value before.
     settled: bool,
+    /// Some function is shared.
+    shared: bool,
     engine: EngineState,
     /// A step was committed since inputs were last forgotten.
     stale: bool,
@@ -92,12 +94,14 @@ impl Machine {
     /// A machine whose locations are all undef: see [`Machine::start`].
     pub fn new(program: Arc<Program>, limits: Limits) -> Machine {
         let core = Core::new(&program, limits);
+        let shared = program.functions.iter().any(|function| function.kind == FunctionKind::Shared);
         Machine {
             program,
             limits,
             core,
             steps: 0,
             settled: false,
+            shared,
             engine: EngineState::default(),
             stale: false,
             compacted: 0,
@@ -244,20 +248,16 @@ impl Machine {
         let Machine { program, core, .. } = self;
         let created = core.updates.created().len();
         let mut step = Step { updates: core.updates.len() + created, changed: created > 0, grown: created > 0 };
-        for update in &mut core.updates.stack {
-            if update.value.is_undef() {
-                // A shared location that the machine has made undef is not asked for.
+        if self.shared {
+            // A shared location that the machine has made undef is not asked for.
+            for update in core.updates.stack.iter().filter(|update| update.value.is_undef()) {
                 let function = core.store.function_of(update.location);
                 if program.function(function).kind == FunctionKind::Shared {
                     core.store.given[update.location as usize] = core.epoch;
                 }
             }
-            let value = &mut core.store.values[update.location as usize];
-            if *value != update.value {
-                std::mem::swap(value, &mut update.value);
-                step.changed = true;
-            }
         }
+        step.changed |= native::apply(&mut core.store, &mut core.updates);
         for (domain, element) in core.updates.created() {
             let carrier = &mut core.store.carriers[domain.0 as usize];
             if matches!(program.domain(*domain).kind, program::DomainKind::Abstract { .. }) {

@@ -95,6 +95,7 @@ impl Memo {
     }
 
     /// The values, their marks and the version of the state, as compiled code reads them.
+    #[inline]
     pub fn view(&mut self) -> (*mut Value, *mut u64, u64) {
         (self.values.as_mut_ptr(), self.versions.as_mut_ptr(), self.current)
     }

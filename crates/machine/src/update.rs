@@ -68,6 +68,8 @@ pub(crate) struct Clash {
 #[derive(Debug, Default)]
 pub(crate) struct Updates {
     pub stack: Vec<Update>,
+    /// Some value on the stack may have memory of its own.
+    pub compound: bool,
     pub stamps: Vec<Stamp>,
     log: Vec<Overwritten>,
     /// Elements made by `extend`, with the domain that gets them.
@@ -107,6 +109,7 @@ impl Updates {
     }
 
     /// Makes stamps for so many locations at least.
+    #[inline]
     pub fn cover(&mut self, locations: usize) {
         if self.stamps.len() < locations {
             self.stamps.resize(locations, Stamp::default());
@@ -137,7 +140,7 @@ impl Updates {
 
     /// Empties the update set, keeping its memory.
     pub fn release(&mut self) {
-        self.stack.clear();
+        crate::native::clear(self);
         self.log.clear();
         self.created.clear();
     }
@@ -157,6 +160,7 @@ impl Updates {
             let first = (held.value.clone(), held.rule);
             return Err(Box::new(Clash { location, first, second: (value, rule) }));
         }
+        self.compound |= !value.is_scalar();
         let previous = *stamp;
         *stamp = Stamp { unit: self.unit, index: self.stack.len() as u32 };
         self.stack.push(Update { location, value, rule, previous });

@@ -124,7 +124,24 @@ impl Value {
         Value::Map(Arc::new(entries.into_iter().collect()))
     }
 
+    /// Does it stand in its two words alone?
+    #[inline]
+    pub(crate) fn is_scalar(&self) -> bool {
+        matches!(
+            self,
+            Value::Undef
+                | Value::Boolean(_)
+                | Value::Integer(_)
+                | Value::Real(_)
+                | Value::Enum(..)
+                | Value::Element(..)
+                | Value::Char(_)
+                | Value::Rule(_)
+        )
+    }
+
     /// Is it `undef`?
+    #[inline]
     pub fn is_undef(&self) -> bool {
         matches!(self, Value::Undef)
     }

@@ -133,6 +133,12 @@ impl Run {
         Run { machine, inputs, options, watch, history, made: 0, phase }
     }
 
+    /// A run of the same machine from its initial state, with other inputs. What the machine has compiled is kept.
+    pub fn again(self, mut inputs: Inputs) -> Run {
+        inputs.keep = self.options.keep;
+        Run { inputs, history: VecDeque::new(), made: 0, phase: Phase::New, ..self }
+    }
+
     /// The machine in its current state.
     pub fn machine(&self) -> &Machine {
         &self.machine

@@ -68,6 +68,11 @@ impl Offset {
     pub const candidate: i32 = offset_of!(Context, candidate) as i32;
     pub const candidate_capacity: i32 = offset_of!(Context, candidate_capacity) as i32;
     pub const depth: i32 = offset_of!(Context, depth) as i32;
+
+    /// Whether compiled code itself changes the field.
+    pub fn is_counter(offset: i32) -> bool {
+        [Self::held, Self::temporary, Self::candidate, Self::depth].contains(&offset)
+    }
 }
 
 /// The working memory of compiled code, kept from step to step.
@@ -108,6 +113,7 @@ impl Context {
     }
 
     /// Takes pointers and lengths from the machine.
+    #[inline]
     pub fn leave(&mut self, core: &mut Core) {
         core.updates.cover(core.store.len());
         self.values = core.store.values.as_mut_ptr();
@@ -122,6 +128,7 @@ impl Context {
     }
 
     /// Hands the lengths back to the machine.
+    #[inline]
     pub fn enter(&mut self, core: &mut Core) {
         debug_assert!(self.held <= self.capacity);
         // SAFETY: compiled code has written every update below `held`, which it keeps at or below the capacity.
@@ -132,6 +139,7 @@ impl Context {
     ///
     /// # Safety
     /// `context` comes from [`Context::new`], whose executor and tables still live; nothing else uses them now.
+    #[inline]
     pub unsafe fn with<T>(context: *mut Context, helper: impl FnOnce(&mut Executor<'static>, &mut Context) -> T) -> T {
         // SAFETY: as the caller promises; compiled code holds no reference while a helper runs.
         let (context, executor) = unsafe { (&mut *context, &mut *(*context).executor) };
@@ -139,6 +147,15 @@ impl Context {
         let result = helper(executor, context);
         context.leave(executor.core);
         result
+    }
+
+    /// The update set may now hold a value with memory of its own.
+    ///
+    /// # Safety
+    /// As for [`Context::with`].
+    pub unsafe fn mark_compound(context: *mut Context) {
+        // SAFETY: as the caller promises.
+        unsafe { (*(*context).executor).core.updates.compound = true };
     }
 
     /// What belongs to the compiled code.
@@ -151,6 +168,7 @@ impl Context {
     }
 
     /// Keeps a value until the statement ends; null where there is no room.
+    #[inline]
     pub fn keep(&mut self, value: Value) -> *const Value {
         if self.temporary as usize >= TEMPORARIES {
             return std::ptr::null();

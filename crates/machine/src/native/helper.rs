@@ -83,7 +83,7 @@ impl Helper {
             Helper::Apply => ("apply", runtime::apply as *const u8, 4, true),
             Helper::Component => ("component", runtime::component as *const u8, 2, true),
             Helper::Equal => ("equal", runtime::equal as *const u8, 2, true),
-            Helper::Copy => ("copy", runtime::copy as *const u8, 2, false),
+            Helper::Copy => ("copy", runtime::copy as *const u8, 3, false),
             Helper::Keep => ("keep", runtime::keep as *const u8, 2, true),
             Helper::Release => ("release", runtime::release as *const u8, 2, false),
             Helper::Evaluate => ("evaluate", runtime::evaluate as *const u8, 4, true),

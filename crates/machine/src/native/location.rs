@@ -112,7 +112,7 @@ impl Translator<'_, '_> {
         }
         let kind = self.kind_of(term);
         let lazy = self.plan.lazy[function.0 as usize];
-        let direct = self.plan.plain[function.0 as usize] && !lazy;
+        let direct = self.plan.plain[function.0 as usize];
         let asked = match declared.kind {
             FunctionKind::Monitored => true,
             FunctionKind::Shared => !lazy,
@@ -122,7 +122,7 @@ impl Translator<'_, '_> {
         let Some(Found { index, inside }) = found else {
             return self.read_elsewhere(function, arguments, kind);
         };
-        let conditional = matches!(declared.kind, FunctionKind::Monitored | FunctionKind::Shared);
+        let conditional = lazy || matches!(declared.kind, FunctionKind::Monitored | FunctionKind::Shared);
         match (inside, conditional, kind) {
             (None, false, Some(kind)) => {
                 let place = self.stored(index);
@@ -148,11 +148,12 @@ impl Translator<'_, '_> {
                             let epoch = self.field(Offset::epoch);
                             self.builder.ins().icmp(IntCC::Equal, given, epoch)
                         }
-                        _ => {
+                        FunctionKind::Shared => {
                             let place = self.stored(index);
                             let tag = self.load(types::I64, place, 0);
                             self.builder.ins().icmp_imm(IntCC::NotEqual, tag, 0)
                         }
+                        _ => self.has_initial(index),
                     };
                     self.branch(ready, fast, slow);
                 } else {
@@ -182,6 +183,14 @@ impl Translator<'_, '_> {
         }
     }
 
+    /// Whether the initial value of a location is there.
+    fn has_initial(&mut self, index: ir::Value) -> ir::Value {
+        let given = self.field(Offset::given);
+        let place = self.element(given, index, 2);
+        let given = self.builder.ins().uload32(FLAGS, place, 0);
+        self.builder.ins().icmp_imm(IntCC::NotEqual, given, 0)
+    }
+
     fn read_elsewhere(&mut self, function: FunctionId, arguments: &[Operand], kind: Option<Kind>) -> Operand {
         let pointers = self.pointers(arguments);
         let (id, count) = (self.word(i64::from(function.0)), self.word(arguments.len() as i64));
@@ -203,17 +212,27 @@ impl Translator<'_, '_> {
     /// Adds the update `function(arguments) := value`, the value translated first.
     pub fn update(&mut self, function: FunctionId, arguments: &[Operand], value: Operand, rule: RuleId) {
         self.check_codomain(function, value);
-        let owned =
+        let direct =
             self.plan.plain[function.0 as usize] || self.program.function(function).kind == FunctionKind::Shared;
-        let direct = owned && !self.plan.lazy[function.0 as usize];
+        let lazy = self.plan.lazy[function.0 as usize];
         let found = if direct { self.find(function, arguments) } else { None };
         let index = match found {
-            Some(Found { index, inside: None }) => index,
-            Some(Found { index, inside: Some(inside) }) => {
+            Some(Found { index, inside: None }) if !lazy => index,
+            Some(Found { index, inside }) => {
                 let number = self.variable(types::I64);
                 let (fast, slow, done) = (self.block(), self.block(), self.block());
                 self.builder.set_cold_block(slow);
-                self.branch(inside, fast, slow);
+                if let Some(inside) = inside {
+                    let next = self.block();
+                    self.branch(inside, next, slow);
+                    self.switch(next);
+                }
+                if lazy {
+                    let ready = self.has_initial(index);
+                    self.branch(ready, fast, slow);
+                } else {
+                    self.jump(fast);
+                }
                 self.switch(fast);
                 self.set(number, index);
                 self.jump(done);
@@ -325,7 +344,7 @@ impl Translator<'_, '_> {
             Operand::Boxed(_) | Operand::Stored(_) => {
                 let pointer = self.boxed(value);
                 let place = self.builder.ins().iadd_imm(entry, i64::from(at));
-                self.call(Helper::Copy, &[pointer, place]);
+                self.call(Helper::Copy, &[self.context, pointer, place]);
             }
         }
         let held = self.builder.ins().iadd_imm(held, 1);

@@ -9,8 +9,10 @@
 
 mod arithmetic;
 mod binder;
+mod commit;
 mod context;
 mod helper;
+mod kleene;
 mod location;
 mod plan;
 mod rule;
@@ -28,6 +30,7 @@ use cranelift_module::{FuncId, Linkage, Module, default_libcall_names};
 use program::{ProcedureId, Program};
 
 use crate::execute::{Core, Executor};
+pub(crate) use commit::{apply, clear};
 use context::Context;
 use helper::{Helpers, signature};
 use plan::{Fixed, Plan, Tables};

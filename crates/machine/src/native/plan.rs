@@ -22,7 +22,7 @@ use crate::value::Value;
 /// LIMIT: a body of more terms and rules is translated once, where it is called from more than one place.
 const INLINE: usize = 60;
 /// LIMIT: a function of more terms and rules inlines no more.
-const BODY: usize = 8_000;
+const BODY: usize = 2_500;
 /// LIMIT: nested inlining.
 const DEPTH: usize = 24;
 /// LIMIT: entries of a table of a fixed term.
@@ -272,25 +272,43 @@ fn is_lazy(core: &Core, function: usize) -> bool {
 
 /// Whether evaluating a term anew costs more than looking it up.
 fn is_worth(program: &Program, term: TermId) -> bool {
-    let here = match program.term(term) {
-        Term::Define { function, .. } => !program.function(*function).library,
+    cost(program, term, 0) > LOOKUP
+}
+
+/// LIMIT: what costs less than so many simple operations is not tabulated.
+const LOOKUP: u32 = 24;
+
+/// About how many simple operations evaluating a term takes; counted no further than it matters.
+fn cost(program: &Program, term: TermId, depth: u32) -> u32 {
+    let own = match program.term(term) {
+        Term::Define { function, .. } => match &program.function(*function).definition {
+            Some(_) if depth > 8 => 2 * LOOKUP,
+            Some(definition) => 1 + cost(program, definition.body, depth + 1),
+            None => 1,
+        },
         Term::Quantified { .. }
         | Term::Comprehension { .. }
         | Term::Range { .. }
         | Term::Collection { .. }
-        | Term::Tuple(_) => true,
-        Term::Domain(domain) => {
-            !matches!(program.domain(*domain).kind, DomainKind::Basic(_)) && is_static_domain(program, *domain)
+        | Term::Tuple(_) => 2 * LOOKUP,
+        Term::Domain(domain)
+            if !matches!(program.domain(*domain).kind, DomainKind::Basic(_)) && is_static_domain(program, *domain) =>
+        {
+            2 * LOOKUP
         }
-        Term::Builtin { builtin, .. } => matches!(
-            builtin,
-            Builtin::SetContains | Builtin::SetNotIn | Builtin::SeqAt | Builtin::MapAt | Builtin::IntPower
-        ),
-        _ => false,
+        Term::Builtin {
+            builtin: Builtin::SetContains | Builtin::SetNotIn | Builtin::SeqAt | Builtin::MapAt | Builtin::IntPower,
+            ..
+        } => 2 * LOOKUP,
+        _ => 1,
     };
-    let mut worth = here;
-    program.each_child_of_term(term, &mut |child| worth = worth || is_worth(program, child));
-    worth
+    let mut total = own;
+    program.each_child_of_term(term, &mut |child| {
+        if total <= LOOKUP {
+            total += cost(program, child, depth);
+        }
+    });
+    total
 }
 
 fn is_static_domain(program: &Program, domain: DomainId) -> bool {

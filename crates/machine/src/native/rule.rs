@@ -400,7 +400,7 @@ impl Translator<'_, '_> {
                 }
                 other => {
                     let pointer = self.boxed(other.into());
-                    self.call(Helper::Copy, &[pointer, place]);
+                    self.call(Helper::Copy, &[self.context, pointer, place]);
                 }
             }
         }

@@ -161,10 +161,13 @@ pub unsafe extern "C" fn equal(left: *const Value, right: *const Value) -> i64 {
     unsafe { i64::from(*left == *right) }
 }
 
-/// Writes a copy of a value to a place that holds none.
-pub unsafe extern "C" fn copy(value: *const Value, place: *mut Value) {
+/// Writes a copy of a value to a place that holds none: an update or a candidate.
+pub unsafe extern "C" fn copy(context: Pointer, value: *const Value, place: *mut Value) {
     // SAFETY: see `grow`.
-    unsafe { place.write((*value).clone()) }
+    unsafe {
+        place.write((*value).clone());
+        Context::mark_compound(context);
+    }
 }
 
 /// Keeps a copy of a value until the statement ends.

@@ -205,6 +205,11 @@ impl Translator<'_, '_> {
     }
 
     fn conditional(&mut self, branches: &[(TermId, TermId)], otherwise: Option<TermId>, id: TermId) -> Operand {
+        if let ([(guard, term)], Some(otherwise)) = (branches, otherwise)
+            && let Some(value) = self.selected(*guard, *term, otherwise)
+        {
+            return value;
+        }
         let done = self.block();
         let mut merge = self.merge(id);
         for (guard, term) in branches {
@@ -219,6 +224,22 @@ impl Translator<'_, '_> {
         self.leave(&mut merge, value, done);
         self.switch(done);
         self.merged(&merge)
+    }
+
+    /// One of two constants, without a branch.
+    fn selected(&mut self, guard: TermId, then: TermId, otherwise: TermId) -> Option<Operand> {
+        let program = self.program;
+        let constant = |term: TermId| matches!(program.term(term), Term::Constant(_));
+        if !constant(then) || !constant(otherwise) || self.kind_of(then) != self.kind_of(otherwise) {
+            return None;
+        }
+        let (Operand::Scalar(a), Operand::Scalar(b)) = (self.term(then), self.term(otherwise)) else { return None };
+        let guard = self.term(guard);
+        let guard = self.scalar(guard, Kind::Boolean);
+        let guard = self.defined(guard);
+        let value = self.builder.ins().select(guard.value, a.value, b.value);
+        let range = a.range.zip(b.range).map(|((al, ah), (bl, bh))| (al.min(bl), ah.max(bh)));
+        Some(Operand::Scalar(Scalar { kind: a.kind, value, flag: None, range }))
     }
 
     fn switch_term(&mut self, subject: TermId, cases: &[TermId], otherwise: Option<TermId>, id: TermId) -> Operand {
@@ -246,6 +267,11 @@ impl Translator<'_, '_> {
     pub fn guard(&mut self, id: TermId, then: Block, otherwise: Block) {
         let program = self.program;
         if let Term::Builtin { builtin, arguments } = program.term(id) {
+            let connective = matches!(builtin, Builtin::And | Builtin::Or | Builtin::Not);
+            if connective && let Some(scalar) = self.branchless(id) {
+                let scalar = self.defined(scalar);
+                return self.branch(scalar.value, then, otherwise);
+            }
             match (builtin, program.term_list(*arguments)) {
                 (Builtin::And, [left, right]) => {
                     let next = self.block();
@@ -281,6 +307,9 @@ impl Translator<'_, '_> {
 
     /// A guard as a value: never undef, as that gives the step up.
     pub fn truth(&mut self, id: TermId) -> Operand {
+        if let Some(scalar) = self.branchless(id) {
+            return Operand::Scalar(self.defined(scalar));
+        }
         let truth = self.variable(types::I8);
         let (then, otherwise, done) = (self.block(), self.block(), self.block());
         self.guard(id, then, otherwise);

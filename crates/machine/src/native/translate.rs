@@ -6,7 +6,9 @@
 //! in one place. INVARIANT: inputs and choices are asked for in the interpreter's order.
 
 use cranelift_codegen::ir::condcodes::IntCC;
-use cranelift_codegen::ir::{self, Block, FuncRef, InstBuilder, MemFlags, StackSlotData, StackSlotKind, Type, types};
+use cranelift_codegen::ir::{
+    self, AliasRegion, Block, FuncRef, InstBuilder, MemFlags, StackSlotData, StackSlotKind, Type, types,
+};
 use cranelift_frontend::{FunctionBuilder, Variable};
 use cranelift_jit::JITModule;
 use program::{DomainId, FunctionId, ProcedureId, Program, TermId};
@@ -16,8 +18,12 @@ use crate::native::helper::Helper;
 use crate::native::plan::Plan;
 use crate::native::shape::{Bound, Kind, Operand, Scalar};
 
-/// Memory that compiled code may read and write without a check.
-pub(super) const FLAGS: MemFlags = MemFlags::trusted();
+/// Memory that compiled code may read and write without a check: values, updates, stamps.
+pub(super) const FLAGS: MemFlags = MemFlags::trusted().with_alias_region(Some(AliasRegion::Heap));
+/// Fields of the context that only helpers change.
+const FIXED: MemFlags = MemFlags::trusted().with_alias_region(Some(AliasRegion::Vmctx));
+/// Fields of the context that compiled code changes.
+const COUNTERS: MemFlags = MemFlags::trusted().with_alias_region(Some(AliasRegion::Table));
 
 /// The variables of an inlined procedure or definition.
 #[derive(Debug)]
@@ -98,11 +104,13 @@ impl<'t, 'f> Translator<'t, 'f> {
     }
 
     pub fn field(&mut self, offset: i32) -> ir::Value {
-        self.builder.ins().load(types::I64, FLAGS, self.context, offset)
+        let flags = if Offset::is_counter(offset) { COUNTERS } else { FIXED };
+        self.builder.ins().load(types::I64, flags, self.context, offset)
     }
 
     pub fn set_field(&mut self, offset: i32, value: ir::Value) {
-        self.builder.ins().store(FLAGS, value, self.context, offset);
+        debug_assert!(Offset::is_counter(offset));
+        self.builder.ins().store(COUNTERS, value, self.context, offset);
     }
 
     pub fn load(&mut self, ty: Type, address: ir::Value, offset: i32) -> ir::Value {
