@@ -97,6 +97,16 @@ pub trait Environment {
         Ok(draw.number(0))
     }
 
+    /// Whether this number is fixed beforehand, so that even one that a guard would have to be searched for is given.
+    fn picks(&self, _draw: &Draw) -> bool {
+        false
+    }
+
+    /// A choose rule has no candidate. An error is a sentence for the user, who had one in mind.
+    fn no_candidate(&mut self, _program: &Program, _choose: Span) -> Result<(), String> {
+        Ok(())
+    }
+
     /// The clock.
     fn time(&mut self, unit: TimeUnit) -> Result<i64, String>;
 }

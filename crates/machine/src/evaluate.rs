@@ -82,6 +82,7 @@ impl<'a> Executor<'a> {
                 self.evaluate(*body)
             }
             Term::Rule(procedure) => Ok(Value::Rule(*procedure)),
+            Term::Unbound => self.fault(program.term_span(id), FaultKind::Unbound),
             Term::Coerce(operand) => {
                 let value = self.evaluate(*operand)?;
                 Ok(self.coerce(value, &program.domain(program.term_domain(id)).kind))

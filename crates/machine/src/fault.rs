@@ -82,6 +82,8 @@ pub enum FaultKind {
         /// The domain.
         domain: DomainId,
     },
+    /// A variable was read outside the scope that binds it.
+    Unbound,
     /// An agent has no program, or a value that is no rule was run.
     NotARule {
         /// The value.
@@ -125,6 +127,7 @@ impl FaultKind {
             FaultKind::Overflow { .. } => "integer-overflow",
             FaultKind::NotANumber { .. } => "not-a-number",
             FaultKind::NotEnumerable { .. } => "domain-not-enumerable",
+            FaultKind::Unbound => "unbound-variable",
             FaultKind::NotARule { .. } => "not-runnable",
             FaultKind::WrongArguments { .. } => "wrong-arguments",
             FaultKind::Temporal => "temporal-operator",
@@ -174,6 +177,7 @@ impl fmt::Display for ShowFault<'_> {
             FaultKind::NotEnumerable { domain } => {
                 write!(f, "the elements of {} cannot be enumerated", program.domain(*domain).name)
             }
+            FaultKind::Unbound => f.write_str("the variable is not bound here"),
             FaultKind::NotARule { value } => write!(f, "{} is not a rule that can be run", value.show(program)),
             FaultKind::WrongArguments { given, expected } => {
                 write!(f, "the rule takes {expected} arguments, {given} are given")

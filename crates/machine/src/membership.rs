@@ -34,7 +34,7 @@ pub(crate) fn membership(
             None => Membership::Domain(domain),
         },
         DomainKind::Concrete { .. } => Membership::Domain(domain),
-        _ if needs_check(program, domain) => Membership::Domain(domain),
+        // What is inside of tuples and collections is not looked at.
         _ => Membership::Any,
     }
 }
@@ -43,22 +43,6 @@ fn consecutive(elements: &[Value]) -> Option<Membership> {
     let (Value::Integer(low), Value::Integer(high)) = (elements.first()?, elements.last()?) else { return None };
     let all = i128::from(*high) - i128::from(*low) + 1 == elements.len() as i128;
     all.then_some(Membership::Between(*low, *high))
-}
-
-/// Whether a value of the domain's type may lie outside of it.
-fn needs_check(program: &Program, domain: DomainId) -> bool {
-    match &program.domain(domain).kind {
-        DomainKind::Basic(basic) => *basic == model::Basic::Natural,
-        DomainKind::Concrete { .. } => true,
-        DomainKind::Prod(parts) => parts.iter().any(|part| needs_check(program, *part)),
-        DomainKind::Seq(of) | DomainKind::Powerset(of) | DomainKind::Bag(of) => needs_check(program, *of),
-        DomainKind::Map(key, value) => needs_check(program, *key) || needs_check(program, *value),
-        DomainKind::Error
-        | DomainKind::Any
-        | DomainKind::Enum { .. }
-        | DomainKind::Abstract { .. }
-        | DomainKind::Rule(_) => false,
-    }
 }
 
 impl Executor<'_> {

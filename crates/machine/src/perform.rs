@@ -386,6 +386,9 @@ impl<'a> Executor<'a> {
             coverage.went(id, candidates.min(2));
         }
         if candidates == 0 {
+            if let Err(reason) = self.environment.no_candidate(program, span) {
+                return self.fault(span, FaultKind::Environment { reason });
+            }
             return if_none.map_or(Ok(()), |rule| self.perform(rule));
         }
         let Executor { core, environment, .. } = self;
@@ -426,16 +429,18 @@ impl<'a> Executor<'a> {
             Term::Constant(index) => self.core.constants[*index as usize] != Value::Boolean(true),
             _ => true,
         });
-        if guarded || binders.iter().all(|binder| numbers(binder).is_none()) {
+        let mut draws = Vec::new();
+        for (variable, binder) in binders.iter().enumerate() {
+            draws.extend(numbers(binder).map(|basic| (Draw { span, variable, basic }, binder.slot)));
+        }
+        if draws.is_empty() || (guarded && !draws.iter().all(|(draw, _)| self.environment.picks(draw))) {
             return Ok(Cow::Borrowed(binders));
         }
-        for (variable, binder) in binders.iter().enumerate() {
-            let Some(basic) = numbers(binder) else { continue };
-            let draw = Draw { span, variable, basic };
+        for (draw, slot) in draws {
             match self.core.choices.number(self.environment, program, &draw) {
-                Ok(value) if draw.admits(&value) => self.bind(binder.slot, value),
+                Ok(value) if draw.admits(&value) => self.bind(slot, value),
                 Ok(value) => {
-                    let reason = format!("{} is no {basic:?}", value.show(program));
+                    let reason = format!("{} is no {:?}", value.show(program), draw.basic);
                     return self.fault(span, FaultKind::Environment { reason });
                 }
                 Err(reason) => return self.fault(span, FaultKind::Environment { reason }),

@@ -2,7 +2,7 @@
 //!
 //! In: the candidates and the checked arguments. Out: the candidate of the least cost and what its type variables
 //! stand for. Exact domains win, then compatible ones (spec/language.md, 8.1), then those that need a numeric coercion;
-//! of equal ones the latest declared wins. A list of arguments and one argument of a product domain are the same.
+//! of equal functions the latest declared wins, of equal rules the first. A list of arguments and one argument of a product domain are the same.
 
 use crate::coerce;
 use crate::compat::Bindings;
@@ -96,7 +96,7 @@ fn packed(model: &mut Model, candidates: &[FunctionId], arguments: &[Term]) -> O
 /// The rule that a call means.
 pub(crate) fn rule(model: &Model, candidates: &[RuleId], arguments: &[Term]) -> Option<RuleId> {
     let mut best: Option<(u32, RuleId)> = None;
-    for id in candidates.iter().rev().copied() {
+    for id in candidates.iter().copied() {
         let rule = model.rule(id);
         let parameters: Vec<DomainId> = rule.parameters.iter().map(|id| rule.variables[id.0 as usize].domain).collect();
         if parameters.len() != arguments.len() {

@@ -81,6 +81,8 @@ pub enum TermKind {
     Literal(Literal),
     /// A logical variable of the enclosing declaration.
     Variable(VariableId),
+    /// A variable that is bound elsewhere in the declaration, but not here: a run that gets here ends.
+    Unbound(VariableId),
     /// A function applied to as many arguments as it has parameters.
     Apply {
         /// The function, overloads resolved.

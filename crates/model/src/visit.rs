@@ -23,6 +23,7 @@ impl Term {
             | TermKind::Variable(_)
             | TermKind::Domain(_)
             | TermKind::Rule(_)
+            | TermKind::Unbound(_)
             | TermKind::Error => {}
             TermKind::Apply { arguments: parts, .. }
             | TermKind::Tuple(parts)

@@ -165,8 +165,11 @@ impl Interpreter<'_> {
 
     /// The update of a location to a value, which has to be in the codomain.
     fn update(&mut self, location: Location, value: Value, state: &State) -> Yield {
+        // Of a domain of tuples or collections what is inside is not looked at.
         if let crate::state::Symbol::Function(function) = location.symbol
-            && !self.contains(self.model.function(function).codomain, &value, state)?
+            && let codomain = self.model.function(function).codomain
+            && matches!(self.model.domains.kind(codomain), DomainKind::Basic(_) | DomainKind::Concrete { .. })
+            && !self.contains(codomain, &value, state)?
         {
             return Err(Fault::OutOfDomain { location, value }.into());
         }

@@ -94,6 +94,7 @@ impl<'a> Substitution<'a> {
             TermKind::Literal(literal) => TermKind::Literal(literal.clone()),
             TermKind::Domain(domain) => TermKind::Domain(*domain),
             TermKind::Rule(rule) => TermKind::Rule(*rule),
+            TermKind::Unbound(variable) => TermKind::Unbound(*variable),
             TermKind::Error => TermKind::Error,
             TermKind::Apply { function, arguments } => {
                 TermKind::Apply { function: *function, arguments: self.terms(arguments) }

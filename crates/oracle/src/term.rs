@@ -87,6 +87,7 @@ impl Interpreter<'_> {
             TermKind::Coerce(inner) => {
                 Ok(builtin::coerce(self.value(inner, state, zeta)?, term.domain == Domains::COMPLEX))
             }
+            TermKind::Unbound(_) => Err(Fault::Unbound),
             TermKind::Error => panic!("the oracle runs models without faults only"),
         }
     }

@@ -2,7 +2,8 @@
 //!
 //! An input that was never set is undef; [`ScenarioEnvironment::missing`] tells that one was asked for, so that an
 //! invariant over inputs is not judged before its inputs are there. One with an initial value keeps it until it is set.
-//! The clock stands at 0: what needs time sets the monitored functions of the time library.
+//! The clock shows 1 s in the initial state and a second more in each next one; so do the monitored functions of the
+//! time libraries that are not set.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -52,6 +53,8 @@ pub(crate) struct ScenarioEnvironment<'a> {
     pub inputs: BTreeMap<Location, Value>,
     pub picks: Vec<Picked>,
     pub choices: &'a mut dyn Choices,
+    /// What the clock shows.
+    pub seconds: i64,
     /// An input was asked for that is not set.
     pub missing: bool,
     pub mispick: Option<Mispick>,
@@ -65,7 +68,14 @@ impl fmt::Debug for ScenarioEnvironment<'_> {
 
 impl<'a> ScenarioEnvironment<'a> {
     pub fn new(choices: &'a mut dyn Choices) -> Self {
-        ScenarioEnvironment { inputs: BTreeMap::new(), picks: Vec::new(), choices, missing: false, mispick: None }
+        ScenarioEnvironment {
+            inputs: BTreeMap::new(),
+            picks: Vec::new(),
+            choices,
+            seconds: 1,
+            missing: false,
+            mispick: None,
+        }
     }
 
     /// Of several picks for one variable of one choice the last counts.
@@ -85,14 +95,18 @@ impl<'a> ScenarioEnvironment<'a> {
 impl Environment for ScenarioEnvironment<'_> {
     fn monitored(
         &mut self,
-        _program: &Program,
+        program: &Program,
         location: LocationRef<'_>,
         _codomain: DomainId,
     ) -> Result<Value, String> {
-        Ok(self.inputs.get(&location.to_location()).cloned().unwrap_or_else(|| {
-            self.missing = true;
-            Value::Undef
-        }))
+        if let Some(value) = self.inputs.get(&location.to_location()) {
+            return Ok(value.clone());
+        }
+        if let Some(time) = library_time(program, location, self.seconds) {
+            return Ok(Value::Integer(time));
+        }
+        self.missing = true;
+        Ok(Value::Undef)
     }
 
     fn keeps_initial(&self, location: LocationRef<'_>) -> bool {
@@ -110,6 +124,19 @@ impl Environment for ScenarioEnvironment<'_> {
         }
         let message = format!("{} = {} is no {:?}", pick.variable, pick.value.show(program), draw.basic);
         self.mispick = Some(Mispick { span: pick.span, choice: draw.span, message: message.clone() });
+        Err(message)
+    }
+
+    fn picks(&self, draw: &Draw) -> bool {
+        self.picks.iter().any(|pick| pick.choices.contains(&(draw.span, draw.variable)))
+    }
+
+    fn no_candidate(&mut self, program: &Program, choose: Span) -> Result<(), String> {
+        let Some((pick, _)) = self.picks_for(choose).pop() else { return Ok(()) };
+        let pick = &self.picks[pick];
+        let message =
+            format!("{} = {} is not among the candidates: there are none", pick.variable, pick.value.show(program));
+        self.mispick = Some(Mispick { span: pick.span, choice: choose, message: message.clone() });
         Err(message)
     }
 
@@ -138,9 +165,29 @@ impl Environment for ScenarioEnvironment<'_> {
         Ok(fitting[self.choices.choose(fitting.len()).min(fitting.len() - 1)])
     }
 
-    fn time(&mut self, _unit: TimeUnit) -> Result<i64, String> {
-        Ok(0)
+    fn time(&mut self, unit: TimeUnit) -> Result<i64, String> {
+        Ok(match unit {
+            TimeUnit::Nanoseconds => self.seconds.saturating_mul(1_000_000_000),
+            TimeUnit::Milliseconds => self.seconds.saturating_mul(1_000),
+            TimeUnit::Seconds => self.seconds,
+        })
     }
+}
+
+/// The value of a time library's clock, if the location is one.
+fn library_time(program: &Program, location: LocationRef<'_>, seconds: i64) -> Option<i64> {
+    let function = program.function(location.function);
+    if !function.library || !location.arguments.is_empty() {
+        return None;
+    }
+    Some(match function.name.as_str() {
+        "mCurrTimeNanosecs" => seconds.saturating_mul(1_000_000_000),
+        "mCurrTimeMillisecs" => seconds.saturating_mul(1_000),
+        "mCurrTimeSecs" => seconds,
+        "mCurrTimeMins" => seconds / 60,
+        "mCurrTimeHours" => seconds / 3600,
+        _ => return None,
+    })
 }
 
 /// The distinct values of one variable, the first of them.

@@ -255,9 +255,13 @@ fn choices_binding(
     domains: &[String],
 ) -> Vec<(Span, usize, model::DomainId)> {
     let mut found = Vec::new();
+    // Without domains the rule without parameters is meant, if there is one.
+    let plain =
+        model.rules.iter().any(|declared| Some(declared.name.as_str()) == rule && declared.parameters.is_empty());
     for (index, declared) in model.rules.iter().enumerate() {
         let fits = rule.is_none_or(|rule| declared.name == rule)
-            && (domains.is_empty() || parameter_domains(model, RuleId(index as u32)) == domains);
+            && ((domains.is_empty() && !plain) || parameter_domains(model, RuleId(index as u32)) == domains)
+            || (rule.is_none() && domains.is_empty());
         if fits {
             each_choose(&declared.body, &mut |node, binders| {
                 let place = binders.iter().position(|id| declared.variables[id.0 as usize].name == name);

@@ -156,6 +156,8 @@ impl Play<'_> {
             }
         }
         if !first {
+            // The clock has gone on.
+            self.machine.forget_inputs();
             self.sets(&parts.sets)?;
         }
         let mut ran = false;
@@ -174,7 +176,12 @@ impl Play<'_> {
         }
         self.pick(&parts.picks)?;
         match &group.step {
-            StepKind::Steps { count, span } => (0..*count).try_for_each(|_| self.step(*span))?,
+            StepKind::Steps { count, span } => (0..*count).try_for_each(|made| {
+                if made > 0 {
+                    self.machine.forget_inputs();
+                }
+                self.step(*span)
+            })?,
             StepKind::Until { condition, bound, span } => self.until(condition, bound.unwrap_or(self.bound), *span)?,
             StepKind::Trouble { expected, span } => self.trouble(*expected, *span)?,
             StepKind::End => {
@@ -293,6 +300,7 @@ impl Play<'_> {
         self.try_to(prepared, span)?;
         self.machine.commit();
         self.steps += 1;
+        self.environment.seconds += 1;
         self.invariants(false, span)
     }
 
@@ -302,6 +310,7 @@ impl Play<'_> {
                 return Ok(());
             }
             self.step(span)?;
+            self.machine.forget_inputs();
         }
         if self.evaluate(condition, span)? == Value::Boolean(true) {
             return Ok(());

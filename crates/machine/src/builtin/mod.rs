@@ -43,8 +43,8 @@ impl<'a> Executor<'a> {
             Builtin::Neq => Ok(Value::Boolean(operands[0] != operands[1])),
             Builtin::IsDef => Ok(Value::Boolean(!operands[0].is_undef())),
             Builtin::IsUndef => Ok(Value::Boolean(operands[0].is_undef())),
-            // Printing is the shells' business; the value of `print` is irrelevant.
-            Builtin::Print => Ok(Value::Integer(0)),
+            // Printing is the shells' business; the value of `print` is 1.
+            Builtin::Print => Ok(Value::Integer(1)),
             Builtin::ToString => Ok(Value::string(match &operands[0] {
                 Value::String(text) => text.to_string(),
                 Value::Char(c) => c.to_string(),

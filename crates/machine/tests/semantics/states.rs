@@ -185,3 +185,40 @@ fn an_input_is_asked_for_whatever_its_initial_value() {
         "#]],
     );
 }
+
+#[test]
+fn what_is_inside_of_tuples_is_not_held_against_the_codomain() {
+    check(
+        "signature:
+            domain Small subsetof Integer
+            controlled pair: Prod(Small, Small)
+            controlled some: Powerset(Small)
+        definitions:
+            domain Small = {0:3}
+            main rule r_Main = par pair := (9, 1) some := {7} endpar",
+        1,
+        expect![[r#"
+            1: pair=(9,1) some={7}
+        "#]],
+    );
+}
+
+#[test]
+fn of_equal_overloads_of_a_rule_the_first_is_called() {
+    check(
+        "signature:
+            abstract domain Thing
+            domain Red subsetof Thing
+            domain Blue subsetof Thing
+            static one: Thing
+            controlled called: Integer
+        definitions:
+            rule r_Call($t in Red) = called := 1
+            rule r_Call($t in Blue) = called := 2
+            main rule r_Main = r_Call[one]",
+        1,
+        expect![[r#"
+            1: called=1
+        "#]],
+    );
+}

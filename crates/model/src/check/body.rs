@@ -173,7 +173,8 @@ impl<'a> Body<'a> {
             None => {}
         }
         let plain = name.trim_start_matches('$');
-        let elsewhere = self.variables.iter().find(|variable| variable.name == name).map(|variable| variable.span);
+        let bound = self.variables.iter().position(|variable| variable.name == name);
+        let elsewhere = bound.map(|index| self.variables[index].span);
         let help = if self.site.names.functions.contains_key(plain) {
             format!("did you mean the function `{plain}`?")
         } else if elsewhere.is_some() {
@@ -184,7 +185,13 @@ impl<'a> Body<'a> {
             })
         };
         self.site.faults.push(fault::name::unknown_variable(span, name, elsewhere, help));
-        error_term(span)
+        match bound {
+            Some(index) => {
+                let kind = TermKind::Unbound(VariableId(index as u32));
+                Term { kind, domain: self.variables[index].domain, span }
+            }
+            None => error_term(span),
+        }
     }
 }
 

@@ -161,6 +161,7 @@ impl<'m> Text<'m> {
                 self.term(inner);
                 self.push(")");
             }
+            TermKind::Unbound(_) => self.push("unbound"),
             TermKind::Error => self.push("?"),
         }
     }

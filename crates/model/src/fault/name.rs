@@ -17,12 +17,14 @@ pub(crate) fn unknown_rule(span: Span, name: &str, help: String) -> Diagnostic {
     Diagnostic::error("unknown-rule", span, format!("there is no rule `{name}`")).with_help(help)
 }
 
-/// A variable that is not bound here, but perhaps in another scope.
+/// A variable that is not bound here. Where it is in another scope of the declaration, only a run that gets here fails.
 pub(crate) fn unknown_variable(span: Span, name: &str, elsewhere: Option<Span>, help: String) -> Diagnostic {
-    let fault = Diagnostic::error("unknown-variable", span, format!("`{name}` is not bound here")).with_help(help);
+    let message = format!("`{name}` is not bound here");
     match elsewhere {
-        Some(place) => fault.with_label(place, "bound here, but its scope ends before"),
-        None => fault,
+        Some(place) => Diagnostic::warning("unknown-variable", span, message)
+            .with_help(help)
+            .with_label(place, "bound here, but its scope ends before"),
+        None => Diagnostic::error("unknown-variable", span, message).with_help(help),
     }
 }
 

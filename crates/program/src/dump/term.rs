@@ -98,6 +98,10 @@ impl Dump<'_> {
                 self.text.push(')');
                 Ok(())
             }
+            Term::Unbound => {
+                self.text.push_str("unbound");
+                Ok(())
+            }
             Term::Rule(procedure) => {
                 self.text.push_str("<<");
                 self.procedure_name(*procedure)?;

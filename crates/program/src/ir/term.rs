@@ -112,6 +112,8 @@ pub enum Term {
     },
     /// A rule as a value.
     Rule(ProcedureId),
+    /// A variable outside its scope: a fault.
+    Unbound,
     /// A numeric coercion to the term's domain, Real or Complex.
     Coerce(TermId),
 }

@@ -203,6 +203,7 @@ impl<'a, 'm> Canonical<'a, 'm> {
                 self.text.push('n');
                 self.write_term(operand);
             }
+            TermKind::Unbound(_) => self.text.push('u'),
             TermKind::Error => self.text.push('e'),
         }
     }

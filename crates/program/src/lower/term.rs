@@ -37,6 +37,7 @@ impl<'m> Lowering<'m, '_> {
             TermKind::Apply { function, arguments } => return self.lower_application(*function, arguments, term),
             TermKind::Let { bindings, body } => return self.lower_let_term(bindings, body, term),
             TermKind::Coerce(operand) => return self.lower_coercion(operand, term),
+            TermKind::Unbound(_) => ir::Term::Unbound,
             TermKind::Error => return self.undef(term.domain, term.span),
             TermKind::Comprehension { binders, .. } | TermKind::Quantified { binders, .. } if binders.is_empty() => {
                 return self.undef(term.domain, term.span);

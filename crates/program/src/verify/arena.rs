@@ -58,6 +58,7 @@ fn verify_term(program: &Program, id: TermId) -> Result<(), String> {
             ensure(list.len % 2 == 0, || "a branch has no term".to_string())
         }
         Term::Rule(procedure) => procedure_exists(program, *procedure),
+        Term::Unbound => Ok(()),
     }
 }
 

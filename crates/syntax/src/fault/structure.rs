@@ -154,8 +154,7 @@ pub(crate) fn no_location(found: Found<'_>) -> Diagnostic {
 /// `x += 1`
 pub(crate) fn compound_assignment(found: Found<'_>) -> Diagnostic {
     let sign = found.text;
-    let span = Span { end: found.span.end + 1, ..found.span };
-    Diagnostic::error("foreign-operator", span, format!("`{sign}=` is no operator of AsmetaL"))
+    Diagnostic::error("foreign-operator", found.span, format!("`{sign}=` is no operator of AsmetaL"))
         .because("an update is written with `:=`")
         .with_help(format!("write `x := x {sign} …`"))
 }
