@@ -147,6 +147,7 @@ impl<'m> Explorer<'m> {
                 format!("let ({}) in {} endlet", self.bindings(bindings, frame), inner(body))
             }
             TermKind::Rule(rule) => format!("<<{}>>", self.model.rule(*rule).name),
+            TermKind::Unbound(id) => self.name_of(*id, frame),
             TermKind::Error => "undef".to_string(),
         }
     }

@@ -222,3 +222,22 @@ fn of_equal_overloads_of_a_rule_the_first_is_called() {
         "#]],
     );
 }
+
+#[test]
+fn an_element_defined_as_itself_is_an_element() {
+    check(
+        "signature:
+            abstract domain Thing
+            static one: Thing
+            static two: Thing
+            controlled which: Thing
+            controlled same: Boolean
+        definitions:
+            function one = one
+            main rule r_Main = par which := one same := one = two endpar",
+        1,
+        expect![[r#"
+            1: which=one same=false
+        "#]],
+    );
+}

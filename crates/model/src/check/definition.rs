@@ -43,6 +43,12 @@ pub(crate) fn function(mut site: Site<'_>, def: &ast::FunctionDef, defined: &mut
         site.faults.push(fault::function::duplicate_definition(name_span, first, "function", &name));
         return;
     }
+    // An element that is defined as itself is an element like one without definition.
+    let is_itself = matches!(&definition.body.kind, TermKind::Apply { function, arguments } if *function == id && arguments.is_empty());
+    let base = site.model.domains.type_domain(site.model.function(id).codomain);
+    if is_itself && matches!(site.model.domains.kind(base), DomainKind::Abstract { .. }) {
+        return;
+    }
     site.model.functions[id.0 as usize].definition = Some(definition);
 }
 
