@@ -68,14 +68,7 @@ struct Measured {
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     interrupt::listen();
-    if shell.talks() {
-        let names = ["steps/s", "lowest..highest", "changed", "updates", "load ms", "peak MB", "digest"];
-        let [rate, spread, changed, updates, load, peak, digest] = names;
-        writeln!(
-            shell.out(),
-            "{rate:>12} {spread:>22} {changed:>7} {updates:>7} {load:>7} {peak:>7} {digest:>16}  model"
-        )?;
-    }
+    let mut headed = false;
     for path in &arguments.models {
         if interrupt::asked() {
             return Ok(Exit::Unknown);
@@ -91,11 +84,27 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
             shell.note(&format!("note: {} has no main rule to run", path.display()))?;
             continue;
         }
+        if !std::mem::replace(&mut headed, true) {
+            head(shell)?;
+        }
         let measured = measure(shell, arguments, path, Arc::new(loaded.program), load_ms)?;
         show(shell, &measured)?;
         shell.flush()?;
     }
     Ok(Exit::Good)
+}
+
+/// The names of the columns.
+fn head(shell: &mut Shell) -> Result<(), Failure> {
+    if shell.talks() {
+        let names = ["steps/s", "lowest..highest", "changed", "updates", "load ms", "peak MB", "digest"];
+        let [rate, spread, changed, updates, load, peak, digest] = names;
+        writeln!(
+            shell.out(),
+            "{rate:>12} {spread:>22} {changed:>7} {updates:>7} {load:>7} {peak:>7} {digest:>16}  model"
+        )?;
+    }
+    shell.flush()
 }
 
 fn measure(

@@ -74,6 +74,11 @@ impl Failure {
             Failure::Usage { help, .. } => help.clone(),
             Failure::TooLarge { .. } => Some("raise the limit with --max-file-size BYTES".to_string()),
             Failure::NotUtf8 { .. } => Some("save it as UTF-8".to_string()),
+            Failure::Missing(path) => ["asm", "avalla", "chart"]
+                .map(|extension| path.with_extension(extension))
+                .into_iter()
+                .find(|other| path.extension().is_none() && other.is_file())
+                .map(|other| format!("is {} meant?", other.display())),
             _ => None,
         }
     }

@@ -26,6 +26,14 @@ pub struct Limits {
     max_locations: u64,
 }
 
+/// Reads a count of steps or the like.
+///
+/// # Errors
+/// A sentence for the user.
+pub fn count(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| "write a whole number, such as 100".to_string())
+}
+
 impl Limits {
     /// The machine's part.
     pub fn machine(&self) -> machine::Limits {

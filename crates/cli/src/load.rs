@@ -10,6 +10,11 @@ use crate::shell::Shell;
 
 /// Loads a model; where it has errors they are shown and there is none. Warnings are `check`'s business.
 pub fn load(shell: &mut Shell, path: &Path) -> Result<Result<Loaded, Exit>, Failure> {
+    match path.extension().and_then(|extension| extension.to_str()) {
+        Some("avalla") => return Err(another(path, "scenario", "`groundstate test` runs scenarios")),
+        Some("chart") => return Err(another(path, "chart", "`groundstate chart build` writes the model of a chart")),
+        _ => {}
+    }
     let mut disk = shell.disk();
     let root = disk.root(path)?;
     match groundstate::load(root, &mut disk) {
@@ -22,4 +27,9 @@ pub fn load(shell: &mut Shell, path: &Path) -> Result<Result<Loaded, Exit>, Fail
             Ok(Err(Exit::Model))
         }
     }
+}
+
+/// A file of another kind than the command takes.
+pub fn another(path: &Path, kind: &str, help: &str) -> Failure {
+    Failure::usage_with_help(format!("{} is a {kind}", path.display()), help)
 }

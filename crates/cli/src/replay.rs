@@ -204,6 +204,7 @@ impl Lines {
     }
 
     fn wrong(&self, reason: &str) -> Failure {
-        Failure::usage(format!("{} is not a trace: line {}: {reason}", self.path.display(), self.number.max(1)))
+        let message = format!("{} is not a trace: line {}: {reason}", self.path.display(), self.number.max(1));
+        Failure::usage_with_help(message, "`groundstate run MODEL --trace FILE` writes one")
     }
 }

@@ -28,7 +28,7 @@ pub struct Arguments {
     /// The model
     model: PathBuf,
     /// The most steps to make
-    #[arg(long, short = 'n', value_name = "N", default_value_t = 100)]
+    #[arg(long, short = 'n', value_name = "N", default_value_t = 100, value_parser = crate::limits::count, allow_negative_numbers = true)]
     steps: u64,
     /// Stop when this term holds, the initial state included
     #[arg(long, value_name = "TERM")]

@@ -84,6 +84,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
 }
 
 fn test_one(shell: &Shell, arguments: &Arguments, suite: &mut Suite, path: &Path) -> Result<Tested, Failure> {
+    if path.extension().is_some_and(|extension| extension == "asm") {
+        return Err(crate::load::another(path, "model", "`groundstate run` runs models; scenarios are .avalla files"));
+    }
     let mut disk = shell.disk();
     let source = disk.root(path)?;
     let limits = shell.global.limits.machine();

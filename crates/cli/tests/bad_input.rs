@@ -185,3 +185,16 @@ fn standard_input_that_is_no_terminal_is_not_asked() {
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("--random"));
 }
+
+#[test]
+fn files_of_another_kind() {
+    let folder = folder();
+    write(folder.path(), "Model.asm", model("Model", "skip"));
+    write(folder.path(), "Scenario.avalla", "scenario Scenario\nload Model.asm\nstep\n");
+    check(folder.path(), &["run", "Scenario.avalla"], 2, "Scenario.avalla is a scenario");
+    check(folder.path(), &["bench", "Scenario.avalla"], 2, "`groundstate test` runs scenarios");
+    check(folder.path(), &["test", "Model.asm"], 2, "Model.asm is a model");
+    check(folder.path(), &["replay", "Model.asm"], 2, "--trace FILE` writes one");
+    check(folder.path(), &["run", "Model"], 2, "is Model.asm meant?");
+    check(folder.path(), &["run", "Model.asm", "--steps", "-3"], 2, "write a whole number");
+}

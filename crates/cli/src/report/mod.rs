@@ -73,7 +73,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     spec: Option<PathBuf>,
     /// The steps to make
-    #[arg(long, short = 'n', value_name = "N", default_value_t = 10_000)]
+    #[arg(long, short = 'n', value_name = "N", default_value_t = 10_000, value_parser = crate::limits::count, allow_negative_numbers = true)]
     steps: u64,
     /// Write the page here
     #[arg(long, short = 'o', value_name = "FILE")]
@@ -82,7 +82,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     /// Steps that the picture shows; those of the page's first view unless given
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     svg_steps: u64,
     /// The first step that the picture shows
     #[arg(long, value_name = "N", default_value_t = 0)]
