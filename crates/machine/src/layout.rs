@@ -72,8 +72,13 @@ impl Dimension {
 }
 
 /// Lays out all functions; gives the layouts and the number of dense locations. `contents` gives the elements of
-/// a static concrete domain, where they are known.
-pub(crate) fn lay_out(program: &Program, contents: &dyn Fn(DomainId) -> Option<Vec<Value>>) -> (Vec<Layout>, u32) {
+/// a static concrete domain, where they are known. A window, which is memory for locations that may never come up, is
+/// laid out only while there are at most `most` locations.
+pub(crate) fn lay_out(
+    program: &Program,
+    contents: &dyn Fn(DomainId) -> Option<Vec<Value>>,
+    most: u64,
+) -> (Vec<Layout>, u32) {
     let mut next = 0u32;
     let layouts = program.functions.iter().map(|function| {
         if !has_locations(function) {
@@ -86,7 +91,8 @@ pub(crate) fn lay_out(program: &Program, contents: &dyn Fn(DomainId) -> Option<V
         let Some((dimensions, len)) = dimensions_of(program, &function.parameters, contents) else {
             return Layout::Sparse;
         };
-        if next > u32::MAX / 2 {
+        let all_inside = || function.parameters.iter().all(|domain| dimension(program, *domain, contents).is_some());
+        if next > u32::MAX / 2 || u64::from(next) + u64::from(len) > most && !all_inside() {
             return Layout::Sparse;
         }
         let base = next;

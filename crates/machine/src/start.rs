@@ -27,7 +27,7 @@ impl Core {
     /// A core with all locations undef, laid out for the program.
     pub fn new(program: &Program, limits: Limits) -> Core {
         let mut core = Core {
-            store: Store::new(program, &|_| None),
+            store: Store::new(program, &|_| None, limits.locations),
             updates: Updates::default(),
             frames: Vec::new(),
             base: 0,
@@ -49,7 +49,7 @@ impl Core {
         core.reset_carriers(program);
         Executor { program, core: &mut core, environment: &mut Closed, limits }.fill_contents();
         let contents = |domain: DomainId| core.contents[domain.0 as usize].as_ref().map(|elements| elements.to_vec());
-        let store = Store::new(program, &contents);
+        let store = Store::new(program, &contents, limits.locations);
         let codomains = program.functions.iter().map(|f| membership(program, f.codomain, &contents)).collect();
         core.memo.lay_out(program, &contents);
         core.store = store;

@@ -47,9 +47,9 @@ pub(crate) struct Store {
 }
 
 impl Store {
-    /// A store whose locations are all undef.
-    pub fn new(program: &Program, contents: &dyn Fn(DomainId) -> Option<Vec<Value>>) -> Store {
-        let (layouts, dense) = lay_out(program, contents);
+    /// A store whose locations are all undef; `most` is the limit of their number.
+    pub fn new(program: &Program, contents: &dyn Fn(DomainId) -> Option<Vec<Value>>, most: u64) -> Store {
+        let (layouts, dense) = lay_out(program, contents, most);
         let owners = layouts.iter().zip(0..).filter_map(|(layout, function)| {
             let first = match layout {
                 Layout::Single(index) => *index,
