@@ -34,6 +34,8 @@ pub enum Job {
         status: String,
         /// What the peer said.
         message: String,
+        /// How many checks it found to hold.
+        checks: u64,
     },
 }
 

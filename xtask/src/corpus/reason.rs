@@ -64,6 +64,8 @@ reasons! {
         "The peer lets a Natural become negative (`iton` of a negative number). Here it is a fault.";
     NEW_ELEMENT = "new element as a value":
         "The peer does not take an element that `extend` has just made for a value of the very domain that it extends.";
+    NO_END = "step until without end":
+        "The condition of a `step until` does not come true. The peer ends the run some time, comes to none of the checks and passes.";
     NO_CONTENTS = "domain without contents":
         "The peer stops where it needs the contents of a concrete domain that has no definition.";
     NO_DEFINITION = "static function without definition":

@@ -47,7 +47,9 @@ pub fn read(folder: &Path) -> Result<Recorded, Failure> {
     }
     for row in rows(&folder.join("avalla.csv"), 3)? {
         let [path, status, message] = &row[..3] else { continue };
-        jobs.push(Job::Scenario { path: path.clone(), status: status.clone(), message: message.clone() });
+        let checks = row.get(3).and_then(|count| count.parse().ok()).unwrap_or(0);
+        let (path, status, message) = (path.clone(), status.clone(), message.clone());
+        jobs.push(Job::Scenario { path, status, message, checks });
     }
     Ok(Recorded { jobs, _unpacked: unpacked })
 }

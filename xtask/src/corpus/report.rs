@@ -171,6 +171,11 @@ Compared are: whether a model is accepted; recorded runs, state by state, on eve
 the recorded inputs and with choices that lead to the recorded states; the ends of runs; verdicts of scenarios. A
 difference is explained only by a reason that a test on the model or on the difference finds.
 
+The recorded results are not part of this project either: tables `parse.csv` (path, OK or FAIL, message) and `avalla.csv`
+(path, verdict, message), and traces `traces/{det,mon,choose}/*`, whose form `xtask/src/corpus/trace.rs` reads. Whoever
+has the peer makes them by running its parser, simulator and validator over the checkout; `cargo xtask corpus CHECKOUT
+--recorded FOLDER` names their folder.
+
 ";
 
 fn escaped(text: &str) -> String {

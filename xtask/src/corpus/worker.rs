@@ -41,6 +41,6 @@ fn answer(checkout: &Checkout, job: &Job) -> Answer {
     match job {
         Job::Accept { path, accepted, message } => accept::compare(checkout, path, *accepted, message),
         Job::Replay { file, path, .. } => simulation::compare(checkout, path, file),
-        Job::Scenario { path, status, message } => scenario::compare(checkout, path, status, message),
+        Job::Scenario { path, status, message, checks } => scenario::compare(checkout, path, status, message, *checks),
     }
 }
