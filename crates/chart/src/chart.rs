@@ -8,6 +8,8 @@ use std::collections::BTreeMap;
 
 use syntax::Span;
 
+use crate::system::System;
+
 /// A chart file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chart {
@@ -17,6 +19,8 @@ pub struct Chart {
     pub imports: Vec<String>,
     /// Machines and patterns in the order of the file.
     pub machines: Vec<Machine>,
+    /// The system, if there is one.
+    pub system: Option<System>,
     /// Where shapes lie, by the name of the machine; this means nothing but to the eye.
     pub layouts: BTreeMap<String, Layout>,
 }

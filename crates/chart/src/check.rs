@@ -5,8 +5,7 @@
 //! that only one side has, each with the place on both sides; and notes of what is still to be refined.
 //!
 //! Both rules are executed symbolically for each value of the control variable; what they do under which tests is
-//! compared as propositional formulas over the tests. LIMIT: tests are told apart by their text; up to [`EXACT`] tests of
-//! one effect the comparison is exact, beyond it by the form of the paths.
+//! compared as propositional formulas over the tests, exactly. LIMIT: tests are told apart by their text; [`CASES`].
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -20,8 +19,8 @@ use crate::extract::{controls, values};
 use crate::fault;
 use crate::symbolic::{Depth, Effect, Explorer, Guarded, Path, Reason};
 
-/// LIMIT: so many tests of one effect are compared exactly.
-const EXACT: usize = 14;
+/// LIMIT: so many cases of one effect are told apart; beyond that it counts as a difference.
+const CASES: usize = 100_000;
 
 /// A specification with the chart's rules in it.
 #[derive(Debug, Clone)]
@@ -205,24 +204,38 @@ impl Side<'_> {
     }
 }
 
-/// A case in which one side does something and the other does not, and whether it is the chart that does.
+/// A case in which one side does something and the other does not, and whether it is the chart that does: both sides,
+/// formulas in disjunctive normal form, are expanded test by test until they part.
 fn difference(chart: &[Path], rule: &[Path]) -> Option<(Path, bool)> {
-    let atoms: BTreeSet<&str> = chart.iter().chain(rule).flatten().map(|(atom, _)| atom.as_str()).collect();
-    let atoms: Vec<&str> = atoms.into_iter().collect();
-    if atoms.len() > EXACT {
-        let sorted = |paths: &[Path]| -> BTreeSet<BTreeSet<(String, bool)>> {
-            paths.iter().map(|path| path.iter().cloned().collect()).collect()
-        };
-        return (sorted(chart) != sorted(rule)).then(|| (Vec::new(), rule.is_empty()));
+    let mut budget = CASES;
+    let mut case = Vec::new();
+    let chart_does = parted(chart.to_vec(), rule.to_vec(), &mut case, &mut budget)?;
+    Some((case, chart_does))
+}
+
+fn parted(chart: Vec<Path>, rule: Vec<Path>, case: &mut Path, budget: &mut usize) -> Option<bool> {
+    let always = |paths: &[Path]| paths.iter().any(Vec::is_empty);
+    let (chart_always, rule_always) = (always(&chart), always(&rule));
+    if chart_always && rule_always || chart.is_empty() && rule.is_empty() {
+        return None;
     }
-    for case in 0u32..1 << atoms.len() {
-        let holds = |atom: &str| atoms.iter().position(|known| *known == atom).is_some_and(|at| case >> at & 1 == 1);
-        let done = |paths: &[Path]| paths.iter().any(|path| path.iter().all(|(atom, value)| holds(atom) == *value));
-        let (in_chart, in_rule) = (done(chart), done(rule));
-        if in_chart != in_rule {
-            let path = atoms.iter().map(|atom| ((*atom).to_string(), holds(atom))).collect();
-            return Some((path, in_chart));
+    // A test that is still open on a side that is not decided yet.
+    let open = |paths: &[Path], decided: bool| {
+        paths.iter().filter(|_| !decided).find_map(|path| path.first().map(|(atom, _)| atom.clone()))
+    };
+    let test = open(&chart, chart_always).or_else(|| open(&rule, rule_always)).filter(|_| *budget > 0);
+    let Some(atom) = test else { return Some(chart_always || !rule_always && !chart.is_empty()) };
+    *budget -= 1;
+    for value in [true, false] {
+        let under = |paths: &[Path]| -> Vec<Path> {
+            let fits = paths.iter().filter(|path| !path.contains(&(atom.clone(), !value)));
+            fits.map(|path| path.iter().filter(|(known, _)| *known != atom).cloned().collect()).collect()
+        };
+        case.push((atom.clone(), value));
+        if let Some(chart_does) = parted(under(&chart), under(&rule), case, budget) {
+            return Some(chart_does);
         }
+        case.pop();
     }
     None
 }

@@ -7,6 +7,8 @@ use syntax::{Diagnostic, Span};
 /// The ids of all faults this crate reports, in alphabetical order.
 pub const IDS: &[&str] = &[
     "broken-link",
+    "channel-ends",
+    "channel-master",
     "chart-differs",
     "circular-path",
     "control-variable",
@@ -18,7 +20,9 @@ pub const IDS: &[&str] = &[
     "instance-arguments",
     "machine-state",
     "misplaced-exit",
+    "not-built",
     "not-control-state",
+    "time-unit",
     "to-refine",
     "unknown-shape",
     "unreachable-shape",
@@ -198,4 +202,39 @@ pub(crate) fn to_refine(span: Span, name: &str, by: Option<&str>) -> Diagnostic 
     let what = by.map_or_else(String::new, |by| format!(" by `{by}`"));
     let fault = Diagnostic::error("to-refine", span, format!("`{name}` is still to be refined{what}"));
     Diagnostic { severity: syntax::Severity::Note, ..fault }.because("drawn dashed")
+}
+
+/// A channel that is not used as its ends say.
+pub(crate) fn channel_ends(span: Span, name: &str, reason: &str) -> Diagnostic {
+    Diagnostic::error("channel-ends", span, format!("the channel `{name}` does not fit: {reason}"))
+        .because("its sender writes it once a cycle, its receiver reads it once")
+        .with_help("correct the channel, or the phases of its two ends")
+}
+
+/// A buffer whose master cannot be told.
+pub(crate) fn channel_master(span: Span, name: &str) -> Diagnostic {
+    Diagnostic::error("channel-master", span, format!("the master of the buffer `{name}` must be said"))
+        .because("it is the slower of two synchronous components, or the asynchronous one of a mixed pair")
+        .with_help("write `master NAME` behind the number of arrays, with one of its two ends")
+}
+
+/// An unknown unit of time.
+pub(crate) fn unknown_unit(span: Span, unit: &str) -> Diagnostic {
+    Diagnostic::error("time-unit", span, format!("`{unit}` is no unit of time"))
+        .because("a length of time has a unit")
+        .with_help("write `ns`, `us`, `ms` or `s`")
+}
+
+/// A length that is no whole number of ticks.
+pub(crate) fn no_whole_ticks(span: Span) -> Diagnostic {
+    Diagnostic::error("time-unit", span, "this is no whole number of ticks")
+        .because("the model goes on by one tick a step")
+        .with_help("write another length, or a shorter `tick`")
+}
+
+/// A part of a system that is not built.
+pub(crate) fn not_built(span: Span, what: &str) -> Diagnostic {
+    Diagnostic::error("not-built", span, format!("{what} is not built yet"))
+        .because("the library of patterns has nothing for it")
+        .with_help("use a swinging buffer or a queue; let the deadline be the period")
 }

@@ -1,7 +1,7 @@
 //! Control-state charts: what they mean, and the ways between charts, AsmetaL and pictures.
 //!
 //! In: the tree of a chart file. Out: a [`Chart`] and its faults; from it AsmetaL ([`build()`]) and drawings
-//! ([`draw()`]). The notation is that of the paper (section IV): control states, guards, actions, pattern machines with
+//! ([`drawings()`]). The notation is that of the paper (section IV): control states, guards, actions, pattern machines with
 //! an entering arrow and floating exit arrows, pattern instances; its meaning is written in `spec/charts.md`. This crate
 //! gives charts their meaning by the AsmetaL they stand for; it must not execute anything.
 
@@ -16,14 +16,15 @@ mod fault;
 mod flow;
 mod read;
 mod symbolic;
+pub mod system;
 mod write;
 
-pub use build::{Built, Known, build};
+pub use build::{Built, Known, build, unbuilt};
 pub use chart::{
     Arrow, Chart, Control, End, Layout, Link, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind,
 };
 pub use check::{Probed, check, probed};
-pub use draw::{draw, drawings};
+pub use draw::drawings;
 pub use dump::dump;
 pub use extract::{Extracted, extract};
 pub use fault::IDS as FAULT_IDS;

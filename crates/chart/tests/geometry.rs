@@ -6,8 +6,8 @@
 
 use std::path::{Path, PathBuf};
 
-use chart::draw::{Figure, Picture, Theme, picture};
-use chart::{Chart, draw, read};
+use chart::draw::{Figure, Picture, Theme};
+use chart::{Chart, drawings, read};
 use syntax::{FileId, parse_chart};
 
 fn read_chart(text: &str) -> Chart {
@@ -116,14 +116,14 @@ fn every_chart_is_readable() {
     let mut count = 0;
     for text in texts() {
         let chart = read_chart(&text);
-        for machine in &chart.machines {
-            let picture = picture(&chart, machine).expect("it is laid out");
-            assert_readable(&picture, &format!("{}/{}", chart.name, machine.name));
-            let svg = draw(&chart, machine, Theme::Auto).expect("it is drawn");
+        for drawing in drawings(&chart) {
+            let picture = drawing.picture().expect("it is laid out");
+            assert_readable(&picture, &format!("{}/{}", chart.name, drawing.name()));
+            let svg = drawing.svg(Theme::Auto).expect("it is drawn");
             let tree = roxmltree::Document::parse(&svg).expect("the SVG is well-formed");
             let titled = |tag: &str| tree.descendants().any(|node| node.has_tag_name(tag) && node.text().is_some());
             assert!(titled("title") && titled("desc"), "{svg}");
-            assert_eq!(svg, draw(&chart, machine, Theme::Auto).expect("it is drawn again"));
+            assert_eq!(svg, drawing.svg(Theme::Auto).expect("it is drawn again"));
             count += 1;
         }
     }
@@ -144,7 +144,7 @@ fn a_large_chart_is_readable() {
             &format!("s{n} -> a{n} yes -> d{n} -> s{next} a{n} no -> b{n} b{n} yes -> s{} b{n} no -> s{n}\n", n / 2);
     }
     let chart = read_chart(&(text + "endmachine"));
-    let picture = picture(&chart, &chart.machines[0]).expect("it is laid out");
+    let picture = drawings(&chart)[0].picture().expect("it is laid out");
     assert_eq!(picture.boxes.len(), 500);
     for (index, a) in picture.boxes.iter().enumerate() {
         for b in &picture.boxes[index + 1..] {

@@ -31,6 +31,19 @@ pub(super) fn into(text: &str, chart: &Chart, parts: &Parts) -> Result<(String, 
     let mut edits = Vec::new();
     imports(&root, parts, &mut edits);
     items(&signature, &parts.declarations, &mut edits);
+    if parts.owns {
+        forgotten(&signature, parts, &mut edits);
+        for (kind, new) in [(MAIN_RULE, &parts.main), (INIT, &parts.init)] {
+            if let (Some(node), Some(new)) = (section(&root, kind), new) {
+                let range = trimmed_range(&node);
+                edits.push(Edit {
+                    start: range.start().into(),
+                    end: range.end().into(),
+                    text: new.trim_end().to_string(),
+                });
+            }
+        }
+    }
     if let Some(definitions) = definitions {
         items(&definitions, &parts.definitions, &mut edits);
     }
@@ -65,7 +78,7 @@ fn imports(root: &SyntaxNode, parts: &Parts, edits: &mut Vec<Edit>) {
 
 /// The name that an item declares: the first name in it.
 fn declared(node: &SyntaxNode) -> Option<String> {
-    let names = [FUNCTION_ID, DOMAIN_ID, ENUM_ID, RULE_ID];
+    let names = [FUNCTION_ID, DOMAIN_ID, ENUM_ID, RULE_ID, INVARIANT_ID];
     let tokens = node.descendants_with_tokens().filter_map(|element| element.into_token());
     tokens.into_iter().find(|token| names.contains(&token.kind())).map(|token| token.text().to_string())
 }
@@ -85,6 +98,20 @@ fn items(section: &SyntaxNode, wanted: &[Item], edits: &mut Vec<Edit>) {
     let text: String = missing.map(|item| format!("\n\n{}", item.text.trim_end())).collect();
     let at = usize::from(trimmed_range(section).end());
     edits.push(Edit { start: at, end: at, text });
+}
+
+/// Elements of the system's domains that are no longer in the chart.
+fn forgotten(signature: &SyntaxNode, parts: &Parts, edits: &mut Vec<Edit>) {
+    for node in signature.children().filter(|node| node.kind() == FUNCTION_DECL) {
+        let text = node.text().to_string();
+        let of = text.rsplit(':').next().unwrap_or_default().trim();
+        let element = text.starts_with("static") && super::system::OWNED.contains(&of);
+        let name = declared(&node).unwrap_or_default();
+        if element && !parts.declarations.iter().any(|item| item.name == name) {
+            let range = trimmed_range(&node);
+            edits.push(Edit { start: range.start().into(), end: range.end().into(), text: String::new() });
+        }
+    }
 }
 
 /// Without the comment above: the file has its own.

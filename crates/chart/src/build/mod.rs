@@ -8,6 +8,7 @@ mod known;
 mod merge;
 mod module;
 mod rule;
+mod system;
 
 pub use known::Known;
 pub(crate) use module::{rule_name, state_value};
@@ -24,12 +25,20 @@ pub struct Built {
     pub to_write: Vec<String>,
 }
 
-/// Builds the specification of a chart.
+/// What of a chart is not built yet; the places are those of the chart.
+pub fn unbuilt(chart: &Chart) -> Vec<syntax::Diagnostic> {
+    chart.system.as_ref().map(system::unbuilt).unwrap_or_default()
+}
+
+/// Builds the specification of a chart of which nothing is [`unbuilt`].
 ///
 /// # Errors
 /// The faults of `existing`, which is not touched then.
 pub fn build(chart: &Chart, known: &Known, existing: Option<&str>) -> Result<Built, Vec<syntax::Diagnostic>> {
-    let parts = module::parts(chart, known);
+    let parts = match &chart.system {
+        Some(system) => system::parts(chart, system, known),
+        None => module::parts(chart, known),
+    };
     let (text, there) = match existing {
         None => (module::fresh(chart, &parts), Vec::new()),
         Some(text) => merge::into(text, chart, &parts)?,

@@ -35,6 +35,8 @@ pub(super) struct Parts {
     pub(super) main: Option<String>,
     /// See there.
     pub(super) init: Option<String>,
+    /// The chart decides the elements of some domains, the main rule and the initial state.
+    pub(super) owns: bool,
     /// Names still to be written by hand.
     pub(super) to_write: Vec<String>,
 }
@@ -324,8 +326,12 @@ fn initial_state(chart: &Chart, machines: &[&Machine]) -> String {
 /// A new file.
 pub(super) fn fresh(chart: &Chart, parts: &Parts) -> String {
     let word = if parts.main.is_some() { "asm" } else { "module" };
+    let decided = match chart.system {
+        Some(_) => "elements, the main rule and the initial state",
+        None => "rules of its machines and the domains of its control states",
+    };
     let mut text = format!(
-        "/* Made from {0}.chart. The rules of its machines and the domains of its control states are written\n   anew from there; all else is kept. */\n{word} {0}\n\n",
+        "/* Made from {0}.chart. The {decided} are written\n   anew from there; all else is kept. */\n{word} {0}\n\n",
         chart.name
     );
     for import in &parts.imports {

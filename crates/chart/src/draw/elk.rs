@@ -40,20 +40,23 @@ pub(super) fn placed(scene: &Scene) -> Result<Picture, LayoutFault> {
 }
 
 fn graph(scene: &Scene) -> Value {
-    let children: Vec<Value> = scene.nodes.iter().enumerate().map(|(index, node)| shape(index, node)).collect();
+    let children: Vec<Value> =
+        scene.nodes.iter().enumerate().map(|(index, node)| shape(index, node, scene.free)).collect();
     let edges: Vec<Value> = scene
         .edges
         .iter()
         .enumerate()
         .map(|(index, edge)| {
             let from = match edge.branch {
+                _ if scene.free => edge.from.to_string(),
                 Some(true) => format!("{}yes", edge.from),
                 Some(false) => format!("{}no", edge.from),
                 None => format!("{}out", edge.from),
             };
             let straightness = if edge.branch == Some(false) { "1" } else { "10" };
+            let to = if scene.free { edge.to.to_string() } else { format!("{}in", edge.to) };
             json!({
-                "id": format!("e{index}"), "sources": [from], "targets": [format!("{}in", edge.to)],
+                "id": format!("e{index}"), "sources": [from], "targets": [to],
                 "layoutOptions": { "elk.layered.priority.straightness": straightness },
             })
         })
@@ -90,8 +93,11 @@ fn graph(scene: &Scene) -> Value {
 }
 
 /// A shape with the places where arrows meet it.
-fn shape(index: usize, node: &Node) -> Value {
+fn shape(index: usize, node: &Node, free: bool) -> Value {
     let (width, height) = (node.width, node.height);
+    if free {
+        return json!({ "id": index.to_string(), "width": width, "height": height });
+    }
     let port = |name: &str, side: &str, x: f64, y: f64, label: Option<bool>| {
         let labels: Vec<Value> = label
             .into_iter()
@@ -150,6 +156,7 @@ fn picture(scene: &Scene, answer: &Value) -> Picture {
             dashed: node.dashed,
             initial: node.initial,
             lines: node.lines.clone(),
+            small: node.small.clone(),
             x,
             y,
             width: node.width,

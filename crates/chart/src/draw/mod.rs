@@ -2,9 +2,12 @@
 //! dashed where they are to be refined, blocks for pattern instances, an entering arrow and floating exit arrows, and
 //! `{links}` in small type.
 //!
-//! In: a chart without errors. Out: one SVG a machine, the same bytes for the same chart. Shapes are placed and arrows
+//! Systems are drawn as component diagrams (Figures 1 and 2).
+//!
+//! In: a chart without errors. Out: one SVG a machine and system, the same bytes for the same chart. Shapes are placed and arrows
 //! routed by ELK's layered algorithm; what is made of its answer is a [`Picture`], which tests measure.
 
+mod components;
 mod elk;
 mod notation;
 mod picture;
@@ -17,29 +20,65 @@ pub use picture::{Figure, Label, Line, Picture, Placed};
 pub use svg::Theme;
 
 use crate::chart::{Chart, Machine};
+use crate::system::System;
 
-/// One drawing: the name of the machine it shows, and how to draw it.
-pub fn drawings(chart: &Chart) -> impl Iterator<Item = &str> {
-    chart.machines.iter().map(|machine| machine.name.as_str())
+/// Something of a chart that is drawn: a machine, or the system.
+#[derive(Debug, Clone, Copy)]
+pub struct Drawing<'c> {
+    chart: &'c Chart,
+    subject: Subject<'c>,
 }
 
-/// Where everything of a machine's picture lies.
-///
-/// # Errors
-/// The layout library refused the graph; this is a bug, told with the library's words.
-pub fn picture(chart: &Chart, machine: &Machine) -> Result<Picture, LayoutFault> {
-    let mut picture = elk::placed(&scene::of_machine(chart, machine))?;
-    let link = machine.rule.as_ref().map(|link| format!("{{{}}}", link.name));
-    let width = notation::heading_width(&words::title(machine), link.as_deref());
-    picture.make_room(notation::HEADING, width);
-    picture.heading = (words::title(machine), link);
-    Ok(picture)
+#[derive(Debug, Clone, Copy)]
+enum Subject<'c> {
+    Machine(&'c Machine),
+    System(&'c System),
 }
 
-/// Draws a machine.
-///
-/// # Errors
-/// As [`picture`].
-pub fn draw(chart: &Chart, machine: &Machine, theme: Theme) -> Result<String, LayoutFault> {
-    Ok(svg::svg(&picture(chart, machine)?, &words::description(chart, machine), theme))
+/// The drawings of a chart, in the order of the file, the system last.
+pub fn drawings(chart: &Chart) -> Vec<Drawing<'_>> {
+    let machines = chart.machines.iter().map(Subject::Machine);
+    let subjects = machines.chain(chart.system.iter().map(Subject::System));
+    subjects.map(|subject| Drawing { chart, subject }).collect()
+}
+
+impl<'c> Drawing<'c> {
+    /// The name of the machine or system.
+    pub fn name(&self) -> &'c str {
+        match self.subject {
+            Subject::Machine(machine) => &machine.name,
+            Subject::System(system) => &system.name,
+        }
+    }
+
+    /// Where everything lies.
+    ///
+    /// # Errors
+    /// The layout library refused the graph; this is a bug, told with the library's words.
+    pub fn picture(&self) -> Result<Picture, LayoutFault> {
+        let (scene, title, link) = match self.subject {
+            Subject::Machine(machine) => (
+                scene::of_machine(self.chart, machine),
+                words::title(&machine.text),
+                machine.rule.as_ref().map(|link| format!("{{{}}}", link.name)),
+            ),
+            Subject::System(system) => (components::of_system(system), words::title(&system.text), None),
+        };
+        let mut picture = elk::placed(&scene)?;
+        picture.make_room(notation::HEADING, notation::heading_width(&title, link.as_deref()));
+        picture.heading = (title, link);
+        Ok(picture)
+    }
+
+    /// The drawing as SVG.
+    ///
+    /// # Errors
+    /// As [`Drawing::picture`].
+    pub fn svg(&self, theme: Theme) -> Result<String, LayoutFault> {
+        let description = match self.subject {
+            Subject::Machine(machine) => words::of_machine(self.chart, machine),
+            Subject::System(system) => words::of_system(system),
+        };
+        Ok(svg::svg(&self.picture()?, &description, theme))
+    }
 }

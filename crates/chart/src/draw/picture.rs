@@ -17,6 +17,12 @@ pub enum Figure {
     Enter,
     /// Where a floating exit arrow ends.
     Exit,
+    /// A component of a system.
+    Component,
+    /// A channel of a system.
+    Channel,
+    /// A sensor or actuator.
+    Device,
 }
 
 /// A shape with its place.
@@ -32,6 +38,8 @@ pub struct Placed {
     pub initial: bool,
     /// The text in it.
     pub lines: Vec<String>,
+    /// Smaller text below.
+    pub small: Vec<String>,
     /// Left end.
     pub x: f64,
     /// Upper end.

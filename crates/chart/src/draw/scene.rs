@@ -17,6 +17,8 @@ pub(super) struct Node {
     pub(super) figure: Figure,
     pub(super) dashed: bool,
     pub(super) lines: Vec<String>,
+    /// Small lines below.
+    pub(super) small: Vec<String>,
     /// With its braces.
     pub(super) link: Option<String>,
     pub(super) width: f64,
@@ -38,6 +40,8 @@ pub(super) struct Edge {
 pub(super) struct Scene {
     pub(super) nodes: Vec<Node>,
     pub(super) edges: Vec<Edge>,
+    /// Arrows may meet shapes anywhere.
+    pub(super) free: bool,
 }
 
 /// The scene of a machine.
@@ -97,7 +101,8 @@ fn reading_order(machine: &Machine) -> Vec<End> {
 
 /// The invisible end of a floating arrow.
 fn point(id: String, figure: Figure) -> Node {
-    Node { id, figure, dashed: false, lines: Vec::new(), link: None, width: 2.0, height: 2.0, initial: false }
+    let (lines, small) = (Vec::new(), Vec::new());
+    Node { id, figure, dashed: false, lines, small, link: None, width: 2.0, height: 2.0, initial: false }
 }
 
 fn node(chart: &Chart, shape: &Shape, radius: f64) -> Node {
@@ -131,6 +136,7 @@ fn node(chart: &Chart, shape: &Shape, radius: f64) -> Node {
         figure,
         dashed: shape.refinement.is_some(),
         lines,
+        small: Vec::new(),
         link: link.map(|link| format!("{{{}}}", link.name)),
         // Even, so that the middle lies on a whole pixel and straight arrows are straight.
         width: 2.0 * (width / 2.0).ceil(),

@@ -5,6 +5,7 @@
 
 use std::fmt::Write;
 
+use super::components::SMALL_LEADING;
 use super::notation::{HEADING, INDENT, LEADING, SMALL, TEXT};
 use super::picture::{Figure, Line, Picture, Placed};
 use super::scene::corner;
@@ -64,6 +65,9 @@ fn colours(palette: &Palette) -> String {
         ("guard", palette.hexagon),
         ("action", palette.rectangle),
         ("instance", palette.block),
+        ("component", palette.circle),
+        ("channel", palette.hexagon),
+        ("device", palette.rectangle),
     ];
     for (class, (fill, stroke)) in figures {
         let _ = write!(css, ".{class}{{fill:{fill};stroke:{stroke}}}");
@@ -77,8 +81,9 @@ fn style(theme: Theme) -> String {
     let forms = format!(
         "text{{font:{TEXT}px {sans};text-anchor:middle}}.exit{{font-size:{}px;font-style:italic}}\
          .heading{{font-weight:bold;text-anchor:start}}.link{{font:{SMALL}px {mono};text-anchor:start}}\
-         .state,.guard,.action,.instance{{stroke-width:1.5}}.refine{{stroke-dasharray:6 4}}\
-         .inner{{fill:none}}.arrow{{fill:none;stroke-width:1.4}}",
+         .small{{font-size:{SMALL}px}}\
+         .state,.guard,.action,.instance,.component,.channel,.device{{stroke-width:1.5}}.refine{{stroke-dasharray:6 4}}\
+         .inner{{fill:none}}.sign{{stroke-width:1}}.arrow{{fill:none;stroke-width:1.4}}",
         TEXT - 1.5
     );
     let colours = match theme {
@@ -229,8 +234,15 @@ fn figure(out: &mut String, shape: &Placed) {
             let points: Vec<String> = points.iter().map(|(x, y)| format!("{},{}", N(*x), N(*y))).collect();
             let _ = writeln!(out, "<polygon class=\"guard{dashed}\" points=\"{}\"/>", points.join(" "));
         }
-        Figure::Rectangle | Figure::Block => {
-            let (class, round) = if shape.figure == Figure::Block { ("instance", 8) } else { ("action", 2) };
+        Figure::Enter | Figure::Exit => {}
+        _ => {
+            let (class, round) = match shape.figure {
+                Figure::Block => ("instance", 8.0),
+                Figure::Component => ("component", 3.0),
+                Figure::Channel => ("channel", height / 2.0),
+                Figure::Device => ("device", 3.0),
+                _ => ("action", 2.0),
+            };
             let _ = writeln!(
                 out,
                 "<rect class=\"{class}{dashed}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"{round}\"/>",
@@ -245,12 +257,28 @@ fn figure(out: &mut String, shape: &Placed) {
                         writeln!(out, "<path class=\"instance inner\" d=\"M{} {}V{}\"/>", N(x), N(y), N(y + height));
                 }
             }
+            if shape.figure == Figure::Component {
+                icon(out, x + width - 9.0, y + 8.0);
+            }
         }
-        Figure::Enter | Figure::Exit => {}
     }
-    let first = cy - (shape.lines.len() as f64 - 1.0) * LEADING / 2.0 + TEXT * 0.35;
+    let rest = shape.small.len() as f64 * SMALL_LEADING;
+    let first = cy - ((shape.lines.len() as f64 - 1.0) * LEADING + rest) / 2.0 + TEXT * 0.35;
     for (index, line) in shape.lines.iter().enumerate() {
         let y = first + index as f64 * LEADING;
         let _ = writeln!(out, "<text x=\"{}\" y=\"{}\">{}</text>", N(cx), N(y), Text(line));
     }
+    for (index, line) in shape.small.iter().enumerate() {
+        let y = first + shape.lines.len() as f64 * LEADING + index as f64 * SMALL_LEADING - 2.0;
+        let _ = writeln!(out, "<text class=\"small\" x=\"{}\" y=\"{}\">{}</text>", N(cx), N(y), Text(line));
+    }
+}
+
+/// The sign of a component, as UML has it; its right upper corner lies there.
+fn icon(out: &mut String, right: f64, top: f64) {
+    let rect = |x: f64, y: f64, w: f64, h: f64| format!("M{} {}h{}v{}h{}Z", N(x), N(y), N(w), N(h), N(-w));
+    let d = rect(right - 9.0, top, 9.0, 11.0)
+        + &rect(right - 11.5, top + 2.0, 5.0, 2.4)
+        + &rect(right - 11.5, top + 6.4, 5.0, 2.4);
+    let _ = writeln!(out, "<path class=\"component sign\" d=\"{d}\"/>");
 }

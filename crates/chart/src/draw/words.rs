@@ -4,17 +4,18 @@ use std::fmt::Write;
 
 use crate::chart::{Chart, Machine};
 use crate::flow::{Origin, Target, transitions};
+use crate::system::{ChannelKind, System, Timing};
 
 /// LIMIT: a description tells so many transitions.
 const TOLD: usize = 60;
 
 /// One line.
-pub(super) fn title(machine: &Machine) -> String {
-    machine.text.replace('\n', " ")
+pub(super) fn title(text: &str) -> String {
+    text.replace('\n', " ")
 }
 
 /// A sentence for each transition.
-pub(super) fn description(chart: &Chart, machine: &Machine) -> String {
+pub(super) fn of_machine(chart: &Chart, machine: &Machine) -> String {
     let kind = if machine.is_pattern { "Pattern machine" } else { "Control-state machine" };
     let mut out = format!("{kind} {}.", machine.name);
     let text = |id| machine.shape(id).text.replace('\n', " ");
@@ -44,6 +45,61 @@ pub(super) fn description(chart: &Chart, machine: &Machine) -> String {
     }
     if all.len() > TOLD {
         let _ = write!(out, " And {} more transitions.", all.len() - TOLD);
+    }
+    out
+}
+
+/// A length of time with its unit: milliseconds, or seconds from one on.
+pub(super) fn time(ticks: u64, tick_ns: u64) -> String {
+    let nanoseconds = ticks * tick_ns;
+    let (value, unit) = match nanoseconds {
+        0..1_000 => (nanoseconds as f64, "ns"),
+        1_000..100_000 => (nanoseconds as f64 / 1e3, "\u{b5}s"),
+        100_000..1_000_000_000 => (nanoseconds as f64 / 1e6, "ms"),
+        _ => (nanoseconds as f64 / 1e9, "s"),
+    };
+    format!("{value} {unit}")
+}
+
+/// When a component runs.
+pub(super) fn timing(timing: Timing, tick_ns: u64) -> String {
+    match timing {
+        Timing::Synchronous { period, offset, deadline } => {
+            let mut text = format!("synchronous, {}", time(period, tick_ns));
+            if offset > 0 {
+                let _ = write!(text, ", offset {}", time(offset, tick_ns));
+            }
+            if deadline != period {
+                let _ = write!(text, ", deadline {}", time(deadline, tick_ns));
+            }
+            text
+        }
+        Timing::Asynchronous { .. } => "asynchronous".to_string(),
+    }
+}
+
+/// What a channel is made of.
+pub(super) fn channel(kind: ChannelKind) -> String {
+    match kind {
+        ChannelKind::Buffer { arrays, .. } => format!("swinging buffer, {arrays} arrays"),
+        ChannelKind::Queue { capacity } => format!("message queue of {capacity}"),
+        ChannelKind::Shared => "shared value".to_string(),
+    }
+}
+
+/// A sentence for each component and channel.
+pub(super) fn of_system(system: &System) -> String {
+    let mut out = format!("System {}.", system.name);
+    for component in &system.components {
+        let _ = write!(out, " {}: {}.", component.text, timing(component.timing, system.tick_ns));
+    }
+    for one in &system.channels {
+        let (from, to) = (&system.components[one.from].text, &system.components[one.to].text);
+        let _ = write!(out, " From {from} to {to}: {}", channel(one.kind));
+        if let ChannelKind::Buffer { master, .. } = one.kind {
+            let _ = write!(out, ", master {}", system.components[master].text);
+        }
+        out.push('.');
     }
     out
 }

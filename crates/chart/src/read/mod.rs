@@ -6,6 +6,7 @@
 mod link;
 mod machine;
 mod structure;
+mod system;
 
 use std::collections::BTreeMap;
 
@@ -25,6 +26,7 @@ pub fn read(file: FileId, parse: &Parse) -> (Chart, Vec<Diagnostic>) {
         name: String::new(),
         imports: Vec::new(),
         machines: Vec::new(),
+        system: None,
         layouts: BTreeMap::new(),
     });
     let mut faults = reader.faults;
@@ -51,7 +53,13 @@ impl Reader {
             machines.push(machine);
         }
         let name = tree.name().map(|name| name.text().to_string()).unwrap_or_default();
-        let mut chart = Chart { name, imports, machines, layouts: BTreeMap::new() };
+        let mut systems = tree.systems();
+        let system = systems.next().and_then(|node| self.system(&node));
+        for second in systems.filter_map(|node| node.name()) {
+            let first = system.as_ref().map_or_else(|| self.span(&second), |system| system.span);
+            self.faults.push(fault::duplicate(self.span(&second), "system", second.text(), first));
+        }
+        let mut chart = Chart { name, imports, machines, system, layouts: BTreeMap::new() };
         self.instances(&chart);
         for layout in tree.layouts() {
             self.layout(&mut chart, &layout);
@@ -78,6 +86,11 @@ impl Reader {
     fn layout(&mut self, chart: &mut Chart, node: &ast::Layout) {
         let Some(name) = node.name() else { return };
         let names: Vec<&str> = chart.machines.iter().map(|machine| machine.name.as_str()).collect();
+        if chart.system.as_ref().is_some_and(|system| system.name == name.text()) {
+            let places = node.placements().filter_map(|place| Some((place.name()?.text().to_string(), place.place()?)));
+            chart.layouts.insert(name.text().to_string(), places.collect());
+            return;
+        }
         let Some(machine) = chart.machine(name.text()) else {
             let span = Span::new(self.file, name.text_range());
             self.faults.push(fault::unknown(span, "machine", name.text(), &names));

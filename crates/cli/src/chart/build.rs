@@ -24,10 +24,15 @@ pub struct Arguments {
 
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
-    let (_, chart) = match super::read(shell, &arguments.file)? {
+    let (sources, chart) = match super::read(shell, &arguments.file)? {
         Ok(read) => read,
         Err(exit) => return Ok(exit),
     };
+    let unbuilt = chart::unbuilt(&chart);
+    if !unbuilt.is_empty() {
+        shell.diagnostics(&sources, &unbuilt)?;
+        return Ok(Exit::Model);
+    }
     let Some(known) = known(shell, &arguments.file, &chart)? else { return Ok(Exit::Model) };
     let output = arguments.output.clone().unwrap_or_else(|| arguments.file.with_extension("asm"));
     let to_stdout = output == Path::new("-");

@@ -14,7 +14,7 @@ use crate::shell::Shell;
 pub struct Arguments {
     /// A chart
     file: PathBuf,
-    /// Draw this machine alone
+    /// Draw this machine or system alone
     #[arg(long, value_name = "NAME")]
     machine: Option<String>,
     /// A folder for the pictures, NAME.svg for each machine; or a file, where there is one picture. Default: stdout
@@ -43,9 +43,10 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Err(exit) => return Ok(exit),
     };
     let wanted = |name: &str| arguments.machine.as_ref().is_none_or(|machine| machine == name);
-    let machines: Vec<_> = chart.machines.iter().filter(|machine| wanted(&machine.name)).collect();
+    let all = chart::drawings(&chart);
+    let machines: Vec<_> = all.iter().filter(|drawing| wanted(drawing.name())).collect();
     if machines.is_empty() {
-        let names: Vec<&str> = chart::drawings(&chart).collect();
+        let names: Vec<&str> = all.iter().map(chart::draw::Drawing::name).collect();
         let help = format!("it has: {}", names.join(", "));
         return Err(Failure::usage_with_help("the chart has no such machine", help));
     }
@@ -61,12 +62,12 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         return Err(Failure::usage_with_help(format!("the chart has {} machines", machines.len()), help));
     }
     for machine in machines {
-        let svg = chart::draw(&chart, machine, theme).map_err(|fault| Failure::usage(fault.to_string()))?;
+        let svg = machine.svg(theme).map_err(|fault| Failure::usage(fault.to_string()))?;
         match (&arguments.output, folder) {
             (None, _) => shell.out().write_all(svg.as_bytes())?,
             (Some(_), Some(folder)) => {
                 std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
-                written(shell, &folder.join(format!("{}.svg", machine.name)), &svg)?;
+                written(shell, &folder.join(format!("{}.svg", machine.name())), &svg)?;
             }
             (Some(file), None) => written(shell, file, &svg)?,
         }

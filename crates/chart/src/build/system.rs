@@ -1,0 +1,292 @@
+//! System → the whole ground model over the library of patterns: elements, configuration and initial state.
+//!
+//! In: a system without errors. Out: [`Parts`]. Each component is a scheduler with a task and its phases; a phase for
+//! waiting comes last. The patterns choose the reading and writing machine by kind and role; so kinds, masters, periods
+//! and times are data of the initial state. Elaborations are rules, written by hand and kept.
+
+use std::fmt::Write;
+
+use syntax::Diagnostic;
+
+use super::known::Known;
+use super::module::{Item, Parts};
+use crate::chart::Chart;
+use crate::fault;
+use crate::system::{Action, ChannelKind, Component, System, Timing};
+
+/// What of a system is not built yet.
+pub(super) fn unbuilt(system: &System) -> Vec<Diagnostic> {
+    let shared = system.channels.iter().filter(|channel| channel.kind == ChannelKind::Shared);
+    let shared = shared.map(|channel| fault::not_built(channel.span, "a shared value"));
+    let early = system.components.iter().filter(|component| match component.timing {
+        Timing::Synchronous { period, deadline, .. } => period != deadline,
+        Timing::Asynchronous { .. } => false,
+    });
+    shared.chain(early.map(|component| fault::not_built(component.span, "a deadline other than the period"))).collect()
+}
+
+/// Domains whose elements the chart alone decides.
+pub(super) const OWNED: [&str; 6] =
+    ["Scheduler", "Task", "SwingingBuffer", "Semaphore", "SchedulePhase", "MessageQueue"];
+
+/// The parts of a system's file.
+pub(super) fn parts(chart: &Chart, system: &System, known: &Known) -> Parts {
+    let mut parts = Parts { imports: chart.imports.clone(), owns: true, ..Parts::default() };
+    let mut element = |name: &str, domain: &str| {
+        let text = format!("static {name}: {domain}\n");
+        parts.declarations.push(Item { name: name.to_string(), text, decided: true });
+    };
+    for component in &system.components {
+        element(&component.name, "Scheduler");
+        element(&task(component), "Task");
+    }
+    for channel in &system.channels {
+        match channel.kind {
+            ChannelKind::Buffer { .. } => {
+                element(&channel.name, "SwingingBuffer");
+                element(&lock(&channel.name), "Semaphore");
+            }
+            _ => element(&channel.name, "MessageQueue"),
+        }
+    }
+    for component in &system.components {
+        component.phases.iter().for_each(|phase| element(&phase.name, "SchedulePhase"));
+        element(&waiting(component), "SchedulePhase");
+    }
+    for phase in system.components.iter().flat_map(|component| &component.phases) {
+        if let Action::Elaborate(Some(link)) = &phase.action
+            && !known.rules.contains(&link.name)
+        {
+            let text = format!("// the elaboration {}\nrule {}($c in Scheduler) = skip\n", phase.name, link.name);
+            parts.definitions.push(Item { name: link.name.clone(), text, decided: false });
+            parts.to_write.push(link.name.clone());
+        }
+    }
+    fixed(
+        &mut parts,
+        "r_controlTask",
+        "// what each task does when it is its turn\nrule r_controlTask = r_scheduler_execute[self]\n",
+    );
+    fixed(&mut parts, "inv_patterns", "invariant inv_patterns over sem_state, indexRead: patternsSound\n");
+    let deadlines =
+        "invariant inv_deadlines over task_deadlinesMissed: (forall $t in Task with task_deadlinesMissed($t) = 0)\n";
+    fixed(&mut parts, "inv_deadlines", deadlines);
+    parts.main = Some(MAIN.to_string());
+    parts.init = Some(initial(system));
+    parts
+}
+
+fn fixed(parts: &mut Parts, name: &str, text: &str) {
+    parts.definitions.push(Item { name: name.to_string(), text: text.to_string(), decided: false });
+}
+
+const MAIN: &str = "main rule r_Main =
+par
+forall $c in Scheduler with true do program($c)
+forall $s in Semaphore with true do r_sem_arbitrate[$s]
+clock := clock + 1
+endpar
+";
+
+fn task(component: &Component) -> String {
+    format!("{}_task", component.name)
+}
+
+fn waiting(component: &Component) -> String {
+    format!("{}_wait", component.name)
+}
+
+fn lock(channel: &str) -> String {
+    format!("{channel}_lock")
+}
+
+/// `switch $x case a: b … otherwise z`, or `z` where there is no case. The commonest value is the last one.
+fn by_case(subject: &str, cases: &[(String, String)]) -> String {
+    let count = |value: &str| cases.iter().filter(|(_, other)| other == value).count();
+    let Some(rest) = cases.iter().map(|(_, value)| value).max_by_key(|value| (count(value), *value == "undef")) else {
+        return "undef".to_string();
+    };
+    let others: Vec<&(String, String)> = cases.iter().filter(|(_, value)| value != rest).collect();
+    if others.is_empty() {
+        return rest.clone();
+    }
+    let mut text = format!("\nswitch {subject}\n");
+    for (name, value) in others {
+        let _ = writeln!(text, "case {name}: {value}");
+    }
+    let _ = write!(text, "otherwise {rest}\nendswitch");
+    text
+}
+
+fn initial(system: &System) -> String {
+    let mut text = "default init s0:\n".to_string();
+    let mut define = |function: &str, value: &str| _ = writeln!(text, "function {function} = {value}");
+    define("clock", "0");
+    tasks(system, &mut define);
+    channels(system, &mut define);
+    schedulers(system, &mut define);
+    phases(system, &mut define);
+    text + "agent Scheduler: r_controlTask[]\n"
+}
+
+fn tasks(system: &System, define: &mut impl FnMut(&str, &str)) {
+    let each = |value: &dyn Fn(&Component) -> String| -> Vec<(String, String)> {
+        system.components.iter().map(|component| (task(component), value(component))).collect()
+    };
+    let period = |component: &Component| component.timing.period();
+    let kind = each(&|c| if period(c).is_some() { "SYNCHRONOUS" } else { "ASYNCHRONOUS" }.to_string());
+    define("task_kind($t in Task)", &by_case("$t", &kind));
+    let periods = each(&|c| period(c).map_or("undef".to_string(), |period| period.to_string()));
+    define("task_period($t in Task)", &by_case("$t", &periods));
+    let budget = each(&|c| period(c).map_or("undef".to_string(), |_| busy(system, c).to_string()));
+    define("task_timeForElaboration($t in Task)", &by_case("$t", &budget));
+    let start = each(&|c| match c.timing {
+        Timing::Synchronous { period, offset, .. } => (offset as i64 - period as i64).to_string(),
+        Timing::Asynchronous { .. } => "0".to_string(),
+    });
+    define("task_periodStart($t in Task)", &by_case("$t", &start));
+    let counters = ["timeInWait", "cycles", "deadlinesMet", "deadlinesMissed", "totalWait", "longestWait", "skipped"];
+    for name in counters {
+        define(&format!("task_{name}($t in Task)"), "0");
+    }
+}
+
+/// The ticks of a cycle without waiting: a slave's access takes one more than its time, a master's two.
+fn busy(system: &System, component: &Component) -> u64 {
+    let index = system.components.iter().position(|known| known.name == component.name);
+    let one = |phase: &crate::system::Phase| match phase.action {
+        Action::Read(channel) | Action::Write(channel) => match system.channels[channel].kind {
+            ChannelKind::Buffer { master, .. } => phase.time + if Some(master) == index { 2 } else { 1 },
+            _ => phase.time,
+        },
+        Action::Elaborate(_) => phase.time,
+    };
+    component.phases.iter().map(one).sum()
+}
+
+fn channels(system: &System, define: &mut impl FnMut(&str, &str)) {
+    let buffers = || system.channels.iter().enumerate().filter(|(_, c)| matches!(c.kind, ChannelKind::Buffer { .. }));
+    define("sem_permits($s in Semaphore)", "1");
+    // The shorter the period, the more urgent; asynchronous ones come last.
+    let users = buffers().map(|(_, channel)| {
+        let mut ends = [&system.components[channel.from], &system.components[channel.to]];
+        ends.sort_by_key(|component| component.timing.period().unwrap_or(u64::MAX));
+        (lock(&channel.name), format!("[{}, {}]", task(ends[0]), task(ends[1])))
+    });
+    define("sem_users($s in Semaphore)", &by_case("$s", &users.collect::<Vec<_>>()));
+    define("sem_state($s in Semaphore, $t in Task)", "READY");
+    define("sem_illegalPost($s in Semaphore)", "false");
+    define("semaq($s in Semaphore)", "[]");
+    let arrays = |less: u64| -> Vec<(String, String)> {
+        let number = |kind: ChannelKind| match kind {
+            ChannelKind::Buffer { arrays, .. } => (arrays - less).to_string(),
+            _ => "undef".to_string(),
+        };
+        buffers().map(|(_, channel)| (channel.name.clone(), number(channel.kind))).collect()
+    };
+    define("dimension($b in SwingingBuffer)", &by_case("$b", &arrays(0)));
+    let locks: Vec<_> = buffers().map(|(_, channel)| (channel.name.clone(), lock(&channel.name))).collect();
+    define("sem($b in SwingingBuffer)", &by_case("$b", &locks));
+    let masters = buffers().map(|(index, channel)| {
+        let ChannelKind::Buffer { master, .. } = channel.kind else {
+            return (channel.name.clone(), "undef".to_string());
+        };
+        let uses = |action: &Action| matches!(action, Action::Read(c) | Action::Write(c) if *c == index);
+        let phase = system.components[master].phases.iter().find(|phase| uses(&phase.action));
+        (channel.name.clone(), phase.map_or("undef".to_string(), |phase| phase.name.clone()))
+    });
+    define("sb_master($b in SwingingBuffer)", &by_case("$b", &masters.collect::<Vec<_>>()));
+    define("indexWrite($b in SwingingBuffer)", "0");
+    define("indexRead($b in SwingingBuffer)", &by_case("$b", &arrays(1)));
+    for name in ["indexUpdated", "sb_pending", "sb_fresh"] {
+        define(&format!("{name}($b in SwingingBuffer)"), "false");
+    }
+    define("sb_sequence($b in SwingingBuffer, $n in ArrayIndex)", "0");
+    for name in ["receivedSequence", "written", "swaps", "delivered", "overwritten", "unread", "dropped"] {
+        define(&format!("sb_{name}($b in SwingingBuffer)"), "0");
+    }
+    let queues = system.channels.iter().filter_map(|channel| match channel.kind {
+        ChannelKind::Queue { capacity } => Some((channel.name.clone(), capacity.to_string())),
+        _ => None,
+    });
+    let queues: Vec<_> = queues.collect();
+    if !queues.is_empty() {
+        define("mq_capacity($q in MessageQueue)", &by_case("$q", &queues));
+        for name in ["sent", "refused", "taken"] {
+            define(&format!("mq_{name}($q in MessageQueue)"), "0");
+        }
+    }
+}
+
+fn schedulers(system: &System, define: &mut impl FnMut(&str, &str)) {
+    let all = |value: fn(&Component) -> String| -> Vec<(String, String)> {
+        system.components.iter().map(|component| (component.name.clone(), value(component))).collect()
+    };
+    define("scheduler_mainThread($c in Scheduler)", &by_case("$c", &all(task)));
+    define("scheduler_currentPhase($c in Scheduler)", &by_case("$c", &all(waiting)));
+    define("scheduler_actionStart($c in Scheduler)", "0");
+}
+
+/// What is configured of a phase.
+#[derive(Default)]
+struct Row {
+    name: String,
+    action: &'static str,
+    time: u64,
+    next: String,
+    buffer: Option<String>,
+    queue: Option<String>,
+    rule: Option<String>,
+}
+
+fn phases(system: &System, define: &mut impl FnMut(&str, &str)) {
+    let mut rows: Vec<Row> = Vec::new();
+    for component in &system.components {
+        let names: Vec<&str> = component.phases.iter().map(|phase| phase.name.as_str()).collect();
+        let wait = waiting(component);
+        for (index, phase) in component.phases.iter().enumerate() {
+            let next = names.get(index + 1).map_or(wait.clone(), |next| (*next).to_string());
+            let mut row = Row { name: phase.name.clone(), time: phase.time, next, ..Row::default() };
+            match &phase.action {
+                Action::Read(channel) => use_channel(&mut row, system, *channel, "READING_FROM_SB", "RECEIVING"),
+                Action::Write(channel) => use_channel(&mut row, system, *channel, "WRITING_ON_SB", "SENDING"),
+                Action::Elaborate(link) => {
+                    row.action = "ELABORATING";
+                    row.rule = link.as_ref().map(|link| link.name.clone());
+                }
+            }
+            rows.push(row);
+        }
+        let next = names.first().map_or(wait.clone(), |first| (*first).to_string());
+        let mut row = Row { name: wait, time: 1, next, ..Row::default() };
+        if let Timing::Asynchronous { awaits: Some(channel) } = component.timing {
+            use_channel(&mut row, system, channel, "", "");
+        }
+        row.action = "WAITING_TRIGGER";
+        rows.push(row);
+    }
+    let column = |value: &dyn Fn(&Row) -> String| -> Vec<(String, String)> {
+        rows.iter().map(|row| (row.name.clone(), value(row))).collect()
+    };
+    let or_undef = |value: &Option<String>| value.clone().unwrap_or_else(|| "undef".to_string());
+    define("action($p in SchedulePhase)", &by_case("$p", &column(&|row| row.action.to_string())));
+    define("time($p in SchedulePhase)", &by_case("$p", &column(&|row| row.time.to_string())));
+    define("nextPhase($p in SchedulePhase)", &by_case("$p", &column(&|row| row.next.clone())));
+    define("sharedMemory($p in SchedulePhase)", &by_case("$p", &column(&|row| or_undef(&row.buffer))));
+    if rows.iter().any(|row| row.queue.is_some()) {
+        define("messageQueue($p in SchedulePhase)", &by_case("$p", &column(&|row| or_undef(&row.queue))));
+    }
+    let rule = |row: &Row| row.rule.as_ref().map_or("undef".to_string(), |rule| format!("<<{rule}(Scheduler)>>"));
+    define("elaborationRule($p in SchedulePhase)", &by_case("$p", &column(&rule)));
+}
+
+fn use_channel(row: &mut Row, system: &System, channel: usize, buffer: &'static str, queue: &'static str) {
+    let channel = &system.channels[channel];
+    if let ChannelKind::Buffer { .. } = channel.kind {
+        row.action = buffer;
+        row.buffer = Some(channel.name.clone());
+    } else {
+        row.action = queue;
+        row.queue = Some(channel.name.clone());
+    }
+}

@@ -1,0 +1,249 @@
+//! One system: names resolved, lengths of time in ticks, the master of each buffer chosen.
+//!
+//! The master of a swinging buffer is chosen as in the paper's section V-B: of two synchronous components the slower one,
+//! of a mixed pair the asynchronous one; of two that are alike it must be said.
+
+use syntax::ast::{self, AstNode, PhaseKind};
+use syntax::{Span, SyntaxKind, SyntaxToken};
+
+use super::Reader;
+use super::link::link;
+use super::machine::spoken;
+use crate::fault;
+use crate::system::{Action, Channel, ChannelKind, Component, Device, Phase, System, Timing};
+
+/// The default length of a step: a millisecond.
+const TICK_NS: u64 = 1_000_000;
+
+impl Reader {
+    pub(super) fn system(&mut self, node: &ast::SystemChart) -> Option<System> {
+        let name = node.name()?;
+        let mut ticks = node.ticks();
+        let tick = ticks.next().and_then(|tick| tick.quantity());
+        let tick_ns = tick.and_then(|quantity| self.nanoseconds(&quantity)).filter(|tick| *tick > 0).unwrap_or(TICK_NS);
+        for second in ticks {
+            self.faults.push(fault::duplicate(Span::new(self.file, second.range()), "`tick`", "", self.span(&name)));
+        }
+        let mut system = System {
+            name: name.text().to_string(),
+            text: node.text().unwrap_or_else(|| spoken(name.text())),
+            tick_ns,
+            components: Vec::new(),
+            channels: Vec::new(),
+            devices: Vec::new(),
+            connections: Vec::new(),
+            span: self.span(&name),
+        };
+        let components: Vec<ast::Component> =
+            node.components().filter(|component| component.name().is_some()).collect();
+        for component in &components {
+            self.component(component, &mut system);
+        }
+        for channel in node.channels() {
+            self.channel(&channel, &mut system);
+        }
+        for (index, component) in components.iter().enumerate() {
+            self.phases(index, component, &mut system);
+        }
+        for index in 0..system.channels.len() {
+            self.ends(index, &system);
+        }
+        for device in node.devices() {
+            let Some(name) = device.name() else { continue };
+            system.devices.push(Device {
+                text: device.text().unwrap_or_else(|| spoken(name.text())),
+                is_sensor: device.is_sensor(),
+                span: self.span(&name),
+                name: name.text().to_string(),
+            });
+        }
+        for connection in node.connections() {
+            let (Some(from), Some(to)) = (connection.from(), connection.to()) else { continue };
+            for end in [&from, &to] {
+                let component = system.components.iter().any(|component| component.name == end.text());
+                if !component && !system.devices.iter().any(|device| device.name == end.text()) {
+                    self.faults.push(fault::unknown(self.span(end), "component or device", end.text(), &[]));
+                }
+            }
+            system.connections.push((from.text().to_string(), to.text().to_string()));
+        }
+        Some(system)
+    }
+
+    /// A length of time in nanoseconds.
+    fn nanoseconds(&mut self, quantity: &ast::Quantity) -> Option<u64> {
+        let (number, unit) = (quantity.number()?, quantity.unit()?);
+        let scale: u64 = match unit.text() {
+            "ns" => 1,
+            "us" => 1_000,
+            "ms" => 1_000_000,
+            "s" => 1_000_000_000,
+            other => {
+                self.faults.push(fault::unknown_unit(self.span(&unit), other));
+                return None;
+            }
+        };
+        let value: f64 = number.text().parse().ok()?;
+        let nanoseconds = (value * scale as f64).round();
+        // Beyond a day nothing here is a period.
+        (nanoseconds <= 86_400e9).then_some(nanoseconds as u64)
+    }
+
+    /// A length of time in ticks.
+    fn ticks(&mut self, quantity: &ast::Quantity, tick_ns: u64) -> u64 {
+        let Some(length) = self.nanoseconds(quantity) else { return 1 };
+        if length % tick_ns != 0 {
+            self.faults.push(fault::no_whole_ticks(Span::new(self.file, quantity.range())));
+        }
+        length / tick_ns
+    }
+
+    fn component(&mut self, node: &ast::Component, system: &mut System) {
+        let Some(name) = node.name() else { return };
+        let span = self.span(&name);
+        if let Some(first) = system.components.iter().find(|first| first.name == name.text()) {
+            self.faults.push(fault::duplicate(span, "component", name.text(), first.span));
+        }
+        let kind = node.kind();
+        let timing = match kind.filter(ast::ComponentKind::is_synchronous) {
+            Some(kind) => {
+                let mut length =
+                    |word: SyntaxKind| kind.quantity(word).map(|quantity| self.ticks(&quantity, system.tick_ns));
+                let period = length(SyntaxKind::PERIOD_KW).unwrap_or(1).max(1);
+                let offset = length(SyntaxKind::OFFSET_KW).unwrap_or(0);
+                Timing::Synchronous { period, offset, deadline: length(SyntaxKind::DEADLINE_KW).unwrap_or(period) }
+            }
+            None => Timing::Asynchronous { awaits: None },
+        };
+        system.components.push(Component {
+            text: node.text().unwrap_or_else(|| spoken(name.text())),
+            name: name.text().to_string(),
+            timing,
+            phases: Vec::new(),
+            span,
+        });
+    }
+
+    fn component_named(&mut self, name: Option<SyntaxToken>, system: &System) -> Option<usize> {
+        let name = name?;
+        let found = system.components.iter().position(|component| component.name == name.text());
+        if found.is_none() {
+            let known: Vec<&str> = system.components.iter().map(|component| component.name.as_str()).collect();
+            self.faults.push(fault::unknown(self.span(&name), "component", name.text(), &known));
+        }
+        found
+    }
+
+    fn channel_named(&mut self, name: &SyntaxToken, system: &System) -> Option<usize> {
+        let found = system.channels.iter().position(|channel| channel.name == name.text());
+        if found.is_none() {
+            let known: Vec<&str> = system.channels.iter().map(|channel| channel.name.as_str()).collect();
+            self.faults.push(fault::unknown(self.span(name), "channel", name.text(), &known));
+        }
+        found
+    }
+
+    fn channel(&mut self, node: &ast::Channel, system: &mut System) {
+        let Some(name) = node.name() else { return };
+        let span = self.span(&name);
+        if let Some(first) = system.channels.iter().find(|first| first.name == name.text()) {
+            self.faults.push(fault::duplicate(span, "channel", name.text(), first.span));
+        }
+        let (from, to) = (self.component_named(node.from(), system), self.component_named(node.to(), system));
+        let (Some(from), Some(to), Some(kind)) = (from, to, node.kind()) else { return };
+        let size = kind.size().and_then(|size| size.text().parse().ok()).unwrap_or(2);
+        let kind = if kind.is_queue() {
+            ChannelKind::Queue { capacity: size }
+        } else if kind.is_buffer() {
+            let said = kind.master().and_then(|master| self.component_named(Some(master), system));
+            let master = said.or_else(|| master(from, to, system));
+            if master.is_none_or(|master| master != from && master != to) {
+                self.faults.push(fault::channel_master(span, name.text()));
+            }
+            if !(2..=8).contains(&size) {
+                self.faults.push(fault::channel_ends(span, name.text(), "a swinging buffer has two to eight arrays"));
+            }
+            ChannelKind::Buffer { arrays: size, master: master.unwrap_or(to) }
+        } else {
+            ChannelKind::Shared
+        };
+        system.channels.push(Channel { name: name.text().to_string(), from, to, kind, span });
+    }
+
+    fn phases(&mut self, index: usize, node: &ast::Component, system: &mut System) {
+        if let (Timing::Asynchronous { .. }, Some(name)) =
+            (system.components[index].timing, node.kind().and_then(|kind| kind.awaits()))
+        {
+            let awaits = self.channel_named(&name, system);
+            if awaits.is_some_and(|channel| system.channels[channel].to != index) {
+                self.faults.push(fault::channel_ends(self.span(&name), name.text(), "the component does not read it"));
+            }
+            system.components[index].timing = Timing::Asynchronous { awaits };
+        }
+        for phase in node.phases() {
+            let (Some(kind), Some(subject)) = (phase.kind(), phase.subject()) else { continue };
+            let span = self.span(&subject);
+            let owner = system.components[index].name.clone();
+            let (action, word) = match kind {
+                PhaseKind::Elaborate => {
+                    (Some(Action::Elaborate(phase.link().and_then(|node| link(self.file, &node)))), "")
+                }
+                PhaseKind::Read => (self.channel_named(&subject, system).map(Action::Read), "read_"),
+                PhaseKind::Write => (self.channel_named(&subject, system).map(Action::Write), "write_"),
+            };
+            let Some(action) = action else { continue };
+            let end = match action {
+                Action::Read(channel) => Some(system.channels[channel].to),
+                Action::Write(channel) => Some(system.channels[channel].from),
+                Action::Elaborate(_) => None,
+            };
+            if end.is_some_and(|end| end != index) {
+                let reason = format!("the component `{owner}` is not at this end of it");
+                self.faults.push(fault::channel_ends(span, subject.text(), &reason));
+            }
+            let name = match phase.name() {
+                Some(name) => name.text().to_string(),
+                None => format!("{owner}_{word}{}", subject.text()),
+            };
+            let all = system.components.iter().flat_map(|component| &component.phases);
+            if let Some(first) = all.into_iter().find(|first| first.name == name) {
+                self.faults.push(fault::duplicate(span, "phase", &name, first.span));
+            }
+            let time = phase.time().map_or(1, |quantity| self.ticks(&quantity, system.tick_ns));
+            system.components[index].phases.push(Phase { name, action, time, span });
+        }
+    }
+
+    /// A channel is written and read.
+    fn ends(&mut self, index: usize, system: &System) {
+        let channel = &system.channels[index];
+        let does = |component: usize, wanted: &Action| {
+            system.components[component].phases.iter().filter(|phase| phase.action == *wanted).count()
+        };
+        if does(channel.from, &Action::Write(index)) != 1 {
+            self.faults.push(fault::channel_ends(
+                channel.span,
+                &channel.name,
+                "its sender does not write it once a cycle",
+            ));
+        }
+        if does(channel.to, &Action::Read(index)) != 1 {
+            self.faults.push(fault::channel_ends(
+                channel.span,
+                &channel.name,
+                "its receiver does not read it once a cycle",
+            ));
+        }
+    }
+}
+
+/// The master of a swinging buffer; none where it must be said.
+fn master(from: usize, to: usize, system: &System) -> Option<usize> {
+    match (system.components[from].timing.period(), system.components[to].timing.period()) {
+        (Some(sender), Some(receiver)) if sender > receiver => Some(from),
+        (Some(sender), Some(receiver)) if sender < receiver => Some(to),
+        (None, Some(_)) => Some(from),
+        (Some(_), None) => Some(to),
+        _ => None,
+    }
+}

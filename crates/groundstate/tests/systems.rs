@@ -1,0 +1,115 @@
+//! What is built from the charts of systems goes in lock-step with the models written by hand: the same locations have the
+//! same values in every state, for many lengths of the one elaboration whose time varies.
+
+#![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use machine::{Closed, Limits, Machine, Show};
+use syntax::SourceFile;
+
+/// Reads files beside the importing one; one of them with a changed time.
+struct Disk {
+    elaboration: String,
+}
+
+impl Disk {
+    fn read(&self, path: &Path) -> Result<SourceFile, String> {
+        let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+        let text = text.replace("case vs_elaborate: 120", &self.elaboration);
+        Ok(SourceFile::new(path.display().to_string(), text))
+    }
+}
+
+impl model::Loader for Disk {
+    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        let path = Path::new(&importer.name).parent().unwrap_or(Path::new("")).join(format!("{path}.asm"));
+        // One file has one name however it is reached.
+        self.read(&path.canonicalize().map_err(|error| format!("{}: {error}", path.display()))?)
+    }
+}
+
+fn machine(name: &str, elaboration: u32) -> Machine {
+    let mut disk = Disk { elaboration: format!("case vs_elaborate: {elaboration}") };
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../examples/visual_servoing/{name}.asm"));
+    let root = disk.read(&path).expect("the example is there");
+    let loaded = groundstate::load(root, &mut disk).unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics));
+    let mut machine = Machine::new(Arc::new(loaded.program), Limits::default());
+    machine.start(&mut Closed).unwrap_or_else(|fault| panic!("{fault:?}"));
+    machine
+}
+
+/// The chart calls the waiting phase of visual servoing after the component.
+fn named(text: String) -> String {
+    text.replace("visual_servoing_wait", "vs_wait")
+}
+
+fn state(machine: &Machine) -> BTreeMap<String, String> {
+    let program = machine.program();
+    let all = machine.locations().into_iter();
+    all.map(|(location, value)| (named(location.show(program).to_string()), named(value.show(program).to_string())))
+        .collect()
+}
+
+/// Makes a step and tells what changes.
+fn step(machine: &mut Machine) -> BTreeMap<String, String> {
+    machine.prepare(&mut Closed).unwrap_or_else(|fault| panic!("{fault:?}"));
+    let program = Arc::clone(machine.program());
+    let changes = machine.changes().into_iter();
+    let changes = changes
+        .map(|change| {
+            (named(change.location.show(&program).to_string()), named(change.after.show(&program).to_string()))
+        })
+        .collect();
+    machine.commit();
+    changes
+}
+
+fn check(by_hand: &str, built: &str, elaborations: &[u32], steps: u32) {
+    for &elaboration in elaborations {
+        let (mut first, mut second) = (machine(by_hand, elaboration), machine(built, elaboration));
+        assert_eq!(state(&first), state(&second), "{by_hand}, elaboration {elaboration}");
+        for number in 0..steps {
+            let (one, other) = (step(&mut first), step(&mut second));
+            assert_eq!(one, other, "{by_hand}, elaboration {elaboration}, step {number}");
+        }
+        assert_eq!(state(&first), state(&second), "{by_hand}, elaboration {elaboration}");
+    }
+}
+
+#[test]
+fn the_visual_servoing_robot() {
+    // Below the period of the camera, as it is, and far above.
+    check("VisualServoing", "VisionSystem", &[50, 120, 230], 250);
+}
+
+#[test]
+fn the_complete_controller() {
+    check("CompleteController", "ControllerSystem", &[50, 120], 120);
+}
+
+/// What is built from the chart is what is committed: the elaborations are kept, the rest is the chart's.
+#[test]
+fn the_charts_are_built() {
+    for name in ["VisionSystem", "ControllerSystem"] {
+        let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../examples/visual_servoing");
+        let text =
+            |ending: &str| std::fs::read_to_string(folder.join(format!("{name}.{ending}"))).expect("it is there");
+        let file = syntax::FileId(0);
+        let (read, faults) = chart::read(file, &syntax::parse_chart(file, &text("chart")));
+        assert_eq!(faults, []);
+        assert_eq!(chart::unbuilt(&read), []);
+        let imports: String = read.imports.iter().map(|import| format!("import {import}\n")).collect();
+        let imports = SourceFile::new(
+            folder.join("Imports.asm").display().to_string(),
+            format!("module Imports\n{imports}signature:\ndefinitions:\n"),
+        );
+        let checked = groundstate::check(imports, &mut Disk { elaboration: "case vs_elaborate: 120".to_string() });
+        assert_eq!(checked.diagnostics, []);
+        let built = chart::build(&read, &chart::Known::of(&checked.model), Some(&text("asm"))).expect("it parses");
+        assert_eq!(built.text, text("asm"), "{name}");
+        assert_eq!(built.to_write, Vec::<String>::new());
+    }
+}
