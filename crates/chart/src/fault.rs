@@ -19,6 +19,7 @@ pub const IDS: &[&str] = &[
     "initial-state",
     "instance-arguments",
     "machine-state",
+    "made-name",
     "misplaced-exit",
     "not-built",
     "not-control-state",
@@ -237,4 +238,11 @@ pub(crate) fn not_built(span: Span, what: &str) -> Diagnostic {
     Diagnostic::error("not-built", span, format!("{what} is not built yet"))
         .because("the library of patterns has nothing for it")
         .with_help("use a swinging buffer or a queue; let the deadline be the period")
+}
+
+/// A name of the chart from which no name of a function can be made.
+pub(crate) fn made_name(span: Span, name: &str) -> Diagnostic {
+    Diagnostic::error("made-name", span, format!("`{name}` cannot be the name of a function"))
+        .because("a function of this name is made in the specification")
+        .with_help("choose a name that starts with a small letter and is no keyword, or link it")
 }

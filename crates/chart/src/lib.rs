@@ -7,6 +7,7 @@
 
 pub mod build;
 pub mod draw;
+pub mod export;
 
 mod chart;
 mod check;

@@ -7,6 +7,7 @@
 use std::path::{Path, PathBuf};
 
 use chart::draw::{Figure, Picture, Theme};
+use chart::export::{Notation, export};
 use chart::{Chart, drawings, read};
 use syntax::{FileId, parse_chart};
 
@@ -124,6 +125,9 @@ fn every_chart_is_readable() {
             let titled = |tag: &str| tree.descendants().any(|node| node.has_tag_name(tag) && node.text().is_some());
             assert!(titled("title") && titled("desc"), "{svg}");
             assert_eq!(svg, drawing.svg(Theme::Auto).expect("it is drawn again"));
+            if let Some(scxml) = export(&drawing, Notation::Scxml) {
+                roxmltree::Document::parse(&scxml).expect("the SCXML is well-formed");
+            }
             count += 1;
         }
     }

@@ -11,7 +11,7 @@ mod rule;
 mod system;
 
 pub use known::Known;
-pub(crate) use module::{rule_name, state_value};
+pub(crate) use module::{call, function_name, rule_name, state_value};
 pub(crate) use rule::machine_rule;
 
 use crate::chart::Chart;

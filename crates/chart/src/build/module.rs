@@ -117,7 +117,8 @@ pub(crate) fn call(machine: &Machine, shape: &Shape) -> String {
     }
 }
 
-fn function_name(name: &str) -> String {
+/// The name of a function made of a name.
+pub(crate) fn function_name(name: &str) -> String {
     let mut letters = name.chars();
     letters.next().map(|first| first.to_lowercase().chain(letters).collect()).unwrap_or_default()
 }

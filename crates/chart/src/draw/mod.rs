@@ -11,12 +11,13 @@ mod components;
 mod elk;
 mod notation;
 mod picture;
-mod scene;
+pub(crate) mod scene;
 mod svg;
 mod words;
 
 pub use elk::LayoutFault;
 pub use picture::{Figure, Label, Line, Picture, Placed};
+pub(crate) use svg::Text;
 pub use svg::Theme;
 
 use crate::chart::{Chart, Machine};
@@ -51,20 +52,35 @@ impl<'c> Drawing<'c> {
         }
     }
 
+    /// What is to be drawn.
+    pub(crate) fn scene(&self) -> scene::Scene {
+        match self.subject {
+            Subject::Machine(machine) => scene::of_machine(self.chart, machine),
+            Subject::System(system) => components::of_system(system),
+        }
+    }
+
+    /// The machine, if it is one.
+    pub(crate) fn machine(&self) -> Option<(&'c Chart, &'c Machine)> {
+        match self.subject {
+            Subject::Machine(machine) => Some((self.chart, machine)),
+            Subject::System(_) => None,
+        }
+    }
+
     /// Where everything lies.
     ///
     /// # Errors
     /// The layout library refused the graph; this is a bug, told with the library's words.
     pub fn picture(&self) -> Result<Picture, LayoutFault> {
-        let (scene, title, link) = match self.subject {
-            Subject::Machine(machine) => (
-                scene::of_machine(self.chart, machine),
-                words::title(&machine.text),
-                machine.rule.as_ref().map(|link| format!("{{{}}}", link.name)),
-            ),
-            Subject::System(system) => (components::of_system(system), words::title(&system.text), None),
+        let (title, link) = match self.subject {
+            Subject::Machine(machine) => {
+                let link = machine.rule.as_ref().map(|link| format!("{{{}}}", link.name));
+                (words::title(&machine.text), link)
+            }
+            Subject::System(system) => (words::title(&system.text), None),
         };
-        let mut picture = elk::placed(&scene)?;
+        let mut picture = elk::placed(&self.scene())?;
         picture.make_room(notation::HEADING, notation::heading_width(&title, link.as_deref()));
         picture.heading = (title, link);
         Ok(picture)

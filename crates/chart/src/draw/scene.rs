@@ -11,37 +11,37 @@ use crate::chart::{Chart, End, Machine, Shape, ShapeKind};
 
 /// A shape to be placed.
 #[derive(Debug, Clone)]
-pub(super) struct Node {
+pub(crate) struct Node {
     /// The name in the chart; `enter`; or `exit` and a number.
-    pub(super) id: String,
-    pub(super) figure: Figure,
-    pub(super) dashed: bool,
-    pub(super) lines: Vec<String>,
+    pub(crate) id: String,
+    pub(crate) figure: Figure,
+    pub(crate) dashed: bool,
+    pub(crate) lines: Vec<String>,
     /// Small lines below.
-    pub(super) small: Vec<String>,
+    pub(crate) small: Vec<String>,
     /// With its braces.
-    pub(super) link: Option<String>,
-    pub(super) width: f64,
-    pub(super) height: f64,
+    pub(crate) link: Option<String>,
+    pub(crate) width: f64,
+    pub(crate) height: f64,
     /// The machine starts here.
-    pub(super) initial: bool,
+    pub(crate) initial: bool,
 }
 
 /// An arrow to be routed.
 #[derive(Debug, Clone)]
-pub(super) struct Edge {
-    pub(super) from: usize,
-    pub(super) branch: Option<bool>,
-    pub(super) to: usize,
+pub(crate) struct Edge {
+    pub(crate) from: usize,
+    pub(crate) branch: Option<bool>,
+    pub(crate) to: usize,
 }
 
 /// What is to be drawn.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Scene {
-    pub(super) nodes: Vec<Node>,
-    pub(super) edges: Vec<Edge>,
+pub(crate) struct Scene {
+    pub(crate) nodes: Vec<Node>,
+    pub(crate) edges: Vec<Edge>,
     /// Arrows may meet shapes anywhere.
-    pub(super) free: bool,
+    pub(crate) free: bool,
 }
 
 /// The scene of a machine.

@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use syntax::ast::{self, AstNode, MachineChart, PathStop};
 use syntax::{Span, SyntaxToken};
 
-use super::link::{flat, link};
+use super::link::{flat, link, names_function};
 use super::{Reader, structure};
+use crate::build::function_name;
 use crate::chart::{Arrow, Control, End, Link, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind};
 use crate::fault;
 
@@ -45,10 +46,28 @@ impl Reader {
             let shapes = names.iter().filter_map(|name| self.named(name, &machine)).collect();
             machine.sequences.push(shapes);
         }
+        self.made(&machine);
         // What follows from names that are not known is no news.
         let sound = self.faults.len() == before;
         self.faults.extend(structure::faults(&machine, sound));
         Some(machine)
+    }
+
+    /// Names of which functions are made.
+    fn made(&mut self, machine: &Machine) {
+        if let Some(Control::Made { name, span }) = &machine.control {
+            self.function_name(name, *span);
+        }
+        let guards = machine.shapes.iter().filter(|shape| shape.kind == ShapeKind::Guard && shape.link.is_none());
+        for guard in guards {
+            self.function_name(&function_name(&guard.name), guard.span);
+        }
+    }
+
+    pub(super) fn function_name(&mut self, name: &str, span: Span) {
+        if !names_function(name) {
+            self.faults.push(fault::made_name(span, name));
+        }
     }
 
     pub(super) fn span(&self, token: &SyntaxToken) -> Span {

@@ -48,6 +48,12 @@ impl Reader {
         for index in 0..system.channels.len() {
             self.ends(index, &system);
         }
+        let components = system.components.iter().map(|component| (&component.name, component.span));
+        let channels = system.channels.iter().map(|channel| (&channel.name, channel.span));
+        let phases = system.components.iter().flat_map(|component| &component.phases);
+        for (name, span) in components.chain(channels).chain(phases.map(|phase| (&phase.name, phase.span))) {
+            self.function_name(name, span);
+        }
         for device in node.devices() {
             let Some(name) = device.name() else { continue };
             system.devices.push(Device {

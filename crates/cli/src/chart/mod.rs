@@ -3,6 +3,7 @@
 mod build;
 mod check;
 mod draw;
+mod export;
 mod extract;
 
 use std::path::Path;
@@ -30,7 +31,9 @@ enum Command {
     Check(check::Arguments),
     /// Write the chart of a model's rules in control-state form
     Extract(extract::Arguments),
-    /// Write a chart's machines as pictures
+    /// Write a chart in the notation of another tool: Mermaid, Graphviz DOT, SCXML
+    Export(export::Arguments),
+    /// Write a chart's machines and system as pictures
     Draw(draw::Arguments),
 }
 
@@ -40,6 +43,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Command::Build(arguments) => build::run(shell, arguments),
         Command::Check(arguments) => check::run(shell, arguments),
         Command::Extract(arguments) => extract::run(shell, arguments),
+        Command::Export(arguments) => export::run(shell, arguments),
         Command::Draw(arguments) => draw::run(shell, arguments),
     }
 }

@@ -1,0 +1,39 @@
+//! Mermaid: a flowchart. A text between quotes holds no quotes; they become their entities.
+
+use std::fmt::Write;
+
+use crate::draw::Figure;
+use crate::draw::scene::Scene;
+
+/// The flowchart of a scene.
+pub(super) fn mermaid(scene: &Scene, name: &str) -> String {
+    let mut out = format!("---\ntitle: {name}\n---\nflowchart TD\n");
+    for (index, node) in scene.nodes.iter().enumerate() {
+        let mut text = node.lines.iter().chain(&node.small).cloned().collect::<Vec<_>>().join("<br/>");
+        if let Some(link) = &node.link {
+            let _ = write!(text, "<br/><small>{link}</small>");
+        }
+        let text = text.replace('"', "#quot;");
+        let _ = match node.figure {
+            Figure::Circle if node.initial => writeln!(out, "  n{index}(((\"{text}\")))"),
+            Figure::Circle => writeln!(out, "  n{index}((\"{text}\"))"),
+            Figure::Hexagon => writeln!(out, "  n{index}{{{{\"{text}\"}}}}"),
+            Figure::Block => writeln!(out, "  n{index}[[\"{text}\"]]"),
+            Figure::Channel => writeln!(out, "  n{index}([\"{text}\"])"),
+            Figure::Enter | Figure::Exit => writeln!(out, "  n{index}[\" \"]:::end"),
+            Figure::Rectangle | Figure::Component | Figure::Device => writeln!(out, "  n{index}[\"{text}\"]"),
+        };
+        if node.dashed {
+            let _ = writeln!(out, "  class n{index} refine");
+        }
+    }
+    for edge in &scene.edges {
+        let label = match edge.branch {
+            Some(true) => "|yes|",
+            Some(false) => "|no|",
+            None => "",
+        };
+        let _ = writeln!(out, "  n{} -->{label} n{}", edge.from, edge.to);
+    }
+    out + "  classDef refine stroke-dasharray: 6 4\n  classDef end fill:none,stroke:none\n"
+}
