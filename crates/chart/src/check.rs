@@ -13,11 +13,12 @@ use std::ops::Range;
 use model::{Checked, FunctionId, Model, RuleId};
 use syntax::{Diagnostic, Severity, Span};
 
-use crate::build::{machine_rule, rule_name, state_value};
-use crate::chart::{Chart, Control, Machine, ShapeKind};
+use crate::build::{call, machine_rule, rule_name, state_value};
+use crate::chart::{Chart, Control, Machine, ShapeId, ShapeKind};
 use crate::extract::{controls, values};
 use crate::fault;
-use crate::symbolic::{Depth, Effect, Explorer, Guarded, Path, Reason};
+use crate::flow::{Origin, Target, transitions};
+use crate::symbolic::{Depth, Effect, Explorer, Guarded, Path, Reason, consistent};
 
 /// LIMIT: so many cases of one effect are told apart; beyond that it counts as a difference.
 const CASES: usize = 100_000;
@@ -78,6 +79,7 @@ pub fn check(chart: &Chart, probed: &Probed, checked: &Checked) -> Vec<Diagnosti
         }
     }
     refinements(chart, &mut faults);
+    chart.machines.iter().for_each(|machine| overlaps(chart, machine, &mut faults));
     faults.sort_by_key(|fault| (fault.primary.span.file, fault.primary.span.start));
     faults.dedup();
     faults
@@ -101,6 +103,33 @@ fn refinements(chart: &Chart, faults: &mut Vec<Diagnostic>) {
     for shape in chart.machines.iter().flat_map(|machine| &machine.shapes) {
         if let Some(refinement) = &shape.refinement {
             faults.push(fault::to_refine(shape.span, &shape.name, refinement.by.as_deref()));
+        }
+    }
+}
+
+/// Paths from one control state that no test keeps apart and that lead to different places.
+fn overlaps(chart: &Chart, machine: &Machine, faults: &mut Vec<Diagnostic>) {
+    let all = transitions(chart, machine);
+    let name = |target: Target| match target {
+        Target::State(id) | Target::Block(id) => machine.shape(id).name.clone(),
+        Target::Exit => "exit".to_string(),
+    };
+    for (index, first) in all.iter().enumerate() {
+        for second in all[index + 1..].iter().filter(|second| second.origin == first.origin) {
+            let path = |guards: &[(ShapeId, bool)]| -> Path {
+                guards.iter().map(|(id, holds)| (call(machine, machine.shape(*id)), *holds)).collect()
+            };
+            let (one, other) = (path(&first.guards), path(&second.guards));
+            if first.target == second.target || !consistent(&one, &other) {
+                continue;
+            }
+            let case: BTreeMap<String, bool> = one.into_iter().chain(other).collect();
+            let (span, from) = match first.origin {
+                Origin::Enter => (machine.span, "enter"),
+                Origin::State(id) | Origin::Left(id) => (machine.shape(id).span, machine.shape(id).name.as_str()),
+            };
+            let case: Path = case.into_iter().collect();
+            faults.push(fault::overlapping_paths(span, from, &name(first.target), &name(second.target), &case));
         }
     }
 }

@@ -23,6 +23,7 @@ pub const IDS: &[&str] = &[
     "misplaced-exit",
     "not-built",
     "not-control-state",
+    "overlapping-paths",
     "time-unit",
     "to-refine",
     "unknown-shape",
@@ -245,4 +246,24 @@ pub(crate) fn made_name(span: Span, name: &str) -> Diagnostic {
     Diagnostic::error("made-name", span, format!("`{name}` cannot be the name of a function"))
         .because("a function of this name is made in the specification")
         .with_help("choose a name that starts with a small letter and is no keyword, or link it")
+}
+
+/// Two paths from one control state that may both be enabled and lead to different ones.
+pub(crate) fn overlapping_paths(
+    span: Span,
+    name: &str,
+    first: &str,
+    second: &str,
+    case: &[(String, bool)],
+) -> Diagnostic {
+    let tests: Vec<String> =
+        case.iter().map(|(atom, holds)| if *holds { atom.clone() } else { format!("not ({atom})") }).collect();
+    let case = if tests.is_empty() { "always".to_string() } else { format!("where {}", tests.join(" and ")) };
+    Diagnostic::warning(
+        "overlapping-paths",
+        span,
+        format!("from `{name}` paths lead to `{first}` and to `{second}` {case}"),
+    )
+    .because("unless these tests exclude each other, the step has an inconsistent update")
+    .with_help("lead the second path through the `no` of the first one's guard, or make sure that both never hold")
 }
