@@ -16,6 +16,7 @@ use machine::{Machine, Show};
 use program::Program;
 use serde::Serialize;
 
+use crate::engine::Engine;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::interrupt;
@@ -43,6 +44,9 @@ pub struct Arguments {
     /// Evaluate invariants, too
     #[arg(long)]
     invariants: bool,
+    /// What makes the steps
+    #[arg(long, value_enum, default_value_t)]
+    engine: Engine,
 }
 
 /// `{"type":"bench",…}`
@@ -231,6 +235,7 @@ impl<'a> Stepper<'a> {
                     let message = format!("{} cannot make a step with random inputs", self.path.display());
                     return Err(Failure::usage_with_help(message, "`groundstate run --random` shows why"));
                 }
+                self.run = Some(self.again(run));
             } else {
                 self.run = Some(run);
             }
@@ -238,12 +243,29 @@ impl<'a> Stepper<'a> {
         Ok(steps as f64 / spent.as_secs_f64().max(1e-9))
     }
 
+    /// Random inputs and choices, others each time.
+    fn inputs(&mut self) -> Inputs {
+        let seed = self.seed;
+        self.seed = seed.wrapping_add(1);
+        Inputs::new().with(RandomSource::new(seed, Bounds::default())).choosing(Choices::random(seed))
+    }
+
+    /// A run from the initial state, after one that has ended.
+    fn again(&mut self, ended: Run) -> Run {
+        let inputs = self.inputs();
+        ended.again(inputs)
+    }
+
     fn start(&mut self) -> Run {
-        let inputs =
-            Inputs::new().with(RandomSource::new(self.seed, Bounds::default())).choosing(Choices::random(self.seed));
-        self.seed = self.seed.wrapping_add(1);
+        let inputs = self.inputs();
         let invariants = if self.arguments.invariants { Invariants::Report } else { Invariants::Ignore };
-        let options = Options { steps: None, invariants, keep: false, ..Options::default() };
+        let options = Options {
+            steps: None,
+            invariants,
+            keep: false,
+            engine: self.arguments.engine.choice(),
+            ..Options::default()
+        };
         Run::new(Arc::clone(&self.program), self.shell.global.limits.machine(), inputs, options)
     }
 }

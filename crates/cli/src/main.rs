@@ -15,6 +15,7 @@ mod chart;
 mod check;
 mod coverage;
 mod dump;
+mod engine;
 mod exit;
 mod explain;
 mod failure;

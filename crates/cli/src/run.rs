@@ -11,6 +11,7 @@ use machine::{FaultKind, Location};
 use program::{FunctionKind, Program};
 use syntax::Sources;
 
+use crate::engine::Engine;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::inputs::{self, Assembled};
@@ -51,6 +52,9 @@ pub struct Arguments {
     /// How much of the state is shown
     #[arg(long, value_enum, default_value_t = Detail::Changed)]
     show: Detail,
+    /// What makes the steps
+    #[arg(long, value_enum, default_value_t)]
+    engine: Engine,
     #[command(flatten)]
     inputs: inputs::InputArguments,
 }
@@ -89,7 +93,13 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         None => None,
     };
     let told = shell.json() || shell.talks() && arguments.show != Detail::None || trace.is_some();
-    let options = Options { until, keep: told, history: if interactive { 1_000 } else { 0 }, ..options(&header) };
+    let options = Options {
+        until,
+        keep: told,
+        history: if interactive { 1_000 } else { 0 },
+        engine: arguments.engine.choice(),
+        ..options(&header)
+    };
     let mut run = Run::new(Arc::clone(&program), shell.global.limits.machine(), inputs, options);
     let teller = Teller::new(shell, &program, &loaded.sources, arguments.show, header.until.clone());
     teller.begin(shell, &header)?;

@@ -277,6 +277,23 @@ impl Executor<'_> {
         Ok(value)
     }
 
+    /// Asks for an input whose location has a number; false where the environment has none or it does not fit.
+    pub fn ask_at(&mut self, function: FunctionId, arguments: &[Value], index: u32) -> bool {
+        if self.core.initials[function.0 as usize].is_some() {
+            return self.ask(function, arguments, self.program.function(function).span).is_ok();
+        }
+        let codomain = self.program.function(function).codomain;
+        let asked = self.environment.monitored(self.program, LocationRef { function, arguments }, codomain);
+        let Ok(value) = asked else { return false };
+        if !self.is_member(function, &value) {
+            return false;
+        }
+        self.core.store.values[index as usize] = value;
+        self.core.store.given[index as usize] = self.core.epoch;
+        self.core.inputs.push((index, function));
+        true
+    }
+
     /// The type domain of a domain.
     pub fn base_domain(&self, domain: DomainId) -> DomainId {
         match &self.program.domain(domain).kind {

@@ -230,8 +230,11 @@ impl Machine {
             return false;
         }
         let Machine { program, core, limits, .. } = self;
-        core.frames.clear();
-        core.calls.clear();
+        // The last call of the machine may have ended in a fault.
+        if !core.calls.is_empty() {
+            core.frames.clear();
+            core.calls.clear();
+        }
         (core.base, core.depth) = (0, 0);
         let mut executor = Executor { program, core, environment, limits: *limits };
         if engine.run(&mut executor, procedure) {
@@ -332,11 +335,13 @@ impl Machine {
         core.epoch += 1;
         core.memo.changed();
         core.clock = [None; 3];
-        for (index, function) in core.inputs.drain(..) {
+        for (index, function) in &core.inputs {
+            let (index, function) = (*index, *function);
             if self.program.function(function).kind == FunctionKind::Monitored {
                 core.store.values[index as usize] = Value::Undef;
             }
         }
+        core.inputs.clear();
         // Numbers are handed out afresh here, where nothing holds one.
         let sparse = core.store.sparse_len();
         if sparse > 2 * self.compacted + 4096 {

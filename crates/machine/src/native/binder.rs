@@ -66,7 +66,10 @@ impl Translator<'_, '_> {
     fn walk(&mut self, range: TermId) -> Walk {
         let program = self.program;
         if let Term::Domain(domain) = program.term(range) {
-            return self.walk_domain(*domain);
+            return match self.numbers_of(range) {
+                Some((kind, low, high)) => Walk::Numbers(kind, low, high),
+                None => self.walk_domain(*domain),
+            };
         }
         let kind = match &program.domain(program.term_domain(range)).kind {
             DomainKind::Powerset(of) | DomainKind::Seq(of) | DomainKind::Bag(of) => self.kind(*of),
@@ -86,18 +89,20 @@ impl Translator<'_, '_> {
         Walk::Values { start, count, kind }
     }
 
-    fn walk_domain(&mut self, domain: DomainId) -> Walk {
-        let program = self.program;
-        match &program.domain(domain).kind {
-            DomainKind::Basic(model::Basic::Boolean) => return Walk::Numbers(Kind::Boolean, 0, 1),
-            DomainKind::Enum { literals } => {
-                return Walk::Numbers(Kind::Enum(domain), 0, literals.len() as i64 - 1);
+    /// The kind and the bounds of a range that is a domain of consecutive numbers.
+    pub fn numbers_of(&self, range: TermId) -> Option<(Kind, i64, i64)> {
+        let Term::Domain(domain) = self.program.term(range) else { return None };
+        match &self.program.domain(*domain).kind {
+            DomainKind::Basic(model::Basic::Boolean) => Some((Kind::Boolean, 0, 1)),
+            DomainKind::Enum { literals } => Some((Kind::Enum(*domain), 0, literals.len() as i64 - 1)),
+            _ => {
+                let (low, high) = self.plan.numbers(*domain)?;
+                Some((self.kind(*domain)?, low, high))
             }
-            _ => {}
         }
-        if let (Some(kind), Some((low, high))) = (self.kind(domain), self.plan.numbers(domain)) {
-            return Walk::Numbers(kind, low, high);
-        }
+    }
+
+    fn walk_domain(&mut self, domain: DomainId) -> Walk {
         if let Some(elements) = self.plan.contents[domain.0 as usize].clone() {
             let (start, count) = (self.address(elements.as_ptr()), self.word(elements.len() as i64));
             let kind = self.kind(domain);

@@ -8,8 +8,10 @@ use crate::store::Store;
 use crate::update::Updates;
 use crate::value::Value;
 
-/// The tags below this one are those of values without memory of their own.
+/// The tags below this one are those of values without memory of their own; [`super::shape::Kind::tag`] has them all.
 const COMPOUND: u64 = 8;
+/// By tag, which bits of the second word are written.
+const WRITTEN: [u64; COMPOUND as usize] = [0, 0xff, u64::MAX, u64::MAX, u64::MAX, u64::MAX, 0xffff_ffff, 0xffff_ffff];
 
 /// Exchanges the value of each update with that of its location, where they differ; tells whether any did.
 pub(crate) fn apply(store: &mut Store, updates: &mut Updates) -> bool {
@@ -28,17 +30,17 @@ pub(crate) fn apply(store: &mut Store, updates: &mut Updates) -> bool {
 #[inline(always)]
 fn exchange(value: &mut Value, new: &mut Value, compound: &mut bool) -> bool {
     let (old_at, new_at) = (std::ptr::from_mut(value).cast::<u64>(), std::ptr::from_mut(new).cast::<u64>());
-    // SAFETY: a value is two aligned words, the first its tag. The second may be partly padding, which is only
-    // moved, never interpreted: it is read as `MaybeUninit`.
+    // SAFETY: a value is two aligned words, the first its tag. The second is moved as it is, padding included; only
+    // the bits that a variant with that tag has written are compared.
     unsafe {
         let (old_tag, new_tag) = (*old_at, *new_at);
         if old_tag < COMPOUND && new_tag < COMPOUND {
-            let payload = |at: *mut u64| at.add(1).cast::<std::mem::MaybeUninit<u64>>();
-            if old_tag == new_tag && *value == *new {
+            let (old_payload, new_payload) = (old_at.add(1).read_volatile(), new_at.add(1).read_volatile());
+            if old_tag == new_tag && (old_payload ^ new_payload) & WRITTEN[old_tag as usize] == 0 {
                 return false;
             }
-            std::ptr::swap(payload(old_at), payload(new_at));
             (*old_at, *new_at) = (new_tag, old_tag);
+            (*old_at.add(1), *new_at.add(1)) = (new_payload, old_payload);
             return true;
         }
     }
@@ -74,6 +76,10 @@ mod tests {
             Value::Integer(1),
             Value::Integer(2),
             Value::Char('x'),
+            Value::Char('y'),
+            Value::Enum(program::DomainId(3), 1),
+            Value::Enum(program::DomainId(3), 2),
+            Value::Real(crate::value::Real::new(1.5).expect("a number")),
             Value::string("x"),
             Value::seq(vec![Value::Integer(1)]),
         ];

@@ -84,9 +84,16 @@ pub(super) struct Memory {
 
 impl Context {
     /// A view for one step.
-    pub fn new(executor: &mut Executor<'_>, tables: &mut Tables, memory: &mut Memory) -> Context {
-        memory.temporaries.reserve(TEMPORARIES);
-        memory.candidates.reserve(CANDIDATES.min(1 << 12));
+    ///
+    /// # Safety
+    /// `tables` lives as long as the context, and nothing else uses it.
+    pub unsafe fn new(executor: &mut Executor<'_>, tables: *mut Tables) -> Context {
+        // SAFETY: as the caller promises.
+        let memory = unsafe { &mut (*tables).memory };
+        if memory.temporaries.capacity() == 0 {
+            memory.temporaries.reserve(TEMPORARIES);
+            memory.candidates.reserve(CANDIDATES.min(1 << 12));
+        }
         let mut context = Context {
             values: std::ptr::null_mut(),
             given: std::ptr::null_mut(),
@@ -147,6 +154,15 @@ impl Context {
         let result = helper(executor, context);
         context.leave(executor.core);
         result
+    }
+
+    /// The executor, to do what touches neither store nor update set.
+    ///
+    /// # Safety
+    /// As for [`Context::with`].
+    pub unsafe fn executor<'c>(context: *mut Context) -> &'c mut Executor<'static> {
+        // SAFETY: as the caller promises.
+        unsafe { &mut *(*context).executor }
     }
 
     /// The update set may now hold a value with memory of its own.

@@ -13,6 +13,7 @@ pub(super) enum Helper {
     Grow,
     Agrees,
     Read,
+    Ask,
     Locate,
     Member,
     Apply,
@@ -33,6 +34,7 @@ pub(super) enum Helper {
     Iteration,
     Create,
     Choose,
+    ChooseOf,
     MoreCandidates,
     DropCandidates,
     AgentProgram,
@@ -41,10 +43,11 @@ pub(super) enum Helper {
 }
 
 impl Helper {
-    const ALL: [Helper; 28] = [
+    const ALL: [Helper; 30] = [
         Helper::Grow,
         Helper::Agrees,
         Helper::Read,
+        Helper::Ask,
         Helper::Locate,
         Helper::Member,
         Helper::Apply,
@@ -65,6 +68,7 @@ impl Helper {
         Helper::Iteration,
         Helper::Create,
         Helper::Choose,
+        Helper::ChooseOf,
         Helper::MoreCandidates,
         Helper::DropCandidates,
         Helper::AgentProgram,
@@ -78,6 +82,7 @@ impl Helper {
             Helper::Grow => ("grow", runtime::grow as *const u8, 1, true),
             Helper::Agrees => ("agrees", runtime::agrees as *const u8, 3, true),
             Helper::Read => ("read", runtime::read as *const u8, 4, true),
+            Helper::Ask => ("ask", runtime::ask as *const u8, 5, true),
             Helper::Locate => ("locate", runtime::locate as *const u8, 4, true),
             Helper::Member => ("member", runtime::member as *const u8, 3, true),
             Helper::Apply => ("apply", runtime::apply as *const u8, 4, true),
@@ -98,6 +103,7 @@ impl Helper {
             Helper::Iteration => ("iteration", runtime::iteration as *const u8, 1, true),
             Helper::Create => ("create", runtime::create as *const u8, 2, true),
             Helper::Choose => ("choose", runtime::choose as *const u8, 3, true),
+            Helper::ChooseOf => ("choose_of", runtime::choose_of as *const u8, 5, true),
             Helper::MoreCandidates => ("more_candidates", runtime::more_candidates as *const u8, 1, true),
             Helper::DropCandidates => ("drop_candidates", runtime::drop_candidates as *const u8, 1, false),
             Helper::AgentProgram => ("agent_program", runtime::agent_program as *const u8, 2, true),

@@ -20,6 +20,8 @@ use crate::value::Value;
 struct Found {
     index: ir::Value,
     inside: Option<ir::Value>,
+    /// The array's first location, and the arguments' parts of the offset, where nothing has to be checked.
+    parts: Option<(u32, Vec<ir::Value>)>,
 }
 
 impl Translator<'_, '_> {
@@ -74,13 +76,37 @@ impl Translator<'_, '_> {
         Some((offset?, inside))
     }
 
+    /// The parts of an offset in bytes, one an argument, each of which is often the same in several locations.
+    fn parts(&mut self, dimensions: &[Dimension], arguments: &[Operand]) -> Option<Vec<ir::Value>> {
+        let mut parts = Vec::new();
+        let mut stride = 16i64;
+        for (dimension, argument) in dimensions.iter().zip(arguments).rev() {
+            let Operand::Scalar(scalar) = argument else { return None };
+            let mut index = scalar.value;
+            match dimension.kind {
+                DimensionKind::Boolean => index = self.builder.ins().uextend(types::I64, index),
+                DimensionKind::Integer { low } if low != 0 => {
+                    index = self.builder.ins().iadd_imm(index, low.wrapping_neg());
+                }
+                _ => {}
+            }
+            parts.push(self.builder.ins().imul_imm(index, stride));
+            stride *= i64::from(dimension.size);
+        }
+        parts.reverse();
+        Some(parts)
+    }
+
     fn find(&mut self, function: FunctionId, arguments: &[Operand]) -> Option<Found> {
         match self.plan.layouts[function.0 as usize].clone() {
-            Layout::Single(index) => Some(Found { index: self.word(i64::from(index)), inside: None }),
+            Layout::Single(index) => {
+                Some(Found { index: self.word(i64::from(index)), inside: None, parts: Some((index, Vec::new())) })
+            }
             Layout::Dense { base, dimensions, .. } => {
                 let (offset, inside) = self.offset(&dimensions, arguments)?;
                 let index = self.builder.ins().iadd_imm(offset, i64::from(base));
-                Some(Found { index, inside })
+                let parts = inside.is_none().then(|| self.parts(&dimensions, arguments)).flatten();
+                Some(Found { index, inside, parts: parts.map(|parts| (base, parts)) })
             }
             Layout::None | Layout::Sparse => None,
         }
@@ -119,14 +145,23 @@ impl Translator<'_, '_> {
             _ => false,
         };
         let found = if direct || asked { self.find(function, arguments) } else { None };
-        let Some(Found { index, inside }) = found else {
+        let Some(Found { index, inside, parts }) = found else {
             return self.read_elsewhere(function, arguments, kind);
         };
         let conditional = lazy || matches!(declared.kind, FunctionKind::Monitored | FunctionKind::Shared);
         match (inside, conditional, kind) {
             (None, false, Some(kind)) => {
-                let place = self.stored(index);
-                Operand::Scalar(self.stored_scalar(place, kind))
+                let (place, offset) = match parts {
+                    Some((base, parts)) if base < 1 << 26 => {
+                        let mut place = self.field(Offset::values);
+                        for part in parts {
+                            place = self.builder.ins().iadd(place, part);
+                        }
+                        (place, 16 * base as i32)
+                    }
+                    _ => (self.stored(index), 0),
+                };
+                Operand::Scalar(self.stored_scalar_at(place, offset, kind))
             }
             (None, false, None) => Operand::Stored(index),
             (inside, conditional, kind) => {
@@ -155,7 +190,17 @@ impl Translator<'_, '_> {
                         }
                         _ => self.has_initial(index),
                     };
-                    self.branch(ready, fast, slow);
+                    if declared.kind == FunctionKind::Monitored {
+                        let ask = self.block();
+                        self.branch(ready, fast, ask);
+                        self.switch(ask);
+                        let pointers = self.pointers(arguments);
+                        let (id, count) = (self.word(i64::from(function.0)), self.word(arguments.len() as i64));
+                        self.call_or_bail(Helper::Ask, &[self.context, id, pointers, count, index]);
+                        self.jump(fast);
+                    } else {
+                        self.branch(ready, fast, slow);
+                    }
                 } else {
                     self.jump(fast);
                 }
@@ -203,22 +248,33 @@ impl Translator<'_, '_> {
 
     /// A scalar out of the store, where a location holds values of its kind and undef alone.
     fn stored_scalar(&mut self, place: ir::Value, kind: Kind) -> Scalar {
-        let tag = self.load(types::I64, place, 0);
+        self.stored_scalar_at(place, 0, kind)
+    }
+
+    fn stored_scalar_at(&mut self, place: ir::Value, offset: i32, kind: Kind) -> Scalar {
+        let tag = self.load(types::I64, place, offset);
         let flag = self.builder.ins().icmp_imm(IntCC::Equal, tag, kind.tag());
-        let value = self.payload(place, kind);
+        let value = self.payload_at(place, offset, kind);
         Scalar { kind, value, flag: Some(flag), range: None }
     }
 
-    /// Adds the update `function(arguments) := value`, the value translated first.
-    pub fn update(&mut self, function: FunctionId, arguments: &[Operand], value: Operand, rule: RuleId) {
+    /// Adds the update `function(arguments) := value`, the value translated first, by a rule that may be known to be
+    /// alone in updating the location.
+    pub fn update(
+        &mut self,
+        function: FunctionId,
+        arguments: &[Operand],
+        value: Operand,
+        (rule, alone): (RuleId, bool),
+    ) {
         self.check_codomain(function, value);
         let direct =
             self.plan.plain[function.0 as usize] || self.program.function(function).kind == FunctionKind::Shared;
         let lazy = self.plan.lazy[function.0 as usize];
         let found = if direct { self.find(function, arguments) } else { None };
         let index = match found {
-            Some(Found { index, inside: None }) if !lazy => index,
-            Some(Found { index, inside }) => {
+            Some(Found { index, inside: None, .. }) if !lazy => index,
+            Some(Found { index, inside, .. }) => {
                 let number = self.variable(types::I64);
                 let (fast, slow, done) = (self.block(), self.block(), self.block());
                 self.builder.set_cold_block(slow);
@@ -245,7 +301,7 @@ impl Translator<'_, '_> {
             }
             None => self.locate(function, arguments),
         };
-        self.push(index, value, rule);
+        self.push(index, value, rule, alone);
     }
 
     fn locate(&mut self, function: FunctionId, arguments: &[Operand]) -> ir::Value {
@@ -293,26 +349,28 @@ impl Translator<'_, '_> {
     }
 
     /// Adds an update to the current unit: [`crate::update::Updates::push`] in line.
-    fn push(&mut self, index: ir::Value, value: Operand, rule: RuleId) {
+    fn push(&mut self, index: ir::Value, value: Operand, rule: RuleId, alone: bool) {
         use std::mem::offset_of;
-        let stamps = self.field(Offset::stamps);
-        let stamp = self.element(stamps, index, 3);
-        let previous = self.load(types::I64, stamp, 0);
-        let holder = self.builder.ins().band_imm(previous, 0xffff_ffff);
-        let unit = self.field(Offset::unit);
-        let met = self.builder.ins().icmp(IntCC::Equal, holder, unit);
-        let (conflict, fresh, room, write, done) =
-            (self.block(), self.block(), self.block(), self.block(), self.block());
-        self.builder.set_cold_block(conflict);
+        let (room, write, done) = (self.block(), self.block(), self.block());
         self.builder.set_cold_block(room);
-        self.branch(met, conflict, fresh);
-
-        self.switch(conflict);
-        let pointer = self.boxed(value);
-        self.call_or_bail(Helper::Agrees, &[self.context, index, pointer]);
-        self.jump(done);
-
-        self.switch(fresh);
+        // Without a stamp nothing shows that the location is updated, so that nobody may look for it.
+        let stamp = (!alone).then(|| {
+            let stamps = self.field(Offset::stamps);
+            let stamp = self.element(stamps, index, 3);
+            let previous = self.load(types::I64, stamp, 0);
+            let holder = self.builder.ins().band_imm(previous, 0xffff_ffff);
+            let unit = self.field(Offset::unit);
+            let met = self.builder.ins().icmp(IntCC::Equal, holder, unit);
+            let (conflict, fresh) = (self.block(), self.block());
+            self.builder.set_cold_block(conflict);
+            self.branch(met, conflict, fresh);
+            self.switch(conflict);
+            let pointer = self.boxed(value);
+            self.call_or_bail(Helper::Agrees, &[self.context, index, pointer]);
+            self.jump(done);
+            self.switch(fresh);
+            (stamp, previous, unit)
+        });
         let held = self.field(Offset::held);
         let capacity = self.field(Offset::capacity);
         let full = self.builder.ins().icmp(IntCC::Equal, held, capacity);
@@ -322,13 +380,19 @@ impl Translator<'_, '_> {
         self.jump(write);
 
         self.switch(write);
-        let high = self.builder.ins().ishl_imm(held, 32);
-        let mark = self.builder.ins().bor(unit, high);
-        self.store(mark, stamp, 0);
+        if let Some((stamp, _, unit)) = stamp {
+            let high = self.builder.ins().ishl_imm(held, 32);
+            let mark = self.builder.ins().bor(unit, high);
+            self.store(mark, stamp, 0);
+        }
         let stack = self.field(Offset::stack);
         let entry = self.element(stack, held, 5);
         let identity = self.builder.ins().bor_imm(index, i64::from(rule.0) << 32);
         self.store(identity, entry, offset_of!(Update, location) as i32);
+        let previous = match stamp {
+            Some((_, previous, _)) => previous,
+            None => self.word(0),
+        };
         self.store(previous, entry, offset_of!(Update, previous) as i32);
         let at = offset_of!(Update, value) as i32;
         match value {

@@ -46,6 +46,8 @@ const TRIAL: u64 = 64;
 pub(crate) struct Engine {
     entry: Entry,
     main: ProcedureId,
+    /// Where `self` is kept.
+    myself: Option<u32>,
     tables: Tables,
     runs: u64,
     abandoned: u64,
@@ -94,7 +96,8 @@ impl Engine {
         let code = module.get_finalized_function(entry);
         // SAFETY: the code was just defined with this signature.
         let entry = unsafe { std::mem::transmute::<*const u8, Entry>(code) };
-        Some(Engine { entry, main, tables: plan.tables, runs: 0, abandoned: 0, module: Some(module) })
+        let myself = plan.self_location(program);
+        Some(Engine { entry, main, myself, tables: plan.tables, runs: 0, abandoned: 0, module: Some(module) })
     }
 
     /// Whether running the code has paid so far.
@@ -108,15 +111,12 @@ impl Engine {
             return false;
         }
         self.runs += 1;
-        let myself = executor.program.self_function.and_then(|function| executor.core.store.find(function, &[]));
-        let former = myself.map(|index| executor.core.store.values[index as usize].clone());
+        let former = self.myself.map(|index| executor.core.store.values[index as usize].clone());
         let tables = &raw mut self.tables;
         // SAFETY: the context refers to the executor and the tables, which outlive it; while the code runs nothing
         // else uses them. The code was compiled for this program and this layout of the store.
         unsafe {
-            let mut memory = std::mem::take(&mut (*tables).memory);
-            let mut context = Context::new(executor, &mut *tables, &mut memory);
-            (*tables).memory = memory;
+            let mut context = Context::new(executor, tables);
             let status = (self.entry)(&raw mut context);
             context.enter(executor.core);
             if status == 0 {
@@ -134,7 +134,7 @@ impl Engine {
         if executor.core.updates.roll_back(&mut executor.core.store) {
             executor.core.memo.changed();
         }
-        if let (Some(index), Some(value)) = (myself, former) {
+        if let (Some(index), Some(value)) = (self.myself, former) {
             executor.core.store.values[index as usize] = value;
         }
         for carrier in &mut executor.core.store.carriers {

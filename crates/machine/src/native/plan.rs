@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use cranelift_module::FuncId;
-use program::{Builtin, DomainId, DomainKind, ProcedureId, Program, Rule, RuleId, Term, TermId};
+use program::{Builtin, DomainId, DomainKind, FunctionId, ProcedureId, Program, Rule, RuleId, Term, TermId};
 
 use crate::execute::Core;
 use crate::layout::Layout;
@@ -234,6 +234,16 @@ impl Plan {
         }
         program.each_child_of_term(term, &mut |child| self.slots_of_term(program, child, slots));
         slots.sort_unstable();
+    }
+
+    /// Whether a rule is the only one of the program that updates a function.
+    pub fn is_only_update(&self, program: &Program, function: FunctionId, id: RuleId) -> bool {
+        program.rules.iter().enumerate().all(|(index, rule)| match rule {
+            Rule::Update { function: updated, .. } | Rule::Return { function: updated, .. } => {
+                *updated != function || index == id.0 as usize
+            }
+            _ => true,
+        })
     }
 
     /// The variables that a term binds itself.

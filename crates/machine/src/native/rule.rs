@@ -3,12 +3,13 @@
 use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{InstBuilder, types};
 use model::Basic;
-use program::{Binder, BinderList, DomainKind, ProcedureId, Rule, RuleId, Slot, Term, TermId, TermList};
+use program::{Binder, BinderList, DomainKind, FunctionId, ProcedureId, Rule, RuleId, Slot, Term, TermId, TermList};
 
 use crate::native::context::Offset;
 use crate::native::helper::Helper;
 use crate::native::shape::{Bound, Kind, Operand, Scalar};
 use crate::native::translate::{Frame, Translator, UnitKey};
+use crate::value::Value;
 
 impl Translator<'_, '_> {
     /// Translates a rule.
@@ -19,18 +20,21 @@ impl Translator<'_, '_> {
             Rule::Skip => {}
             Rule::Update { function, arguments, value } => self.statement(|this| {
                 let value = this.term(*value);
+                let alone = this.is_alone(*function, program.term_list(*arguments), id);
                 let arguments = this.arguments(*arguments);
-                this.update(*function, &arguments, value, id);
+                this.update(*function, &arguments, value, (id, alone));
             }),
             Rule::Call { procedure, arguments } => self.statement(|this| {
                 let operands = this.arguments(*arguments);
                 this.procedure(*procedure, &operands);
             }),
             Rule::TurboCall { procedure, arguments } => self.statement(|this| {
+                let outer = this.foralls.take();
                 this.call(Helper::Open, &[this.context]);
                 let operands = this.arguments(*arguments);
                 this.procedure(*procedure, &operands);
                 this.call_or_bail(Helper::Join, &[this.context]);
+                this.foralls = outer;
             }),
             Rule::Par(rules) => {
                 for rule in program.rule_list(*rules) {
@@ -38,11 +42,13 @@ impl Translator<'_, '_> {
                 }
             }
             Rule::Seq(rules) => {
+                let outer = self.foralls.take();
                 self.call(Helper::BeginSequence, &[self.context]);
                 for rule in program.rule_list(*rules) {
                     self.part(*rule);
                 }
                 self.call_or_bail(Helper::EndSequence, &[self.context]);
+                self.foralls = outer;
             }
             Rule::If { guards, rules } => {
                 let (guards, rules) = (program.term_list(*guards), program.rule_list(*rules));
@@ -89,6 +95,13 @@ impl Translator<'_, '_> {
                 this.rule(*body);
             }),
             Rule::Forall { binders, condition, body } => self.statement(|this| {
+                let outer = this.foralls.clone();
+                let ranges = program.binder_list(*binders);
+                if ranges.iter().any(|binder| !matches!(program.term(binder.range), Term::Domain(_))) {
+                    this.foralls = None;
+                } else if let Some(foralls) = &mut this.foralls {
+                    foralls.extend(ranges.iter().map(|binder| binder.slot));
+                }
                 this.each_binding(program.binder_list(*binders), &mut |this| match condition {
                     None => this.rule(*body),
                     Some(condition) => {
@@ -100,6 +113,7 @@ impl Translator<'_, '_> {
                         this.switch(next);
                     }
                 });
+                this.foralls = outer;
             }),
             Rule::Choose { binders, condition, body, if_none } => {
                 self.choose(id, *binders, *condition, *body, *if_none);
@@ -152,6 +166,7 @@ impl Translator<'_, '_> {
     }
 
     fn repeat(&mut self, condition: Option<TermId>, body: RuleId, while_updates: bool) {
+        let outer = self.foralls.take();
         self.call(Helper::BeginSequence, &[self.context]);
         let (head, inner, done) = (self.block(), self.block(), self.block());
         self.jump(head);
@@ -171,6 +186,18 @@ impl Translator<'_, '_> {
         self.jump(head);
         self.switch(done);
         self.call_or_bail(Helper::EndSequence, &[self.context]);
+        self.foralls = outer;
+    }
+
+    /// Whether no other update of the step can be of the same location: the rule is the only one that updates the
+    /// function, stands under `forall` rules alone, and their variables are its arguments.
+    fn is_alone(&self, function: FunctionId, arguments: &[TermId], id: RuleId) -> bool {
+        let Some(foralls) = &self.foralls else { return false };
+        let program = self.program;
+        let varies = |slot: &Slot| {
+            arguments.iter().any(|term| matches!(program.term(*term), Term::Slot(argument) if argument == slot))
+        };
+        self.frames.len() == 1 && foralls.iter().all(varies) && self.plan.is_only_update(program, function, id)
     }
 
     /// A rule that the interpreter runs.
@@ -185,6 +212,7 @@ impl Translator<'_, '_> {
 
     /// The main rule of the program.
     pub fn main(&mut self, main: ProcedureId) {
+        self.foralls = Some(Vec::new());
         self.frames.push(Frame {
             unit: UnitKey::Procedure(main),
             size: self.program.procedure(main).frame,
@@ -316,6 +344,9 @@ impl Translator<'_, '_> {
         if binders.iter().any(infinite) {
             return self.interpreted_rule(id);
         }
+        if self.choose_of_all(id, binders, condition, body) {
+            return;
+        }
         self.statement(|this| {
             this.each_binding(binders, &mut |this| {
                 let (fits, next) = (this.block(), this.block());
@@ -373,6 +404,56 @@ impl Translator<'_, '_> {
             this.jump(done);
             this.switch(done);
         });
+    }
+
+    /// A choice without a guard among all elements of domains that never change: the candidates are always the same.
+    /// False, and nothing translated, where it is another.
+    fn choose_of_all(&mut self, id: RuleId, binders: &[Binder], condition: Option<TermId>, body: RuleId) -> bool {
+        /// LIMIT: values of so many candidates are listed beforehand.
+        const LISTED: usize = 1 << 12;
+        let program = self.program;
+        let always = condition.is_none_or(|condition| match program.term(condition) {
+            Term::Constant(index) => self.plan.constants[*index as usize] == Value::Boolean(true),
+            _ => false,
+        });
+        let columns: Option<Vec<(Kind, i64, i64)>> =
+            binders.iter().map(|binder| self.numbers_of(binder.range)).collect();
+        let (true, Some(columns)) = (always, columns) else { return false };
+        let count = columns
+            .iter()
+            .fold(1usize, |count, (_, low, high)| count.saturating_mul(usize::try_from(high - low + 1).unwrap_or(0)));
+        if count == 0 || count.saturating_mul(columns.len()) > LISTED {
+            return false;
+        }
+        let mut values = Vec::with_capacity(count * columns.len());
+        for candidate in 0..count as i64 {
+            let mut rest = candidate;
+            let mut row: Vec<Value> = Vec::new();
+            for (kind, low, high) in columns.iter().rev() {
+                row.push(kind.value(low + rest % (high - low + 1)));
+                rest /= high - low + 1;
+            }
+            values.extend(row.into_iter().rev());
+        }
+        let values = std::sync::Arc::new(values);
+        let start = self.address(values.as_ptr());
+        self.plan.pin(values);
+        let (rule, width, count) =
+            (self.word(i64::from(id.0)), self.word(columns.len() as i64), self.word(count as i64));
+        let chosen = self.call_for_number(Helper::ChooseOf, &[self.context, rule, start, count, width]);
+        let mut rest = chosen;
+        for (index, (binder, (kind, low, high))) in binders.iter().zip(&columns).enumerate().rev() {
+            let size = high - low + 1;
+            let column = if index == 0 { rest } else { self.builder.ins().urem_imm(rest, size) };
+            if index > 0 {
+                rest = self.builder.ins().udiv_imm(rest, size);
+            }
+            let number = self.builder.ins().iadd_imm(column, *low);
+            let value = if *kind == Kind::Boolean { self.builder.ins().ireduce(types::I8, number) } else { number };
+            self.bind(binder.slot, Bound::Scalar(Scalar::defined(*kind, value).within(*low, *high)));
+        }
+        self.rule(body);
+        true
     }
 
     /// Writes the variables of a choice as one more candidate.

@@ -98,6 +98,23 @@ pub unsafe extern "C" fn read(
     }
 }
 
+/// Asks for an input whose location has a number.
+pub unsafe extern "C" fn ask(
+    context: Pointer,
+    function: i64,
+    arguments: *const *const Value,
+    count: u64,
+    index: i64,
+) -> i64 {
+    // SAFETY: see `grow`.
+    unsafe {
+        let arguments = borrow(arguments, count);
+        Context::with(context, |executor, _| {
+            i64::from(!executor.ask_at(FunctionId(function as u32), slice(&arguments), index as u32))
+        })
+    }
+}
+
 /// The number of a location about to be updated.
 pub unsafe extern "C" fn locate(context: Pointer, function: i64, arguments: *const *const Value, count: u64) -> i64 {
     // SAFETY: see `grow`.
@@ -368,6 +385,27 @@ pub unsafe extern "C" fn choose(context: Pointer, rule: i64, variables: u64) -> 
                 _ => -1,
             }
         })
+    }
+}
+
+/// Lets the environment choose among candidates that never change; the index of the one.
+pub unsafe extern "C" fn choose_of(
+    context: Pointer,
+    rule: i64,
+    values: *const Value,
+    count: u64,
+    variables: u64,
+) -> i64 {
+    // SAFETY: see `grow`; the values belong to the code and live as long as it.
+    unsafe {
+        let values = std::slice::from_raw_parts(values, (count * variables) as usize);
+        let executor = Context::executor(context);
+        let span = executor.program.rule_span(RuleId(rule as u32));
+        let choice = Choice { span, values, variables: variables as usize };
+        match executor.core.choices.choose(&mut *executor.environment, executor.program, &choice) {
+            Ok(chosen) if chosen < count as usize => chosen as i64,
+            _ => -1,
+        }
     }
 }
 

@@ -7,6 +7,8 @@ use cranelift_codegen::ir::{self, Type, types};
 use model::Basic;
 use program::{DomainId, DomainKind, Program};
 
+use crate::value::Value;
+
 /// A kind of value that fits a register.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
@@ -47,6 +49,16 @@ impl Kind {
             Kind::Element(_) => 5,
             Kind::Char => 6,
             Kind::Rule => 7,
+        }
+    }
+
+    /// The value of a number: an integer, or the place of a literal, an element, a truth value.
+    pub fn value(self, number: i64) -> Value {
+        match self {
+            Kind::Boolean => Value::Boolean(number != 0),
+            Kind::Enum(domain) => Value::Enum(domain, number as u32),
+            Kind::Element(domain) => Value::Element(domain, number as u32),
+            _ => Value::Integer(number),
         }
     }
 
@@ -126,7 +138,7 @@ impl From<Bound> for Operand {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::value::{Real, Value};
+    use crate::value::Real;
 
     /// The first word of a value, its tag.
     #[allow(unsafe_code)]

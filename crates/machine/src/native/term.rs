@@ -238,7 +238,10 @@ impl Translator<'_, '_> {
         let guard = self.term(guard);
         let guard = self.scalar(guard, Kind::Boolean);
         let guard = self.defined(guard);
-        let value = self.builder.ins().select(guard.value, a.value, b.value);
+        let value = match (a.kind, a.constant(), b.constant()) {
+            (Kind::Integer, Some(1), Some(0)) => self.builder.ins().uextend(types::I64, guard.value),
+            _ => self.builder.ins().select(guard.value, a.value, b.value),
+        };
         let range = a.range.zip(b.range).map(|((al, ah), (bl, bh))| (al.min(bl), ah.max(bh)));
         Some(Operand::Scalar(Scalar { kind: a.kind, value, flag: None, range }))
     }

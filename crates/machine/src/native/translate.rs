@@ -57,6 +57,9 @@ pub(super) struct Translator<'t, 'f> {
     pub keeps: bool,
     /// How many places have been translated that keep one.
     pub keepers: usize,
+    /// The variables of the `forall` rules around the rule being translated; none where another rule that makes a
+    /// unit, or ranges over what may repeat, stands between it and the step.
+    pub foralls: Option<Vec<program::Slot>>,
     /// Terms and rules translated into this function.
     pub weight: usize,
     references: Vec<(Helper, FuncRef)>,
@@ -84,6 +87,7 @@ impl<'t, 'f> Translator<'t, 'f> {
             agent: None,
             keeps: false,
             keepers: 0,
+            foralls: None,
             weight: 0,
             references: Vec::new(),
         }
@@ -326,12 +330,17 @@ impl<'t, 'f> Translator<'t, 'f> {
 
     /// Reads the payload of a kind out of a value.
     pub fn payload(&mut self, pointer: ir::Value, kind: Kind) -> ir::Value {
+        self.payload_at(pointer, 0, kind)
+    }
+
+    /// The same of a value so many bytes on.
+    pub fn payload_at(&mut self, pointer: ir::Value, offset: i32, kind: Kind) -> ir::Value {
         match kind {
-            Kind::Boolean => self.load(types::I8, pointer, 8),
-            Kind::Integer => self.load(types::I64, pointer, 8),
-            Kind::Real => self.load(types::F64, pointer, 8),
-            Kind::Enum(_) | Kind::Element(_) => self.builder.ins().uload32(FLAGS, pointer, 12),
-            Kind::Char | Kind::Rule => self.builder.ins().uload32(FLAGS, pointer, 8),
+            Kind::Boolean => self.load(types::I8, pointer, offset + 8),
+            Kind::Integer => self.load(types::I64, pointer, offset + 8),
+            Kind::Real => self.load(types::F64, pointer, offset + 8),
+            Kind::Enum(_) | Kind::Element(_) => self.builder.ins().uload32(FLAGS, pointer, offset + 12),
+            Kind::Char | Kind::Rule => self.builder.ins().uload32(FLAGS, pointer, offset + 8),
         }
     }
 
