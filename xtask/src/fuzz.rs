@@ -142,7 +142,11 @@ fn write_seeds(folder: &Path, with_scenario: bool) -> Result<(), Failure> {
 
 fn seeds(with_scenario: bool) -> Result<Vec<String>, Failure> {
     let root = repository::root();
-    let read = |path: &str| std::fs::read_to_string(root.join(path)).map_err(|error| format!("{path}: {error}"));
+    // A transcript's file may be of another encoding on purpose.
+    let read = |path: &str| match std::fs::read(root.join(path)) {
+        Ok(bytes) => Ok(String::from_utf8_lossy(&bytes).into_owned()),
+        Err(error) => Err(format!("{path}: {error}")),
+    };
     let mut seeds = Vec::new();
     for path in repository::files()?.iter().filter(|path| !path.starts_with("web/")) {
         if with_scenario && path.ends_with(".avalla") {
