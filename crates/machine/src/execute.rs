@@ -3,7 +3,7 @@
 //! In: a program, the machine's [`Core`] (store, update set, frames) and an environment. It lives for one call of
 //! the machine's public face. INVARIANT: after a fault the core holds the state before the call.
 
-use program::{DomainId, DomainKind, FunctionId, Program, Slot};
+use program::{FunctionId, Program, Slot};
 use syntax::Span;
 
 use crate::coverage::Coverage;
@@ -221,7 +221,7 @@ impl Executor<'_> {
         use program::FunctionKind::{Monitored, Shared};
         let declared = &self.program.functions[function.0 as usize];
         if let Some(element) = declared.element {
-            return Ok(Value::Element(self.base_domain(declared.codomain), element));
+            return Ok(Value::Element(self.program.base_domain(declared.codomain), element));
         }
         let found = self.core.store.find(function, arguments);
         match declared.kind {
@@ -292,13 +292,5 @@ impl Executor<'_> {
         self.core.store.given[index as usize] = self.core.epoch;
         self.core.inputs.push((index, function));
         true
-    }
-
-    /// The type domain of a domain.
-    pub fn base_domain(&self, domain: DomainId) -> DomainId {
-        match &self.program.domain(domain).kind {
-            DomainKind::Concrete { base, .. } => *base,
-            _ => domain,
-        }
     }
 }

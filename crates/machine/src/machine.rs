@@ -237,11 +237,13 @@ impl Machine {
         }
         (core.base, core.depth) = (0, 0);
         let mut executor = Executor { program, core, environment, limits: *limits };
-        if engine.run(&mut executor, procedure) {
+        if engine.run(&mut executor) {
             return true;
         }
-        core.choices.repeat();
-        core.updates.begin();
+        self.discard();
+        self.core.iterations = 0;
+        self.core.choices.repeat();
+        self.core.updates.begin();
         false
     }
 

@@ -451,7 +451,7 @@ impl<'a> Executor<'a> {
 
     /// Makes a fresh element of a dynamic domain.
     pub fn create(&mut self, domain: DomainId, span: Span) -> Outcome<Value> {
-        let base = self.base_domain(domain);
+        let base = self.program.base_domain(domain);
         let carrier = &mut self.core.store.carriers[base.0 as usize];
         if u64::from(carrier.fresh) >= self.limits.locations.min(u64::from(u32::MAX - 1)) {
             return self

@@ -91,7 +91,7 @@ impl<'a> Executor<'a> {
 
     /// The zero of the domain of a term: the sum of no numbers.
     fn zero(&self, id: TermId) -> Value {
-        let domain = self.base_domain(self.program.term_domain(id));
+        let domain = self.program.base_domain(self.program.term_domain(id));
         match self.program.domain(domain).kind {
             DomainKind::Basic(Basic::Real) => Real::new(0.0).map_or(Value::Undef, Value::Real),
             DomainKind::Basic(Basic::Complex) => {
@@ -135,7 +135,9 @@ impl<'a> Executor<'a> {
     fn agent_named(&self, name: &Value) -> Value {
         let Value::String(name) = name else { return Value::Undef };
         let found = self.program.functions.iter().find(|f| f.element.is_some() && f.name == **name);
-        found.map_or(Value::Undef, |f| Value::Element(self.base_domain(f.codomain), f.element.unwrap_or_default()))
+        found.map_or(Value::Undef, |f| {
+            Value::Element(self.program.base_domain(f.codomain), f.element.unwrap_or_default())
+        })
     }
 
     /// `chooseone(S)`: an element chosen by the environment; undef of an empty set.

@@ -45,7 +45,6 @@ const TRIAL: u64 = 64;
 /// A program's main rule, compiled.
 pub(crate) struct Engine {
     entry: Entry,
-    main: ProcedureId,
     /// Where `self` is kept.
     myself: Option<u32>,
     tables: Tables,
@@ -97,7 +96,7 @@ impl Engine {
         // SAFETY: the code was just defined with this signature.
         let entry = unsafe { std::mem::transmute::<*const u8, Entry>(code) };
         let myself = plan.self_location(program);
-        Some(Engine { entry, main, myself, tables: plan.tables, runs: 0, abandoned: 0, module: Some(module) })
+        Some(Engine { entry, myself, tables: plan.tables, runs: 0, abandoned: 0, module: Some(module) })
     }
 
     /// Whether running the code has paid so far.
@@ -105,11 +104,8 @@ impl Engine {
         self.runs < TRIAL || self.abandoned * 8 < self.runs
     }
 
-    /// Computes the update set of a procedure; false where the step must be interpreted instead.
-    pub fn run(&mut self, executor: &mut Executor<'_>, procedure: ProcedureId) -> bool {
-        if procedure != self.main {
-            return false;
-        }
+    /// Computes the update set of the main rule; false where the step must be rolled back and interpreted instead.
+    pub fn run(&mut self, executor: &mut Executor<'_>) -> bool {
         self.runs += 1;
         let former = self.myself.map(|index| executor.core.store.values[index as usize].clone());
         let tables = &raw mut self.tables;
@@ -128,17 +124,8 @@ impl Engine {
         }
         self.abandoned += 1;
         self.tables.clear();
-        executor.core.frames.clear();
-        executor.core.calls.clear();
-        (executor.core.base, executor.core.depth, executor.core.iterations) = (0, 0, 0);
-        if executor.core.updates.roll_back(&mut executor.core.store) {
-            executor.core.memo.changed();
-        }
         if let (Some(index), Some(value)) = (self.myself, former) {
             executor.core.store.values[index as usize] = value;
-        }
-        for carrier in &mut executor.core.store.carriers {
-            carrier.fresh = carrier.count;
         }
         false
     }

@@ -87,6 +87,9 @@ impl Plan {
                 procedure_calls[procedure.0 as usize] += 1;
             }
         }
+        for agent in &program.agents {
+            procedure_calls[agent.procedure.0 as usize] += 1;
+        }
         for term in &program.terms {
             match term {
                 Term::Define { function, .. } => definition_calls[function.0 as usize] += 1,
@@ -150,14 +153,6 @@ impl Plan {
             _ => None,
         };
         scalar.range.or(all)
-    }
-
-    /// The type domain of a domain.
-    pub fn base(&self, program: &Program, domain: DomainId) -> DomainId {
-        match &program.domain(domain).kind {
-            DomainKind::Concrete { base, .. } => *base,
-            _ => domain,
-        }
     }
 
     /// Procedures that occur as values and take so many arguments.
@@ -236,14 +231,17 @@ impl Plan {
         slots.sort_unstable();
     }
 
-    /// Whether a rule is the only one of the program that updates a function.
+    /// Whether a rule of the main rule's own body is the only one that updates a function, and runs once a step.
     pub fn is_only_update(&self, program: &Program, function: FunctionId, id: RuleId) -> bool {
-        program.rules.iter().enumerate().all(|(index, rule)| match rule {
+        // The main rule called by another would run it once more.
+        let once = program.main.is_some_and(|main| self.procedure_calls[main.0 as usize] == 0);
+        let only = program.rules.iter().enumerate().all(|(index, rule)| match rule {
             Rule::Update { function: updated, .. } | Rule::Return { function: updated, .. } => {
                 *updated != function || index == id.0 as usize
             }
             _ => true,
-        })
+        });
+        once && only
     }
 
     /// The variables that a term binds itself.

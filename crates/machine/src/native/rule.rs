@@ -21,17 +21,17 @@ impl Translator<'_, '_> {
             Rule::Update { function, arguments, value } => self.statement(|this| {
                 let value = this.term(*value);
                 let alone = this.is_alone(*function, program.term_list(*arguments), id);
-                let arguments = this.arguments(*arguments);
+                let arguments = this.terms(*arguments);
                 this.update(*function, &arguments, value, (id, alone));
             }),
             Rule::Call { procedure, arguments } => self.statement(|this| {
-                let operands = this.arguments(*arguments);
+                let operands = this.terms(*arguments);
                 this.procedure(*procedure, &operands);
             }),
             Rule::TurboCall { procedure, arguments } => self.statement(|this| {
                 let outer = this.foralls.take();
                 this.call(Helper::Open, &[this.context]);
-                let operands = this.arguments(*arguments);
+                let operands = this.terms(*arguments);
                 this.procedure(*procedure, &operands);
                 this.call_or_bail(Helper::Join, &[this.context]);
                 this.foralls = outer;
@@ -119,7 +119,7 @@ impl Translator<'_, '_> {
                 self.choose(id, *binders, *condition, *body, *if_none);
             }
             Rule::Extend { domain, first, count, body } => {
-                let base = self.plan.base(program, *domain);
+                let base = program.base_domain(*domain);
                 for offset in 0..*count {
                     let domain = self.word(i64::from(domain.0));
                     let number = self.call_for_number(Helper::Create, &[self.context, domain]);
@@ -263,7 +263,7 @@ impl Translator<'_, '_> {
             let value = this.term(rule);
             let value = this.scalar(value, Kind::Rule);
             let value = this.defined(value);
-            let operands: Vec<Operand> = this.arguments(arguments);
+            let operands: Vec<Operand> = this.terms(arguments);
             let operands: Vec<Operand> = operands.into_iter().map(|operand| this.bound(operand).into()).collect();
             let candidates = this.plan.rule_values(this.program, operands.len());
             this.dispatch(value.value, &candidates, &mut |this, procedure| {

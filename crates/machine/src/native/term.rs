@@ -36,15 +36,10 @@ impl Translator<'_, '_> {
         }
     }
 
-    fn terms(&mut self, list: TermList) -> Vec<Operand> {
+    /// Translates terms in their order.
+    pub fn terms(&mut self, list: TermList) -> Vec<Operand> {
         let program = self.program;
-        let operands: Vec<Operand> = program.term_list(list).iter().map(|term| self.term(*term)).collect();
-        operands
-    }
-
-    /// The operands of a call, which must outlive helpers that make the store grow.
-    pub fn arguments(&mut self, list: TermList) -> Vec<Operand> {
-        self.terms(list)
+        program.term_list(list).iter().map(|term| self.term(*term)).collect()
     }
 
     fn plain_term(&mut self, id: TermId) -> Operand {

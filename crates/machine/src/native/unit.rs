@@ -283,9 +283,10 @@ impl Translator<'_, '_> {
             entries = entries.checked_mul(size)?;
             columns.push((scalar, low, size));
         }
-        if !(1..=1 << 16).contains(&entries) {
-            return None;
-        }
+        // Refused here, the table has left no code behind.
+        let frame = self.frame().size;
+        let spill = self.plan.spill(frame, slots.clone());
+        let (table, states, values) = self.plan.table(id, spill, entries)?;
         for (scalar, low, size) in columns {
             let mut column = scalar.value;
             if scalar.kind == Kind::Boolean {
@@ -306,9 +307,6 @@ impl Translator<'_, '_> {
             Some(index) => index,
             None => self.word(0),
         };
-        let frame = self.frame().size;
-        let spill = self.plan.spill(frame, slots.clone());
-        let (table, states, values) = self.plan.table(id, spill, entries)?;
         let states = self.address(states);
         let state = self.builder.ins().iadd(states, index);
         let state = self.load(types::I8, state, 0);

@@ -246,6 +246,13 @@ impl Program {
     pub fn domain(&self, id: DomainId) -> &Domain {
         &self.domains[id.0 as usize]
     }
+    /// The type domain of a domain: of a concrete one what it is a subset of.
+    pub fn base_domain(&self, id: DomainId) -> DomainId {
+        match self.domain(id).kind {
+            DomainKind::Concrete { base, .. } => base,
+            _ => id,
+        }
+    }
     /// The procedure of that id.
     pub fn procedure(&self, id: ProcedureId) -> &Procedure {
         &self.procedures[id.0 as usize]
