@@ -1,7 +1,7 @@
-//! A state graph that has been explored to its end: what temporal properties are decided on.
+//! An explored state graph: what temporal properties are decided on.
 //!
 //! In: what the search met, edge after edge ([`Builder`]). Out: an immutable [`Graph`] in compressed rows, with one bit a
-//! state for each proposition. INVARIANT: every state has at least one edge. An ASM's run is infinite: where a step
+//! state for each proposition. INVARIANT: every state has at least one edge, but those that the search was ended before. An ASM's run is infinite: where a step
 //! changes nothing the run goes on in the same state, and a state whose step cannot be made at all (a fault) or that is
 //! declared terminal gets an edge to itself marked [`Label::STUTTER`].
 
@@ -133,6 +133,8 @@ pub struct Graph {
     labels: Vec<Label>,
     initial: Vec<StateId>,
     propositions: Vec<Bits>,
+    /// Met, but their steps were not made.
+    unexplored: Bits,
 }
 
 impl Graph {
@@ -178,6 +180,16 @@ impl Graph {
     /// The states in which a proposition holds, by the number it was given to the search with.
     pub fn proposition(&self, index: usize) -> &Bits {
         &self.propositions[index]
+    }
+
+    /// The states that were met and whose steps were not made, because a limit ended the search.
+    pub fn unexplored(&self) -> &Bits {
+        &self.unexplored
+    }
+
+    /// Whether every state that can be reached is in the graph with all its edges.
+    pub fn is_complete(&self) -> bool {
+        self.unexplored.is_empty()
     }
 
     /// The graph turned around: by state, its predecessors, ascending.
@@ -244,16 +256,30 @@ impl Builder {
 
     /// Ends the next state: which propositions hold in it, one truth each. Without edges it gets one to itself.
     pub fn state(&mut self, truths: impl IntoIterator<Item = bool>) -> StateId {
-        let state = self.graph.states() as StateId;
         if self.graph.first_edge.last() == Some(&(self.graph.targets.len() as u64)) {
-            self.edge(state, Label::STUTTER);
+            self.edge(self.graph.states() as StateId, Label::STUTTER);
         }
+        self.end_state(truths, false)
+    }
+
+    /// Ends the next state, whose steps were not made.
+    ///
+    /// # Panics
+    /// An edge was given for it.
+    pub fn unexplored_state(&mut self, truths: impl IntoIterator<Item = bool>) -> StateId {
+        assert_eq!(self.graph.first_edge.last(), Some(&(self.graph.targets.len() as u64)), "no edges");
+        self.end_state(truths, true)
+    }
+
+    fn end_state(&mut self, truths: impl IntoIterator<Item = bool>, unexplored: bool) -> StateId {
+        let state = self.graph.states() as StateId;
         let mut given = 0;
         for (bits, truth) in self.graph.propositions.iter_mut().zip(truths) {
             bits.push(truth);
             given += 1;
         }
         assert_eq!(given, self.graph.propositions.len(), "one truth for each proposition");
+        self.graph.unexplored.push(unexplored);
         self.graph.first_edge.push(self.graph.targets.len() as u64);
         state
     }
@@ -294,6 +320,20 @@ mod tests {
         assert_eq!(graph.successors(2), [2]);
         assert_eq!(graph.label(graph.edges_of(2).start), Label::STUTTER);
         assert_eq!(graph.proposition(0).iter().collect::<Vec<_>>(), [0, 2]);
+    }
+
+    #[test]
+    fn a_graph_with_an_unexplored_state_is_not_complete() {
+        assert!(sample().is_complete());
+        let mut builder = Builder::new(0);
+        builder.initial();
+        builder.edge(1, Label(0));
+        builder.state([]);
+        builder.unexplored_state([]);
+        let graph = builder.finish();
+        assert!(!graph.is_complete());
+        assert_eq!(graph.unexplored().iter().collect::<Vec<_>>(), [1]);
+        assert_eq!(graph.successors(1), []);
     }
 
     #[test]
