@@ -11,12 +11,18 @@ use syntax::Span;
 use crate::system::System;
 
 /// A chart file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Chart {
     /// The name, that of the file.
     pub name: String,
-    /// The modules whose names the links use, as paths from the file.
+    /// The modules whose names the links use, those of imported charts included, as paths from the file.
     pub imports: Vec<String>,
+    /// Where each of them is imported; of one that comes with a chart, where that is.
+    pub places: Vec<Span>,
+    /// The charts whose patterns can be used, as paths from the file.
+    pub charts: Vec<String>,
+    /// The patterns of these charts.
+    pub patterns: Vec<Machine>,
     /// Machines and patterns in the order of the file.
     pub machines: Vec<Machine>,
     /// The system, if there is one.
@@ -26,9 +32,14 @@ pub struct Chart {
 }
 
 impl Chart {
-    /// The machine or pattern of that name.
+    /// The machine or pattern of that name, imported patterns included.
     pub fn machine(&self, name: &str) -> Option<&Machine> {
-        self.machines.iter().find(|machine| machine.name == name)
+        self.machines.iter().chain(&self.patterns).find(|machine| machine.name == name)
+    }
+
+    /// The patterns that an instance can be of.
+    pub fn all_patterns(&self) -> impl Iterator<Item = &Machine> {
+        self.machines.iter().filter(|machine| machine.is_pattern).chain(&self.patterns)
     }
 
     /// The pattern that an instance is of.
@@ -64,6 +75,8 @@ pub struct Machine {
     pub arrows: Vec<Arrow>,
     /// Actions and instances to be done one after the other where one path leads over them.
     pub sequences: Vec<Vec<ShapeId>>,
+    /// It has a control state or a block in which it stays: entering and leaving it takes several steps.
+    pub steps: bool,
     /// Where it is declared: its name.
     pub span: Span,
 }
@@ -96,7 +109,7 @@ impl Machine {
 
     /// It has a control state or a block in which it stays: entering and leaving it takes several steps.
     pub fn takes_steps(&self) -> bool {
-        self.shapes.iter().any(|shape| matches!(shape.kind, ShapeKind::State { .. }))
+        self.steps
     }
 }
 

@@ -8,7 +8,7 @@ use crate::flow::{Origin, Target, transitions};
 /// The chart as text: what each machine's shapes are, and what its arrows come to.
 pub fn dump(chart: &Chart) -> String {
     let mut out = format!("chart {}\n", chart.name);
-    for import in &chart.imports {
+    for import in chart.charts.iter().chain(&chart.imports) {
         let _ = writeln!(out, "import {import}");
     }
     for machine in &chart.machines {

@@ -29,13 +29,7 @@ pub struct Extracted {
 /// Without `control` the control location is found: one on which all that the rule does depends. With it, a location of
 /// this function is taken, also where some of what the rule does is done in every state.
 pub fn extract(model: &Model, only: Option<&str>, control: Option<&str>) -> Extracted {
-    let chart = Chart {
-        name: model.name.clone(),
-        imports: Vec::new(),
-        machines: Vec::new(),
-        system: None,
-        layouts: BTreeMap::new(),
-    };
+    let chart = Chart { name: model.name.clone(), ..Chart::default() };
     let mut found = Extracted { chart, others: Vec::new() };
     for (index, rule) in model.rules.iter().enumerate() {
         let own = rule.span.file == model.root && !rule.turbo;
@@ -148,6 +142,7 @@ fn machine(
         shapes: Vec::new(),
         arrows: Vec::new(),
         sequences: Vec::new(),
+        steps: true,
         span: declared.span,
     };
     graph.shapes(&mut machine, enter, &starts, initial.as_deref());

@@ -112,6 +112,45 @@ pub(crate) fn origins(chart: &Chart, machine: &Machine) -> Vec<Origin> {
     enter.into_iter().chain(shapes).collect()
 }
 
+/// Finds which machines of a chart take steps. Out: the machines that contain themselves, by index, with the patterns over
+/// which they do.
+pub(crate) fn settle(chart: &mut Chart) -> Vec<(usize, Vec<String>)> {
+    for machine in &mut chart.machines {
+        machine.steps = machine.shapes.iter().any(|shape| matches!(shape.kind, ShapeKind::State { .. }));
+    }
+    loop {
+        let stays = |machine: &&Machine| machine.numbered().any(|(id, _)| is_block(chart, machine, id));
+        let news = chart.machines.iter().position(|machine| !machine.steps && stays(&machine));
+        let Some(index) = news else { break };
+        chart.machines[index].steps = true;
+    }
+    (0..chart.machines.len()).filter_map(|index| Some((index, circle(chart, &chart.machines[index])?))).collect()
+}
+
+/// The patterns over which a machine contains itself, its own name first and last.
+fn circle(chart: &Chart, machine: &Machine) -> Option<Vec<String>> {
+    let inner = |machine: &Machine| -> Vec<String> {
+        let patterns = machine.shapes.iter().filter_map(|shape| chart.pattern_of(shape));
+        patterns.map(|pattern| pattern.name.clone()).collect()
+    };
+    let mut open = vec![vec![machine.name.clone()]];
+    let mut seen = Vec::new();
+    while let Some(way) = open.pop() {
+        let Some(last) = way.last().and_then(|name| chart.machine(name)) else { continue };
+        for name in inner(last) {
+            let longer: Vec<String> = way.iter().cloned().chain([name.clone()]).collect();
+            if name == machine.name {
+                return Some(longer);
+            }
+            if !seen.contains(&name) {
+                seen.push(name);
+                open.push(longer);
+            }
+        }
+    }
+    None
+}
+
 /// An instance on a path, of a pattern with control states: the machine stays in it until the pattern is left.
 pub(crate) fn is_block(chart: &Chart, machine: &Machine, id: ShapeId) -> bool {
     let shape = machine.shape(id);

@@ -20,7 +20,7 @@ mod symbolic;
 pub mod system;
 mod write;
 
-pub use build::{Built, Known, build, unbuilt};
+pub use build::{Built, Known, Unknown, build, unbuilt};
 pub use chart::{
     Arrow, Chart, Control, End, Layout, Link, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind,
 };
@@ -30,5 +30,5 @@ pub use dump::dump;
 pub use extract::{Extracted, extract};
 pub use fault::IDS as FAULT_IDS;
 pub use flow::{Origin, Target, Transition, transitions};
-pub use read::read;
+pub use read::{Loaded, load, load_beside, read};
 pub use write::write;

@@ -9,7 +9,7 @@ use crate::chart::{Arrow, Chart, Control, End, Machine, Shape, ShapeKind};
 /// The text of a chart.
 pub fn write(chart: &Chart) -> String {
     let mut out = format!("chart {}\n", chart.name);
-    for import in &chart.imports {
+    for import in chart.charts.iter().chain(&chart.imports) {
         let _ = writeln!(out, "import \"{import}\"");
     }
     for machine in &chart.machines {

@@ -73,7 +73,7 @@ fn each_fault_has_a_page_whose_example_shows_it() {
         let blocks = blocks(&page);
         let block = |wanted: &str| blocks.iter().find(|(info, _)| info == wanted).map(|(_, code)| code.as_str());
         let (drawn, mut faults) = chart(block("chart fault").expect("an example"));
-        faults.extend(chart::unbuilt(&drawn));
+        faults.extend(chart::unbuilt(&drawn, &Known::default()));
         if let Some(specification) = block("asmetal") {
             let probed = probed(&drawn, specification).expect("the specification parses");
             let checked = check(SourceFile::new("Lamp.asm", probed.text.as_str()), &mut Nothing);

@@ -61,8 +61,8 @@ impl Disk {
 impl model::Loader for Disk {
     fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
         let written = path.replace('\\', "/");
-        let written =
-            if written.ends_with(".asm") || written.ends_with(".avalla") { written } else { written + ".asm" };
+        let complete = [".asm", ".avalla", ".chart"].iter().any(|ending| written.ends_with(ending));
+        let written = if complete { written } else { written + ".asm" };
         let folder = Path::new(&importer.name).parent().unwrap_or(Path::new(""));
         let beside = tidy(&folder.join(&written));
         let found = if beside.exists() { beside } else { PathBuf::from(&written) };

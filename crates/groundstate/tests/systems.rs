@@ -100,15 +100,11 @@ fn the_charts_are_built() {
         let file = syntax::FileId(0);
         let (read, faults) = chart::read(file, &syntax::parse_chart(file, &text("chart")));
         assert_eq!(faults, []);
-        assert_eq!(chart::unbuilt(&read), []);
-        let imports: String = read.imports.iter().map(|import| format!("import {import}\n")).collect();
-        let imports = SourceFile::new(
-            folder.join("Imports.asm").display().to_string(),
-            format!("module Imports\n{imports}signature:\ndefinitions:\n"),
-        );
-        let checked = groundstate::check(imports, &mut Disk { elaboration: "case vs_elaborate: 120".to_string() });
-        assert_eq!(checked.diagnostics, []);
-        let built = chart::build(&read, &chart::Known::of(&checked.model), Some(&text("asm"))).expect("it parses");
+        let beside = folder.join("Imports.asm").display().to_string();
+        let mut disk = Disk { elaboration: "case vs_elaborate: 120".to_string() };
+        let known = chart::Known::imported(&read, &beside, &mut disk).expect("the imports have no faults");
+        assert_eq!(chart::unbuilt(&read, &known), []);
+        let built = chart::build(&read, &known, Some(&text("asm"))).expect("it parses");
         assert_eq!(built.text, text("asm"), "{name}");
         assert_eq!(built.to_write, Vec::<String>::new());
     }

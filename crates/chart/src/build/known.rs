@@ -2,7 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use model::{DomainKind, Model};
+use model::{Checked, DomainKind, Loader, Model};
+use syntax::{Diagnostic, Severity, SourceFile};
+
+use crate::chart::Chart;
+use crate::fault;
 
 /// Names that exist already.
 #[derive(Debug, Clone, Default)]
@@ -15,7 +19,46 @@ pub struct Known {
     pub domains: BTreeSet<String>,
 }
 
+/// Why the imports of a chart cannot be used.
+#[derive(Debug, Clone)]
+pub struct Unknown {
+    /// Faults of the imports themselves; the places are those of the chart.
+    pub imports: Vec<Diagnostic>,
+    /// Faults within the imported modules; the places are those of `checked`.
+    pub modules: Vec<Diagnostic>,
+    /// A module that imports what the chart does.
+    pub checked: Checked,
+}
+
 impl Known {
+    /// What the imports of a chart declare; `beside` names a file in the folder of the chart.
+    ///
+    /// # Errors
+    /// The faults of the imports.
+    pub fn imported(chart: &Chart, beside: &str, loader: &mut dyn Loader) -> Result<Known, Box<Unknown>> {
+        let mut text = "module Imports\n".to_string();
+        let mut ends = Vec::new();
+        for import in &chart.imports {
+            text.push_str(&format!("import \"{import}\"\n"));
+            ends.push(text.len());
+        }
+        text.push_str("signature:\ndefinitions:\n");
+        let checked = model::check(SourceFile::new(beside, text), loader);
+        let errors = checked.diagnostics.iter().filter(|found| found.severity == Severity::Error);
+        let (own, modules): (Vec<_>, Vec<_>) =
+            errors.cloned().partition(|found| found.primary.span.file == checked.model.root);
+        if own.is_empty() && modules.is_empty() {
+            return Ok(Known::of(&checked.model));
+        }
+        let placed = own.iter().filter_map(|found| {
+            let number = ends.partition_point(|end| *end <= found.primary.span.start as usize);
+            let import = chart.imports.get(number)?;
+            let of_chart = chart.charts.iter().any(|path| path.trim_end_matches(".chart") == import);
+            Some(fault::import::no_model(*chart.places.get(number)?, found, of_chart.then_some(import.as_str())))
+        });
+        Err(Box::new(Unknown { imports: placed.collect(), modules, checked }))
+    }
+
     /// The names of a model, those of its imports included.
     pub fn of(model: &Model) -> Known {
         let mut known = Known::default();

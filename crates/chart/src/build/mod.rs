@@ -10,11 +10,12 @@ mod module;
 mod rule;
 mod system;
 
-pub use known::Known;
+pub use known::{Known, Unknown};
 pub(crate) use module::{call, function_name, rule_name, state_value};
 pub(crate) use rule::machine_rule;
 
-use crate::chart::Chart;
+use crate::chart::{Chart, Control};
+use crate::fault;
 
 /// What is built.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -25,9 +26,17 @@ pub struct Built {
     pub to_write: Vec<String>,
 }
 
-/// What of a chart is not built yet; the places are those of the chart.
-pub fn unbuilt(chart: &Chart) -> Vec<syntax::Diagnostic> {
-    chart.system.as_ref().map(system::unbuilt).unwrap_or_default()
+/// What of a chart cannot be built; the places are those of the chart.
+pub fn unbuilt(chart: &Chart, known: &Known) -> Vec<syntax::Diagnostic> {
+    let mut faults = chart.system.as_ref().map(system::unbuilt).unwrap_or_default();
+    for machine in &chart.machines {
+        if let Some(Control::Made { name, span }) = &machine.control
+            && known.terms.contains(name)
+        {
+            faults.push(fault::made_already(*span, name));
+        }
+    }
+    faults
 }
 
 /// Builds the specification of a chart of which nothing is [`unbuilt`].

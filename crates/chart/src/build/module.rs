@@ -57,7 +57,8 @@ pub(crate) fn state_value(chart: &Chart, machine: &Machine, id: ShapeId) -> Stri
         return link.text.clone();
     }
     let value = literal(&shape.name);
-    let others = chart.machines.iter().filter(|other| control_name(other) != control_name(machine));
+    let all = chart.machines.iter().chain(&chart.patterns);
+    let others = all.filter(|other| control_name(other) != control_name(machine));
     let taken = others.flat_map(|other| &other.shapes).any(|other| match (&other.kind, &other.link) {
         (ShapeKind::State { .. }, Some(link)) => link.text == value,
         (ShapeKind::State { .. } | ShapeKind::Instance(_), _) => literal(&other.name) == value,

@@ -28,6 +28,7 @@ impl Reader {
             shapes: Vec::new(),
             arrows: Vec::new(),
             sequences: Vec::new(),
+            steps: false,
             span: self.span(&name),
         };
         self.control(node, &mut machine);

@@ -1,8 +1,9 @@
 //! Tree → chart: names resolved, links taken out, and what is wrong with the shape of the machines.
 //!
-//! In: the tree of one chart file. Out: a [`Chart`], as whole as the text allows, and the faults in the order of their
-//! places. It knows no second file: whether links resolve is for `check` to say.
+//! In: the tree of one chart file, and what it imports. Out: a [`Chart`], as whole as the text allows, and the faults in the
+//! order of their places. Whether links resolve is for `check` to say.
 
+mod import;
 mod link;
 mod machine;
 mod structure;
@@ -13,22 +14,28 @@ use std::collections::BTreeMap;
 use syntax::ast::{self, AstNode, ChartFile};
 use syntax::{Diagnostic, FileId, Parse, Span};
 
-use crate::chart::{Chart, Machine, ShapeKind};
-use crate::fault;
+use crate::chart::{Chart, ShapeKind};
+use crate::{fault, flow};
 
+pub use import::{Loaded, load, load_beside};
 pub(crate) use machine::spoken;
 
-/// Reads the chart of a file.
+/// Reads the chart of a text that stands alone; to import a chart is a fault.
 pub fn read(file: FileId, parse: &Parse) -> (Chart, Vec<Diagnostic>) {
+    let (imported, unfound) = import::alone(file, ChartFile::cast(parse.syntax()));
+    let (chart, mut faults) = read_with(file, parse, imported);
+    faults.extend(unfound);
+    faults.sort_by_key(|fault| fault.primary.span.start);
+    (chart, faults)
+}
+
+fn read_with(file: FileId, parse: &Parse, imported: import::Imported) -> (Chart, Vec<Diagnostic>) {
     let mut reader = Reader { file, faults: parse.diagnostics.clone() };
-    let tree = ChartFile::cast(parse.syntax());
-    let chart = tree.map(|tree| reader.chart(&tree)).unwrap_or_else(|| Chart {
-        name: String::new(),
-        imports: Vec::new(),
-        machines: Vec::new(),
-        system: None,
-        layouts: BTreeMap::new(),
-    });
+    let import::Imported { charts, models, places, patterns } = imported;
+    let mut chart = Chart { imports: models, places, charts, patterns, ..Chart::default() };
+    if let Some(tree) = ChartFile::cast(parse.syntax()) {
+        reader.chart(&tree, &mut chart);
+    }
     let mut faults = reader.faults;
     faults.sort_by_key(|fault| fault.primary.span.start);
     (chart, faults)
@@ -40,36 +47,41 @@ struct Reader {
 }
 
 impl Reader {
-    fn chart(&mut self, tree: &ChartFile) -> Chart {
-        let paths = tree.imports().filter_map(|import| import.path_token());
-        let imports = paths.map(|path| path.text().trim_matches('"').to_string()).collect();
-        let mut machines: Vec<Machine> = Vec::new();
+    fn chart(&mut self, tree: &ChartFile, chart: &mut Chart) {
+        chart.name = tree.name().map(|name| name.text().to_string()).unwrap_or_default();
         for node in tree.machines() {
             let Some(machine) = self.machine(&node) else { continue };
-            if let Some(first) = machines.iter().find(|first| first.name == machine.name) {
-                self.faults.push(fault::duplicate(machine.span, "machine", &machine.name, first.span));
+            if let Some(first) = chart.machine(&machine.name) {
+                let what = if machine.is_pattern { "pattern" } else { "machine" };
+                self.faults.push(fault::duplicate(machine.span, what, &machine.name, first.span));
                 continue;
             }
-            machines.push(machine);
+            chart.machines.push(machine);
         }
-        let name = tree.name().map(|name| name.text().to_string()).unwrap_or_default();
         let mut systems = tree.systems();
-        let system = systems.next().and_then(|node| self.system(&node));
+        chart.system = systems.next().and_then(|node| self.system(&node));
         for second in systems.filter_map(|node| node.name()) {
-            let first = system.as_ref().map_or_else(|| self.span(&second), |system| system.span);
+            let first = chart.system.as_ref().map_or_else(|| self.span(&second), |system| system.span);
             self.faults.push(fault::duplicate(self.span(&second), "system", second.text(), first));
         }
-        let mut chart = Chart { name, imports, machines, system, layouts: BTreeMap::new() };
-        self.instances(&chart);
-        for layout in tree.layouts() {
-            self.layout(&mut chart, &layout);
+        self.instances(chart);
+        for (machine, over) in flow::settle(chart) {
+            self.faults.push(fault::contains_itself(chart.machines[machine].span, &over));
         }
-        chart
+        for machine in &chart.machines {
+            let blocks = machine.numbered().any(|(id, _)| flow::is_block(chart, machine, id));
+            if blocks && machine.control.is_none() && !structure::has_states(machine) {
+                self.faults.push(fault::no_control(machine.span, &machine.name));
+            }
+        }
+        for layout in tree.layouts() {
+            self.layout(chart, &layout);
+        }
     }
 
-    /// Each instance is of a pattern that is here, with fitting arguments.
+    /// Each instance is of a pattern that is here or imported, with fitting arguments.
     fn instances(&mut self, chart: &Chart) {
-        let patterns: Vec<&str> = chart.machines.iter().filter(|m| m.is_pattern).map(|m| m.name.as_str()).collect();
+        let patterns: Vec<&str> = chart.all_patterns().map(|machine| machine.name.as_str()).collect();
         for shape in chart.machines.iter().flat_map(|machine| &machine.shapes) {
             let ShapeKind::Instance(wanted) = &shape.kind else { continue };
             match chart.machine(&wanted.name).filter(|machine| machine.is_pattern) {
@@ -85,13 +97,13 @@ impl Reader {
 
     fn layout(&mut self, chart: &mut Chart, node: &ast::Layout) {
         let Some(name) = node.name() else { return };
-        let names: Vec<&str> = chart.machines.iter().map(|machine| machine.name.as_str()).collect();
         if chart.system.as_ref().is_some_and(|system| system.name == name.text()) {
             let places = node.placements().filter_map(|place| Some((place.name()?.text().to_string(), place.place()?)));
             chart.layouts.insert(name.text().to_string(), places.collect());
             return;
         }
-        let Some(machine) = chart.machine(name.text()) else {
+        let names: Vec<&str> = chart.machines.iter().map(|machine| machine.name.as_str()).collect();
+        let Some(machine) = chart.machines.iter().find(|machine| machine.name == name.text()) else {
             let span = Span::new(self.file, name.text_range());
             self.faults.push(fault::unknown(span, "machine", name.text(), &names));
             return;

@@ -39,6 +39,11 @@ fn control(machine: &Machine, faults: &mut Vec<Diagnostic>) {
     }
 }
 
+/// It has control states.
+pub(super) fn has_states(machine: &Machine) -> bool {
+    machine.shapes.iter().any(|shape| matches!(shape.kind, ShapeKind::State { .. }))
+}
+
 /// No two control states have one value.
 fn values(machine: &Machine, faults: &mut Vec<Diagnostic>) {
     let mut seen: ByValue<'_> = BTreeMap::new();

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use chart::{Chart, Known};
+use chart::Known;
 use clap::Args;
 use syntax::{SourceFile, Sources};
 
@@ -28,12 +28,20 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Ok(read) => read,
         Err(exit) => return Ok(exit),
     };
-    let unbuilt = chart::unbuilt(&chart);
+    let beside = arguments.file.with_file_name("Imports.asm").display().to_string();
+    let known = match Known::imported(&chart, &beside, &mut shell.disk()) {
+        Ok(known) => known,
+        Err(unknown) => {
+            shell.diagnostics(&sources, &unknown.imports)?;
+            shell.diagnostics(&unknown.checked.sources, &unknown.modules)?;
+            return Ok(Exit::Model);
+        }
+    };
+    let unbuilt = chart::unbuilt(&chart, &known);
     if !unbuilt.is_empty() {
         shell.diagnostics(&sources, &unbuilt)?;
         return Ok(Exit::Model);
     }
-    let Some(known) = known(shell, &arguments.file, &chart)? else { return Ok(Exit::Model) };
     let output = arguments.output.clone().unwrap_or_else(|| arguments.file.with_extension("asm"));
     let to_stdout = output == Path::new("-");
     let limit = shell.global.limits.max_file_size;
@@ -67,17 +75,4 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         writeln!(shell.out(), "{}{to_write}", output.display())?;
     }
     Ok(Exit::Good)
-}
-
-/// What the imports of a chart declare; their faults are shown.
-fn known(shell: &mut Shell, path: &Path, chart: &Chart) -> Result<Option<Known>, Failure> {
-    let imports: String = chart.imports.iter().map(|import| format!("import \"{import}\"\n")).collect();
-    let text = format!("module Imports\n{imports}signature:\ndefinitions:\n");
-    let beside = path.with_file_name("Imports.asm");
-    let checked = groundstate::check(SourceFile::new(beside.display().to_string(), text), &mut shell.disk());
-    if groundstate::has_errors(&checked.diagnostics) {
-        shell.diagnostics(&checked.sources, &checked.diagnostics)?;
-        return Ok(None);
-    }
-    Ok(Some(Known::of(&checked.model)))
 }

@@ -23,7 +23,8 @@ pub struct Arguments {
 
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
-    let (own, chart) = match super::read(shell, &arguments.file)? {
+    let root = shell.disk().root(&arguments.file)?;
+    let (_, chart) = match super::read(shell, &arguments.file)? {
         Ok(read) => read,
         Err(exit) => return Ok(exit),
     };
@@ -41,9 +42,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     };
     let mut checked = groundstate::check(SourceFile::new(name, probed.text.clone()), &mut shell.disk());
     // The chart's own places, beside those of the specification.
-    let text = own.iter().next().map(|(_, file)| file.clone()).unwrap_or_else(|| SourceFile::new("", ""));
-    let id = checked.sources.add(text);
-    let (chart, _) = chart::read(id, &syntax::parse_chart(id, &checked.sources.file(id).text));
+    let loaded = chart::load_beside(std::mem::take(&mut checked.sources), root, &mut shell.disk());
+    let chart = loaded.chart;
+    checked.sources = loaded.sources;
     let faults = chart::check(&chart, &probed, &checked);
     let (notes, faults): (Vec<_>, Vec<_>) = faults.into_iter().partition(|fault| fault.severity == Severity::Note);
     shell.diagnostics(&checked.sources, &faults)?;

@@ -48,14 +48,13 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     }
 }
 
-/// Reads a chart; its faults are shown, and with errors there is none.
+/// Reads a chart and those that it imports; their faults are shown, and with errors there is none.
 pub fn read(shell: &mut Shell, path: &Path) -> Result<Result<(Sources, Chart), Exit>, Failure> {
-    let mut sources = Sources::default();
-    let file = sources.add(shell.disk().root(path)?);
-    let parse = syntax::parse_chart(file, &sources.file(file).text);
-    let (chart, faults) = ::chart::read(file, &parse);
-    shell.diagnostics(&sources, &faults)?;
-    if groundstate::has_errors(&faults) {
+    let mut disk = shell.disk();
+    let root = disk.root(path)?;
+    let ::chart::Loaded { sources, chart, diagnostics } = ::chart::load(root, &mut disk);
+    shell.diagnostics(&sources, &diagnostics)?;
+    if groundstate::has_errors(&diagnostics) {
         return Ok(Err(Exit::Model));
     }
     Ok(Ok((sources, chart)))

@@ -2,6 +2,8 @@
 //!
 //! In: the place, and what is there. Out: a diagnostic whose id is one of [`IDS`] and has a page `spec/faults/<id>.md`.
 
+pub(crate) mod import;
+
 use syntax::{Diagnostic, Span};
 
 /// The ids of all faults this crate reports, in alphabetical order.
@@ -10,6 +12,7 @@ pub const IDS: &[&str] = &[
     "channel-ends",
     "channel-master",
     "chart-differs",
+    "chart-import",
     "circular-path",
     "control-variable",
     "dead-end",
@@ -35,6 +38,13 @@ pub(crate) fn circular_path(span: Span, name: &str) -> Diagnostic {
     Diagnostic::error("circular-path", span, format!("the path comes back to `{name}` without a control state"))
         .because("all guards and actions of a path fire in one step, so this step would never end")
         .with_help("put a control state on the way")
+}
+
+/// A machine with an instance of itself.
+pub(crate) fn contains_itself(span: Span, over: &[String]) -> Diagnostic {
+    Diagnostic::error("circular-path", span, format!("the pattern contains itself: {}", over.join(" → ")))
+        .because("entering it would never end")
+        .with_help("lead a path back to a control state instead")
 }
 
 /// No control variable, or two.
@@ -246,6 +256,13 @@ pub(crate) fn made_name(span: Span, name: &str) -> Diagnostic {
     Diagnostic::error("made-name", span, format!("`{name}` cannot be the name of a function"))
         .because("a function of this name is made in the specification")
         .with_help("choose a name that starts with a small letter and is no keyword, or link it")
+}
+
+/// A control variable to be made that an import has already.
+pub(crate) fn made_already(span: Span, name: &str) -> Diagnostic {
+    Diagnostic::error("made-name", span, format!("an import declares `{name}` already"))
+        .because("a control variable of this name is made in the specification")
+        .with_help(format!("choose another name, or link it: `control {{{name}}}`"))
 }
 
 /// Two paths from one control state that may both be enabled and lead to different ones.
