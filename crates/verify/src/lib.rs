@@ -4,3 +4,4 @@
 //! crate decides which steps are made and what is kept of them. It must not know files, clocks or wire formats.
 
 pub mod graph;
+pub mod temporal;

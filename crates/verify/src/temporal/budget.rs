@@ -1,0 +1,72 @@
+//! How much may be spent on deciding a formula, and what ended it early.
+
+/// What ended a decision early.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Ended {
+    /// The caller said to stop.
+    Stopped,
+    /// A limit was reached.
+    Limit {
+        /// Of what, e.g. `states of the product`.
+        of: &'static str,
+        /// Its value.
+        value: u64,
+    },
+}
+
+/// Limits of a decision; the defaults keep it within a few gigabytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Limits {
+    /// States of the product of graph and automaton.
+    pub product_states: u64,
+    /// States of the automaton.
+    pub automaton_states: u64,
+    /// Ways to satisfy the obligations of one state of the automaton.
+    pub covers: u64,
+}
+
+impl Default for Limits {
+    fn default() -> Limits {
+        Limits { product_states: 200_000_000, automaton_states: 1_000_000, covers: 1_000_000 }
+    }
+}
+
+/// A running account: limits, and whether to stop.
+pub struct Budget<'a> {
+    /// The limits.
+    pub limits: Limits,
+    stop: &'a mut dyn FnMut() -> bool,
+    work: u32,
+}
+
+/// LIMIT: pieces of work between two questions whether to stop.
+const PIECES: u32 = 1 << 14;
+
+impl<'a> Budget<'a> {
+    /// A fresh account; `stop` is asked now and then.
+    pub fn new(limits: Limits, stop: &'a mut dyn FnMut() -> bool) -> Budget<'a> {
+        Budget { limits, stop, work: 0 }
+    }
+
+    /// Counts a piece of work.
+    ///
+    /// # Errors
+    /// [`Ended::Stopped`].
+    #[inline]
+    pub fn work(&mut self) -> Result<(), Ended> {
+        self.work += 1;
+        if self.work < PIECES {
+            return Ok(());
+        }
+        self.work = 0;
+        if (self.stop)() { Err(Ended::Stopped) } else { Ok(()) }
+    }
+
+    /// Holds a number against its limit.
+    ///
+    /// # Errors
+    /// [`Ended::Limit`].
+    pub fn within(&self, number: usize, limit: u64, of: &'static str) -> Result<(), Ended> {
+        if number as u64 > limit { Err(Ended::Limit { of, value: limit }) } else { Ok(()) }
+    }
+}

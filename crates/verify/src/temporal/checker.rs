@@ -1,0 +1,152 @@
+//! A graph under fairness: what every formula on it needs, computed once.
+
+use std::ops::ControlFlow;
+use std::rc::Rc;
+
+use crate::graph::{Bits, Graph, Predecessors, StateId};
+use crate::temporal::budget::{Budget, Ended};
+use crate::temporal::component::{Acceptance, Marks, accepting_components};
+use crate::temporal::fairness::{EdgeMarks, Fairness};
+use crate::temporal::search::Marked;
+
+/// The number of the first mark that stands for fairness; the marks before are a formula's own.
+const FIRST_MARK: usize = 64;
+
+/// Where something holds, and where it may hold.
+#[derive(Debug, Clone)]
+pub struct Truth {
+    /// It holds whatever the unexplored states lead to.
+    pub must: Rc<Bits>,
+    /// It holds for some continuation of the unexplored states. On a complete graph the same set.
+    pub may: Rc<Bits>,
+}
+
+/// Which of the two sets is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Side {
+    Must,
+    May,
+}
+
+impl Truth {
+    /// The same set for both.
+    pub(crate) fn known(set: Bits) -> Truth {
+        let set = Rc::new(set);
+        Truth { must: Rc::clone(&set), may: set }
+    }
+
+    pub(crate) fn side(&self, side: Side) -> &Bits {
+        match side {
+            Side::Must => &self.must,
+            Side::May => &self.may,
+        }
+    }
+}
+
+/// A graph, and the runs of it that count.
+#[derive(Debug)]
+pub struct Checker<'g> {
+    graph: &'g Graph,
+    pub(crate) predecessors: Predecessors,
+    acceptance: Acceptance,
+    marks: EdgeMarks,
+    fair: Truth,
+}
+
+impl<'g> Checker<'g> {
+    /// Prepares a graph.
+    ///
+    /// # Errors
+    /// Told to stop, or too many constraints.
+    pub fn new(graph: &'g Graph, fairness: &Fairness, budget: &mut Budget<'_>) -> Result<Checker<'g>, Ended> {
+        let most = 128 - FIRST_MARK;
+        budget.within(fairness.marks(), most as u64, "fairness constraints, a compassion counting twice")?;
+        let all = Truth::known(Bits::all(graph.states()));
+        let mut checker = Checker {
+            graph,
+            predecessors: graph.predecessors(),
+            acceptance: fairness.acceptance(FIRST_MARK),
+            marks: fairness.marks_of_edges(graph, FIRST_MARK),
+            fair: all.clone(),
+        };
+        if !fairness.is_empty() {
+            checker.fair = checker.both(|side| checker.staying(all.side(side), side, budget))?;
+        }
+        Ok(checker)
+    }
+
+    /// The graph.
+    pub fn graph(&self) -> &'g Graph {
+        self.graph
+    }
+
+    /// The states that a fair run starts in.
+    pub fn fair(&self) -> &Truth {
+        &self.fair
+    }
+
+    /// What a fair run meets.
+    pub fn acceptance(&self) -> &Acceptance {
+        &self.acceptance
+    }
+
+    /// The marks of the graph's edges, which fairness speaks of.
+    pub fn marks(&self) -> &EdgeMarks {
+        &self.marks
+    }
+
+    /// All marks that fairness may use.
+    pub(crate) fn all_marks(&self) -> Marks {
+        Marks::below(128).without(Marks::below(FIRST_MARK))
+    }
+
+    /// The graph with its marks.
+    pub(crate) fn edges(&self) -> Marked<'_, impl Fn(usize) -> Marks> {
+        Marked { graph: self.graph, marks: |edge| self.marks.of(edge) }
+    }
+
+    /// Computes both sets; on a complete graph one stands for both.
+    pub(crate) fn both(&self, mut compute: impl FnMut(Side) -> Result<Bits, Ended>) -> Result<Truth, Ended> {
+        let must = compute(Side::Must)?;
+        if self.graph.is_complete() {
+            return Ok(Truth::known(must));
+        }
+        Ok(Truth { must: Rc::new(must), may: Rc::new(compute(Side::May)?) })
+    }
+
+    /// The unexplored states, for the side on which anything may lie behind them.
+    pub(crate) fn open(&self, side: Side) -> Option<&Bits> {
+        (side == Side::May && !self.graph.is_complete()).then(|| self.graph.unexplored())
+    }
+
+    /// The states from which a fair run stays within a set for ever.
+    pub(crate) fn staying(&self, always: &Bits, side: Side, budget: &mut Budget<'_>) -> Result<Bits, Ended> {
+        let mut found = Bits::none(self.graph.states());
+        if let Some(open) = self.open(side) {
+            found.unite(open);
+            found.intersect(always);
+        }
+        accepting_components(&self.edges(), always, &self.acceptance, budget, |component| {
+            component.nodes.iter().for_each(|node| {
+                found.insert(*node);
+            });
+            ControlFlow::Continue(())
+        })?;
+        self.backward(&mut found, always, budget)?;
+        Ok(found)
+    }
+
+    /// Adds every state of `through` from which a path in it leads to the set.
+    pub(crate) fn backward(&self, set: &mut Bits, through: &Bits, budget: &mut Budget<'_>) -> Result<(), Ended> {
+        let mut open: Vec<StateId> = set.iter().collect();
+        while let Some(state) = open.pop() {
+            budget.work()?;
+            for before in self.predecessors.of(state) {
+                if through.contains(*before) && set.insert(*before) {
+                    open.push(*before);
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,77 @@
+//! Computation tree logic over an explored graph, with fairness.
+//!
+//! The states where a formula holds are computed for each part of it, smallest first: E U by going backward, E G by the
+//! components in which a fair run can stay (Clarke, Grumberg, Peled, section 4.1; Baier, Katoen, sections 6.4 and 6.5). Path
+//! quantifiers range over fair runs only. On a graph with unexplored states two sets are kept for each part: where it holds
+//! whatever lies behind them, and where it may hold (Bruns, Godefroid, *Model checking partial state spaces*, 1999).
+
+mod evidence;
+
+use std::rc::Rc;
+
+use crate::graph::Bits;
+use crate::temporal::budget::{Budget, Ended};
+use crate::temporal::checker::{Checker, Side, Truth};
+use crate::temporal::formula::{Ctl, CtlFormulas, FormulaId};
+
+pub use evidence::{Evidence, evidence_against};
+
+/// Where each formula of the table holds.
+///
+/// # Errors
+/// Told to stop.
+pub fn label(checker: &Checker<'_>, formulas: &CtlFormulas, budget: &mut Budget<'_>) -> Result<Vec<Truth>, Ended> {
+    let graph = checker.graph();
+    let mut truths: Vec<Truth> = Vec::with_capacity(formulas.nodes().len());
+    for node in formulas.nodes() {
+        let of = |formula: &FormulaId| &truths[formula.index()];
+        let truth = match node {
+            Ctl::Constant(true) => Truth::known(Bits::all(graph.states())),
+            Ctl::Constant(false) => Truth::known(Bits::none(graph.states())),
+            Ctl::Proposition(number) => Truth::known(graph.proposition(*number as usize).clone()),
+            Ctl::Not(p) if graph.is_complete() => Truth::known(of(p).must.complement()),
+            Ctl::Not(p) => Truth { must: Rc::new(of(p).may.complement()), may: Rc::new(of(p).must.complement()) },
+            Ctl::And(p, q) => checker.both(|side| Ok(intersection(of(p).side(side), of(q).side(side))))?,
+            Ctl::ExistsNext(p) => checker.both(|side| next(checker, of(p).side(side), side, budget))?,
+            Ctl::ExistsUntil(p, q) => {
+                checker.both(|side| until(checker, of(p).side(side), of(q).side(side), side, budget))?
+            }
+            Ctl::ExistsGlobally(p) => checker.both(|side| checker.staying(of(p).side(side), side, budget))?,
+        };
+        truths.push(truth);
+    }
+    Ok(truths)
+}
+
+fn next(checker: &Checker<'_>, goal: &Bits, side: Side, budget: &mut Budget<'_>) -> Result<Bits, Ended> {
+    let goal = intersection(goal, checker.fair().side(side));
+    let mut found = checker.open(side).map_or_else(|| Bits::none(checker.graph().states()), Bits::clone);
+    for state in goal.iter() {
+        budget.work()?;
+        checker.predecessors.of(state).iter().for_each(|before| {
+            found.insert(*before);
+        });
+    }
+    Ok(found)
+}
+
+fn until(
+    checker: &Checker<'_>,
+    through: &Bits,
+    goal: &Bits,
+    side: Side,
+    budget: &mut Budget<'_>,
+) -> Result<Bits, Ended> {
+    let mut found = intersection(goal, checker.fair().side(side));
+    if let Some(open) = checker.open(side) {
+        found.unite(&intersection(open, through));
+    }
+    checker.backward(&mut found, through, budget)?;
+    Ok(found)
+}
+
+fn intersection(left: &Bits, right: &Bits) -> Bits {
+    let mut both = left.clone();
+    both.intersect(right);
+    both
+}

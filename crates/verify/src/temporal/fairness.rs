@@ -1,0 +1,153 @@
+//! Fairness: which infinite runs count.
+//!
+//! Justice (weak fairness): something comes up again and again. Compassion (strong fairness): if one thing comes up again
+//! and again, so does another (Manna, Pnueli, *The Temporal Logic of Reactive and Concurrent Systems*, 1992). All are sets
+//! of edges; a set of states is the set of edges that leave them. A run that has an edge in a set infinitely often meets
+//! it again and again.
+
+use crate::graph::{Bits, Graph, Label};
+use crate::temporal::component::{Acceptance, Marks};
+
+/// The constraints; a run is fair if it keeps all.
+#[derive(Debug, Clone, Default)]
+pub struct Fairness {
+    justice: Vec<Bits>,
+    compassion: Vec<(Bits, Bits)>,
+}
+
+/// How fair the scheduling of agents is taken to be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AgentFairness {
+    /// An agent that stays able to move from some time on moves again and again.
+    Weak,
+    /// An agent that is able to move again and again moves again and again.
+    Strong,
+}
+
+/// LIMIT: constraints of one property, a compassion counting twice.
+pub const MOST_MARKS: usize = 64;
+
+impl Fairness {
+    /// No constraint: every run is fair.
+    pub fn none() -> Fairness {
+        Fairness::default()
+    }
+
+    /// Whether every run is fair.
+    pub fn is_empty(&self) -> bool {
+        self.justice.is_empty() && self.compassion.is_empty()
+    }
+
+    /// How many marks it takes to tell the constraints apart.
+    pub fn marks(&self) -> usize {
+        self.justice.len() + 2 * self.compassion.len()
+    }
+
+    /// One of these states comes up again and again.
+    pub fn add_justice(&mut self, graph: &Graph, states: &Bits) {
+        self.justice.push(leaving(graph, states));
+    }
+
+    /// If one of the first states comes up again and again, so does one of the second.
+    pub fn add_compassion(&mut self, graph: &Graph, premise: &Bits, conclusion: &Bits) {
+        self.compassion.push((leaving(graph, premise), leaving(graph, conclusion)));
+    }
+
+    /// An agent moves again and again if it can: `moves` says whether an edge is a step of it that changes something.
+    /// In a state without such an edge it cannot move.
+    pub fn add_agent(&mut self, graph: &Graph, fairness: AgentFairness, moves: impl Fn(usize, Label) -> bool) {
+        let mut taken = Bits::none(graph.edges());
+        let mut enabled = Bits::none(graph.states());
+        for state in 0..graph.states() as u32 {
+            for edge in graph.edges_of(state) {
+                if moves(edge, graph.label(edge)) {
+                    taken.insert(edge as u32);
+                    enabled.insert(state);
+                }
+            }
+        }
+        match fairness {
+            AgentFairness::Weak => {
+                taken.unite(&leaving(graph, &enabled.complement()));
+                self.justice.push(taken);
+            }
+            AgentFairness::Strong => self.compassion.push((leaving(graph, &enabled), taken)),
+        }
+    }
+
+    /// What an infinite run must do with the marks that [`Fairness::marks_of_edges`] gives, the first being `from`.
+    pub fn acceptance(&self, from: usize) -> Acceptance {
+        let mut acceptance = Acceptance::default();
+        for index in 0..self.justice.len() {
+            acceptance.again |= Marks::one(from + index);
+        }
+        let from = from + self.justice.len();
+        let pairs =
+            (0..self.compassion.len()).map(|pair| (Marks::one(from + 2 * pair), Marks::one(from + 2 * pair + 1)));
+        acceptance.pairs.extend(pairs);
+        acceptance
+    }
+
+    /// The marks of each edge, the first constraint's being number `from`.
+    pub fn marks_of_edges(&self, graph: &Graph, from: usize) -> EdgeMarks {
+        if self.is_empty() {
+            return EdgeMarks::default();
+        }
+        let pairs = self.compassion.iter().flat_map(|(premise, conclusion)| [premise, conclusion]);
+        let sets: Vec<&Bits> = self.justice.iter().chain(pairs).collect();
+        let mut classes = Vec::with_capacity(graph.edges());
+        let mut marks: Vec<Marks> = Vec::new();
+        let mut known = std::collections::BTreeMap::new();
+        for edge in 0..graph.edges() as u32 {
+            let mut own = Marks::NONE;
+            for (index, set) in sets.iter().enumerate() {
+                if set.contains(edge) {
+                    own |= Marks::one(from + index);
+                }
+            }
+            classes.push(*known.entry(own).or_insert_with(|| {
+                marks.push(own);
+                marks.len() as u32 - 1
+            }));
+        }
+        EdgeMarks { classes, marks }
+    }
+}
+
+/// The edges that leave states of a set.
+fn leaving(graph: &Graph, states: &Bits) -> Bits {
+    let mut edges = Bits::none(graph.edges());
+    for state in states.iter() {
+        graph.edges_of(state).for_each(|edge| {
+            edges.insert(edge as u32);
+        });
+    }
+    edges
+}
+
+/// The marks of a graph's edges; edges with the same marks are of one class.
+#[derive(Debug, Clone, Default)]
+pub struct EdgeMarks {
+    /// By edge; empty where no edge is marked.
+    classes: Vec<u32>,
+    marks: Vec<Marks>,
+}
+
+impl EdgeMarks {
+    /// The class of an edge.
+    #[inline]
+    pub fn class(&self, edge: usize) -> u32 {
+        self.classes.get(edge).copied().unwrap_or(0)
+    }
+
+    /// The marks of a class.
+    pub fn of_class(&self, class: u32) -> Marks {
+        self.marks.get(class as usize).copied().unwrap_or(Marks::NONE)
+    }
+
+    /// The marks of an edge.
+    #[inline]
+    pub fn of(&self, edge: usize) -> Marks {
+        self.of_class(self.class(edge))
+    }
+}

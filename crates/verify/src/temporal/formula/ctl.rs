@@ -1,0 +1,241 @@
+//! Formulas of computation tree logic: EX, EU, EG, and the others made from them.
+//!
+//! The weak operators and the patterns are those that the comments of the public library give, after Dwyer, Avrunin,
+//! Corbett, *Patterns in property specifications*, 1999.
+
+use program::TemporalOperator;
+
+use super::{Arena, FormulaId, Logic};
+
+/// A formula over formulas of the same table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Ctl {
+    /// True or false.
+    Constant(bool),
+    /// A proposition.
+    Proposition(u32),
+    /// Not.
+    Not(FormulaId),
+    /// Both.
+    And(FormulaId, FormulaId),
+    /// On some path in the next state.
+    ExistsNext(FormulaId),
+    /// On some path the second some time, the first until then.
+    ExistsUntil(FormulaId, FormulaId),
+    /// On some path always.
+    ExistsGlobally(FormulaId),
+}
+
+/// A table of formulas of computation tree logic.
+#[derive(Debug, Clone, Default)]
+pub struct CtlFormulas {
+    arena: Arena<Ctl>,
+}
+
+impl CtlFormulas {
+    /// The formula of a number.
+    pub fn node(&self, id: FormulaId) -> Ctl {
+        self.arena.node(id)
+    }
+
+    /// All formulas, parts before wholes.
+    pub fn nodes(&self) -> &[Ctl] {
+        self.arena.nodes()
+    }
+
+    fn constant_of(&self, id: FormulaId) -> Option<bool> {
+        match self.node(id) {
+            Ctl::Constant(truth) => Some(truth),
+            _ => None,
+        }
+    }
+
+    /// On some path in the next state. A constant is one because every state has a successor; under fairness a state may
+    /// be on no fair path, so even EX true is no constant.
+    pub fn exists_next(&mut self, formula: FormulaId) -> FormulaId {
+        match self.constant_of(formula) {
+            Some(false) => formula,
+            _ => self.arena.add(Ctl::ExistsNext(formula)),
+        }
+    }
+
+    /// On some path the right some time, the left until then.
+    pub fn exists_until(&mut self, left: FormulaId, right: FormulaId) -> FormulaId {
+        match self.constant_of(right) {
+            Some(false) => right,
+            _ => self.arena.add(Ctl::ExistsUntil(left, right)),
+        }
+    }
+
+    /// On some path always.
+    pub fn exists_globally(&mut self, formula: FormulaId) -> FormulaId {
+        match self.constant_of(formula) {
+            Some(false) => formula,
+            _ => self.arena.add(Ctl::ExistsGlobally(formula)),
+        }
+    }
+
+    /// On some path some time.
+    pub fn exists_finally(&mut self, formula: FormulaId) -> FormulaId {
+        let always = self.constant(true);
+        self.exists_until(always, formula)
+    }
+
+    /// On all paths in the next state.
+    pub fn all_next(&mut self, formula: FormulaId) -> FormulaId {
+        let not = self.not(formula);
+        let some = self.exists_next(not);
+        self.not(some)
+    }
+
+    /// On all paths some time.
+    pub fn all_finally(&mut self, formula: FormulaId) -> FormulaId {
+        let not = self.not(formula);
+        let never = self.exists_globally(not);
+        self.not(never)
+    }
+
+    /// On all paths always.
+    pub fn all_globally(&mut self, formula: FormulaId) -> FormulaId {
+        let not = self.not(formula);
+        let some = self.exists_finally(not);
+        self.not(some)
+    }
+
+    /// On all paths: the left until the right, or the left always: ¬E[¬right U ¬(left ∨ right)].
+    pub fn all_weak_until(&mut self, left: FormulaId, right: FormulaId) -> FormulaId {
+        let either = self.or(left, right);
+        let (neither, open) = (self.not(either), self.not(right));
+        let broken = self.exists_until(open, neither);
+        self.not(broken)
+    }
+
+    /// On all paths the right some time, the left until then.
+    pub fn all_until(&mut self, left: FormulaId, right: FormulaId) -> FormulaId {
+        let (weak, happens) = (self.all_weak_until(left, right), self.all_finally(right));
+        self.and(weak, happens)
+    }
+
+    /// On some path: the left until the right, or the left always.
+    pub fn exists_weak_until(&mut self, left: FormulaId, right: FormulaId) -> FormulaId {
+        let (until, always) = (self.exists_until(left, right), self.exists_globally(left));
+        self.or(until, always)
+    }
+
+    /// `formula`, or `end` never again.
+    fn or_never(&mut self, formula: FormulaId, end: FormulaId) -> FormulaId {
+        let no_end = self.not(end);
+        let never = self.all_globally(no_end);
+        self.or(formula, never)
+    }
+
+    /// Whenever `begin` and not `end`: `then`.
+    fn whenever_open(&mut self, begin: FormulaId, end: FormulaId, then: FormulaId) -> FormulaId {
+        let no_end = self.not(end);
+        let open = self.and(begin, no_end);
+        let holds = self.implies(open, then);
+        self.all_globally(holds)
+    }
+}
+
+impl Logic for CtlFormulas {
+    fn constant(&mut self, truth: bool) -> FormulaId {
+        self.arena.add(Ctl::Constant(truth))
+    }
+
+    fn proposition(&mut self, number: u32) -> FormulaId {
+        self.arena.add(Ctl::Proposition(number))
+    }
+
+    fn not(&mut self, formula: FormulaId) -> FormulaId {
+        match self.node(formula) {
+            Ctl::Constant(truth) => self.constant(!truth),
+            Ctl::Not(inner) => inner,
+            _ => self.arena.add(Ctl::Not(formula)),
+        }
+    }
+
+    fn and(&mut self, left: FormulaId, right: FormulaId) -> FormulaId {
+        match (self.constant_of(left), self.constant_of(right)) {
+            (Some(true), _) => right,
+            (_, Some(true)) => left,
+            (Some(false), _) => left,
+            (_, Some(false)) => right,
+            _ if left == right => left,
+            _ => self.arena.add(Ctl::And(left.min(right), left.max(right))),
+        }
+    }
+
+    fn operator(&mut self, operator: TemporalOperator, formulas: &[FormulaId]) -> Option<FormulaId> {
+        use TemporalOperator::*;
+        Some(match (operator, formulas) {
+            (Ex, [p]) => self.exists_next(*p),
+            (Ef, [p]) => self.exists_finally(*p),
+            (Eg, [p]) => self.exists_globally(*p),
+            (Eu, [p, q]) => self.exists_until(*p, *q),
+            (Ew, [p, q]) => self.exists_weak_until(*p, *q),
+            (Ax, [p]) => self.all_next(*p),
+            (Af, [p]) => self.all_finally(*p),
+            (Ag, [p]) => self.all_globally(*p),
+            (Au, [p, q]) => self.all_until(*p, *q),
+            (Aw, [p, q]) => self.all_weak_until(*p, *q),
+            (AbsenceGlobally, [p]) => {
+                let absent = self.not(*p);
+                self.all_globally(absent)
+            }
+            (AbsenceBefore, [p, r]) => {
+                let absent = self.not(*p);
+                let excused = self.or_never(absent, *r);
+                self.all_weak_until(excused, *r)
+            }
+            (AbsenceAfter, [p, q]) => {
+                let absent = self.not(*p);
+                let for_ever = self.all_globally(absent);
+                let after = self.implies(*q, for_ever);
+                self.all_globally(after)
+            }
+            (AbsenceBetween, [p, q, r]) => {
+                let absent = self.not(*p);
+                let excused = self.or_never(absent, *r);
+                let then = self.all_weak_until(excused, *r);
+                self.whenever_open(*q, *r, then)
+            }
+            (AbsenceAfterUntil, [p, q, r]) => {
+                let absent = self.not(*p);
+                let then = self.all_weak_until(absent, *r);
+                self.whenever_open(*q, *r, then)
+            }
+            (Precedence, [p, s]) => {
+                let absent = self.not(*p);
+                self.all_weak_until(absent, *s)
+            }
+            (PrecedenceBefore, [p, s, r]) => {
+                let absent = self.not(*p);
+                let excused = self.or_never(absent, *r);
+                let end = self.or(*s, *r);
+                self.all_weak_until(excused, end)
+            }
+            _ => return None,
+        })
+    }
+
+    fn after_steps(&mut self, operator: TemporalOperator, formula: FormulaId, steps: u64) -> Option<FormulaId> {
+        let mut formula = formula;
+        for _ in 0..steps {
+            let after = match operator {
+                TemporalOperator::ExN => self.exists_next(formula),
+                TemporalOperator::AxN => self.all_next(formula),
+                _ => return None,
+            };
+            if after == formula {
+                break;
+            }
+            formula = after;
+        }
+        matches!(operator, TemporalOperator::ExN | TemporalOperator::AxN).then_some(formula)
+    }
+
+    fn size(&self) -> usize {
+        self.arena.nodes().len()
+    }
+}

@@ -1,0 +1,109 @@
+//! A short accepted lasso: a stem from a start, and a turn that goes on for ever.
+//!
+//! In: edges, where a run may go, what it must meet. Out: edges of stem and turn. The stem to each node is shortest; the
+//! nearest nodes of each accepting component are tried as the place where the turn begins, and the shortest lasso wins.
+
+use std::ops::ControlFlow;
+
+use crate::graph::Bits;
+use crate::temporal::budget::{Budget, Ended};
+use crate::temporal::component::{Acceptance, Component, Edges, accepting_components};
+use crate::temporal::search::{Finder, turn};
+
+/// LIMIT: how many places of a component are tried, and how many nodes may be visited for trying more than the first.
+const PLACES: usize = 64;
+const EFFORT: u64 = 4_000_000;
+
+/// The edges of a lasso.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Lasso {
+    /// The node it starts with.
+    pub start: u32,
+    /// From there to the turn.
+    pub stem: Vec<usize>,
+    /// At least one edge.
+    pub turn: Vec<usize>,
+}
+
+/// A short accepted lasso that starts in one of the nodes and stays within a set; none if there is no accepted one.
+///
+/// # Errors
+/// Told to stop.
+pub fn accepted_lasso(
+    edges: &impl Edges,
+    starts: &[u32],
+    within: &Bits,
+    acceptance: &Acceptance,
+    budget: &mut Budget<'_>,
+) -> Result<Option<Lasso>, Ended> {
+    let starts: Vec<u32> = starts.iter().copied().filter(|start| within.contains(*start)).collect();
+    let Reached { set, distance } = reach(edges, &starts, within, budget)?;
+    let mut components = Vec::new();
+    accepting_components(edges, &set, acceptance, budget, |component| {
+        components.push(component);
+        ControlFlow::Continue(())
+    })?;
+    let mut finder = Finder::new(edges);
+    let Some((node, turn)) = shortest(&mut finder, &components, &distance, acceptance, budget)? else {
+        return Ok(None);
+    };
+    if starts.contains(&node) {
+        return Ok(Some(Lasso { start: node, stem: Vec::new(), turn }));
+    }
+    let found = finder.path(&starts, budget, |_, target| within.contains(target), |_, target| target == node)?;
+    let (start, stem) = found.expect("the node was reached");
+    Ok(Some(Lasso { start, stem, turn }))
+}
+
+fn shortest<E: Edges>(
+    finder: &mut Finder<'_, E>,
+    components: &[Component],
+    distance: &[u32],
+    acceptance: &Acceptance,
+    budget: &mut Budget<'_>,
+) -> Result<Option<(u32, Vec<usize>)>, Ended> {
+    let mut places: Vec<(u32, usize, u32)> = Vec::new();
+    for (index, component) in components.iter().enumerate() {
+        let mut nodes: Vec<(u32, u32)> = component.nodes.iter().map(|node| (distance[*node as usize], *node)).collect();
+        nodes.sort_unstable();
+        places.extend(nodes.iter().take(PLACES).map(|(distance, node)| (*distance, index, *node)));
+    }
+    places.sort_unstable();
+    let mut best: Option<(usize, u32, Vec<usize>)> = None;
+    for (distance, index, node) in places {
+        if best.as_ref().is_some_and(|(length, ..)| finder.work > EFFORT || distance as usize + 1 >= *length) {
+            break;
+        }
+        let turn = turn(finder, &components[index], acceptance, node, budget)?;
+        let length = distance as usize + turn.len();
+        if best.as_ref().is_none_or(|(shortest, ..)| length < *shortest) {
+            best = Some((length, node, turn));
+        }
+    }
+    Ok(best.map(|(_, node, turn)| (node, turn)))
+}
+
+struct Reached {
+    set: Bits,
+    /// By node; meaningless for one that was not reached.
+    distance: Vec<u32>,
+}
+
+fn reach(edges: &impl Edges, starts: &[u32], within: &Bits, budget: &mut Budget<'_>) -> Result<Reached, Ended> {
+    let mut set = Bits::none(edges.nodes());
+    let mut distance = vec![0; edges.nodes()];
+    let mut queue: Vec<u32> = starts.iter().copied().filter(|start| set.insert(*start)).collect();
+    let mut next = 0;
+    while let Some(node) = queue.get(next).copied() {
+        next += 1;
+        budget.work()?;
+        for edge in edges.edges_of(node) {
+            let target = edges.target(edge);
+            if within.contains(target) && set.insert(target) {
+                distance[target as usize] = distance[node as usize] + 1;
+                queue.push(target);
+            }
+        }
+    }
+    Ok(Reached { set, distance })
+}

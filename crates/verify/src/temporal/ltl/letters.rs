@@ -1,0 +1,61 @@
+//! Letters: which of a formula's propositions hold in a state, as a number that is the same where the same ones hold.
+
+use hashbrown::HashMap;
+use rustc_hash::FxBuildHasher;
+
+use crate::graph::{Bits, Graph, StateId};
+use crate::temporal::budget::{Budget, Ended};
+
+/// The letter of each state.
+#[derive(Debug)]
+pub struct Letters {
+    /// By state.
+    letters: Vec<u32>,
+    /// By letter, one bit a proposition in the order of `propositions`.
+    held: Vec<Vec<u64>>,
+    /// The propositions of the formula, ascending.
+    propositions: Vec<u32>,
+}
+
+impl Letters {
+    /// The letters over these propositions of a graph, ascending.
+    ///
+    /// # Errors
+    /// Told to stop.
+    pub fn of(graph: &Graph, propositions: Vec<u32>, budget: &mut Budget<'_>) -> Result<Letters, Ended> {
+        let columns: Vec<&Bits> = propositions.iter().map(|number| graph.proposition(*number as usize)).collect();
+        let mut known: HashMap<Vec<u64>, u32, FxBuildHasher> = HashMap::default();
+        let mut held = Vec::new();
+        let mut letters = Vec::with_capacity(graph.states());
+        let mut row = vec![0u64; columns.len().div_ceil(64)];
+        for state in 0..graph.states() as StateId {
+            budget.work()?;
+            row.fill(0);
+            for (index, column) in columns.iter().enumerate() {
+                row[index / 64] |= u64::from(column.contains(state)) << (index % 64);
+            }
+            let letter = known.get(&row).copied().unwrap_or_else(|| {
+                let letter = held.len() as u32;
+                held.push(row.clone());
+                known.insert(row.clone(), letter);
+                letter
+            });
+            letters.push(letter);
+        }
+        Ok(Letters { letters, held, propositions })
+    }
+
+    /// The letter of a state.
+    pub fn at(&self, state: StateId) -> u32 {
+        self.letters[state as usize]
+    }
+
+    /// Whether a proposition holds where a letter stands.
+    ///
+    /// # Panics
+    /// A proposition that is none of the formula's.
+    pub fn holds(&self, letter: u32, proposition: u32) -> bool {
+        let index = self.propositions.binary_search(&proposition).expect("a proposition of the formula");
+        self.held[letter as usize][index / 64] >> (index % 64) & 1 == 1
+    }
+}

@@ -1,0 +1,81 @@
+//! The truth of a formula on one lasso, straight from the definition.
+//!
+//! In: a formula, which propositions hold where on the lasso. Out: whether it holds at the beginning. It shares nothing with
+//! the automaton, and is what every counterexample is held against before it is shown. A formula that nests past operators d
+//! deep has settled after d turns (Benedetti, Cimatti, *Bounded model checking for past LTL*, 2003), so the loop is written
+//! out d + 1 times, and the last of them goes round.
+
+use crate::temporal::formula::{FormulaId, Ltl, LtlFormulas};
+
+/// Whether a formula holds at the beginning of a lasso of `length` states whose last one is followed by number `turn`;
+/// `holds` tells of a proposition and a state.
+pub fn holds_on_lasso(
+    formulas: &LtlFormulas,
+    root: FormulaId,
+    length: usize,
+    turn: usize,
+    holds: impl Fn(u32, usize) -> bool,
+) -> bool {
+    let nodes = &formulas.nodes()[..=root.index()];
+    let around = length - turn;
+    let copies = past_depth(nodes)[root.index()] + 1;
+    let positions = length + (copies - 1) * around;
+    let last_turn = positions - around;
+    let place = |position: usize| if position < length { position } else { turn + (position - turn) % around };
+    let mut needed = vec![false; nodes.len()];
+    needed[root.index()] = true;
+    for index in (0..nodes.len()).rev().filter(|index| *index <= root.index()) {
+        if needed[index] {
+            nodes[index].parts().for_each(|part| needed[part.index()] = true);
+        }
+    }
+    let mut truths: Vec<Vec<bool>> = Vec::with_capacity(nodes.len());
+    for (index, node) in nodes.iter().enumerate() {
+        let of = |formula: &FormulaId| &truths[formula.index()];
+        let truth = match node {
+            _ if !needed[index] => Vec::new(),
+            Ltl::Constant(truth) => vec![*truth; positions],
+            Ltl::Proposition(number) => (0..positions).map(|position| holds(*number, place(position))).collect(),
+            Ltl::Not(p) => of(p).iter().map(|truth| !truth).collect(),
+            Ltl::And(p, q) => of(p).iter().zip(of(q)).map(|(p, q)| *p && *q).collect(),
+            Ltl::Next(p) => (0..positions).map(|i| of(p)[if i + 1 < positions { i + 1 } else { last_turn }]).collect(),
+            Ltl::Until(p, q) => until(of(p), of(q), last_turn),
+            Ltl::Previous(p) => (0..positions).map(|i| i > 0 && of(p)[i - 1]).collect(),
+            Ltl::Since(p, q) => {
+                let mut since = false;
+                let mut next = |(p, q): (&bool, &bool)| {
+                    since = *q || (*p && since);
+                    since
+                };
+                of(p).iter().zip(of(q)).map(&mut next).collect()
+            }
+        };
+        truths.push(truth);
+    }
+    truths[root.index()][0]
+}
+
+/// By position: some position from it on has q, and all before that one have p. From any position of the last turn the run
+/// goes round once; what does not come up by then never does.
+fn until(p: &[bool], q: &[bool], last_turn: usize) -> Vec<bool> {
+    let mut truth = vec![false; p.len()];
+    let mut after = false;
+    for position in (last_turn..p.len()).rev() {
+        after = q[position] || (p[position] && after);
+    }
+    for position in (0..p.len()).rev() {
+        after = q[position] || (p[position] && after);
+        truth[position] = after;
+    }
+    truth
+}
+
+/// By formula: how deep past operators nest in it.
+fn past_depth(nodes: &[Ltl]) -> Vec<usize> {
+    let mut depth: Vec<usize> = Vec::with_capacity(nodes.len());
+    for node in nodes {
+        let parts = node.parts().map(|part| depth[part.index()]).max().unwrap_or(0);
+        depth.push(parts + usize::from(matches!(node, Ltl::Previous(_) | Ltl::Since(..))));
+    }
+    depth
+}

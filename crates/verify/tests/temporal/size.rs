@@ -1,0 +1,124 @@
+//! Formulas of unusual size: decided, or ended by a limit that is named.
+
+use verify::graph::{Builder, Graph, Label};
+use verify::temporal::Verdict;
+use verify::temporal::budget::{Budget, Ended, Limits};
+use verify::temporal::checker::Checker;
+use verify::temporal::fairness::Fairness;
+use verify::temporal::formula::{CtlFormulas, FormulaId, Logic, LtlFormulas};
+use verify::temporal::{decide_ctl, decide_ltl};
+
+/// A ring: in state i proposition i holds alone.
+fn ring(states: usize) -> Graph {
+    let mut builder = Builder::new(states);
+    builder.initial();
+    for state in 0..states {
+        builder.edge(((state + 1) % states) as u32, Label(0));
+        builder.state((0..states).map(|number| number == state));
+    }
+    builder.finish()
+}
+
+fn linear(graph: &Graph, limits: Limits, formulas: &LtlFormulas, root: FormulaId) -> Verdict {
+    let mut go_on = || false;
+    let mut budget = Budget::new(limits, &mut go_on);
+    let checker = Checker::new(graph, &Fairness::none(), &mut budget).unwrap();
+    decide_ltl(&checker, formulas, root, &mut budget)
+}
+
+#[test]
+fn deep_nesting_costs_no_stack() {
+    let graph = ring(3);
+    let mut formulas = LtlFormulas::default();
+    let mut formula = formulas.proposition(1);
+    for _ in 0..100_000 {
+        formula = formulas.next(formula);
+    }
+    // Position 100 000 is state 1 of the ring.
+    assert_eq!(linear(&graph, Limits::default(), &formulas, formula), Verdict::Holds { vacuous: false });
+    let mut formulas = CtlFormulas::default();
+    let mut formula = formulas.proposition(1);
+    for _ in 0..100_000 {
+        formula = formulas.all_next(formula);
+    }
+    let mut go_on = || false;
+    let mut budget = Budget::new(Limits::default(), &mut go_on);
+    let checker = Checker::new(&graph, &Fairness::none(), &mut budget).unwrap();
+    let verdict = decide_ctl(&checker, &formulas, formula, &mut budget);
+    assert_eq!(verdict, Verdict::Holds { vacuous: false });
+}
+
+#[test]
+fn twenty_untils_that_happen_in_turn_are_decided() {
+    let graph = ring(20);
+    let mut formulas = LtlFormulas::default();
+    let mut all = formulas.constant(true);
+    for number in 0..20 {
+        let proposition = formulas.proposition(number);
+        let some_time = formulas.finally(proposition);
+        let again = formulas.globally(some_time);
+        all = formulas.and(all, again);
+    }
+    assert_eq!(linear(&graph, Limits::default(), &formulas, all), Verdict::Holds { vacuous: false });
+    let none = formulas.not(all);
+    assert!(matches!(linear(&graph, Limits::default(), &formulas, none), Verdict::Violated { .. }));
+}
+
+/// A state that goes on in itself; all of so many propositions hold.
+fn point(propositions: usize) -> Graph {
+    let mut builder = Builder::new(propositions);
+    builder.initial();
+    builder.state(vec![true; propositions]);
+    builder.finish()
+}
+
+/// Fails where one of twenty untils does: each can be fulfilled now or be put off.
+fn many_obligations(formulas: &mut LtlFormulas) -> FormulaId {
+    let mut all = formulas.constant(true);
+    for number in 0..20 {
+        let proposition = formulas.proposition(number);
+        let next = formulas.next(proposition);
+        let until = formulas.until(proposition, next);
+        all = formulas.and(all, until);
+    }
+    formulas.not(all)
+}
+
+#[test]
+fn too_many_obligations_end_at_a_limit_that_is_named() {
+    let graph = point(20);
+    let mut formulas = LtlFormulas::default();
+    let formula = many_obligations(&mut formulas);
+    let limits = Limits { covers: 1000, ..Limits::default() };
+    let verdict = linear(&graph, limits, &formulas, formula);
+    let of = "ways to satisfy a formula in one state";
+    assert_eq!(verdict, Verdict::Ended(Ended::Limit { of, value: 1000 }));
+    let mut formulas = LtlFormulas::default();
+    let mut all = formulas.constant(true);
+    let mut left = formulas.proposition(0);
+    for number in 0..70 {
+        let right = formulas.proposition(number % 20);
+        let next = formulas.next(left);
+        left = formulas.until(next, right);
+        all = formulas.and(all, left);
+    }
+    let all = formulas.not(all);
+    let verdict = linear(&graph, Limits::default(), &formulas, all);
+    assert_eq!(verdict, Verdict::Ended(Ended::Limit { of: "untils in a formula", value: 64 }));
+}
+
+#[test]
+fn a_decision_can_be_stopped() {
+    let graph = point(20);
+    let mut formulas = LtlFormulas::default();
+    let formula = many_obligations(&mut formulas);
+    let limits = Limits { covers: u64::MAX, ..Limits::default() };
+    let mut questions = 0;
+    let mut stop = || {
+        questions += 1;
+        questions > 3
+    };
+    let mut budget = Budget::new(limits, &mut stop);
+    let checker = Checker::new(&graph, &Fairness::none(), &mut budget).unwrap();
+    assert_eq!(decide_ltl(&checker, &formulas, formula, &mut budget), Verdict::Ended(Ended::Stopped));
+}
