@@ -3,6 +3,8 @@
 //! In: a machine without errors, and its chart. Out: one [`Transition`] for each way from a control state, from the
 //! entering arrow or from a block that has been left, over guards and actions to where the step ends.
 
+use syntax::Span;
+
 use crate::chart::{Chart, End, Machine, ShapeId, ShapeKind};
 
 /// Where a transition starts.
@@ -38,6 +40,8 @@ pub struct Transition {
     pub actions: Vec<ShapeId>,
     /// Where it ends.
     pub target: Target,
+    /// Its last stop in the text.
+    pub span: Span,
 }
 
 /// LIMIT: the most transitions of one machine that are looked at; paths that split and join again double each time.
@@ -52,51 +56,53 @@ pub fn transitions(chart: &Chart, machine: &Machine) -> Vec<Transition> {
             Origin::State(id) | Origin::Left(id) => End::Shape(id),
         };
         for arrow in machine.out_of(start) {
-            let mut open = vec![(arrow.to, Vec::new(), Vec::new())];
-            while let Some((end, guards, actions)) = open.pop() {
+            let mut open = vec![(arrow.to, arrow.span, Vec::new(), Vec::new())];
+            while let Some((end, span, guards, actions)) = open.pop() {
                 if found.len() >= MAX_TRANSITIONS {
                     return found;
                 }
-                follow(chart, machine, origin, (end, guards, actions), &mut open, &mut found);
+                follow(chart, machine, origin, (end, span, guards, actions), &mut open, &mut found);
             }
         }
     }
     found
 }
 
-type Way = (End, Vec<(ShapeId, bool)>, Vec<ShapeId>);
+type Way = (End, Span, Vec<(ShapeId, bool)>, Vec<ShapeId>);
 
 fn follow(
     chart: &Chart,
     machine: &Machine,
     origin: Origin,
-    (end, guards, actions): Way,
+    (end, span, guards, actions): Way,
     open: &mut Vec<Way>,
     found: &mut Vec<Transition>,
 ) {
     let id = match end {
         End::Shape(id) => id,
-        End::Exit => return found.push(Transition { origin, guards, actions, target: Target::Exit }),
+        End::Exit => return found.push(Transition { origin, guards, actions, target: Target::Exit, span }),
         End::Enter => return,
     };
     match machine.shape(id).kind {
-        ShapeKind::State { .. } => found.push(Transition { origin, guards, actions, target: Target::State(id) }),
+        ShapeKind::State { .. } => found.push(Transition { origin, guards, actions, target: Target::State(id), span }),
         ShapeKind::Instance(_) if is_block(chart, machine, id) => {
-            found.push(Transition { origin, guards, actions, target: Target::Block(id) });
+            found.push(Transition { origin, guards, actions, target: Target::Block(id), span });
         }
         ShapeKind::Guard => {
             for branch in [false, true] {
                 if let Some(arrow) = machine.branch(id, branch) {
                     let mut guards = guards.clone();
                     guards.push((id, branch));
-                    open.push((arrow.to, guards, actions.clone()));
+                    open.push((arrow.to, arrow.span, guards, actions.clone()));
                 }
             }
         }
         ShapeKind::Action | ShapeKind::Instance(_) => {
             let mut actions = actions;
             actions.push(id);
-            open.extend(machine.out_of(end).take(1).map(|arrow| (arrow.to, guards.clone(), actions.clone())));
+            open.extend(
+                machine.out_of(end).take(1).map(|arrow| (arrow.to, arrow.span, guards.clone(), actions.clone())),
+            );
         }
     }
 }

@@ -36,6 +36,12 @@ fn chart(text: &str) -> (Chart, Vec<Diagnostic>) {
 /// There is nothing but the built-in libraries.
 struct Nothing;
 
+impl smt::Solver for Nothing {
+    fn solve(&mut self, _: &str) -> Result<String, String> {
+        Err("no solver is there".to_string())
+    }
+}
+
 impl Loader for Nothing {
     fn load(&mut self, _: &SourceFile, path: &str) -> Result<SourceFile, String> {
         Err(format!("there is no file {path}"))
@@ -76,8 +82,8 @@ fn each_fault_has_a_page_whose_example_shows_it() {
         faults.extend(chart::unbuilt(&drawn, &Known::default()));
         if let Some(specification) = block("asmetal") {
             let probed = probed(&drawn, specification).expect("the specification parses");
-            let checked = check(SourceFile::new("Lamp.asm", probed.text.as_str()), &mut Nothing);
-            faults.extend(chart::check(&drawn, &probed, &checked));
+            let checked = check(SourceFile::new(format!("{}.asm", drawn.name), probed.text.as_str()), &mut Nothing);
+            faults.extend(chart::check(&drawn, &probed, &checked, &mut Nothing));
         }
         let ids: Vec<_> = faults.iter().map(|fault| fault.id).collect();
         assert_eq!(ids, [*id], "{faults:#?}");

@@ -33,6 +33,7 @@ mod replay;
 mod report;
 mod run;
 mod shell;
+mod solver;
 mod test;
 mod tracefile;
 mod wire;

@@ -12,7 +12,7 @@ mod system;
 
 pub use known::{Known, Unknown};
 pub(crate) use module::{call, function_name, rule_name, state_value};
-pub(crate) use rule::machine_rule;
+pub(crate) use rule::{machine_rule, origin_condition};
 
 use crate::chart::{Chart, Control};
 use crate::fault;

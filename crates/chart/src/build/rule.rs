@@ -31,6 +31,11 @@ pub(crate) fn machine_rule(chart: &Chart, machine: &Machine, name: &str) -> Stri
     format!("rule {name}{parameters} =\n{}\n", par(&rules))
 }
 
+/// What holds of control variables at an origin; none where there is none.
+pub(crate) fn origin_condition(chart: &Chart, machine: &Machine, origin: Origin) -> Option<String> {
+    Writer { chart, machine }.condition(origin)
+}
+
 /// Rules in parallel; one alone stands for itself.
 fn par(rules: &[String]) -> String {
     match rules {
@@ -58,13 +63,27 @@ impl Writer<'_> {
         match origin {
             Origin::Enter if !machine.takes_steps() => paths.first().cloned(),
             _ if paths.is_empty() && !matches!(origin, Origin::Left(_)) => None,
-            Origin::Enter => Some(format!("// entering\nif isUndef({}) then\n{}\nendif", self.control(), par(&paths))),
+            Origin::Enter => {
+                let at = self.condition(origin).unwrap_or_default();
+                Some(format!("// entering\nif {at} then\n{}\nendif", par(&paths)))
+            }
             Origin::State(id) => {
                 let note = machine.shape(id).text.replace('\n', " ");
-                Some(format!("// {note}\nif {} = {} then\n{}\nendif", self.control(), self.value(id), par(&paths)))
+                let at = self.condition(origin).unwrap_or_default();
+                Some(format!("// {note}\nif {at} then\n{}\nendif", par(&paths)))
             }
             Origin::Left(id) => Some(self.block(id, &paths)),
         }
+    }
+
+    /// What holds of control variables at an origin; none where there is none.
+    fn condition(&self, origin: Origin) -> Option<String> {
+        let control = control_location(self.machine)?;
+        Some(match origin {
+            Origin::Enter => format!("isUndef({control})"),
+            Origin::State(id) => format!("{control} = {}", self.value(id)),
+            Origin::Left(id) => format!("{control} = {} and isUndef({})", self.value(id), self.inner_control(id)),
+        })
     }
 
     /// In a block: its pattern goes on, or, when it has been left, the paths behind it start.

@@ -29,6 +29,8 @@ pub const IDS: &[&str] = &[
     "overlapping-paths",
     "time-unit",
     "to-refine",
+    "uncovered-case",
+    "undecided-paths",
     "unknown-shape",
     "unreachable-shape",
 ];
@@ -169,14 +171,23 @@ pub(crate) fn broken_link(span: Span, message: &str, help: Option<&str>) -> Diag
     fault.with_help(help.unwrap_or("correct the link, or write what it names"))
 }
 
+/// Where the two sides of a difference stand.
+pub(crate) struct Sides {
+    /// The control state in the chart.
+    pub(crate) state: Span,
+    /// Where the chart's transition of this case ends.
+    pub(crate) transition: Option<Span>,
+    /// The place in the rule, and what it is.
+    pub(crate) rule: (Span, &'static str),
+}
+
 /// A case in which the chart and the rule do not do the same.
 pub(crate) fn chart_differs(
-    span: Span,
+    sides: Sides,
     origin: &str,
     effect: &str,
     case: &[(String, bool)],
     chart_does: bool,
-    place: Option<Span>,
 ) -> Diagnostic {
     let tests: Vec<String> =
         case.iter().map(|(atom, holds)| if *holds { atom.clone() } else { format!("not ({atom})") }).collect();
@@ -187,15 +198,14 @@ pub(crate) fn chart_differs(
         origin => format!("in {origin}, "),
     };
     let (who, other) = if chart_does { ("the chart", "the rule") } else { ("the rule", "the chart") };
-    let fault =
-        Diagnostic::error("chart-differs", span, format!("{state}{who} does `{effect}`{where_}, {other} does not"))
-            .because("the chart's side");
-    let fault = match place {
-        Some(place) => fault
-            .with_label(place, if chart_does { "the rule does it in other cases" } else { "the rule does it here" }),
-        None => fault,
-    };
-    fault.with_help("change the chart or the rule; `groundstate chart build` writes the rule as the chart says")
+    let message = format!("{state}{who} does `{effect}`{where_}, {other} does not");
+    let mut fault = Diagnostic::error("chart-differs", sides.state, message).because("the chart's control state");
+    if let Some(transition) = sides.transition {
+        fault = fault.with_label(transition, "the chart's transition of this case ends here");
+    }
+    fault
+        .with_label(sides.rule.0, sides.rule.1)
+        .with_help("change the chart or the rule; `groundstate chart build` writes the rule as the chart says")
 }
 
 /// A rule that cannot be compared.
@@ -265,22 +275,34 @@ pub(crate) fn made_already(span: Span, name: &str) -> Diagnostic {
         .with_help(format!("choose another name, or link it: `control {{{name}}}`"))
 }
 
-/// Two paths from one control state that may both be enabled and lead to different ones.
-pub(crate) fn overlapping_paths(
-    span: Span,
-    name: &str,
-    first: &str,
-    second: &str,
-    case: &[(String, bool)],
-) -> Diagnostic {
-    let tests: Vec<String> =
-        case.iter().map(|(atom, holds)| if *holds { atom.clone() } else { format!("not ({atom})") }).collect();
-    let case = if tests.is_empty() { "always".to_string() } else { format!("where {}", tests.join(" and ")) };
-    Diagnostic::warning(
-        "overlapping-paths",
-        span,
-        format!("from `{name}` paths lead to `{first}` and to `{second}` {case}"),
-    )
-    .because("unless these tests exclude each other, the step has an inconsistent update")
-    .with_help("lead the second path through the `no` of the first one's guard, or make sure that both never hold")
+/// Two paths from one control state that hold together and lead to different places.
+pub(crate) fn overlapping_paths(first: (Span, &str), second: (Span, &str), from: &str, state: &[String]) -> Diagnostic {
+    let (first, one) = first;
+    let (second, other) = second;
+    let message = format!("from `{from}`, paths lead to `{one}` and to `{other}` in one step: {}", listed(state));
+    Diagnostic::warning("overlapping-paths", second, message)
+        .because("the second path")
+        .with_label(first, "the first path")
+        .with_help("lead the second path through the `no` of the first one's guard, or make sure that both never hold")
+}
+
+/// A state in which a machine stays where it is, although it has a choice of guards.
+pub(crate) fn uncovered_case(span: Span, from: &str, state: &[String]) -> Diagnostic {
+    let message = format!("from `{from}`, no path is open: {}", listed(state));
+    note(Diagnostic::error("uncovered-case", span, message).because("the machine waits here"))
+}
+
+/// Something about paths that cannot be told.
+pub(crate) fn undecided_paths(span: Span, from: &str, what: &str, reason: &str) -> Diagnostic {
+    let message = format!("from `{from}`, it is not known whether the paths {what}: {reason}");
+    note(Diagnostic::error("undecided-paths", span, message).because("the paths from here"))
+}
+
+fn note(fault: Diagnostic) -> Diagnostic {
+    Diagnostic { severity: syntax::Severity::Note, ..fault }
+}
+
+/// The locations of a state.
+fn listed(state: &[String]) -> String {
+    if state.is_empty() { "always".to_string() } else { format!("where {}", state.join(", ")) }
 }

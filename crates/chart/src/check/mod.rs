@@ -7,17 +7,21 @@
 //! Both rules are executed symbolically for each value of the control variable; what they do under which tests is
 //! compared as propositional formulas over the tests, exactly. LIMIT: tests are told apart by their text; [`CASES`].
 
+mod paths;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use model::{Checked, FunctionId, Model, RuleId};
-use syntax::{Diagnostic, Severity, Span};
+use smt::Solver;
+use syntax::{Diagnostic, Severity, Span, SyntaxKind};
 
 use crate::build::{call, machine_rule, rule_name, state_value};
-use crate::chart::{Chart, Control, Machine, ShapeId, ShapeKind};
+use crate::chart::{Chart, Control, Machine, ShapeKind};
 use crate::extract::{controls, values};
-use crate::fault;
-use crate::flow::{Origin, Target, transitions};
+use crate::fault::{self, Sides};
+use crate::flow::{Origin, transitions};
+use crate::read::flat;
 use crate::symbolic::{Depth, Effect, Explorer, Guarded, Path, Reason, consistent};
 
 /// LIMIT: so many cases of one effect are told apart; beyond that it counts as a difference.
@@ -32,7 +36,7 @@ pub struct Probed {
     ranges: Vec<Range<usize>>,
 }
 
-/// Puts the chart's rules at the end of a specification's definitions.
+/// Puts the chart's rules at the end of a specification's definitions, on one line, so that no line is moved.
 ///
 /// # Errors
 /// The faults of the specification's syntax.
@@ -47,21 +51,29 @@ pub fn probed(chart: &Chart, specification: &str) -> Result<Probed, Vec<Diagnost
     let mut text = specification[..at].to_string();
     let mut ranges = Vec::new();
     for (index, machine) in chart.machines.iter().enumerate() {
-        text.push_str("\n\n");
+        text.push(' ');
         let start = text.len();
-        text.push_str(&machine_rule(chart, machine, &probe_name(index)));
+        text.push_str(&on_one_line(&machine_rule(chart, machine, &probe_name(index))));
         ranges.push(start..text.len());
     }
     text.push_str(&specification[at..]);
     Ok(Probed { text, ranges })
 }
 
+/// A rule's text without its comments.
+fn on_one_line(rule: &str) -> String {
+    let parse = syntax::parse_asmetal(syntax::FileId(0), &format!("module P\nsignature:\ndefinitions:\n{rule}"));
+    let definitions = parse.syntax().children().find(|node| node.kind() == SyntaxKind::DEFINITIONS);
+    let rules = definitions.iter().flat_map(|node| node.children()).map(|node| flat(&node));
+    rules.collect::<Vec<_>>().join(" ")
+}
+
 fn probe_name(index: usize) -> String {
     format!("r_chart_{index}_probe")
 }
 
-/// Compares a chart with its specification.
-pub fn check(chart: &Chart, probed: &Probed, checked: &Checked) -> Vec<Diagnostic> {
+/// Compares a chart with its specification; `solver` decides of guards what cannot be gone through.
+pub fn check(chart: &Chart, probed: &Probed, checked: &Checked, solver: &mut dyn Solver) -> Vec<Diagnostic> {
     let mut faults = Vec::new();
     let root = checked.model.root;
     for diagnostic in checked.diagnostics.iter().filter(|found| found.severity == Severity::Error) {
@@ -74,12 +86,13 @@ pub fn check(chart: &Chart, probed: &Probed, checked: &Checked) -> Vec<Diagnosti
         }
     }
     if faults.is_empty() {
+        let mut model = checked.model.clone();
+        chart.machines.iter().for_each(|machine| paths::paths(chart, machine, &mut model, solver, &mut faults));
         for (index, machine) in chart.machines.iter().enumerate() {
             one(chart, machine, &probe_name(index), &checked.model, &mut faults);
         }
     }
     refinements(chart, &mut faults);
-    chart.machines.iter().for_each(|machine| overlaps(chart, machine, &mut faults));
     faults.sort_by_key(|fault| (fault.primary.span.file, fault.primary.span.start));
     faults.dedup();
     faults
@@ -87,15 +100,26 @@ pub fn check(chart: &Chart, probed: &Probed, checked: &Checked) -> Vec<Diagnosti
 
 /// A fault within a probe, told at the link that it comes from.
 fn broken(machine: &Machine, snippet: &str, diagnostic: &Diagnostic) -> Diagnostic {
-    let links = machine.shapes.iter().filter_map(|shape| shape.link.as_ref());
+    let shapes = machine.shapes.iter().map(|shape| {
+        let text = match (&shape.kind, &shape.link) {
+            (_, Some(link)) => link.text.clone(),
+            (ShapeKind::Instance(pattern), None) => pattern.arguments.join(", "),
+            (ShapeKind::State { .. }, None) => String::new(),
+            _ => call(machine, shape),
+        };
+        (text, shape.link.as_ref().map_or(shape.span, |link| link.span))
+    });
     let control = match &machine.control {
-        Some(Control::Linked(link)) => Some(link),
-        _ => None,
+        Some(Control::Linked(link)) => Some((link.text.clone(), link.span)),
+        Some(Control::Made { name, span }) => Some((name.clone(), *span)),
+        None => None,
     };
-    let all = || links.clone().chain(control);
+    let all: Vec<(String, Span)> = shapes.chain(control).collect();
     let word = snippet.split(['(', '[', ' ']).next().unwrap_or(snippet);
-    let whole = all().find(|link| link.text.contains(snippet));
-    let place = whole.or_else(|| all().find(|link| link.text.contains(word))).map_or(machine.span, |link| link.span);
+    // The whole of a link says more than a part of one.
+    let exact = all.iter().find(|(text, _)| text == snippet);
+    let whole = exact.or_else(|| all.iter().find(|(text, _)| text.contains(snippet)));
+    let place = whole.or_else(|| all.iter().find(|(text, _)| text.contains(word))).map_or(machine.span, |(_, at)| *at);
     fault::broken_link(place, &diagnostic.message, diagnostic.help.as_deref())
 }
 
@@ -103,33 +127,6 @@ fn refinements(chart: &Chart, faults: &mut Vec<Diagnostic>) {
     for shape in chart.machines.iter().flat_map(|machine| &machine.shapes) {
         if let Some(refinement) = &shape.refinement {
             faults.push(fault::to_refine(shape.span, &shape.name, refinement.by.as_deref()));
-        }
-    }
-}
-
-/// Paths from one control state that no test keeps apart and that lead to different places.
-fn overlaps(chart: &Chart, machine: &Machine, faults: &mut Vec<Diagnostic>) {
-    let all = transitions(chart, machine);
-    let name = |target: Target| match target {
-        Target::State(id) | Target::Block(id) => machine.shape(id).name.clone(),
-        Target::Exit => "exit".to_string(),
-    };
-    for (index, first) in all.iter().enumerate() {
-        for second in all[index + 1..].iter().filter(|second| second.origin == first.origin) {
-            let path = |guards: &[(ShapeId, bool)]| -> Path {
-                guards.iter().map(|(id, holds)| (call(machine, machine.shape(*id)), *holds)).collect()
-            };
-            let (one, other) = (path(&first.guards), path(&second.guards));
-            if first.target == second.target || !consistent(&one, &other) {
-                continue;
-            }
-            let case: BTreeMap<String, bool> = one.into_iter().chain(other).collect();
-            let (span, from) = match first.origin {
-                Origin::Enter => (machine.span, "enter"),
-                Origin::State(id) | Origin::Left(id) => (machine.shape(id).span, machine.shape(id).name.as_str()),
-            };
-            let case: Path = case.into_iter().collect();
-            faults.push(fault::overlapping_paths(span, from, &name(first.target), &name(second.target), &case));
         }
     }
 }
@@ -150,6 +147,15 @@ fn one(chart: &Chart, machine: &Machine, probe: &str, model: &Model, faults: &mu
         faults.push(fault::broken_link(place, &message, None));
         return;
     }
+    let declared = model.rule(rule);
+    for (id, parameter) in declared.parameters.iter().zip(&machine.parameters) {
+        let domain = model.domains.display(declared.variables[id.0 as usize].domain);
+        if domain != parameter.domain {
+            let message = format!("the parameter `{}` of `{name}` is in {domain}", parameter.variable);
+            faults.push(fault::broken_link(place, &message, Some("let the machine's parameter be in the same domain")));
+            return;
+        }
+    }
     let names: Vec<String> = machine.parameters.iter().map(|parameter| parameter.variable.clone()).collect();
     let control = match &machine.control {
         Some(Control::Linked(link)) => Some(link.name.as_str()),
@@ -166,7 +172,7 @@ fn one(chart: &Chart, machine: &Machine, probe: &str, model: &Model, faults: &mu
         let explorer = Explorer::new(model, function, location.clone(), origin.clone(), Depth::Full);
         match (explorer.rule(probe, &names), explorer.rule(rule, &names)) {
             (Ok(drawn), Ok(written)) => {
-                let side = Side { chart, machine, origin: &origin, control: &location };
+                let side = Side { chart, machine, origin: &origin, control: &location, rule: model.rule(rule).span };
                 side.compare(&drawn, &written, faults);
             }
             (_, Err(reason)) | (Err(reason), _) => {
@@ -190,20 +196,59 @@ struct Side<'c> {
     machine: &'c Machine,
     origin: &'c str,
     control: &'c str,
+    /// The rule's name.
+    rule: Span,
 }
 
 impl Side<'_> {
     fn compare(&self, drawn: &[Guarded], written: &[Guarded], faults: &mut Vec<Diagnostic>) {
-        let (drawn, written) = (self.by_effect(drawn), self.by_effect(written));
-        let keys: BTreeSet<&str> = drawn.keys().chain(written.keys()).map(String::as_str).collect();
+        let (in_chart, in_rule) = (self.by_effect(drawn), self.by_effect(written));
+        let keys: BTreeSet<&str> = in_chart.keys().chain(in_rule.keys()).map(String::as_str).collect();
         for key in keys {
             let nothing = (Vec::new(), None);
-            let (in_chart, _) = drawn.get(key).unwrap_or(&nothing);
-            let (in_rule, place) = written.get(key).unwrap_or(&nothing);
-            if let Some((holds, chart_does)) = difference(in_chart, in_rule) {
-                faults.push(fault::chart_differs(self.place(), self.origin, key, &holds, chart_does, *place));
-            }
+            let (drawn_here, _) = in_chart.get(key).unwrap_or(&nothing);
+            let (written_here, place) = in_rule.get(key).unwrap_or(&nothing);
+            let Some((case, chart_does)) = difference(drawn_here, written_here) else { continue };
+            let mut instead = written.iter().filter(|guarded| consistent(&guarded.path, &case));
+            let rule = match (chart_does, place) {
+                (false, Some(place)) => (*place, "the rule does it here"),
+                (_, Some(place)) => (*place, "the rule does it in other cases"),
+                (_, None) => match instead.next() {
+                    Some(guarded) => (guarded.span, "in this case the rule does this"),
+                    None => (self.rule, "in this case the rule does nothing"),
+                },
+            };
+            let transition = self.transition(&case);
+            faults.push(fault::chart_differs(
+                Sides { state: self.place(), transition, rule },
+                self.origin,
+                key,
+                &case,
+                chart_does,
+            ));
         }
+    }
+
+    /// The end of the chart's transition in a case, if it is one alone.
+    fn transition(&self, case: &Path) -> Option<Span> {
+        let bare = |text: &str| text.replace(char::is_whitespace, "");
+        let fits = |one: &&crate::flow::Transition| {
+            let here = match one.origin {
+                Origin::Enter => self.origin == "undef",
+                Origin::State(id) | Origin::Left(id) => state_value(self.chart, self.machine, id) == self.origin,
+            };
+            let guards: Path = one
+                .guards
+                .iter()
+                .map(|(id, holds)| (bare(&call(self.machine, self.machine.shape(*id))), *holds))
+                .collect();
+            let case: Path = case.iter().map(|(atom, holds)| (bare(atom), *holds)).collect();
+            here && consistent(&guards, &case)
+        };
+        let all = transitions(self.chart, self.machine);
+        let mut fitting = all.iter().filter(fits);
+        let first = fitting.next()?;
+        fitting.next().is_none().then_some(first.span)
     }
 
     /// The state in the chart.

@@ -1,0 +1,160 @@
+//! Paths from one control state against each other: two that hold together and lead to different places, and states in
+//! which none holds.
+//!
+//! In: a machine whose links resolve, its model, a solver. Out: faults with a state that shows the case, or that it is not
+//! known, and why. Each question is a condition written in AsmetaL over the guards of the paths, and so means what the
+//! guards mean. A state with a single guard waits for it; no gap is told of that.
+
+use std::collections::BTreeSet;
+
+use model::Model;
+use smt::{Decision, Solver};
+use syntax::ast::{AstNode, TermFile};
+use syntax::{Diagnostic, FileId, Severity, Span};
+
+use super::difference;
+use crate::build::{call, origin_condition};
+use crate::chart::{Chart, Machine, ShapeId};
+use crate::fault;
+use crate::flow::{Origin, Target, Transition, transitions};
+use crate::symbolic::Path;
+
+/// LIMIT: so many pairs of paths of one machine are compared.
+const MAX_PAIRS: usize = 2_000;
+
+/// The faults of a machine's paths.
+pub(super) fn paths(
+    chart: &Chart,
+    machine: &Machine,
+    model: &mut Model,
+    solver: &mut dyn Solver,
+    faults: &mut Vec<Diagnostic>,
+) {
+    let all = transitions(chart, machine);
+    let mut asker = Asker { chart, machine, model, solver };
+    let mut origins: Vec<Origin> = all.iter().map(|one| one.origin).collect();
+    origins.dedup();
+    let mut budget = MAX_PAIRS;
+    for origin in origins {
+        let from: Vec<&Transition> = all.iter().filter(|one| one.origin == origin).collect();
+        asker.overlaps(origin, &from, &mut budget, faults);
+        asker.gap(origin, &from, faults);
+    }
+}
+
+struct Asker<'a> {
+    chart: &'a Chart,
+    machine: &'a Machine,
+    model: &'a mut Model,
+    solver: &'a mut dyn Solver,
+}
+
+impl Asker<'_> {
+    fn overlaps(&mut self, origin: Origin, from: &[&Transition], budget: &mut usize, faults: &mut Vec<Diagnostic>) {
+        let (place, name) = self.origin(origin);
+        let mut told: BTreeSet<(Target, Target)> = BTreeSet::new();
+        for (index, first) in from.iter().enumerate() {
+            for second in &from[index + 1..] {
+                let apart = first.guards.iter().any(|(id, holds)| second.guards.contains(&(*id, !holds)));
+                if first.target == second.target || apart || told.contains(&(first.target, second.target)) {
+                    continue;
+                }
+                let targets = (self.target(first.target), self.target(second.target));
+                let Some(rest) = budget.checked_sub(1) else {
+                    let reason = format!("there are more than {MAX_PAIRS} pairs of paths");
+                    faults.push(fault::undecided_paths(place, &name, "exclude each other", &reason));
+                    return;
+                };
+                *budget = rest;
+                match self.ask(origin, &format!("{} and {}", self.condition(first), self.condition(second))) {
+                    Decision::Impossible => {}
+                    Decision::Possible(state) => {
+                        told.insert((first.target, second.target));
+                        faults.push(fault::overlapping_paths(
+                            (first.span, &targets.0),
+                            (second.span, &targets.1),
+                            &name,
+                            &state,
+                        ));
+                    }
+                    Decision::Unknown(reason) => {
+                        told.insert((first.target, second.target));
+                        let what = format!("to `{}` and to `{}` exclude each other", targets.0, targets.1);
+                        faults.push(fault::undecided_paths(place, &name, &what, &reason));
+                    }
+                }
+            }
+        }
+    }
+
+    fn gap(&mut self, origin: Origin, from: &[&Transition], faults: &mut Vec<Diagnostic>) {
+        let guards: BTreeSet<ShapeId> = from.iter().flat_map(|one| &one.guards).map(|(id, _)| *id).collect();
+        if guards.len() < 2 || from.iter().any(|one| one.guards.is_empty()) {
+            return;
+        }
+        // That a guard has both exits is seen without knowing what it means.
+        let named = |one: &&Transition| -> Path {
+            one.guards.iter().map(|(id, holds)| (call(self.machine, self.machine.shape(*id)), *holds)).collect()
+        };
+        if difference(&from.iter().map(named).collect::<Vec<_>>(), &[Path::new()]).is_none() {
+            return;
+        }
+        let (place, name) = self.origin(origin);
+        let none: Vec<String> = from.iter().map(|one| format!("not ({})", self.condition(one))).collect();
+        match self.ask(origin, &none.join(" and ")) {
+            Decision::Impossible => {}
+            Decision::Possible(state) => faults.push(fault::uncovered_case(place, &name, &state)),
+            Decision::Unknown(reason) => {
+                faults.push(fault::undecided_paths(place, &name, "cover all cases", &reason));
+            }
+        }
+    }
+
+    /// Whether a condition can hold at an origin.
+    fn ask(&mut self, origin: Origin, condition: &str) -> Decision {
+        let at = origin_condition(self.chart, self.machine, origin).map_or(String::new(), |at| format!("{at} and "));
+        let binders: Vec<String> =
+            self.machine.parameters.iter().map(|one| format!("{} in {}", one.variable, one.domain)).collect();
+        let text = match binders.is_empty() {
+            true => format!("{at}{condition}"),
+            false => format!("(exist {} with {at}{condition})", binders.join(", ")),
+        };
+        let file = FileId(u32::MAX);
+        let parse = syntax::parse_term(file, &text);
+        let Some(term) = TermFile::cast(parse.syntax()).and_then(|file| file.term()) else {
+            return Decision::Unknown("the guards are no term".to_string());
+        };
+        let fragment = self.model.check_condition(file, &term, "the guard");
+        if fragment.diagnostics.iter().any(|found| found.severity == Severity::Error) {
+            return Decision::Unknown("the guards are no condition".to_string());
+        }
+        match smt::translate(self.model, &fragment.item, &fragment.variables) {
+            Ok(formula) => formula.decide(self.solver),
+            Err(outside) => Decision::Unknown(format!("{} cannot be decided", outside.what)),
+        }
+    }
+
+    /// The guards of a path, as the steps test them.
+    fn condition(&self, path: &Transition) -> String {
+        let tests = path.guards.iter().map(|(id, holds)| {
+            let text = call(self.machine, self.machine.shape(*id));
+            if *holds { format!("({text})") } else { format!("not ({text})") }
+        });
+        let tests: Vec<String> = tests.collect();
+        if tests.is_empty() { "true".to_string() } else { tests.join(" and ") }
+    }
+
+    fn origin(&self, origin: Origin) -> (Span, String) {
+        match origin {
+            Origin::Enter => (self.machine.span, "enter".to_string()),
+            Origin::State(id) | Origin::Left(id) => (self.machine.shape(id).span, self.machine.shape(id).name.clone()),
+        }
+    }
+
+    fn target(&self, target: Target) -> String {
+        match target {
+            Target::State(id) | Target::Block(id) => self.machine.shape(id).name.clone(),
+            Target::Exit => "exit".to_string(),
+        }
+    }
+}
