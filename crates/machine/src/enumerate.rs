@@ -100,11 +100,17 @@ impl<'a> Executor<'a> {
         match &program.domain(domain).kind {
             DomainKind::Basic(model::Basic::Boolean) => Ok(Elements::Booleans),
             DomainKind::Enum { literals } => Ok(Elements::Enum(domain, literals.len() as u32)),
-            DomainKind::Abstract { .. } => {
+            DomainKind::Abstract { dynamic, .. } => {
+                if self.core.exploring && *dynamic {
+                    self.note_carriers();
+                }
                 let carrier = &self.core.store.carriers[domain.0 as usize];
                 Ok(Elements::Counted(domain, carrier.count, carrier.intermediate.clone()))
             }
             DomainKind::Concrete { dynamic: true, .. } => {
+                if self.core.exploring {
+                    self.note_carriers();
+                }
                 let carrier = &self.core.store.carriers[domain.0 as usize];
                 let elements = carrier.elements.iter().chain(&carrier.intermediate).cloned().collect();
                 Ok(Elements::Listed(Arc::new(elements)))

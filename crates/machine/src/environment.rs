@@ -3,6 +3,7 @@
 use program::{DomainId, Program};
 use syntax::Span;
 
+use crate::explore::Branches;
 use crate::location::LocationRef;
 use crate::value::{Real, Value};
 
@@ -109,6 +110,11 @@ pub trait Environment {
 
     /// The clock.
     fn time(&mut self, unit: TimeUnit) -> Result<i64, String>;
+
+    /// Where every alternative is wanted, not one: who goes through them.
+    fn branches(&mut self) -> Option<&mut Branches> {
+        None
+    }
 }
 
 /// An environment that gives nothing: every monitored location is an error, the first candidate is chosen, the

@@ -59,6 +59,8 @@ pub(crate) struct Core {
     pub plain: Vec<bool>,
     /// The choices of this step.
     pub choices: Choices,
+    /// Every alternative is wanted, and what is looked at is noted: see [`crate::explore`].
+    pub exploring: bool,
 }
 
 /// The choices made in a step, so that one begun anew makes the same.
@@ -224,6 +226,9 @@ impl Executor<'_> {
             return Ok(Value::Element(self.program.base_domain(declared.codomain), element));
         }
         let found = self.core.store.find(function, arguments);
+        if self.core.exploring {
+            self.note_look(function, found);
+        }
         match declared.kind {
             Monitored => {
                 if let Some(index) = found.filter(|index| self.core.store.given[*index as usize] == self.core.epoch) {
@@ -262,7 +267,12 @@ impl Executor<'_> {
             return self.read_initial(function, arguments, span);
         }
         let codomain = self.program.function(function).codomain;
-        let value = match self.environment.monitored(self.program, location, codomain) {
+        let given = if self.core.exploring {
+            self.ask_among(location)
+        } else {
+            self.environment.monitored(self.program, location, codomain)
+        };
+        let value = match given {
             Ok(value) => value,
             Err(reason) => return self.fault(span, FaultKind::Environment { reason }),
         };

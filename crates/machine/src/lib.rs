@@ -11,6 +11,7 @@ mod enumerate;
 mod environment;
 mod evaluate;
 mod execute;
+pub mod explore;
 mod fault;
 mod layout;
 mod limits;

@@ -77,7 +77,7 @@ struct EngineState {
 pub struct Machine {
     program: Arc<Program>,
     limits: Limits,
-    core: Core,
+    pub(crate) core: Core,
     steps: u64,
     /// The update set on the stack is committed: where an update changed anything it holds the value before.
     settled: bool,
@@ -113,7 +113,7 @@ impl Machine {
         &self.program
     }
 
-    fn execute<T>(
+    pub(crate) fn execute<T>(
         &mut self,
         environment: &mut dyn Environment,
         body: impl for<'a> FnOnce(&mut Executor<'a>, &'a Program) -> Outcome<T>,
@@ -131,9 +131,9 @@ impl Machine {
     /// # Errors
     /// An initial value that cannot be evaluated.
     pub fn start(&mut self, environment: &mut dyn Environment) -> Result<(), Fault> {
-        let coverage = self.core.coverage.take();
+        let (coverage, exploring) = (self.core.coverage.take(), self.core.exploring);
         self.core = Core::new(&self.program, self.limits);
-        self.core.coverage = coverage;
+        (self.core.coverage, self.core.exploring) = (coverage, exploring);
         self.steps = 0;
         self.settled = false;
         self.execute(environment, |executor, _| executor.start())

@@ -81,6 +81,9 @@ impl Executor<'_> {
             (DomainKind::Abstract { .. }, Value::Element(other, _)) => *other == domain,
             (DomainKind::Concrete { dynamic, .. }, value) => {
                 if *dynamic {
+                    if self.core.exploring {
+                        self.note_carriers();
+                    }
                     let carrier = &self.core.store.carriers[domain.0 as usize];
                     let created = || self.core.updates.created().iter().any(|(d, v)| *d == domain && v == value);
                     return carrier.elements.binary_search(value).is_ok()

@@ -134,6 +134,9 @@ impl<'a> Executor<'a> {
         let start = self.gather(arguments)?;
         if self.core.initials[function.0 as usize].is_some() {
             let found = self.core.store.find(function, &self.core.frames[start..]);
+            if self.core.exploring {
+                self.note_write(function, found);
+            }
             if found.is_none_or(|index| self.core.store.given[index as usize] == 0) {
                 // An initial value that is due only when read must be there before it is overwritten.
                 let arguments = self.core.frames[start..].to_vec();
@@ -364,6 +367,9 @@ impl<'a> Executor<'a> {
     ) -> Outcome<()> {
         let program = self.program;
         let binders = program.binder_list(binders);
+        if self.core.exploring {
+            return self.perform_alternative(id, binders, condition, body, if_none);
+        }
         let span = program.rule_span(id);
         let start = self.core.frames.len();
         let listed = self.draw_numbers(binders, condition, span)?;

@@ -45,6 +45,7 @@ impl Core {
             initials: vec![None; program.functions.len()],
             plain: vec![false; program.functions.len()],
             choices: crate::execute::Choices::default(),
+            exploring: false,
         };
         core.reset_carriers(program);
         Executor { program, core: &mut core, environment: &mut Closed, limits }.fill_contents();
@@ -151,7 +152,7 @@ impl<'a> Executor<'a> {
         for (index, declared) in program.functions.iter().enumerate() {
             use FunctionKind::{Controlled, Local, Out};
             let kind = matches!(declared.kind, Controlled | Out | Local);
-            self.core.plain[index] = kind && declared.element.is_none();
+            self.core.plain[index] = kind && declared.element.is_none() && !self.core.exploring;
         }
         Ok(())
     }

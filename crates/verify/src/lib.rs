@@ -3,5 +3,14 @@
 //! In: a program, and bounds of the search. Out: verdicts with traces. The meaning of a step is the machine's alone; this
 //! crate decides which steps are made and what is kept of them. It must not know files, clocks or wire formats.
 
+mod check;
+mod coverage;
 pub mod graph;
+mod search;
+mod table;
 pub mod temporal;
+mod trace;
+
+pub use check::{NoStart, Options, Outcome, Reason, Report, Subject, Verdict, verify};
+pub use search::{Progress, Stop};
+pub use trace::Trace;

@@ -1,0 +1,246 @@
+//! The alternatives of one step, taken one after the other: an odometer over its choices and inputs.
+//!
+//! In: how a step before went. Out: the answers for the next one, as an [`Environment`]. A step is deterministic but for
+//! what it asks for, so the same answers bring it to the same next question; the last question that has an answer left
+//! is answered differently the next time. What the step looked at in the state is noted in the same order.
+//!
+//! A `choose` rule with a guard is asked for before its guards are evaluated: each binding is an alternative, one whose
+//! guard does not hold is *dead*, and only where all are dead does the rule have no candidate. So an alternative looks
+//! at no more of the state than its own guard does.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use program::{DomainId, FunctionId, Program};
+use syntax::Span;
+
+use crate::environment::{Choice, Draw, Environment, TimeUnit};
+use crate::location::LocationRef;
+use crate::value::Value;
+
+/// The values that an input takes, where they are not all those of its domain.
+pub type Bounds = BTreeMap<FunctionId, Vec<Value>>;
+
+/// What kind of alternatives cannot be gone through.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum UnboundedKind {
+    /// The values of an input.
+    Input(FunctionId),
+    /// The candidates of a choice.
+    Choice,
+    /// The readings of the clock.
+    Clock,
+    /// What a step may take: see [`crate::Limits`].
+    Limit,
+}
+
+/// Alternatives without end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Unbounded {
+    /// Of what kind.
+    pub kind: UnboundedKind,
+    /// The function's declaration, or the choose rule.
+    pub span: Span,
+}
+
+/// A choice as it was made.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ChoiceTaken {
+    /// The choose rule, or the term.
+    pub span: Span,
+    /// The values of the variables bound.
+    pub values: Vec<Value>,
+}
+
+/// What a step does that matters to how it goes on, in order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Event {
+    /// It looks at a field of the packed state.
+    Look(u32),
+    /// It asks; the answers are in the same order.
+    Ask,
+}
+
+/// A question and its answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Asked {
+    /// Which alternative, from 0.
+    pub taken: u32,
+    /// How many there are.
+    pub of: u32,
+    /// A guarded choice: after `of` alternatives comes one more, that none of them is alive.
+    pub guarded: bool,
+    /// Some alternative taken so far was not dead.
+    alive: bool,
+}
+
+/// A location that no field holds belongs to the rest.
+pub(crate) const REST: u32 = u32::MAX - 1;
+/// A location that is no part of the state between steps.
+pub(crate) const NOWHERE: u32 = u32::MAX;
+
+/// See the module.
+#[derive(Debug)]
+pub struct Branches {
+    asked: Vec<Asked>,
+    at: usize,
+    /// In the order of the step, each look once.
+    pub(crate) events: Vec<Event>,
+    /// By field, the pass that looked at it last.
+    looked: Vec<u32>,
+    pass: u32,
+    /// By dense location number: its field, [`REST`] or [`NOWHERE`].
+    pub(crate) fields: Arc<[u32]>,
+    /// The field of the rest, if the packed state has one.
+    pub(crate) rest: Option<u32>,
+    pub(crate) bounds: Arc<Bounds>,
+    /// The alternative taken is none.
+    pub(crate) dead: bool,
+    pub(crate) unbounded: Option<Unbounded>,
+    /// What was chosen.
+    pub(crate) chosen: Vec<ChoiceTaken>,
+}
+
+impl Branches {
+    pub(crate) fn new(bounds: Arc<Bounds>) -> Branches {
+        Branches {
+            asked: Vec::new(),
+            at: 0,
+            events: Vec::new(),
+            looked: Vec::new(),
+            pass: 0,
+            fields: Arc::new([]),
+            rest: None,
+            bounds,
+            dead: false,
+            unbounded: None,
+            chosen: Vec::new(),
+        }
+    }
+
+    /// Begins the first alternative.
+    pub(crate) fn first(&mut self) {
+        self.asked.clear();
+        self.begin();
+    }
+
+    /// Begins with these answers; where they end, with the first alternatives.
+    pub(crate) fn follow(&mut self, picks: &[u32]) {
+        self.asked.clear();
+        // What there is to choose among is known only when it is asked for.
+        self.asked.extend(picks.iter().map(|taken| Asked {
+            taken: *taken,
+            of: u32::MAX,
+            guarded: false,
+            alive: false,
+        }));
+        self.begin();
+    }
+
+    /// Begins the next alternative; false where there is none left.
+    pub(crate) fn next(&mut self) -> bool {
+        if !self.dead {
+            self.asked.iter_mut().for_each(|asked| asked.alive = true);
+        }
+        while let Some(last) = self.asked.last_mut() {
+            last.taken += 1;
+            if last.taken < last.of || (last.taken == last.of && last.guarded && !last.alive) {
+                self.begin();
+                return true;
+            }
+            self.asked.pop();
+        }
+        false
+    }
+
+    fn begin(&mut self) {
+        self.at = 0;
+        self.events.clear();
+        self.chosen.clear();
+        self.dead = false;
+        self.unbounded = None;
+        self.pass += 1;
+    }
+
+    /// The answers given.
+    pub(crate) fn answers(&self) -> &[Asked] {
+        &self.asked[..self.at]
+    }
+
+    /// Asks which of `of` alternatives is taken.
+    pub(crate) fn ask(&mut self, of: usize, guarded: bool) -> usize {
+        let of = of as u32;
+        match self.asked.get_mut(self.at) {
+            Some(asked) => (asked.of, asked.guarded) = (of, guarded),
+            None => self.asked.push(Asked { taken: 0, of, guarded, alive: false }),
+        }
+        self.events.push(Event::Ask);
+        self.at += 1;
+        self.asked[self.at - 1].taken as usize
+    }
+
+    /// Notes that the state is looked at.
+    pub(crate) fn look(&mut self, field: u32) {
+        let field = if field == REST { self.rest.unwrap_or(NOWHERE) } else { field };
+        if field == NOWHERE {
+            return;
+        }
+        let index = field as usize;
+        if index >= self.looked.len() {
+            self.looked.resize(index + 1, 0);
+        }
+        if std::mem::replace(&mut self.looked[index], self.pass) != self.pass {
+            self.events.push(Event::Look(field));
+        }
+    }
+
+    /// Where a location stands; `found` is its number, if it has one, and `kept` says whether its function's locations are
+    /// part of the state.
+    pub(crate) fn field(&self, found: Option<u32>, kept: bool) -> u32 {
+        let dense = found.and_then(|index| self.fields.get(index as usize));
+        dense.copied().unwrap_or(if kept { REST } else { NOWHERE })
+    }
+
+    /// The step ends here, since its alternatives cannot be gone through.
+    pub(crate) fn endless(&mut self, kind: UnboundedKind, span: Span) -> String {
+        self.unbounded = Some(Unbounded { kind, span });
+        String::new()
+    }
+}
+
+impl Environment for Branches {
+    fn monitored(
+        &mut self,
+        program: &Program,
+        location: LocationRef<'_>,
+        _codomain: DomainId,
+    ) -> Result<Value, String> {
+        let span = program.function(location.function).span;
+        let bounds = Arc::clone(&self.bounds);
+        match bounds.get(&location.function) {
+            Some(values) if !values.is_empty() => Ok(values[self.ask(values.len(), false)].clone()),
+            _ => Err(self.endless(UnboundedKind::Input(location.function), span)),
+        }
+    }
+
+    fn choose(&mut self, _program: &Program, choice: &Choice<'_>) -> Result<usize, String> {
+        let taken = self.ask(choice.candidates(), false);
+        if taken < choice.candidates() {
+            self.chosen.push(ChoiceTaken { span: choice.span, values: choice.candidate(taken).to_vec() });
+        }
+        Ok(taken)
+    }
+
+    fn number(&mut self, _program: &Program, draw: &Draw) -> Result<Value, String> {
+        Err(self.endless(UnboundedKind::Choice, draw.span))
+    }
+
+    fn time(&mut self, _unit: TimeUnit) -> Result<i64, String> {
+        let span = Span { file: syntax::FileId(0), start: 0, end: 0 };
+        Err(self.endless(UnboundedKind::Clock, span))
+    }
+
+    fn branches(&mut self) -> Option<&mut Branches> {
+        Some(self)
+    }
+}

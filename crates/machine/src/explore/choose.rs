@@ -1,0 +1,134 @@
+//! The choose rule and inputs where every alternative is wanted: see [`crate::explore::branches`].
+//!
+//! INVARIANT: the alternatives that are alive are exactly the candidates of the choose rule, in their order; where
+//! there is none, the rule without candidates is run.
+
+use std::ops::ControlFlow;
+
+use program::{Binder, FunctionId, Program, RuleId, Term, TermId};
+use syntax::Span;
+
+use crate::execute::{Executor, Outcome};
+use crate::explore::branches::{ChoiceTaken, REST, UnboundedKind};
+use crate::fault::FaultKind;
+use crate::location::LocationRef;
+use crate::value::Value;
+
+/// Whether a function's locations are part of the state between steps.
+pub(crate) fn is_kept(program: &Program, function: FunctionId) -> bool {
+    use program::FunctionKind::{Controlled, Out, Shared};
+    matches!(program.function(function).kind, Controlled | Out | Shared) && Some(function) != program.self_function
+}
+
+impl Executor<'_> {
+    /// Notes that a location is looked at.
+    #[cold]
+    pub fn note_look(&mut self, function: FunctionId, found: Option<u32>) {
+        let kept = is_kept(self.program, function);
+        if let Some(branches) = self.environment.branches() {
+            branches.look(branches.field(found, kept));
+        }
+    }
+
+    /// Notes that a location is written. One without a field may have to have its initial value first.
+    #[cold]
+    pub fn note_write(&mut self, function: FunctionId, found: Option<u32>) {
+        let kept = is_kept(self.program, function);
+        if let Some(branches) = self.environment.branches()
+            && branches.field(found, kept) == REST
+        {
+            branches.look(REST);
+        }
+    }
+
+    /// Notes that the elements of a dynamic domain are looked at.
+    #[cold]
+    pub fn note_carriers(&mut self) {
+        if let Some(branches) = self.environment.branches() {
+            branches.look(REST);
+        }
+    }
+
+    /// One of the values that an input takes.
+    pub fn ask_among(&mut self, location: LocationRef<'_>) -> Result<Value, String> {
+        let declared = self.program.function(location.function);
+        let (codomain, span) = (declared.codomain, declared.span);
+        let bounded = |branches: &mut super::Branches| branches.bounds.contains_key(&location.function);
+        if self.environment.branches().is_some_and(bounded) {
+            return self.environment.monitored(self.program, location, codomain);
+        }
+        let values = self.listed(codomain, span).ok().filter(|values| !values.is_empty());
+        let Some(branches) = self.environment.branches() else { return Err(String::new()) };
+        match values {
+            Some(values) => {
+                let taken = branches.ask(values.len(), false);
+                values.get(taken).cloned().ok_or_else(|| "an answer that there is not".to_string())
+            }
+            None => Err(branches.endless(UnboundedKind::Input(location.function), span)),
+        }
+    }
+
+    /// Runs a choose rule with the alternative that is due.
+    pub fn perform_alternative(
+        &mut self,
+        id: RuleId,
+        binders: &[Binder],
+        condition: Option<TermId>,
+        body: RuleId,
+        if_none: Option<RuleId>,
+    ) -> Outcome<()> {
+        let program = self.program;
+        let span = program.rule_span(id);
+        let mut bindings = 0u64;
+        let counted = self.for_each_binding(binders, &mut |this| {
+            bindings += 1;
+            this.check_size(bindings, span)?;
+            Ok(ControlFlow::Continue(()))
+        });
+        if let Err(fault) = counted {
+            return self.endless_choice(fault, span);
+        }
+        let none = |this: &mut Self| if_none.map_or(Ok(()), |rule| this.perform(rule));
+        if bindings == 0 {
+            return none(self);
+        }
+        let guard = condition.filter(|condition| match program.term(*condition) {
+            Term::Constant(index) => self.core.constants[*index as usize] != Value::Boolean(true),
+            _ => true,
+        });
+        let Some(branches) = self.environment.branches() else { return Ok(()) };
+        let taken = branches.ask(bindings as usize, guard.is_some()) as u64;
+        if taken == bindings {
+            return none(self);
+        }
+        let mut passed = 0;
+        let _ = self.for_each_binding(binders, &mut |_| {
+            passed += 1;
+            Ok(if passed > taken { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+        })?;
+        if let Some(guard) = guard
+            && !self.holds(guard)?
+        {
+            if let Some(branches) = self.environment.branches() {
+                branches.dead = true;
+            }
+            return self.fault(span, FaultKind::Environment { reason: String::new() });
+        }
+        let values = binders.iter().map(|binder| self.slot(binder.slot).clone()).collect();
+        if let Some(branches) = self.environment.branches() {
+            branches.chosen.push(ChoiceTaken { span, values });
+        }
+        self.perform(body)
+    }
+
+    /// Candidates that cannot be listed are no fault of the step here: they are what cannot be explored.
+    #[cold]
+    fn endless_choice(&mut self, fault: Box<crate::Fault>, span: Span) -> Outcome<()> {
+        if let FaultKind::NotEnumerable { .. } = fault.kind
+            && let Some(branches) = self.environment.branches()
+        {
+            branches.endless(UnboundedKind::Choice, span);
+        }
+        Err(fault)
+    }
+}

@@ -1,0 +1,146 @@
+//! Conditions on states, decided without a machine where the same question has been answered before.
+//!
+//! In: a formula. It is taken apart at `and` and at `forall` over a fixed domain, since a part looks at less of the state
+//! than the whole and so has fewer different answers; each part has its own [`Tree`]. INVARIANT: the truth is that of
+//! evaluating the formula from the left.
+
+use std::sync::Arc;
+
+use program::{Builtin, DomainKind, Expression, Program, Quantifier, Slot, Term, TermId};
+
+use crate::environment::Closed;
+use crate::explore::tree::{End, Tree};
+use crate::machine::Machine;
+use crate::value::Value;
+
+/// LIMIT: a formula is taken apart into so many parts at most.
+const PARTS: usize = 1 << 12;
+
+/// What a condition comes to in a state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Truth {
+    /// It holds.
+    True,
+    /// It does not.
+    False,
+    /// It is neither true nor false.
+    Undef,
+    /// It cannot be evaluated.
+    Fault,
+    /// It asks for what cannot be gone through.
+    Unknown,
+}
+
+impl Truth {
+    const ALL: [Truth; 5] = [Truth::True, Truth::False, Truth::Undef, Truth::Fault, Truth::Unknown];
+
+    pub(crate) fn end(self) -> End {
+        1 + self as End
+    }
+
+    pub(crate) fn of_end(end: End) -> Truth {
+        Truth::ALL[end as usize - 1]
+    }
+}
+
+/// A part of a condition.
+#[derive(Debug)]
+pub(crate) struct Part {
+    /// The slots of the quantified variables.
+    pub bindings: Arc<[(Slot, Value)]>,
+    pub term: TermId,
+    pub frame: u32,
+    pub tree: Tree,
+}
+
+/// A condition.
+#[derive(Debug)]
+pub(crate) struct Condition {
+    pub parts: Vec<Part>,
+}
+
+impl Condition {
+    /// A condition of a formula without parameters.
+    pub fn new(program: &Program, machine: &mut Machine, formula: &Expression) -> Condition {
+        let mut condition = Condition { parts: Vec::new() };
+        condition.take_apart(program, machine, formula.frame, formula.body, Arc::new([]));
+        condition
+    }
+
+    fn take_apart(
+        &mut self,
+        program: &Program,
+        machine: &mut Machine,
+        frame: u32,
+        term: TermId,
+        bindings: Arc<[(Slot, Value)]>,
+    ) {
+        match program.term(term) {
+            Term::Builtin { builtin: Builtin::And, arguments } => {
+                for conjunct in program.term_list(*arguments) {
+                    self.take_apart(program, machine, frame, *conjunct, Arc::clone(&bindings));
+                }
+                return;
+            }
+            Term::Quantified { quantifier: Quantifier::Forall, binders, condition: Some(body) } => {
+                let binders = program.binder_list(*binders);
+                let elements: Option<Vec<Vec<Value>>> = binders
+                    .iter()
+                    .map(|binder| match program.term(binder.range) {
+                        Term::Domain(domain) if is_fixed(program, *domain) => machine.elements(*domain).ok(),
+                        _ => None,
+                    })
+                    .collect();
+                let count = |elements: &Vec<Vec<Value>>| {
+                    elements.iter().fold(1usize, |count, elements| count.saturating_mul(elements.len()))
+                };
+                if let Some(elements) = elements.filter(|elements| self.parts.len() + count(elements) <= PARTS) {
+                    let mut all = vec![bindings.to_vec()];
+                    for (binder, elements) in binders.iter().zip(&elements) {
+                        all = all
+                            .into_iter()
+                            .flat_map(|former: Vec<(Slot, Value)>| {
+                                elements.iter().map(move |value| {
+                                    let mut longer = former.clone();
+                                    longer.push((binder.slot, value.clone()));
+                                    longer
+                                })
+                            })
+                            .collect();
+                    }
+                    for bindings in all {
+                        self.take_apart(program, machine, frame, *body, bindings.into());
+                    }
+                    return;
+                }
+            }
+            _ => {}
+        }
+        self.parts.push(Part { bindings, term, frame, tree: Tree::default() });
+    }
+}
+
+/// Whether a domain has the same elements in all states.
+fn is_fixed(program: &Program, domain: program::DomainId) -> bool {
+    match &program.domain(domain).kind {
+        DomainKind::Basic(_) | DomainKind::Enum { .. } => true,
+        DomainKind::Abstract { dynamic, .. } => !dynamic,
+        DomainKind::Concrete { dynamic, base, .. } => {
+            !dynamic && !matches!(program.domain(*base).kind, DomainKind::Abstract { dynamic: true, .. })
+        }
+        DomainKind::Prod(parts) => parts.iter().all(|part| is_fixed(program, *part)),
+        _ => false,
+    }
+}
+
+/// The value that the initial value's term has for these arguments.
+pub(crate) fn initial_value(machine: &mut Machine, location: &crate::Location) -> Option<Value> {
+    let initial = machine.core.initials[location.function.0 as usize]?;
+    let value = machine.execute(&mut Closed, |executor, program| {
+        let initial = &program.initials[initial as usize];
+        let start = executor.core.frames.len();
+        executor.core.frames.extend(location.arguments.iter().cloned());
+        executor.in_frame(start, initial.value.frame, initial.span, |this| this.evaluate(initial.value.body))
+    });
+    value.ok()
+}

@@ -1,0 +1,229 @@
+//! What a step comes to, remembered by what it looked at: a tree of decisions.
+//!
+//! A step is a function of the fields that it looks at and of the answers it gets. Each inner node is a field, with a
+//! child for each code, or a question, with a child for each answer; each end is what the step came to. In: the events of
+//! a step that a machine has made ([`Tree::learn`]). Out: for any packed state, the ends of all its alternatives
+//! ([`Tree::walk`]), unless one is not known yet. INVARIANT: a walk that finds all it looks for gives exactly what the
+//! machine would: nothing but events decides how a step goes on.
+
+use hashbrown::HashMap;
+use rustc_hash::FxBuildHasher;
+
+use crate::explore::branches::{Asked, Event};
+use crate::explore::encoding::Field;
+
+/// The number of an end, given by who keeps what ends mean.
+pub(crate) type End = u32;
+
+/// The end of an alternative that is none.
+pub(crate) const DEAD: End = 0;
+
+/// A node, or an end where the highest bit is set; 0 is not known yet.
+type Link = u32;
+const END: Link = 1 << 31;
+
+/// LIMIT: fields of more bits have their children in a table by hash.
+const WIDE: u8 = 8;
+/// LIMIT: a tree with more links is given up.
+const LINKS: usize = 1 << 25;
+/// LIMIT: so many walks are made before a tree is judged by how often they succeed.
+const TRIAL: u64 = 1 << 14;
+
+#[derive(Debug, Clone, Copy)]
+enum Node {
+    /// Children by code, from `base` on.
+    Field { word: u32, shift: u8, bits: u8, base: u32 },
+    /// Children by code, in a table.
+    Wide { word: u32, shift: u8, bits: u8, index: u32 },
+    /// Every child is walked.
+    Ask { base: u32, of: u32 },
+    /// Every child is walked; where all are dead, the one after them.
+    Guarded { base: u32, of: u32 },
+}
+
+/// See the module.
+#[derive(Debug, Default)]
+pub(crate) struct Tree {
+    nodes: Vec<Node>,
+    links: Vec<Link>,
+    wide: HashMap<(u32, u32), Link, FxBuildHasher>,
+    root: Link,
+    walks: u64,
+    failures: u64,
+    given_up: bool,
+}
+
+/// Where a link stands.
+enum Place {
+    Root,
+    Link(usize),
+    Wide(u32, u32),
+}
+
+/// Some alternative is not known.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Unknown;
+
+impl Tree {
+    /// Whether it pays to walk it.
+    #[inline]
+    pub fn is_used(&self) -> bool {
+        !self.given_up
+    }
+
+    /// How many nodes and links it has.
+    pub fn size(&self) -> usize {
+        self.nodes.len() + self.links.len() + self.wide.len()
+    }
+
+    /// Visits the ends of all alternatives of a state, in their order, dead ones left out.
+    #[inline]
+    pub fn walk(&mut self, words: &[u64], visit: &mut impl FnMut(End)) -> Result<(), Unknown> {
+        self.walks += 1;
+        match self.walk_from(self.root, words, visit) {
+            Ok(_) => Ok(()),
+            Err(unknown) => {
+                self.fail();
+                Err(unknown)
+            }
+        }
+    }
+
+    #[cold]
+    fn fail(&mut self) {
+        self.failures += 1;
+        // Making the steps costs more than what a walk saves where every fourth fails.
+        let poor = self.walks >= TRIAL && self.failures * 4 > self.walks;
+        if poor || self.links.len() + self.wide.len() > LINKS {
+            *self = Tree { given_up: true, ..Tree::default() };
+        } else if self.walks >= TRIAL {
+            (self.walks, self.failures) = (self.walks / 2, self.failures / 2);
+        }
+    }
+
+    fn walk_from(&self, mut link: Link, words: &[u64], visit: &mut impl FnMut(End)) -> Result<bool, Unknown> {
+        loop {
+            if link & END != 0 {
+                let end = link & !END;
+                if end != DEAD {
+                    visit(end);
+                }
+                return Ok(end != DEAD);
+            }
+            if link == 0 {
+                return Err(Unknown);
+            }
+            match self.nodes[link as usize - 1] {
+                Node::Field { word, shift, bits, base } => {
+                    let code = words[word as usize] >> shift & ((1 << bits) - 1);
+                    link = self.links[base as usize + code as usize];
+                }
+                Node::Wide { word, shift, bits, index } => {
+                    let code = (words[word as usize] >> shift & ((1 << bits) - 1)) as u32;
+                    link = self.wide.get(&(index, code)).copied().unwrap_or(0);
+                }
+                Node::Ask { base, of } => {
+                    for child in &self.links[base as usize..(base + of) as usize] {
+                        self.walk_from(*child, words, visit)?;
+                    }
+                    return Ok(true);
+                }
+                Node::Guarded { base, of } => {
+                    let mut alive = false;
+                    for child in &self.links[base as usize..(base + of) as usize] {
+                        alive |= self.walk_from(*child, words, visit)?;
+                    }
+                    if alive {
+                        return Ok(true);
+                    }
+                    link = self.links[(base + of) as usize];
+                }
+            }
+        }
+    }
+
+    /// Remembers that the step of a state, with these events and answers, came to an end.
+    pub fn learn(&mut self, fields: &[Field], words: &[u64], events: &[Event], answers: &[Asked], end: End) {
+        if self.given_up {
+            return;
+        }
+        let mut answers = answers.iter();
+        let mut place = Place::Root;
+        for event in events {
+            if let Event::Look(field) = event
+                && fields[*field as usize].bits == 0
+            {
+                continue;
+            }
+            let node = match self.link(&place) {
+                0 => {
+                    let node = self.add(fields, *event, answers.clone().next());
+                    self.set(&place, node);
+                    node
+                }
+                node => node,
+            };
+            assert!(node & END == 0, "a step goes on where the same step has ended");
+            place = match (self.nodes[node as usize - 1], event) {
+                (Node::Field { base, word, shift, .. }, Event::Look(field)) => {
+                    let field = fields[*field as usize];
+                    assert!((field.word, field.shift) == (word, shift), "a step looks where the same step did not");
+                    Place::Link(base as usize + field.code(words) as usize)
+                }
+                (Node::Wide { index, word, shift, .. }, Event::Look(field)) => {
+                    let field = fields[*field as usize];
+                    assert!((field.word, field.shift) == (word, shift), "a step looks where the same step did not");
+                    Place::Wide(index, field.code(words))
+                }
+                (Node::Ask { base, of } | Node::Guarded { base, of }, Event::Ask) => {
+                    let asked = answers.next().expect("an answer to each question");
+                    assert_eq!(asked.of, of, "a step asks for what the same step did not");
+                    Place::Link(base as usize + asked.taken as usize)
+                }
+                _ => panic!("a step asks where the same step looked"),
+            };
+        }
+        self.set(&place, END | end);
+    }
+
+    fn add(&mut self, fields: &[Field], event: Event, asked: Option<&Asked>) -> Link {
+        let base = self.links.len() as u32;
+        let node = match event {
+            Event::Look(field) => {
+                let Field { word, shift, bits, .. } = fields[field as usize];
+                if bits > WIDE {
+                    Node::Wide { word, shift, bits, index: self.nodes.len() as u32 }
+                } else {
+                    self.links.resize(base as usize + (1 << bits), 0);
+                    Node::Field { word, shift, bits, base }
+                }
+            }
+            Event::Ask => {
+                let asked = asked.expect("an answer to each question");
+                let of = asked.of;
+                self.links.resize((base + of) as usize + usize::from(asked.guarded), 0);
+                if asked.guarded { Node::Guarded { base, of } } else { Node::Ask { base, of } }
+            }
+        };
+        self.nodes.push(node);
+        self.nodes.len() as Link
+    }
+
+    fn link(&self, place: &Place) -> Link {
+        match place {
+            Place::Root => self.root,
+            Place::Link(index) => self.links[*index],
+            Place::Wide(node, code) => self.wide.get(&(*node, *code)).copied().unwrap_or(0),
+        }
+    }
+
+    fn set(&mut self, place: &Place, link: Link) {
+        match place {
+            Place::Root => self.root = link,
+            Place::Link(index) => self.links[*index] = link,
+            Place::Wide(node, code) => {
+                self.wide.insert((*node, *code), link);
+            }
+        }
+    }
+}

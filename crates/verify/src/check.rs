@@ -1,0 +1,254 @@
+//! What is checked of a program, and what each check comes to.
+//!
+//! In: a program and [`Options`]. Out: a [`Report`]: a verdict for each of the checks that nobody need ask for and for each
+//! property as written. INVARIANT: nothing Holds unless every state was met and every alternative taken; what was cut off
+//! is named in the verdict.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use machine::explore::{Bounds, Settings, Trouble, Unbounded};
+use machine::{Fault, Limits};
+use program::{Expression, FunctionId, Program, PropertyKind};
+use syntax::Span;
+
+use crate::coverage::unreachable_rules;
+use crate::search::{Plan, Progress, Search, Stop, Target};
+use crate::trace::Trace;
+
+/// How a program is checked.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// The machine's limits.
+    pub limits: Limits,
+    /// How many workers search.
+    pub workers: usize,
+    /// The search ends with the first level in which a check is violated.
+    pub first: bool,
+    /// The most states.
+    pub max_states: u64,
+    /// The most steps from an initial state.
+    pub max_depth: u64,
+    /// The most bytes for states.
+    pub max_bytes: u64,
+    /// The values that inputs are given, where they are not all those of their domains. What Holds under such a bound is
+    /// Unknown without.
+    pub bounds: Bounds,
+    /// States in which this holds may rest.
+    pub terminal: Option<Expression>,
+    /// Steps are always made by a machine, never remembered.
+    pub forgetful: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            limits: Limits::default(),
+            workers: 1,
+            first: false,
+            max_states: u64::MAX,
+            max_depth: u64::MAX,
+            max_bytes: u64::MAX,
+            bounds: BTreeMap::new(),
+            terminal: None,
+            forgetful: false,
+        }
+    }
+}
+
+/// What a verdict is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Subject {
+    /// No step has an inconsistent update set.
+    Consistent,
+    /// No update has a value outside its location's domain.
+    InDomain,
+    /// No step meets an undefined guard or operation.
+    Defined,
+    /// Each state that is not terminal has a step that changes it.
+    NoDeadlock,
+    /// A property of the program, by its index.
+    Property(usize),
+}
+
+/// Why it is not known whether a property holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Reason {
+    /// The search ended before it had met all states.
+    Stopped(Stop),
+    /// Alternatives that cannot be gone through.
+    Unbounded(Unbounded),
+    /// An input was given only some of its values.
+    Bounded(FunctionId),
+    /// An assumption could not be evaluated in some state.
+    Assumption(usize),
+    /// It asks in some state for what cannot be gone through.
+    Undecided,
+    /// Temporal formulas are not decided.
+    Temporal,
+}
+
+/// What a check comes to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Outcome {
+    /// In every state that can be reached.
+    Holds,
+    /// Not at the end of this run, which is a shortest one.
+    Violated(Box<Trace>),
+    /// Not known; why, at least one reason.
+    Unknown(Vec<Reason>),
+}
+
+/// A check and what it comes to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Verdict {
+    /// What is checked.
+    pub subject: Subject,
+    /// What it comes to.
+    pub outcome: Outcome,
+}
+
+/// What verification came to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Report {
+    /// The verdicts, the checks that nobody asked for first, then properties in the order of the text.
+    pub verdicts: Vec<Verdict>,
+    /// How far the search came.
+    pub progress: Progress,
+    /// Why the search ended early, if it did.
+    pub stop: Option<Stop>,
+    /// How many words a state has, and how many bits of them are used.
+    pub width: (usize, usize),
+    /// Rules that run in no step, though the rule around them or its caller does; only where every state was met.
+    pub unreachable: Vec<Span>,
+}
+
+/// Why nothing could be checked.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum NoStart {
+    /// An initial state cannot be made.
+    Fault(Box<Fault>),
+    /// The initial states cannot be gone through.
+    Unbounded(Unbounded),
+}
+
+/// Checks a program; `watch` is told how far the search is and says whether it goes on.
+///
+/// # Errors
+/// There is no initial state.
+pub fn verify(
+    program: &Arc<Program>,
+    options: &Options,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Report, NoStart> {
+    let questions = Questions::of(program, options);
+    let mut search = Search::run(program, &questions.plan, watch).map_err(|trouble| match trouble {
+        Trouble::Fault(fault) => NoStart::Fault(fault),
+        Trouble::Unbounded(unbounded) => NoStart::Unbounded(unbounded),
+        Trouble::TooNarrow(_) => unreachable!("the search widens its states"),
+    })?;
+    let traces = search.traces();
+    let mut found: BTreeMap<Target, Trace> = search.found.iter().map(|found| found.target).zip(traces).collect();
+    let reasons = reasons(&search, &questions, options);
+    let verdicts = questions.subjects.iter().map(|(subject, target)| {
+        let outcome = match target {
+            None => Outcome::Unknown(vec![Reason::Temporal]),
+            Some(target) => match found.remove(target) {
+                Some(trace) => Outcome::Violated(Box::new(trace)),
+                None => {
+                    let mut reasons = reasons.clone();
+                    if let Target::Condition(condition) = target
+                        && search.unknown.contains(condition)
+                    {
+                        reasons.push(Reason::Undecided);
+                    }
+                    if reasons.is_empty() { Outcome::Holds } else { Outcome::Unknown(reasons) }
+                }
+            },
+        };
+        Verdict { subject: *subject, outcome }
+    });
+    let verdicts = verdicts.collect();
+    let unreachable = if reasons.is_empty() { unreachable_rules(program, &search) } else { Vec::new() };
+    Ok(Report { verdicts, progress: search.progress, stop: search.stop, width: search.width(), unreachable })
+}
+
+/// Why a check that found nothing is still not known to hold.
+fn reasons(search: &Search, questions: &Questions, options: &Options) -> Vec<Reason> {
+    let mut reasons = BTreeSet::new();
+    reasons.extend(search.stop.map(Reason::Stopped));
+    reasons.extend(search.unbounded.iter().copied().map(Reason::Unbounded));
+    reasons.extend(options.bounds.keys().copied().map(Reason::Bounded));
+    for condition in &questions.plan.assumed {
+        if search.unknown.contains(condition) {
+            reasons.insert(Reason::Assumption(questions.property_of[*condition]));
+        }
+    }
+    reasons.into_iter().collect()
+}
+
+/// The checks of a program, as a search is asked for them.
+struct Questions {
+    plan: Plan,
+    subjects: Vec<(Subject, Option<Target>)>,
+    /// By condition, the property that it comes from.
+    property_of: Vec<usize>,
+}
+
+impl Questions {
+    fn of(program: &Program, options: &Options) -> Questions {
+        let mut settings =
+            Settings { limits: options.limits, bounds: Arc::new(options.bounds.clone()), ..Settings::default() };
+        settings.forgetful = options.forgetful;
+        let mut plan = Plan {
+            settings,
+            workers: options.workers,
+            first: options.first,
+            max_states: options.max_states,
+            max_depth: options.max_depth,
+            max_bytes: options.max_bytes,
+            ..Plan::default()
+        };
+        let mut property_of = Vec::new();
+        let mut subjects = vec![
+            (Subject::Consistent, Some(Target::Fault(0))),
+            (Subject::InDomain, Some(Target::Fault(1))),
+            (Subject::Defined, Some(Target::Fault(2))),
+            (Subject::NoDeadlock, Some(Target::Rest)),
+        ];
+        for (index, property) in program.properties.iter().enumerate() {
+            let (settings, subject) = (&mut plan.settings, Subject::Property(index));
+            let formula = property.formula.clone();
+            let assumed = property.kind == PropertyKind::Invar;
+            match property.kind {
+                PropertyKind::Invariant | PropertyKind::Invar if property.reads_monitored => {
+                    let condition = settings.step_conditions.len();
+                    settings.step_conditions.push((formula, assumed));
+                    if !assumed {
+                        plan.wanted_steps.push(condition);
+                        subjects.push((subject, Some(Target::StepCondition(condition))));
+                    }
+                }
+                PropertyKind::Invariant | PropertyKind::Invar => {
+                    let condition = settings.conditions.len();
+                    settings.conditions.push(formula);
+                    property_of.push(index);
+                    if assumed {
+                        plan.assumed.push(condition);
+                    } else {
+                        plan.wanted.push(condition);
+                        subjects.push((subject, Some(Target::Condition(condition))));
+                    }
+                }
+                PropertyKind::Ctl | PropertyKind::Ltl => subjects.push((subject, None)),
+                PropertyKind::Justice | PropertyKind::Compassion => {}
+            }
+        }
+        if let Some(terminal) = &options.terminal {
+            plan.terminal = Some(plan.settings.conditions.len());
+            plan.settings.conditions.push(terminal.clone());
+            property_of.push(usize::MAX);
+        }
+        Questions { plan, subjects, property_of }
+    }
+}

@@ -1,0 +1,197 @@
+//! The set of states met, and the states themselves in the order in which they were met.
+//!
+//! In: packed states. Out: whether one is new. A state stands once in a list of chunks, which never moves, and once in an
+//! open-addressed table: itself where it is a single word, else its place with a part of its hash. The table grows by
+//! half, so that states and table together take at most 22 bytes for a state of one word. The order of states is theirs of arrival
+//! and nothing else; no hash order comes out.
+
+/// LIMIT: states of one table.
+const MOST: usize = u32::MAX as usize - 1;
+/// States in a chunk.
+const CHUNK: usize = 1 << 14;
+/// How many lookups are begun before the first is ended, so that their memory is fetched at the same time.
+const AHEAD: usize = 16;
+/// The table is at most seven eighths full.
+const FULL: (usize, usize) = (7, 8);
+/// Marks an occupied slot that holds a state itself.
+const OCCUPIED: u64 = 1 << 63;
+
+/// The hash of a state.
+#[inline]
+pub fn hash(state: &[u64]) -> u64 {
+    let mut hash = 0x9e37_79b9_7f4a_7c15u64;
+    for word in state {
+        hash = (hash ^ word).wrapping_mul(0xff51_afd7_ed55_8ccd);
+        hash ^= hash >> 32;
+    }
+    hash = hash.wrapping_mul(0xc4ce_b9fe_1a85_ec53);
+    hash ^ hash >> 29
+}
+
+/// See the module.
+#[derive(Debug)]
+pub struct Table {
+    words: usize,
+    chunks: Vec<Vec<u64>>,
+    len: usize,
+    slots: Vec<u64>,
+    /// The table is given up once its capacity would be passed.
+    full: bool,
+}
+
+impl Table {
+    /// An empty set of states of so many words.
+    pub fn new(words: usize) -> Table {
+        Table { words, chunks: Vec::new(), len: 0, slots: vec![0; 1 << 10], full: false }
+    }
+
+    /// How many states there are.
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether no more states can be kept.
+    pub fn is_full(&self) -> bool {
+        self.full
+    }
+
+    /// How many bytes it takes.
+    pub fn bytes(&self) -> usize {
+        8 * self.slots.len() + self.chunks.iter().map(|chunk| 8 * chunk.capacity()).sum::<usize>()
+    }
+
+    /// A state by its place.
+    #[inline]
+    pub fn state(&self, index: usize) -> &[u64] {
+        let start = index % CHUNK * self.words;
+        &self.chunks[index / CHUNK][start..start + self.words]
+    }
+
+    /// Adds states, one after the other; calls `new` with each that is.
+    pub fn insert_all(&mut self, states: &[u64], new: &mut impl FnMut(&[u64])) {
+        let mut hashes = [0; AHEAD];
+        for batch in states.chunks(AHEAD * self.words) {
+            // The capacity is kept ahead, so that places stay right within a batch.
+            if (self.len + AHEAD) * FULL.1 > self.slots.len() * FULL.0 {
+                self.grow();
+            }
+            let mut touched = 0;
+            for (state, place) in batch.chunks_exact(self.words).zip(&mut hashes) {
+                *place = hash(state);
+                touched ^= self.slots[self.slot_of(*place)];
+            }
+            std::hint::black_box(touched);
+            for (state, hash) in batch.chunks_exact(self.words).zip(&hashes) {
+                if self.find_or_add(state, *hash) {
+                    new(state);
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn slot_of(&self, hash: u64) -> usize {
+        ((u128::from(hash) * self.slots.len() as u128) >> 64) as usize
+    }
+
+    #[inline]
+    fn find_or_add(&mut self, state: &[u64], hash: u64) -> bool {
+        let mut slot = self.slot_of(hash);
+        if let [state] = state {
+            let entry = state | OCCUPIED;
+            loop {
+                let found = self.slots[slot];
+                if found == entry {
+                    return false;
+                }
+                if found == 0 {
+                    break;
+                }
+                slot = if slot + 1 == self.slots.len() { 0 } else { slot + 1 };
+            }
+            return self.add(slot, entry, &[*state]);
+        }
+        let mark = hash << 32;
+        loop {
+            let found = self.slots[slot];
+            if found == 0 {
+                break;
+            }
+            if found & !0xffff_ffff == mark && self.state((found as u32) as usize - 1) == state {
+                return false;
+            }
+            slot = if slot + 1 == self.slots.len() { 0 } else { slot + 1 };
+        }
+        self.add(slot, mark | (self.len as u64 + 1), state)
+    }
+
+    #[inline]
+    fn add(&mut self, slot: usize, entry: u64, state: &[u64]) -> bool {
+        if self.len >= MOST {
+            self.full = true;
+            return false;
+        }
+        self.slots[slot] = entry;
+        if self.len / CHUNK == self.chunks.len() {
+            self.chunks.push(Vec::with_capacity(CHUNK * self.words));
+        }
+        self.chunks[self.len / CHUNK].extend_from_slice(state);
+        self.len += 1;
+        true
+    }
+
+    #[cold]
+    fn grow(&mut self) {
+        let wider = vec![0; self.slots.len() + self.slots.len() / 2];
+        drop(std::mem::replace(&mut self.slots, wider));
+        for index in 0..self.len {
+            let state = self.state(index);
+            let hash = hash(state);
+            let entry = match state {
+                [state] => state | OCCUPIED,
+                _ => hash << 32 | (index as u64 + 1),
+            };
+            let mut slot = self.slot_of(hash);
+            while self.slots[slot] != 0 {
+                slot = if slot + 1 == self.slots.len() { 0 } else { slot + 1 };
+            }
+            self.slots[slot] = entry;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers that come up again and again, as states of so many words.
+    fn check(words: usize) {
+        let mut table = Table::new(words);
+        let mut expected = Vec::new();
+        let mut random = 1u64;
+        let mut batch = Vec::new();
+        for _ in 0..100_000 {
+            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let number = random >> 33 & 0x7fff;
+            batch.extend((0..words as u64).map(|word| number * (word + 1)));
+        }
+        let mut seen = vec![false; 1 << 15];
+        for state in batch.chunks_exact(words) {
+            if !std::mem::replace(&mut seen[state[0] as usize], true) {
+                expected.push(state.to_vec());
+            }
+        }
+        let mut new = Vec::new();
+        table.insert_all(&batch, &mut |state| new.push(state.to_vec()));
+        assert_eq!(new, expected);
+        assert_eq!(table.len(), expected.len());
+        for (place, state) in expected.iter().enumerate() {
+            assert_eq!(table.state(place), state);
+        }
+    }
+
+    #[test]
+    fn each_state_is_new_once() {
+        (1..4).for_each(check);
+    }
+}

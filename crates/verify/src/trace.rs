@@ -1,0 +1,110 @@
+//! How a search came to a state: the steps of a shortest way, told one by one.
+//!
+//! In: what a search has found. Out: a [`Trace`] for each. No way is kept while searching; it is found again backwards,
+//! level by level: of the states of the level before that lead to the state, the least in canonical order is taken, and of
+//! its steps the first. So a trace does not depend on the number of workers, and a state costs no link to its parent.
+
+use machine::explore::{Explorer, FaultClass, Outcome, Path, Told};
+use machine::{Location, Value};
+
+use crate::search::{Found, Search, Shard, Target};
+
+/// A run from an initial state.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Trace {
+    /// What the initial state took from outside.
+    pub start: Told,
+    /// The initial state.
+    pub values: Vec<(Location, Value)>,
+    /// The steps. The last one may be one that cannot be made, or one whose inputs violate a condition.
+    pub steps: Vec<Told>,
+}
+
+impl Search {
+    /// A shortest run to each state found, in the order of `found`.
+    pub fn traces(&mut self) -> Vec<Trace> {
+        let mut chains: Vec<Vec<Box<[u64]>>> = self.found.iter().map(|found| vec![found.state.clone()]).collect();
+        let deepest = self.found.iter().map(|found| found.depth).max().unwrap_or(0);
+        for level in (0..deepest).rev() {
+            let open: Vec<usize> = (0..chains.len()).filter(|index| self.found[*index].depth > level).collect();
+            let wanted: Vec<Box<[u64]>> =
+                open.iter().map(|index| chains[*index][chains[*index].len() - 1].clone()).collect();
+            let parents = self.parents(level, &wanted);
+            for (index, parent) in open.into_iter().zip(parents) {
+                chains[index].push(parent);
+            }
+        }
+        let explorer = &mut self.explorer;
+        let found = self.found.iter();
+        found
+            .zip(&mut chains)
+            .map(|(found, chain)| {
+                chain.reverse();
+                tell(explorer, chain, found)
+            })
+            .collect()
+    }
+
+    /// For each state that is wanted the least state of a level that leads to it.
+    fn parents(&mut self, level: usize, wanted: &[Box<[u64]>]) -> Vec<Box<[u64]>> {
+        let mut least: Vec<Option<Box<[u64]>>> = vec![None; wanted.len()];
+        let Search { explorer, shards, .. } = self;
+        let words = explorer.words();
+        let mut successors = Vec::new();
+        for Shard { table, levels, .. } in shards {
+            let begin = if level == 0 { 0 } else { levels[level - 1] };
+            for place in begin..levels[level] {
+                let state = table.state(place);
+                successors.clear();
+                if explorer.expand(state, &mut successors).is_err() {
+                    continue;
+                }
+                for (wanted, least) in wanted.iter().zip(&mut least) {
+                    let leads = successors.chunks_exact(words).any(|successor| *successor == **wanted);
+                    if leads && least.as_deref().is_none_or(|former| explorer.compare(state, former).is_lt()) {
+                        *least = Some(state.into());
+                    }
+                }
+            }
+        }
+        least.into_iter().map(|state| state.expect("a state is met from one of the level before")).collect()
+    }
+}
+
+/// The first alternative of a state that is as wanted.
+fn first_path(explorer: &mut Explorer, state: &[u64], wanted: &mut dyn FnMut(&Path) -> bool) -> Option<Path> {
+    let mut first = None;
+    let _ = explorer.paths(state, &mut |path| {
+        if first.is_none() && wanted(&path) {
+            first = Some(path);
+        }
+    });
+    first
+}
+
+fn tell(explorer: &mut Explorer, chain: &[Box<[u64]>], found: &Found) -> Trace {
+    let start = explorer.initial().iter().find(|(state, _)| *state == chain[0]);
+    let start = start.map(|(_, told)| told.clone()).unwrap_or_default();
+    let mut trace = Trace { start, values: explorer.values(&chain[0]), steps: Vec::new() };
+    for pair in chain.windows(2) {
+        let mut leads = |path: &Path| matches!(&path.outcome, Outcome::Next(next) if *next == pair[1]);
+        let path = first_path(explorer, &pair[0], &mut leads).expect("the step was made before");
+        trace.steps.push(explorer.tell(&pair[0], &path.picks));
+    }
+    let last = &chain[chain.len() - 1];
+    let path = match found.target {
+        Target::Fault(class) => first_path(
+            explorer,
+            last,
+            &mut |path| matches!(&path.outcome, Outcome::Fault(fault) if FaultClass::of(fault) as usize == class),
+        ),
+        Target::StepCondition(condition) => {
+            first_path(explorer, last, &mut |path| path.failed.contains(&(condition as u32)))
+        }
+        Target::Rest | Target::Condition(_) => None,
+    };
+    if let Some(path) = path {
+        trace.steps.push(explorer.tell(last, &path.picks));
+    }
+    trace
+}

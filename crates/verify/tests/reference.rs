@@ -1,0 +1,102 @@
+//! The systems of the reference models, with the numbers of states that other checkers find in them, and what is wrong
+//! with those that are wrong. One step here is one step there.
+
+#![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use machine::Show;
+use program::Program;
+use syntax::SourceFile;
+use verify::{Options, Outcome, Report, Subject, verify};
+
+struct Disk;
+
+impl Disk {
+    fn read(path: &Path) -> Result<SourceFile, String> {
+        let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+        Ok(SourceFile::new(path.display().to_string(), text))
+    }
+}
+
+impl model::Loader for Disk {
+    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        Disk::read(&Path::new(&importer.name).parent().unwrap_or(Path::new("")).join(format!("{path}.asm")))
+    }
+}
+
+fn program(name: &str) -> Arc<Program> {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../bench/models/verify/{name}.asm"));
+    let root = Disk::read(&path).expect("the model is there");
+    let checked = model::check(root, &mut Disk);
+    assert!(checked.diagnostics.is_empty(), "{:#?}", checked.diagnostics);
+    Arc::new(program::lower(&checked.model).expect("it can be lowered"))
+}
+
+fn check(program: &Arc<Program>, options: &Options) -> Report {
+    verify(program, options, &mut |_| true).expect("there is an initial state")
+}
+
+/// What is violated, and after how many steps.
+fn violated(program: &Program, report: &Report) -> Vec<(String, usize)> {
+    let name = |subject: &Subject| match subject {
+        Subject::Property(index) => program.properties[*index].name.clone(),
+        other => format!("{other:?}"),
+    };
+    let verdicts = report.verdicts.iter();
+    verdicts
+        .filter_map(|verdict| match &verdict.outcome {
+            Outcome::Violated(trace) => Some((name(&verdict.subject), trace.steps.len())),
+            Outcome::Holds => None,
+            Outcome::Unknown(reasons) => panic!("{:?}: {reasons:?}", verdict.subject),
+        })
+        .collect()
+}
+
+#[test]
+fn the_swinging_buffer_is_right() {
+    let program = program("Swing");
+    for forgetful in [false, true] {
+        let report = check(&program, &Options { forgetful, ..Options::default() });
+        assert_eq!(report.progress.states, 203);
+        assert_eq!(violated(&program, &report), []);
+        assert_eq!(report.unreachable, []);
+    }
+}
+
+#[test]
+fn without_the_lock_the_twelfth_step_reads_half_of_a_datum() {
+    let program = program("SwingUnlocked");
+    let mut told = Vec::new();
+    for workers in [1, 2, 3] {
+        let report = check(&program, &Options { workers, ..Options::default() });
+        assert_eq!(violated(&program, &report), [("inv_whole".to_string(), 12)]);
+        let Outcome::Violated(trace) = &report.verdicts[4].outcome else { panic!("the invariant is violated") };
+        let changes = trace.steps[11].changes.iter();
+        told.push(changes.map(|c| format!("{} = {}", c.location.show(&program), c.after.show(&program))).collect());
+        assert_eq!(told[0], told[told.len() - 1]);
+    }
+    let last: &Vec<String> = &told[0];
+    assert_eq!(last, &["place(CONSUMER) = 2", "word(CONSUMER) = 0", "copy(1) = 1"]);
+}
+
+#[test]
+fn philosophers_have_three_to_the_n_states_but_one_and_one_deadlock() {
+    let program = program("Phil12");
+    let report = check(&program, &Options::default());
+    assert_eq!(report.progress.states, 531_440);
+    assert_eq!(violated(&program, &report), [("NoDeadlock".to_string(), 12)]);
+}
+
+#[test]
+fn what_is_remembered_changes_nothing() {
+    let program = program("ChainXS");
+    let reports = [(1, false), (1, true), (3, false)].map(|(workers, forgetful)| {
+        let report = check(&program, &Options { workers, forgetful, ..Options::default() });
+        assert_eq!(violated(&program, &report), []);
+        (report.progress.states, report.progress.transitions, report.progress.depth)
+    });
+    assert_eq!(reports[0], reports[1]);
+    assert_eq!(reports[0], reports[2]);
+}
