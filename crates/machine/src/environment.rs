@@ -32,7 +32,10 @@ pub struct Choice<'a> {
 impl Choice<'_> {
     /// How many candidates there are, at least one.
     pub fn candidates(&self) -> usize {
-        self.values.len() / self.variables
+        match self.variables {
+            1 => self.values.len(),
+            many => self.values.len() / many,
+        }
     }
 
     /// The values of the bound variables of one candidate.
@@ -107,6 +110,9 @@ pub trait Environment {
     fn no_candidate(&mut self, _program: &Program, _choose: Span) -> Result<(), String> {
         Ok(())
     }
+
+    /// A step of [`crate::Machine::pass`] was made; what is asked next belongs to the one after it.
+    fn step_made(&mut self) {}
 
     /// The clock.
     fn time(&mut self, unit: TimeUnit) -> Result<i64, String>;

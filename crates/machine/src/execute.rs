@@ -54,6 +54,8 @@ pub(crate) struct Core {
     pub coverage: Option<Box<Coverage>>,
     /// The initial values of functions: index into the program's initials, by function.
     pub initials: Vec<Option<u32>>,
+    /// The initial state, where initial values that are evaluated later may read it.
+    pub origin: Option<Box<Store>>,
     /// By function: its locations are read without asking anybody (but one that is undef may yet have an initial
     /// value).
     pub plain: Vec<bool>,
@@ -61,6 +63,12 @@ pub(crate) struct Core {
     pub choices: Choices,
     /// Every alternative is wanted, and what is looked at is noted: see [`crate::explore`].
     pub exploring: bool,
+    /// A location was set to undef from outside.
+    pub unset: bool,
+    /// Some function is shared.
+    pub shared: bool,
+    /// Sparse locations at the last compaction.
+    pub compacted: usize,
 }
 
 /// The choices made in a step, so that one begun anew makes the same.
@@ -110,6 +118,7 @@ impl Choices {
     }
 
     /// A new step begins.
+    #[inline]
     pub fn forget(&mut self) {
         self.made.clear();
         self.drawn.clear();

@@ -11,7 +11,8 @@ use crate::execute::{Core, Executor, Outcome};
 use crate::fault::{Fault, FaultKind};
 use crate::limits::Limits;
 use crate::location::Location;
-use crate::native::{self, Engine};
+use crate::native::{Ended, Engine};
+use crate::step::{Passed, Step};
 use crate::store::Store;
 use crate::value::Value;
 
@@ -26,17 +27,6 @@ pub struct Change {
     pub after: Value,
     /// The update rule that wrote it.
     pub span: Span,
-}
-
-/// What a step did.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Step {
-    /// How many updates the step's update set held, trivial ones and new elements included.
-    pub updates: usize,
-    /// Whether any of them changed a value or a domain grew.
-    pub changed: bool,
-    /// Whether a domain grew.
-    pub grown: bool,
 }
 
 /// A copy of a whole state, to go back to.
@@ -81,31 +71,17 @@ pub struct Machine {
     steps: u64,
     /// The update set on the stack is committed: where an update changed anything it holds the value before.
     settled: bool,
-    /// Some function is shared.
-    shared: bool,
     engine: EngineState,
     /// A step was committed since inputs were last forgotten.
     stale: bool,
-    /// Sparse locations at the last compaction.
-    compacted: usize,
 }
 
 impl Machine {
     /// A machine whose locations are all undef: see [`Machine::start`].
     pub fn new(program: Arc<Program>, limits: Limits) -> Machine {
         let core = Core::new(&program, limits);
-        let shared = program.functions.iter().any(|function| function.kind == FunctionKind::Shared);
-        Machine {
-            program,
-            limits,
-            core,
-            steps: 0,
-            settled: false,
-            shared,
-            engine: EngineState::default(),
-            stale: false,
-            compacted: 0,
-        }
+        let engine = EngineState::default();
+        Machine { program, limits, core, steps: 0, settled: false, engine, stale: false }
     }
 
     /// The program.
@@ -180,27 +156,54 @@ impl Machine {
     ) -> Result<(), Fault> {
         self.discard();
         self.settled = false;
-        self.core.updates.release();
         if self.stale {
             self.forget_inputs();
         }
-        self.core.iterations = 0;
-        self.core.choices.forget();
-        self.core.updates.begin();
-        if self.runs_compiled(procedure, environment) {
+        self.core.begin_step();
+        if self.has_code(procedure) && self.runs_compiled(environment) {
             return Ok(());
         }
+        self.interpret(procedure, environment)
+    }
+
+    /// Computes the update set of a step that has begun by walking over the program.
+    fn interpret(&mut self, procedure: ProcedureId, environment: &mut dyn Environment) -> Result<(), Fault> {
         let outcome = self.execute(environment, |executor, program| {
             let span = program.procedure(procedure).span;
             executor.enter(procedure, 0, span)
         });
-        match outcome {
-            Ok(()) => Ok(()),
-            Err(fault) => {
-                self.discard();
-                Err(fault)
+        if outcome.is_err() {
+            self.discard();
+        }
+        outcome
+    }
+
+    /// Makes steps of the main rule one after the other, until as many are made as are `wanted` in all, a domain
+    /// has grown, or there was nothing to update. After each the environment is told ([`Environment::step_made`]); else nobody looks at the states
+    /// between them, which makes these steps the fastest.
+    ///
+    /// # Errors
+    /// A fault leaves the state as it was after the steps that were counted.
+    pub fn pass(&mut self, wanted: u64, environment: &mut dyn Environment, passed: &mut Passed) -> Result<(), Fault> {
+        while passed.steps < wanted {
+            let main = self.program.main;
+            let step = match main.filter(|main| self.has_code(*main)) {
+                None => self.step(environment)?,
+                Some(main) => match self.passes_compiled(wanted, environment, passed) {
+                    Ended::Enough | Ended::Paused => return Ok(()),
+                    Ended::Abandoned => {
+                        self.interpret(main, environment)?;
+                        self.commit()
+                    }
+                },
+            };
+            passed.count(step);
+            environment.step_made();
+            if step.grown || step.updates == 0 {
+                break;
             }
         }
+        Ok(())
     }
 
     /// Which engine makes the steps; [`EngineChoice::Automatic`] if nobody says.
@@ -208,12 +211,11 @@ impl Machine {
         self.engine = EngineState { choice, ..EngineState::default() };
     }
 
-    /// Computes the update set by compiled code, if there is any or it is due; false where the step is to be
-    /// interpreted.
-    fn runs_compiled(&mut self, procedure: ProcedureId, environment: &mut dyn Environment) -> bool {
+    /// Whether there is compiled code for a procedure, compiling it when that is due.
+    fn has_code(&mut self, procedure: ProcedureId) -> bool {
         let EngineState { choice, work, tried, code } = &mut self.engine;
         let due = match choice {
-            EngineChoice::Interpreted => return false,
+            EngineChoice::Interpreted => false,
             EngineChoice::Compiled => true,
             EngineChoice::Automatic => *work > COMPILED_AFTER,
         };
@@ -224,56 +226,55 @@ impl Machine {
             *tried = true;
             *code = Engine::compile(&self.program, &self.core).map(Box::new);
         }
-        let Some(engine) = code else { return false };
-        if !engine.pays() && *choice == EngineChoice::Automatic {
+        if *choice == EngineChoice::Automatic && code.as_ref().is_some_and(|engine| !engine.pays()) {
             *code = None;
-            return false;
         }
-        let Machine { program, core, limits, .. } = self;
-        // The last call of the machine may have ended in a fault.
-        if !core.calls.is_empty() {
-            core.frames.clear();
-            core.calls.clear();
-        }
-        (core.base, core.depth) = (0, 0);
+        code.is_some()
+    }
+
+    /// Computes the update set of a step that has begun by compiled code; false where it is to be interpreted.
+    fn runs_compiled(&mut self, environment: &mut dyn Environment) -> bool {
+        let Machine { program, core, limits, engine, .. } = self;
+        let Some(engine) = &mut engine.code else { return false };
+        core.clear_calls();
         let mut executor = Executor { program, core, environment, limits: *limits };
-        if engine.run(&mut executor) {
-            return true;
+        let computed = engine.run(&mut executor);
+        if !computed {
+            self.repeat();
         }
+        computed
+    }
+
+    /// Makes steps by compiled code. One that is abandoned has begun, and is to be interpreted.
+    fn passes_compiled(&mut self, wanted: u64, environment: &mut dyn Environment, passed: &mut Passed) -> Ended {
+        self.discard();
+        let Machine { program, core, limits, engine, .. } = self;
+        let Some(engine) = &mut engine.code else { return Ended::Enough };
+        core.clear_calls();
+        let before = passed.steps;
+        let mut executor = Executor { program, core, environment, limits: *limits };
+        let ended = engine.pass(&mut executor, self.stale, wanted, passed);
+        self.steps += passed.steps - before;
+        (self.settled, self.stale) = (true, true);
+        if let Ended::Abandoned = ended {
+            (self.settled, self.stale) = (false, false);
+            self.repeat();
+        }
+        ended
+    }
+
+    /// Begins an abandoned step anew: it will make the same choices.
+    fn repeat(&mut self) {
         self.discard();
         self.core.iterations = 0;
         self.core.choices.repeat();
         self.core.updates.begin();
-        false
     }
 
     /// Applies the update set prepared. The inputs of the step can still be read until
     /// [`Machine::forget_inputs`].
     pub fn commit(&mut self) -> Step {
-        let Machine { program, core, .. } = self;
-        let created = core.updates.created().len();
-        let mut step = Step { updates: core.updates.len() + created, changed: created > 0, grown: created > 0 };
-        if self.shared {
-            // A shared location that the machine has made undef is not asked for.
-            for update in core.updates.stack.iter().filter(|update| update.value.is_undef()) {
-                let function = core.store.function_of(update.location);
-                if program.function(function).kind == FunctionKind::Shared {
-                    core.store.given[update.location as usize] = core.epoch;
-                }
-            }
-        }
-        step.changed |= native::apply(&mut core.store, &mut core.updates);
-        for (domain, element) in core.updates.created() {
-            let carrier = &mut core.store.carriers[domain.0 as usize];
-            if matches!(program.domain(*domain).kind, program::DomainKind::Abstract { .. }) {
-                carrier.count = carrier.fresh;
-            } else {
-                carrier.elements.push(element.clone());
-                carrier.elements.sort_unstable();
-            }
-        }
-        core.updates.settle();
-        core.memo.changed();
+        let step = self.core.commit(&self.program);
         self.settled = true;
         self.stale = true;
         self.steps += 1;
@@ -333,26 +334,7 @@ impl Machine {
     /// Makes every monitored location, and the clock, be asked for anew.
     pub fn forget_inputs(&mut self) {
         self.stale = false;
-        let core = &mut self.core;
-        core.epoch += 1;
-        core.memo.changed();
-        core.clock = [None; 3];
-        for (index, function) in &core.inputs {
-            let (index, function) = (*index, *function);
-            if self.program.function(function).kind == FunctionKind::Monitored {
-                core.store.values[index as usize] = Value::Undef;
-            }
-        }
-        core.inputs.clear();
-        // Numbers are handed out afresh here, where nothing holds one.
-        let sparse = core.store.sparse_len();
-        if sparse > 2 * self.compacted + 4096 {
-            let program = &self.program;
-            core.store.compact(&|location| program.function(location.function).kind != FunctionKind::Monitored);
-            core.updates.renumbered();
-            core.updates.release();
-            self.compacted = core.store.sparse_len();
-        }
+        self.core.forget_inputs(&self.program);
     }
 
     /// The current value of a location; a monitored one's only if it was asked for in this step.
@@ -369,6 +351,12 @@ impl Machine {
     pub fn set(&mut self, location: &Location, value: Value) -> Result<(), Fault> {
         let Location { function, arguments } = location;
         let span = self.program.function(*function).span;
+        let kind = self.program.function(*function).kind;
+        if value.is_undef() && !self.core.unset && matches!(kind, FunctionKind::Controlled | FunctionKind::Out) {
+            // Compiled code may rely on what the program by itself never makes undef.
+            self.core.unset = true;
+            self.use_engine(self.engine.choice);
+        }
         self.execute(&mut Closed, |executor, program| {
             if !executor.is_member(*function, &value) {
                 let domain = program.function(*function).codomain;

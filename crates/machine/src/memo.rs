@@ -94,10 +94,16 @@ impl Memo {
         &self.shelves
     }
 
-    /// The values, their marks and the version of the state, as compiled code reads them.
+    /// The values and their marks, as compiled code reads them.
     #[inline]
-    pub fn view(&mut self) -> (*mut Value, *mut u64, u64) {
-        (self.values.as_mut_ptr(), self.versions.as_mut_ptr(), self.current)
+    pub fn view(&mut self) -> (*mut Value, *mut u64) {
+        (self.values.as_mut_ptr(), self.versions.as_mut_ptr())
+    }
+
+    /// The number of the state's version, which the marks are compared with.
+    #[inline]
+    pub fn version_now(&self) -> u64 {
+        self.current
     }
 
     /// The state has changed to one it never was before.

@@ -7,7 +7,7 @@
 
 use std::sync::Arc;
 
-use program::{DomainId, DomainKind, FunctionId, FunctionKind, Program};
+use program::{DomainId, DomainKind, FunctionId, FunctionKind, Initial, Program};
 use syntax::Span;
 
 use crate::environment::Closed;
@@ -43,9 +43,13 @@ impl Core {
             codomains: Vec::new(),
             coverage: None,
             initials: vec![None; program.functions.len()],
+            origin: None,
             plain: vec![false; program.functions.len()],
             choices: crate::execute::Choices::default(),
             exploring: false,
+            unset: false,
+            shared: program.functions.iter().any(|function| function.kind == FunctionKind::Shared),
+            compacted: 0,
         };
         core.reset_carriers(program);
         Executor { program, core: &mut core, environment: &mut Closed, limits }.fill_contents();
@@ -149,12 +153,42 @@ impl<'a> Executor<'a> {
             }
         }
         self.core.memo.changed();
+        if program.initials.iter().any(|initial| self.is_read_late(initial)) {
+            self.core.origin = Some(Box::new(self.core.store.clone()));
+        }
         for (index, declared) in program.functions.iter().enumerate() {
             use FunctionKind::{Controlled, Local, Out};
             let kind = matches!(declared.kind, Controlled | Out | Local);
             self.core.plain[index] = kind && declared.element.is_none() && !self.core.exploring;
         }
         Ok(())
+    }
+
+    /// Whether an initial value reads the state and may be evaluated when that is no longer the initial one.
+    fn is_read_late(&mut self, initial: &Initial) -> bool {
+        let program = self.program;
+        let function = program.function(initial.function);
+        if function.parameters.is_empty() || program.reads(&initial.value).is_some_and(|read| read.is_empty()) {
+            return false;
+        }
+        let grows = function.parameters.iter().any(|domain| match program.domain(*domain).kind {
+            DomainKind::Abstract { dynamic, .. } | DomainKind::Concrete { dynamic, .. } => dynamic,
+            DomainKind::Basic(_) | DomainKind::Enum { .. } => false,
+            _ => true,
+        });
+        grows || self.argument_tuples(initial.function, initial.span).is_none()
+    }
+
+    /// Evaluates in the initial state.
+    fn in_initial_state<T>(&mut self, body: impl FnOnce(&mut Self) -> Outcome<T>) -> Outcome<T> {
+        let Some(mut origin) = self.core.origin.take() else { return body(self) };
+        std::mem::swap(&mut self.core.store, &mut origin);
+        self.core.memo.changed();
+        let outcome = body(self);
+        std::mem::swap(&mut self.core.store, &mut origin);
+        self.core.memo.changed();
+        self.core.origin = Some(origin);
+        outcome
     }
 
     /// All argument tuples of a function, if they can be enumerated and are not too many.
@@ -193,7 +227,9 @@ impl<'a> Executor<'a> {
         let initial = &program.initials[initial as usize];
         let start = self.core.frames.len();
         self.core.frames.extend(arguments.iter().cloned());
-        let value = self.in_frame(start, initial.value.frame, span, |this| this.evaluate(initial.value.body))?;
+        let value = self.in_initial_state(|this| {
+            this.in_frame(start, initial.value.frame, span, |this| this.evaluate(initial.value.body))
+        })?;
         let index = self.core.store.number(function, arguments) as usize;
         self.core.store.values[index] = value.clone();
         self.core.store.given[index] = self.core.epoch;

@@ -95,10 +95,8 @@ impl Choices {
         match self {
             Choices::First => Ok(0),
             Choices::Random { seed, step, made, keys } => {
-                if *made == keys.len() {
-                    keys.push(key(*made as u64));
-                }
-                let mut stream = SplitMix::stream(*seed, *step, keys[*made]);
+                let key = keys.get(*made).copied().unwrap_or_else(|| one_more(keys));
+                let mut stream = SplitMix::stream(*seed, *step, key);
                 *made += 1;
                 Ok(stream.below(choice.candidates() as u64) as usize)
             }
@@ -113,9 +111,11 @@ impl Choices {
     }
 }
 
-/// What a choice is drawn by: how many the step has made before.
-fn key(made: u64) -> u64 {
+/// Adds what the next choice is drawn by: how many the step has made before.
+#[cold]
+fn one_more(keys: &mut Vec<u64>) -> u64 {
     let mut hash = StableHash::new().text("choose");
-    hash.write(&made.to_le_bytes());
+    hash.write(&(keys.len() as u64).to_le_bytes());
+    keys.push(hash.finish());
     hash.finish()
 }

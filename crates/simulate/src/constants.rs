@@ -68,6 +68,10 @@ impl Source for Constants {
         Ok(self.values.get(&ask.location.to_location()).cloned())
     }
 
+    fn has_writes(&self) -> bool {
+        !self.shared.is_empty()
+    }
+
     fn writes(&mut self, _step: u64) -> Vec<(Location, Value)> {
         self.shared.clone()
     }

@@ -43,6 +43,11 @@ pub trait Source {
     /// the user and ends the run.
     fn input(&mut self, ask: &Ask<'_>) -> Result<Option<Value>, String>;
 
+    /// Whether [`Source::writes`] may have any.
+    fn has_writes(&self) -> bool {
+        false
+    }
+
     /// Values that the environment writes to shared locations before a step.
     fn writes(&mut self, _step: u64) -> Vec<(Location, Value)> {
         Vec::new()
@@ -156,7 +161,7 @@ impl Inputs {
             self.carriers.refresh(machine);
         }
         written.clear();
-        for layer in &mut self.layers {
+        for layer in self.layers.iter_mut().filter(|layer| layer.has_writes()) {
             let writes = layer.writes(step);
             if writes.is_empty() {
                 continue;
@@ -169,6 +174,11 @@ impl Inputs {
             }
         }
         Ok(())
+    }
+
+    /// Whether steps may follow each other without [`Inputs::begin`]: nothing is noted, and nobody writes before one.
+    pub(crate) fn can_pass(&self) -> bool {
+        !self.keep && !self.layers.iter().any(|layer| layer.has_writes())
     }
 
     pub(crate) fn finish(&mut self, step: u64, back: bool) {
@@ -206,6 +216,13 @@ impl Environment for Inputs {
             });
         }
         Ok(index)
+    }
+
+    fn step_made(&mut self) {
+        self.finish(self.step, false);
+        self.step += 1;
+        self.clock.begin(self.step);
+        self.choices.begin(self.step);
     }
 
     fn time(&mut self, unit: TimeUnit) -> Result<i64, String> {

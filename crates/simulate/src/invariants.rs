@@ -50,6 +50,11 @@ impl Watch {
         watch
     }
 
+    /// Whether there is nothing to evaluate.
+    pub fn is_idle(&self) -> bool {
+        self.over_inputs.is_empty() && self.over_states.is_empty()
+    }
+
     /// The state may have become any other.
     pub fn forget(&mut self) {
         self.over_states.iter_mut().for_each(|watched| watched.known = None);

@@ -149,6 +149,10 @@ impl Source for Named {
     }
 
     /// A shared location is written when the file says so; between that it is the machine's to change.
+    fn has_writes(&self) -> bool {
+        true
+    }
+
     fn writes(&mut self, step: u64) -> Vec<(Location, Value)> {
         let given = self.shared.iter().filter_map(|at| self.begins(at, step).map(|value| (at.clone(), value.clone())));
         given.collect()

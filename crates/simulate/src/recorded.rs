@@ -140,6 +140,10 @@ impl Source for Player {
         Ok(self.0.borrow().inputs.get(&ask.location.to_location()).cloned())
     }
 
+    fn has_writes(&self) -> bool {
+        true
+    }
+
     fn writes(&mut self, _step: u64) -> Vec<(Location, Value)> {
         self.0.borrow().writes.clone()
     }

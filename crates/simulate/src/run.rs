@@ -7,7 +7,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use machine::{EngineChoice, Fault, FaultKind, Limits, Machine, Snapshot, Value};
+use machine::{EngineChoice, Fault, FaultKind, Limits, Machine, Passed, Snapshot, Step, Value};
 use program::{Expression, Program};
 
 use crate::inputs::{Inputs, Signal};
@@ -82,37 +82,12 @@ enum Phase {
     Ended,
 }
 
-/// What steps without records did.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Passed {
-    /// How many were made.
-    pub steps: u64,
-    /// How many of them changed the state.
-    pub changed: u64,
-    /// How many updates their update sets held.
-    pub updates: u64,
-}
-
-impl std::ops::AddAssign for Passed {
-    fn add_assign(&mut self, more: Passed) {
-        self.steps += more.steps;
-        self.changed += more.changed;
-        self.updates += more.updates;
-    }
-}
-
-impl Passed {
-    fn count(&mut self, step: &StepRecord) {
-        self.steps += 1;
-        self.changed += u64::from(step.changed);
-        self.updates += step.updates as u64;
-    }
-}
-
 /// What became of a step.
 enum Made {
     /// It was made.
     Step,
+    /// It was made with others, which were counted.
+    Unseen,
     /// It could not be made.
     Attempt,
     /// Something else came instead.
@@ -209,7 +184,7 @@ impl Run {
             let bounded = self.options.steps.is_some_and(|steps| self.made >= steps);
             if self.phase != Phase::Running || bounded || self.options.keep {
                 match self.advance() {
-                    Some(Record::Step(step)) => passed.count(&step),
+                    Some(Record::Step(step)) => passed.count(summary(&step)),
                     Some(Record::Initial { .. } | Record::Back { .. }) => {}
                     Some(Record::Attempt(_) | Record::End(_)) | None => break,
                 }
@@ -217,18 +192,49 @@ impl Run {
             }
             record.step = self.made + 1;
             record.violations.clear();
-            match self.make(&mut record) {
-                Made::Step => passed.count(&record),
+            let made = match self.can_pass() {
+                true => self.pass_unseen(&mut record, steps, &mut passed),
+                false => self.make(&mut record),
+            };
+            match made {
+                Made::Unseen => {}
+                Made::Step => passed.count(summary(&record)),
                 Made::Attempt | Made::Other(_) => break,
             }
         }
         passed
     }
 
+    /// Whether nothing has to look at the states between steps.
+    fn can_pass(&self) -> bool {
+        let Options { until, stop_on_empty, stop_on_trivial, history, .. } = &self.options;
+        let ends = until.is_some() || *stop_on_empty || *stop_on_trivial;
+        !ends && *history == 0 && self.watch.is_idle() && self.inputs.can_pass()
+    }
+
+    /// Makes steps as [`Machine::pass`] does; the record is that of a step at fault.
+    fn pass_unseen(&mut self, record: &mut StepRecord, wanted: u64, passed: &mut Passed) -> Made {
+        if let Err(fault) = self.inputs.begin(record.step, &mut self.machine, &mut record.writes) {
+            return self.failed(record, *fault, None);
+        }
+        let before = passed.steps;
+        let bound = self.options.steps.map_or(wanted, |steps| wanted.min(before + (steps - self.made)));
+        let outcome = self.machine.pass(bound, &mut self.inputs, passed);
+        self.made += passed.steps - before;
+        self.inputs.grown = true;
+        match outcome {
+            Ok(()) => Made::Unseen,
+            Err(fault) => {
+                record.step = self.made + 1;
+                self.failed(record, fault, None)
+            }
+        }
+    }
+
     fn step(&mut self) -> Record {
         let mut record = StepRecord { step: self.made + 1, ..StepRecord::default() };
         match self.make(&mut record) {
-            Made::Step => Record::Step(record),
+            Made::Step | Made::Unseen => Record::Step(record),
             Made::Attempt => Record::Attempt(record),
             Made::Other(record) => *record,
         }
@@ -354,4 +360,8 @@ impl Run {
             Err(fault) => self.stop_with(End::Fault(Box::new(fault))),
         }
     }
+}
+
+fn summary(record: &StepRecord) -> Step {
+    Step { updates: record.updates, changed: record.changed, grown: false }
 }

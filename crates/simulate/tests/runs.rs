@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use machine::{Limits, Show};
+use machine::{EngineChoice, Limits, Show};
 use program::Program;
-use simulate::{Bounds, Choices, Inputs, Invariants, Options, RandomSource, Record, Run};
+use simulate::{Bounds, Choices, End, Inputs, Invariants, Options, RandomSource, Record, Run};
 use syntax::SourceFile;
 
 struct NoFiles;
@@ -62,8 +62,13 @@ fn program() -> Arc<Program> {
 }
 
 fn run(program: &Arc<Program>, keep: bool) -> Run {
+    run_by(program, Options { keep, ..Options::default() })
+}
+
+fn run_by(program: &Arc<Program>, options: Options) -> Run {
     let inputs = Inputs::new().with(RandomSource::new(7, Bounds::default())).choosing(Choices::random(7));
-    let options = Options { steps: Some(300), keep, invariants: Invariants::Report, ..Options::default() };
+    let invariants = if options.invariants == Invariants::Stop { Invariants::Report } else { options.invariants };
+    let options = Options { steps: Some(300), invariants, ..options };
     Run::new(Arc::clone(program), Limits::default(), inputs, options)
 }
 
@@ -78,12 +83,36 @@ fn passing_makes_the_same_steps() {
             changed += u64::from(step.changed);
         }
     }
-    let mut passed = run(&program, false);
-    let first = passed.pass(100);
-    let rest = passed.pass(1_000);
-    assert_eq!((first.steps, first.steps + rest.steps, first.changed + rest.changed), (100, steps, changed));
     assert_eq!(steps, 300);
-    assert_eq!(passed.machine().locations(), recorded.machine().locations());
+    // With invariants each state is looked at; without them nobody looks.
+    for invariants in [Invariants::Report, Invariants::Ignore] {
+        for engine in [EngineChoice::Interpreted, EngineChoice::Automatic, EngineChoice::Compiled] {
+            let mut passed = run_by(&program, Options { keep: false, invariants, engine, ..Options::default() });
+            let first = passed.pass(100);
+            let rest = passed.pass(1_000);
+            assert_eq!((first.steps, first.steps + rest.steps, first.changed + rest.changed), (100, steps, changed));
+            assert_eq!(passed.machine().locations(), recorded.machine().locations());
+            assert_eq!((passed.steps(), passed.machine().steps()), (300, 300));
+        }
+    }
+}
+
+#[test]
+fn a_fault_ends_passing_where_it_ends_a_run() {
+    let text = "asm test\nimport StandardLibrary\nsignature:\ncontrolled x: Integer\ncontrolled y: Integer\n\
+        definitions:\nmain rule r_main = par x := x + 1 if x = 290 then par y := 1 y := 2 endpar endif endpar\n\
+        default init s0: function x = 0\n";
+    let checked = model::check(SourceFile::new("test.asm", text.to_string()), &mut NoFiles);
+    let program = Arc::new(program::lower(&checked.model).expect("small enough"));
+    for engine in [EngineChoice::Interpreted, EngineChoice::Automatic, EngineChoice::Compiled] {
+        let mut run = run_by(&program, Options { keep: false, engine, ..Options::default() });
+        assert_eq!(run.pass(1_000).steps, 290);
+        let end = run.advance();
+        let Some(Record::End(End::Fault(fault))) = end else { panic!("{end:?}") };
+        assert!(matches!(fault.kind, machine::FaultKind::InconsistentUpdate { .. }), "{fault:?}");
+        assert_eq!(run.machine().steps(), 290);
+        assert!(run.advance().is_none());
+    }
 }
 
 #[test]

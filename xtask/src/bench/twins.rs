@@ -11,7 +11,7 @@ use std::process::Command;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use machine::{Choice, Environment, Limits, LocationRef, Machine, Show, Snapshot, Step, TimeUnit, Value};
+use machine::{Choice, Environment, Limits, LocationRef, Machine, Passed, Show, Snapshot, TimeUnit, Value};
 use model::Loader;
 use program::{DomainId, Program};
 use syntax::SourceFile;
@@ -143,12 +143,13 @@ impl Twin {
     /// Makes steps. One that has nothing to do (the array is sorted) does not count: the machine goes back to its
     /// initial state, as the native program does.
     fn make(&mut self, steps: u64) -> Result<(), Failure> {
-        let mut made = 0;
-        while made < steps {
-            let step = self.machine.step(&mut self.random);
-            match step.map_err(|fault| fault.show(self.machine.program()).to_string())? {
-                Step { updates: 0, .. } => self.machine.restore(&self.initial),
-                _ => made += 1,
+        let mut made = Passed::default();
+        while made.steps < steps {
+            let passed = self.machine.pass(steps, &mut self.random, &mut made);
+            passed.map_err(|fault| fault.show(self.machine.program()).to_string())?;
+            if made.empty > 0 {
+                self.machine.restore(&self.initial);
+                made.steps -= std::mem::take(&mut made.empty);
             }
         }
         Ok(())

@@ -19,9 +19,7 @@ pub(crate) fn apply(store: &mut Store, updates: &mut Updates) -> bool {
     let mut compound = false;
     for update in &mut updates.stack {
         let value = &mut store.values[update.location as usize];
-        if exchange(value, &mut update.value, &mut compound) {
-            changed = true;
-        }
+        changed |= exchange(value, &mut update.value, &mut compound);
     }
     updates.compound |= compound;
     changed
@@ -34,14 +32,14 @@ fn exchange(value: &mut Value, new: &mut Value, compound: &mut bool) -> bool {
     // the bits that a variant with that tag has written are compared.
     unsafe {
         let (old_tag, new_tag) = (*old_at, *new_at);
-        if old_tag < COMPOUND && new_tag < COMPOUND {
+        // Tags of several bits below COMPOUND, a power of two, are below it together.
+        if (old_tag | new_tag) < COMPOUND {
             let (old_payload, new_payload) = (old_at.add(1).read_volatile(), new_at.add(1).read_volatile());
-            if old_tag == new_tag && (old_payload ^ new_payload) & WRITTEN[old_tag as usize] == 0 {
-                return false;
-            }
+            // Exchanging what is equal does no harm, and takes no branch.
             (*old_at, *new_at) = (new_tag, old_tag);
             (*old_at.add(1), *new_at.add(1)) = (new_payload, old_payload);
-            return true;
+            let written = WRITTEN[(old_tag & (COMPOUND - 1)) as usize];
+            return (old_tag ^ new_tag) | ((old_payload ^ new_payload) & written) != 0;
         }
     }
     *compound = true;

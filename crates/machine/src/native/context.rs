@@ -83,18 +83,18 @@ pub(super) struct Memory {
 }
 
 impl Context {
-    /// A view for one step.
+    /// A view of no machine yet: see [`Context::begin`].
     ///
     /// # Safety
     /// `tables` lives as long as the context, and nothing else uses it.
-    pub unsafe fn new(executor: &mut Executor<'_>, tables: *mut Tables) -> Context {
+    pub unsafe fn new(tables: *mut Tables) -> Context {
         // SAFETY: as the caller promises.
         let memory = unsafe { &mut (*tables).memory };
         if memory.temporaries.capacity() == 0 {
             memory.temporaries.reserve(TEMPORARIES);
             memory.candidates.reserve(CANDIDATES.min(1 << 12));
         }
-        let mut context = Context {
+        Context {
             values: std::ptr::null_mut(),
             given: std::ptr::null_mut(),
             stamps: std::ptr::null_mut(),
@@ -112,26 +112,44 @@ impl Context {
             candidate: 0,
             candidate_capacity: memory.candidates.capacity() as u64,
             depth: 0,
-            executor: std::ptr::from_mut(executor).cast::<Executor<'static>>(),
+            executor: std::ptr::null_mut(),
             tables,
-        };
-        context.leave(executor.core);
-        context
+        }
+    }
+
+    /// Begins a step: what compiled code sees is this executor's machine until the code returns.
+    #[inline]
+    pub fn begin(&mut self, executor: &mut Executor<'_>) {
+        self.count(executor.core);
+        self.executor = std::ptr::from_mut(executor).cast::<Executor<'static>>();
     }
 
     /// Takes pointers and lengths from the machine.
     #[inline]
     pub fn leave(&mut self, core: &mut Core) {
+        self.look(core);
+        self.count(core);
+    }
+
+    /// Takes the pointers, which stay as long as nothing grows.
+    #[inline]
+    pub fn look(&mut self, core: &mut Core) {
         core.updates.cover(core.store.len());
         self.values = core.store.values.as_mut_ptr();
         self.given = core.store.given.as_mut_ptr();
         self.stamps = core.updates.stamps.as_mut_ptr();
         self.stack = core.updates.stack.as_mut_ptr();
-        self.held = core.updates.stack.len() as u64;
         self.capacity = core.updates.stack.capacity() as u64;
+        (self.kept, self.versions) = core.memo.view();
+    }
+
+    /// Takes the numbers that differ from step to step.
+    #[inline]
+    fn count(&mut self, core: &Core) {
+        self.held = core.updates.stack.len() as u64;
         self.unit = u64::from(core.updates.unit());
         self.epoch = u64::from(core.epoch);
-        (self.kept, self.versions, self.version) = core.memo.view();
+        self.version = core.memo.version_now();
     }
 
     /// Hands the lengths back to the machine.
@@ -145,7 +163,7 @@ impl Context {
     /// Runs a helper on the machine.
     ///
     /// # Safety
-    /// `context` comes from [`Context::new`], whose executor and tables still live; nothing else uses them now.
+    /// `context` has begun a step, whose executor and tables still live; nothing else uses them now.
     #[inline]
     pub unsafe fn with<T>(context: *mut Context, helper: impl FnOnce(&mut Executor<'static>, &mut Context) -> T) -> T {
         // SAFETY: as the caller promises; compiled code holds no reference while a helper runs.

@@ -161,6 +161,10 @@ impl Translator<'_, '_> {
                     }
                     _ => (self.stored(index), 0),
                 };
+                if self.plan.total[function.0 as usize] {
+                    let value = self.payload_at(place, offset, kind);
+                    return Operand::Scalar(Scalar::defined(kind, value));
+                }
                 Operand::Scalar(self.stored_scalar_at(place, offset, kind))
             }
             (None, false, None) => Operand::Stored(index),

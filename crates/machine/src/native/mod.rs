@@ -19,6 +19,7 @@ mod rule;
 mod runtime;
 mod shape;
 mod term;
+mod total;
 mod translate;
 mod unit;
 
@@ -30,6 +31,7 @@ use cranelift_module::{FuncId, Linkage, Module, default_libcall_names};
 use program::{ProcedureId, Program};
 
 use crate::execute::{Core, Executor};
+use crate::step::Passed;
 pub(crate) use commit::{apply, clear};
 use context::Context;
 use helper::{Helpers, signature};
@@ -106,22 +108,54 @@ impl Engine {
 
     /// Computes the update set of the main rule; false where the step must be rolled back and interpreted instead.
     pub fn run(&mut self, executor: &mut Executor<'_>) -> bool {
+        // SAFETY: the tables outlive the context, and nothing else uses them.
+        let mut context = unsafe { Context::new(&raw mut self.tables) };
+        context.look(executor.core);
+        context.begin(executor);
+        self.compute(&mut context, executor)
+    }
+
+    /// Makes steps of the main rule until there are as many as `wanted`; the inputs of the last one are forgotten
+    /// first if they are `stale`.
+    pub fn pass(&mut self, executor: &mut Executor<'_>, stale: bool, wanted: u64, passed: &mut Passed) -> Ended {
+        let program = executor.program;
+        // SAFETY: the tables outlive the context, and nothing else uses them.
+        let mut context = unsafe { Context::new(&raw mut self.tables) };
+        let mut stale = stale;
+        context.look(executor.core);
+        while passed.steps < wanted {
+            if std::mem::replace(&mut stale, true) && executor.core.forget_inputs(program) {
+                context.look(executor.core);
+            }
+            executor.core.begin_step();
+            context.begin(executor);
+            if !self.compute(&mut context, executor) {
+                return Ended::Abandoned;
+            }
+            let step = executor.core.commit(program);
+            passed.count(step);
+            executor.environment.step_made();
+            if step.grown || step.updates == 0 {
+                return Ended::Paused;
+            }
+        }
+        Ended::Enough
+    }
+
+    #[inline]
+    fn compute(&mut self, context: &mut Context, executor: &mut Executor<'_>) -> bool {
         self.runs += 1;
         let former = self.myself.map(|index| executor.core.store.values[index as usize].clone());
-        let tables = &raw mut self.tables;
-        // SAFETY: the context refers to the executor and the tables, which outlive it; while the code runs nothing
-        // else uses them. The code was compiled for this program and this layout of the store.
-        unsafe {
-            let mut context = Context::new(executor, tables);
-            let status = (self.entry)(&raw mut context);
-            context.enter(executor.core);
-            if status == 0 {
-                debug_assert!(context.temporary == 0 && context.candidate == 0);
-                return true;
-            }
-            context.release(0);
-            context.drop_candidates();
+        // SAFETY: the context refers to the executor and the tables, which outlive this call; while the code runs
+        // nothing else uses them. The code was compiled for this program and this layout of the store.
+        let status = unsafe { (self.entry)(&raw mut *context) };
+        context.enter(executor.core);
+        if status == 0 {
+            debug_assert!(context.temporary == 0 && context.candidate == 0);
+            return true;
         }
+        context.release(0);
+        context.drop_candidates();
         self.abandoned += 1;
         self.tables.clear();
         if let (Some(index), Some(value)) = (self.myself, former) {
@@ -129,6 +163,17 @@ impl Engine {
         }
         false
     }
+}
+
+/// Why compiled code stopped making steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Ended {
+    /// As many were made as were wanted.
+    Enough,
+    /// The last one made a domain grow, or had nothing to update.
+    Paused,
+    /// The next one has begun and cannot be computed to its end.
+    Abandoned,
 }
 
 /// Builds one function: the entry, or a unit.

@@ -15,6 +15,7 @@ use crate::memo::{self, Shelf};
 use crate::native::binder::consecutive;
 use crate::native::helper::Helpers;
 use crate::native::shape::{Kind, Scalar};
+use crate::native::total::total_functions;
 use crate::native::translate::UnitKey;
 use crate::update::{Sequence, Unit};
 use crate::value::Value;
@@ -66,6 +67,8 @@ pub(super) struct Plan {
     pub plain: Vec<bool>,
     /// By function: some initial values are still to be evaluated.
     pub lazy: Vec<bool>,
+    /// By function: never undef at its numbered locations.
+    pub total: Vec<bool>,
     pub shelves: Vec<Option<Shelf>>,
     /// By function: its definition depends on no state.
     fixed: Vec<bool>,
@@ -106,6 +109,7 @@ impl Plan {
             contents: core.contents.clone(),
             plain: core.plain.clone(),
             lazy: program.functions.iter().enumerate().map(|(index, _)| is_lazy(core, index)).collect(),
+            total: total_functions(program, core),
             shelves: core.memo.shelves().to_vec(),
             fixed: memo::fixed_functions(program),
             procedure_calls,

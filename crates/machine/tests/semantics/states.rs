@@ -23,6 +23,30 @@ fn initial_values_are_eager_and_may_use_each_other() {
 }
 
 #[test]
+fn initial_values_read_late_read_the_initial_state() {
+    check(
+        "signature:
+            dynamic abstract domain Job
+            controlled x: Integer
+            controlled seen: Integer
+            controlled far: Integer -> Integer
+            controlled first: Job -> Integer
+            controlled late: Integer
+        definitions:
+            main rule r_Main = par
+                seq x := x + 1 seen := far(x) endseq
+                extend Job with $j do late := first($j)
+            endpar
+        default init s: function x = 5 function far($i in Integer) = x * 100 + $i function first($j in Job) = x",
+        2,
+        expect![[r#"
+            1: x=6 seen=506 late=5
+            2: x=7 seen=507
+        "#]],
+    );
+}
+
+#[test]
 fn an_input_is_asked_for_once_a_step() {
     check(
         "signature:
