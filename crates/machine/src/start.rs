@@ -184,7 +184,10 @@ impl<'a> Executor<'a> {
         let Some(mut origin) = self.core.origin.take() else { return body(self) };
         std::mem::swap(&mut self.core.store, &mut origin);
         self.core.memo.changed();
+        // What is read of the initial state is no part of this one.
+        let exploring = std::mem::take(&mut self.core.exploring);
         let outcome = body(self);
+        self.core.exploring = exploring;
         std::mem::swap(&mut self.core.store, &mut origin);
         self.core.memo.changed();
         self.core.origin = Some(origin);
