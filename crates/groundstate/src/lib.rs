@@ -9,8 +9,9 @@ mod fingerprint;
 mod test;
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
-use model::{Checked, Loader, Model};
+use model::{Checked, Loader, Model, PropertyKind};
 use program::{Expression, Program, Rule, RuleId};
 use syntax::ast::{AstNode, TermFile};
 use syntax::{Diagnostic, Severity, SourceFile, Sources, Span};
@@ -42,9 +43,19 @@ pub struct Faulty {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Checks a model.
+/// Checks a model, its temporal properties included.
 pub fn check(root: SourceFile, loader: &mut dyn Loader) -> Checked {
-    model::check(root, loader)
+    let mut checked = model::check(root, loader);
+    let temporal = |property: &model::Property| matches!(property.kind, PropertyKind::Ctl | PropertyKind::Ltl);
+    if !has_errors(&checked.diagnostics)
+        && checked.model.properties.iter().any(temporal)
+        && let Ok(program) = program::lower(&checked.model)
+        && let Err(faults) = verify::temporal::read::read(&Arc::new(program))
+    {
+        checked.diagnostics.extend(faults);
+        checked.diagnostics.sort_by_key(|fault| (fault.primary.span.file, fault.primary.span.start));
+    }
+    checked
 }
 
 /// Whether any of these stops the flow.
@@ -57,7 +68,7 @@ pub fn has_errors(diagnostics: &[Diagnostic]) -> bool {
 /// # Errors
 /// The model has errors.
 pub fn load(root: SourceFile, loader: &mut dyn Loader) -> Result<Loaded, Box<Faulty>> {
-    let Checked { sources, model, mut diagnostics } = check(root, loader);
+    let Checked { sources, model, mut diagnostics } = model::check(root, loader);
     if has_errors(&diagnostics) {
         return Err(Box::new(Faulty { sources, diagnostics }));
     }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use program::{DomainId, Expression, FunctionId, FunctionKind, ProcedureId, Program};
+use program::{DomainId, Expression, FunctionId, FunctionKind, ProcedureId, Program, Slot, TermId};
 use syntax::Span;
 
 use crate::coverage::Coverage;
@@ -396,6 +396,26 @@ impl Machine {
         self.execute(environment, |executor, program| {
             let span = program.term_span(expression.body);
             executor.in_frame(0, expression.frame, span, |this| this.evaluate(expression.body))
+        })
+    }
+
+    /// Evaluates a term in a frame of so many slots, some of which have values.
+    ///
+    /// # Errors
+    /// What evaluation meets; the state stays as it is.
+    pub fn evaluate_with(
+        &mut self,
+        term: TermId,
+        frame: u32,
+        bindings: &[(Slot, Value)],
+        environment: &mut dyn Environment,
+    ) -> Result<Value, Fault> {
+        self.core.iterations = 0;
+        self.execute(environment, |executor, program| {
+            executor.in_frame(0, frame, program.term_span(term), |this| {
+                bindings.iter().for_each(|(slot, value)| this.bind(*slot, value.clone()));
+                this.evaluate(term)
+            })
         })
     }
 

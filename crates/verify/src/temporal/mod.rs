@@ -11,6 +11,7 @@ pub mod fairness;
 pub mod formula;
 mod lasso;
 pub mod ltl;
+pub mod read;
 pub mod run;
 mod search;
 mod verdict;

@@ -139,6 +139,8 @@ impl CtlFormulas {
 }
 
 impl Logic for CtlFormulas {
+    const BRANCHING: bool = true;
+
     fn constant(&mut self, truth: bool) -> FormulaId {
         self.arena.add(Ctl::Constant(truth))
     }

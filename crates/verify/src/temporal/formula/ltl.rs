@@ -142,6 +142,8 @@ impl LtlFormulas {
 }
 
 impl Logic for LtlFormulas {
+    const BRANCHING: bool = false;
+
     fn constant(&mut self, truth: bool) -> FormulaId {
         self.arena.add(Ltl::Constant(truth))
     }

@@ -17,6 +17,8 @@ use program::TemporalOperator;
 
 /// What the two logics share: propositions and connectives; and the operators by their names in the library.
 pub trait Logic: Default {
+    /// Its operators are those of the CTL library.
+    const BRANCHING: bool;
     /// True or false.
     fn constant(&mut self, truth: bool) -> FormulaId;
     /// A proposition by its number.

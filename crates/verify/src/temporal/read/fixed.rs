@@ -1,0 +1,68 @@
+//! Which terms have the same value in every state.
+
+use machine::{Closed, Machine, Show, Value};
+use program::{Builtin, DomainKind, FunctionKind, Program, Slot, Term, TermId};
+
+/// Whether a term's value depends on the values of its variables alone.
+pub fn is_fixed(program: &Program, term: TermId) -> bool {
+    let mut entered = vec![false; program.functions.len()];
+    let mut open = vec![term];
+    while let Some(id) = open.pop() {
+        match program.term(id) {
+            Term::Read { function, .. } | Term::Define { function, .. } => {
+                let declared = program.function(*function);
+                if !matches!(declared.kind, FunctionKind::Static | FunctionKind::Derived) {
+                    return false;
+                }
+                if !std::mem::replace(&mut entered[function.0 as usize], true) {
+                    open.extend(declared.definition.as_ref().map(|definition| definition.body));
+                }
+            }
+            Term::Domain(domain) => {
+                let kind = &program.domain(*domain).kind;
+                if matches!(
+                    kind,
+                    DomainKind::Abstract { dynamic: true, .. } | DomainKind::Concrete { dynamic: true, .. }
+                ) {
+                    return false;
+                }
+            }
+            Term::Builtin { builtin, .. } => {
+                use Builtin::*;
+                let outside = matches!(
+                    builtin,
+                    ChooseOne | Pre | Temporal(_) | Program | TimeNanoseconds | TimeMilliseconds | TimeSeconds
+                );
+                if outside {
+                    return false;
+                }
+            }
+            _ => {}
+        }
+        program.each_child_of_term(id, &mut |child| open.push(child));
+    }
+    true
+}
+
+/// The elements that a range of a fixed term has, in canonical order.
+///
+/// # Errors
+/// A sentence: it has none that could be gone through.
+pub fn elements(
+    machine: &mut Machine,
+    range: TermId,
+    frame: u32,
+    bindings: &[(Slot, Value)],
+) -> Result<Vec<Value>, String> {
+    let program = std::sync::Arc::clone(machine.program());
+    let sentence = |fault: machine::Fault| fault.show(&program).to_string();
+    if let Term::Domain(domain) = program.term(range) {
+        return machine.elements(*domain).map_err(sentence);
+    }
+    let value = machine.evaluate_with(range, frame, bindings, &mut Closed).map_err(sentence)?;
+    Ok(match value {
+        Value::Set(elements) | Value::Seq(elements) => elements.to_vec(),
+        Value::Bag(elements) => elements.keys().cloned().collect(),
+        other => return Err(format!("{} is no collection", other.show(&program))),
+    })
+}
