@@ -225,3 +225,27 @@ pub struct Arrow {
     /// The stop of the path where it ends.
     pub span: Span,
 }
+
+/// Words that items of a chart start with, and that paths use; a shape is called otherwise.
+pub(crate) const WORDS: [&str; 20] = [
+    "control",
+    "initial",
+    "state",
+    "guard",
+    "action",
+    "instance",
+    "sequence",
+    "enter",
+    "exit",
+    "yes",
+    "no",
+    "machine",
+    "pattern",
+    "system",
+    "layout",
+    "endmachine",
+    "endpattern",
+    "endsystem",
+    "endcomponent",
+    "endlayout",
+];

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use model::{DomainKind, FunctionId, Literal, Model, RuleId, TermKind};
 
-use crate::chart::{Arrow, Chart, Control, End, Link, Machine, Parameter, Shape, ShapeId, ShapeKind};
+use crate::chart::{Arrow, Chart, Control, End, Link, Machine, Parameter, Shape, ShapeId, ShapeKind, WORDS};
 use crate::read::spoken;
 use crate::symbolic::{Depth, Effect, Explorer, Guarded, Path, Reason, consistent};
 
@@ -363,12 +363,6 @@ fn add(machine: &mut Machine, kind: ShapeKind, name: &str, text: &str, link: &st
     });
     ShapeId(machine.shapes.len() - 1)
 }
-
-/// Words that items of a chart start with, and that paths use; a shape is called otherwise.
-const WORDS: [&str; 15] = [
-    "control", "initial", "state", "guard", "action", "instance", "sequence", "enter", "exit", "yes", "no", "machine",
-    "pattern", "system", "layout",
-];
 
 /// `MANAGING_SB` as `managingSb`.
 fn camel(literal: &str) -> String {

@@ -38,6 +38,8 @@ pub struct Transition {
     pub guards: Vec<(ShapeId, bool)>,
     /// The actions on the way.
     pub actions: Vec<ShapeId>,
+    /// Guards, with whether they hold, and actions, in the order of the way.
+    pub stops: Vec<(ShapeId, Option<bool>)>,
     /// Where it ends.
     pub target: Target,
     /// Its last stop in the text.
@@ -56,54 +58,60 @@ pub fn transitions(chart: &Chart, machine: &Machine) -> Vec<Transition> {
             Origin::State(id) | Origin::Left(id) => End::Shape(id),
         };
         for arrow in machine.out_of(start) {
-            let mut open = vec![(arrow.to, arrow.span, Vec::new(), Vec::new())];
-            while let Some((end, span, guards, actions)) = open.pop() {
+            let mut open: Vec<Way> = vec![(arrow.to, arrow.span, Vec::new())];
+            while let Some(way) = open.pop() {
                 if found.len() >= MAX_TRANSITIONS {
                     return found;
                 }
-                follow(chart, machine, origin, (end, span, guards, actions), &mut open, &mut found);
+                follow(chart, machine, origin, way, &mut open, &mut found);
             }
         }
     }
     found
 }
 
-type Way = (End, Span, Vec<(ShapeId, bool)>, Vec<ShapeId>);
+type Way = (End, Span, Vec<(ShapeId, Option<bool>)>);
 
 fn follow(
     chart: &Chart,
     machine: &Machine,
     origin: Origin,
-    (end, span, guards, actions): Way,
+    (end, span, mut stops): Way,
     open: &mut Vec<Way>,
     found: &mut Vec<Transition>,
 ) {
-    let id = match end {
-        End::Shape(id) => id,
-        End::Exit => return found.push(Transition { origin, guards, actions, target: Target::Exit, span }),
+    let target = match end {
+        End::Exit => Some(Target::Exit),
         End::Enter => return,
+        End::Shape(id) => match machine.shape(id).kind {
+            ShapeKind::State { .. } => Some(Target::State(id)),
+            ShapeKind::Instance(_) if is_block(chart, machine, id) => Some(Target::Block(id)),
+            _ => None,
+        },
     };
-    match machine.shape(id).kind {
-        ShapeKind::State { .. } => found.push(Transition { origin, guards, actions, target: Target::State(id), span }),
-        ShapeKind::Instance(_) if is_block(chart, machine, id) => {
-            found.push(Transition { origin, guards, actions, target: Target::Block(id), span });
-        }
-        ShapeKind::Guard => {
+    match (target, end) {
+        (Some(target), _) => found.push(Transition {
+            origin,
+            guards: stops.iter().filter_map(|(id, branch)| Some((*id, (*branch)?))).collect(),
+            actions: stops.iter().filter(|(_, branch)| branch.is_none()).map(|(id, _)| *id).collect(),
+            stops,
+            target,
+            span,
+        }),
+        (None, End::Shape(id)) if machine.shape(id).kind == ShapeKind::Guard => {
             for branch in [false, true] {
                 if let Some(arrow) = machine.branch(id, branch) {
-                    let mut guards = guards.clone();
-                    guards.push((id, branch));
-                    open.push((arrow.to, arrow.span, guards, actions.clone()));
+                    let mut stops = stops.clone();
+                    stops.push((id, Some(branch)));
+                    open.push((arrow.to, arrow.span, stops));
                 }
             }
         }
-        ShapeKind::Action | ShapeKind::Instance(_) => {
-            let mut actions = actions;
-            actions.push(id);
-            open.extend(
-                machine.out_of(end).take(1).map(|arrow| (arrow.to, arrow.span, guards.clone(), actions.clone())),
-            );
+        (None, End::Shape(id)) => {
+            stops.push((id, None));
+            open.extend(machine.out_of(end).next().map(|arrow| (arrow.to, arrow.span, stops)));
         }
+        (None, _) => {}
     }
 }
 

@@ -78,6 +78,11 @@ fn each_fault_has_a_page_whose_example_shows_it() {
         assert!(page.starts_with(&format!("# {id}\n")), "the page of {id} has another title");
         let blocks = blocks(&page);
         let block = |wanted: &str| blocks.iter().find(|(info, _)| info == wanted).map(|(_, code)| code.as_str());
+        if let Some(document) = block("xml fault") {
+            let faults = chart::import::scxml(FileId(0), document, "Example").diagnostics;
+            assert_eq!(faults.iter().map(|fault| fault.id).collect::<Vec<_>>(), [*id]);
+            continue;
+        }
         let (drawn, mut faults) = chart(block("chart fault").expect("an example"));
         faults.extend(chart::unbuilt(&drawn, &Known::default()));
         if let Some(specification) = block("asmetal") {

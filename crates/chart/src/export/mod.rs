@@ -5,7 +5,7 @@
 
 mod dot;
 mod mermaid;
-mod scxml;
+pub(crate) mod scxml;
 
 use crate::draw::Drawing;
 

@@ -2,6 +2,7 @@
 //!
 //! In: the place, and what is there. Out: a diagnostic whose id is one of [`IDS`] and has a page `spec/faults/<id>.md`.
 
+pub(crate) mod foreign;
 pub(crate) mod import;
 
 use syntax::{Diagnostic, Span};
@@ -17,6 +18,7 @@ pub const IDS: &[&str] = &[
     "control-variable",
     "dead-end",
     "duplicate-shape",
+    "foreign-notation",
     "forked-path",
     "guard-exit",
     "initial-state",

@@ -44,7 +44,7 @@ pub(super) fn link(file: FileId, node: &ast::Link) -> Option<Link> {
 }
 
 /// A name that a function can have.
-pub(super) fn names_function(name: &str) -> bool {
+pub(crate) fn names_function(name: &str) -> bool {
     let parse = syntax::parse_term(FileId(0), name);
     let term = ast::TermFile::cast(parse.syntax()).and_then(|file| file.term());
     parse.diagnostics.is_empty() && matches!(term, Some(Term::Function(_)))

@@ -18,7 +18,7 @@ use crate::chart::{Chart, ShapeKind};
 use crate::{fault, flow};
 
 pub use import::{Loaded, load, load_beside};
-pub(crate) use link::flat;
+pub(crate) use link::{flat, names_function};
 pub(crate) use machine::spoken;
 
 /// Reads the chart of a text that stands alone; to import a chart is a fault.

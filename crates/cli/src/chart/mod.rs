@@ -5,6 +5,7 @@ mod check;
 mod draw;
 mod export;
 mod extract;
+mod import;
 
 use std::path::Path;
 
@@ -33,6 +34,8 @@ enum Command {
     Extract(extract::Arguments),
     /// Write a chart in the notation of another tool: Mermaid, Graphviz DOT, SCXML
     Export(export::Arguments),
+    /// Write a chart from another tool's notation: SCXML
+    Import(import::Arguments),
     /// Write a chart's machines and system as pictures
     Draw(draw::Arguments),
 }
@@ -44,6 +47,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Command::Check(arguments) => check::run(shell, arguments),
         Command::Extract(arguments) => extract::run(shell, arguments),
         Command::Export(arguments) => export::run(shell, arguments),
+        Command::Import(arguments) => import::run(shell, arguments),
         Command::Draw(arguments) => draw::run(shell, arguments),
     }
 }

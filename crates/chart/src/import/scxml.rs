@@ -1,0 +1,560 @@
+//! SCXML → chart: states that lie in each other are made flat, transitions become paths, tried in their order.
+//!
+//! In: an SCXML document of the W3C's, <https://www.w3.org/TR/scxml/>, as tools write it. Out: the text of a chart. The first
+//! transition that is enabled is taken, those of inner states before those of outer ones: so each is led through the `no`
+//! of those before it. An event is a guard, true when it comes; a condition in AsmetaL is one too. What stands in another
+//! language becomes the text of a shape that is to be refined. On a transition is done, in sequence, what leaving, the
+//! transition and entering say. What our own export wrote is read back shape by shape. SYNC(scxml): `export/scxml`.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+
+use roxmltree::{Document, Node};
+use syntax::{Diagnostic, FileId, Severity, Span};
+
+use super::Imported;
+use super::names::{Names, bare, function};
+use super::tree::{States, is, is_scxml, machines, place, text_of};
+use crate::export::scxml::{NAMESPACE, condition, script};
+use crate::fault::foreign as fault;
+use crate::read::spoken;
+
+/// Reads an SCXML document; `name` is the chart's, `file` names the text in faults.
+pub fn scxml(file: FileId, text: &str, name: &str) -> Imported {
+    let document = match Document::parse(text) {
+        Ok(document) => document,
+        Err(error) => {
+            let at = offset(text, error.pos());
+            let span = Span { file, start: at, end: at };
+            return Imported { text: None, diagnostics: vec![fault::malformed(span, &error.to_string())] };
+        }
+    };
+    let root = document.root_element();
+    if !is(root, "scxml") {
+        let message = format!("its outermost element is `{}`", root.tag_name().name());
+        return Imported { text: None, diagnostics: vec![fault::malformed(place(file, root), &message)] };
+    }
+    let mut faults = Vec::new();
+    let mut out = format!("chart {}\n", bare(name));
+    let all = machines(&document);
+    let mut machine_names = Names::default();
+    let mut imports = BTreeSet::new();
+    let mut texts = String::new();
+    for machine in &all {
+        let called = machine.attribute(if *machine == root { "name" } else { "id" }).unwrap_or(name);
+        let called = machine_names.fresh(called);
+        let mut reader = Reader::new(file, root, *machine, &mut faults);
+        texts.push_str(&reader.machine(&called));
+        imports.append(&mut reader.imports);
+    }
+    for import in imports {
+        let _ = writeln!(out, "import \"{import}.chart\"");
+    }
+    out.push_str(&texts);
+    faults.sort_by_key(|fault| fault.primary.span.start);
+    let sound = faults.iter().all(|fault| fault.severity != Severity::Error);
+    let parse = syntax::parse_chart(file, &out);
+    Imported { text: sound.then(|| syntax::format(&parse)), diagnostics: faults }
+}
+
+fn offset(text: &str, at: roxmltree::TextPos) -> u32 {
+    let line = text.split_inclusive('\n').take(at.row.saturating_sub(1) as usize).map(str::len).sum::<usize>();
+    let column = text[line..].chars().take(at.col.saturating_sub(1) as usize).map(char::len_utf8).sum::<usize>();
+    (line + column).min(text.len()) as u32
+}
+
+struct Reader<'d, 'f> {
+    file: FileId,
+    document: Node<'d, 'd>,
+    root: Node<'d, 'd>,
+    states: States<'d>,
+    /// Conditions and scripts are AsmetaL.
+    asmetal: bool,
+    names: Names,
+    /// The names of flat states in the chart.
+    called: BTreeMap<usize, String>,
+    shapes: String,
+    sequences: String,
+    paths: String,
+    /// Functions and rules for what is written in another language.
+    foreign: BTreeMap<(&'static str, String), String>,
+    /// Charts of patterns that are invoked.
+    imports: BTreeSet<String>,
+    faults: &'f mut Vec<Diagnostic>,
+}
+
+/// A guard or action of our own export.
+struct Own {
+    is_guard: bool,
+    /// Its declaration; it is of use where a path leads over it.
+    declaration: String,
+    /// What it stands for.
+    text: String,
+}
+
+impl<'d, 'f> Reader<'d, 'f> {
+    fn new(file: FileId, document: Node<'d, 'd>, root: Node<'d, 'd>, faults: &'f mut Vec<Diagnostic>) -> Self {
+        let states = States::of(file, root, faults);
+        Reader {
+            file,
+            document,
+            root,
+            states,
+            asmetal: document.attribute("datamodel") == Some("asmetal"),
+            names: Names::default(),
+            called: BTreeMap::new(),
+            shapes: String::new(),
+            sequences: String::new(),
+            paths: String::new(),
+            foreign: BTreeMap::new(),
+            imports: BTreeSet::new(),
+            faults,
+        }
+    }
+
+    fn machine(&mut self, name: &str) -> String {
+        let own = |name: &str| self.document.attribute((NAMESPACE, name)).map(str::to_string);
+        let is_pattern = own("kind").as_deref() == Some("pattern");
+        let word = if is_pattern { "pattern" } else { "machine" };
+        let text = own("text").unwrap_or_else(|| spoken(name));
+        let parameters = own("parameters").map(|list| format!("({list})")).unwrap_or_default();
+        let rule = own("rule").map(|rule| format!(" {{{rule}}}")).unwrap_or_default();
+        let control = own("control").or_else(|| (!is_pattern).then(|| function(&format!("{name}State"))));
+        let declared = self.declared();
+        self.unused(self.document);
+        let start = self.initial(self.root, None);
+        for index in 0..self.states.all.len() {
+            self.state(index, start, is_pattern);
+        }
+        for index in 0..self.states.all.len() {
+            if !self.states.all[index].compound {
+                self.transitions(index, is_pattern, &declared);
+            }
+        }
+        let mut out = format!("\n{word} {name}{parameters} {}{rule}\n", quoted(&text));
+        if let Some(control) = control {
+            let _ = writeln!(out, "control {control}");
+        }
+        let _ = writeln!(out, "{}{}{}end{word}", self.shapes, self.sequences, self.paths);
+        out
+    }
+
+    /// The guards, actions and sequences that our own export declares.
+    fn declared(&mut self) -> BTreeMap<String, Own> {
+        let mut found = BTreeMap::new();
+        for node in self.document.children().filter(|node| node.tag_name().namespace() == Some(NAMESPACE)) {
+            let word = node.tag_name().name();
+            let plain = |name: &str| node.attribute(name).map(str::to_string);
+            if let (true, Some(names)) = (word == "sequence", plain("names")) {
+                let _ = writeln!(self.sequences, "sequence {names}");
+                continue;
+            }
+            let Some(name) = plain("name").filter(|_| ["guard", "action", "instance"].contains(&word)) else {
+                continue;
+            };
+            let name = self.names.fresh(&name);
+            let before = self.shapes.len();
+            self.shape(word, &name, &plain);
+            // An instance beside the paths is one that no path leads over.
+            let declaration = if word == "instance" { String::new() } else { self.shapes.split_off(before) };
+            let made = if word == "guard" { function(&name) } else { format!("r_{name}[]") };
+            let parameters = self.document.attribute((NAMESPACE, "parameters")).unwrap_or_default();
+            let words = parameters.split(|letter: char| letter.is_whitespace() || "(),".contains(letter));
+            let variables: Vec<&str> = words.filter(|word| word.starts_with('$')).collect();
+            let made = match (word, variables.is_empty()) {
+                (_, true) => made,
+                ("guard", _) => format!("{made}({})", variables.join(", ")),
+                _ => format!("r_{name}[{}]", variables.join(", ")),
+            };
+            found.insert(name, Own { is_guard: word == "guard", declaration, text: plain("link").unwrap_or(made) });
+        }
+        found
+    }
+
+    /// Declares a shape with what is said about it.
+    fn shape(&mut self, word: &str, name: &str, about: &dyn Fn(&str) -> Option<String>) {
+        let _ = write!(self.shapes, "{word} {name}");
+        if let Some(of) = about("of") {
+            let _ = write!(self.shapes, " of {of}({})", about("arguments").unwrap_or_default());
+            self.imports.insert(of);
+        }
+        let _ = write!(self.shapes, " {}", quoted(&about("text").unwrap_or_else(|| spoken(name))));
+        if let Some(link) = about("link") {
+            let _ = write!(self.shapes, " {{{link}}}");
+        }
+        if let Some(by) = about("refine") {
+            let _ =
+                write!(self.shapes, " to refine{}", if by.is_empty() { String::new() } else { format!(" by {by}") });
+        }
+        self.shapes.push('\n');
+    }
+
+    /// Elements that have no counterpart.
+    fn unused(&mut self, node: Node<'d, 'd>) {
+        for child in node.children().filter(|child| child.is_element() && is_scxml(*child)) {
+            let at = place(self.file, child);
+            match child.tag_name().name() {
+                "datamodel" => {
+                    let data: Vec<_> = child.children().filter(|data| is(*data, "data")).collect();
+                    for data in data {
+                        let what = format!("the data `{}`", data.attribute("id").unwrap_or_default());
+                        self.faults.push(fault::left_out(
+                            place(self.file, data),
+                            &what,
+                            "declare it in the specification",
+                        ));
+                    }
+                }
+                "script" => {
+                    let help = "write what it does in the initial state of the specification";
+                    self.faults.push(fault::left_out(at, "the script of the document", help));
+                }
+                "donedata" => self.faults.push(fault::left_out(at, "`donedata`", "keep it in the specification")),
+                "state" | "final" | "parallel" | "history" | "transition" | "onentry" | "onexit" | "initial"
+                | "invoke" => {}
+                other => {
+                    let what = format!("the element `{other}`");
+                    self.faults.push(fault::left_out(at, &what, "say what it means in the specification"));
+                }
+            }
+        }
+    }
+
+    /// The flat state in which a state, or the whole machine, begins.
+    fn initial(&mut self, node: Node<'d, 'd>, parent: Option<usize>) -> Option<usize> {
+        let element = node.children().find(|child| is(*child, "initial"));
+        let transition = element.and_then(|element| element.children().find(|child| is(*child, "transition")));
+        let said = node.attribute("initial").or_else(|| transition?.attribute("target"));
+        if let Some(content) = transition.filter(|transition| transition.children().any(|child| child.is_element())) {
+            let help = "do it on a path to the state";
+            self.faults.push(fault::left_out(place(self.file, content), "what is done by `initial`", help));
+        }
+        let first = match said {
+            Some(id) => {
+                let id = id.split_whitespace().next().unwrap_or_default();
+                let found = self.states.named(id);
+                if found.is_none() {
+                    self.faults.push(fault::unknown_target(place(self.file, node), id));
+                }
+                found
+            }
+            None => self.states.first_in(parent),
+        }?;
+        self.leaf(first)
+    }
+
+    /// The flat state in which one is when it is entered.
+    fn leaf(&mut self, state: usize) -> Option<usize> {
+        let mut state = state;
+        for _ in 0..self.states.all.len() {
+            if !self.states.all[state].compound {
+                return Some(state);
+            }
+            state = self.initial(self.states.all[state].node, Some(state))?;
+        }
+        None
+    }
+
+    fn state(&mut self, index: usize, start: Option<usize>, is_pattern: bool) {
+        let (node, id, compound) =
+            (self.states.all[index].node, self.states.all[index].id.clone(), self.states.all[index].compound);
+        self.unused(node);
+        let own = |name: &str| node.attribute((NAMESPACE, name)).map(str::to_string);
+        for invoke in node.children().filter(|child| is(*child, "invoke")) {
+            if own("of").is_none() {
+                let what = "`invoke`";
+                let help = "draw what it does as an instance of a pattern, or as an action";
+                self.faults.push(fault::left_out(place(self.file, invoke), what, help));
+            }
+        }
+        if start == Some(index) && !is_pattern {
+            for entry in self.states.around(index) {
+                let content = self.states.all[entry].node.children().find(|child| is(*child, "onentry"));
+                if let Some(content) = content.filter(|content| content.children().any(|child| child.is_element())) {
+                    let what = "what is done on entering the first state, at the start,";
+                    let help = "write it in the initial state of the specification; on later entries it is done";
+                    self.faults.push(fault::left_out(place(self.file, content), what, help));
+                }
+            }
+        }
+        let ends = is_pattern && (id == "enter" || is(node, "final") && id == "exit");
+        if compound || ends {
+            return;
+        }
+        let name = self.names.fresh(&id);
+        self.called.insert(index, name.clone());
+        let word = match own("of") {
+            Some(_) => "instance",
+            None if start == Some(index) && !is_pattern => "initial state",
+            None => "state",
+        };
+        let text = own("text").unwrap_or_else(|| spoken(&id));
+        self.shape(word, &name, &|what| if what == "text" { Some(text.clone()) } else { own(what) });
+    }
+
+    /// The name of a state on paths.
+    fn stop(&self, state: usize, is_pattern: bool) -> String {
+        match self.called.get(&state) {
+            Some(name) => name.clone(),
+            None if is_pattern && self.states.all[state].id == "enter" => "enter".to_string(),
+            None => "exit".to_string(),
+        }
+    }
+
+    /// The paths of a flat state: its own transitions, then those of the states around it.
+    fn transitions(&mut self, state: usize, is_pattern: bool, declared: &BTreeMap<String, Own>) {
+        let from = self.stop(state, is_pattern);
+        let mut before = vec![from.clone()];
+        let mut closed: Option<Span> = None;
+        for owner in self.states.around(state) {
+            let node = self.states.all[owner].node;
+            for transition in node.children().filter(|child| is(*child, "transition")) {
+                let at = place(self.file, transition);
+                if self.own(transition, is_pattern, &from, declared) {
+                    continue;
+                }
+                if closed.is_some() {
+                    let what = format!("a transition that `{from}` never comes to");
+                    self.faults.push(fault::left_out(at, &what, "an earlier one is always taken"));
+                    continue;
+                }
+                let Some((rest, target)) = self.rest(transition, state, owner, is_pattern) else { continue };
+                // What fails on the way leads on to the next transition.
+                let mut next = Vec::new();
+                for guard in self.events(transition) {
+                    self.lead(&mut before, &guard);
+                    next.push(format!("{guard} yes"));
+                    before = vec![format!("{guard} no")];
+                }
+                if !next.is_empty() {
+                    std::mem::swap(&mut before, &mut next);
+                }
+                if let Some(guard) = self.condition(transition) {
+                    self.lead(&mut before, &guard);
+                    before = vec![format!("{guard} yes")];
+                    next.push(format!("{guard} no"));
+                }
+                let stops: Vec<String> = rest.into_iter().chain([target]).collect();
+                self.lead(&mut before, &stops.join(" -> "));
+                if next.is_empty() {
+                    closed = Some(at);
+                }
+                before = next;
+            }
+        }
+    }
+
+    /// A transition of our own export, as it was; not if it has been changed since.
+    fn own(
+        &mut self,
+        transition: Node<'d, 'd>,
+        is_pattern: bool,
+        from: &str,
+        declared: &BTreeMap<String, Own>,
+    ) -> bool {
+        let Some(path) = transition.attribute((NAMESPACE, "path")) else {
+            // A path without guards and actions has none.
+            let bare = transition.attribute("cond").is_none() && !transition.children().any(|child| child.is_element());
+            let event = transition.attribute("event").is_none_or(|event| event.starts_with("done.invoke."));
+            let ours = self.document.attribute((NAMESPACE, "kind")).is_some();
+            let target = transition.attribute("target").and_then(|id| self.states.named(id));
+            return match target.filter(|_| ours && bare && event) {
+                Some(target) => {
+                    let _ = writeln!(self.paths, "{from} -> {}", self.stop(target, is_pattern));
+                    true
+                }
+                None => false,
+            };
+        };
+        let (mut tests, mut rules) = (Vec::new(), Vec::new());
+        for stop in path.split(',').map(str::trim) {
+            let (name, branch) = match stop.rsplit_once(' ') {
+                Some((name, branch)) => (name, Some(branch == "yes")),
+                None => (stop, None),
+            };
+            match (declared.get(name), branch) {
+                (Some(own), Some(holds)) if own.is_guard => tests.push(condition(&own.text, holds)),
+                (Some(own), None) if !own.is_guard => rules.push(own.text.clone()),
+                _ => return false,
+            }
+        }
+        let written = transition.attribute("cond").unwrap_or_default();
+        let done: Vec<String> = transition.children().filter(|child| child.is_element()).map(text_of).collect();
+        let rules = rules.iter().map(|rule| rule.split_whitespace().collect::<Vec<_>>().join(" ")).collect::<Vec<_>>();
+        let target = transition.attribute("target").and_then(|id| self.states.named(id));
+        let Some(target) = target.filter(|_| written == tests.join(" and ") && done == Vec::from_iter(script(&rules)))
+        else {
+            return false;
+        };
+        for own in path.split([',', ' ']).filter_map(|name| declared.get(name)) {
+            if !self.shapes.contains(&own.declaration) {
+                self.shapes.push_str(&own.declaration);
+            }
+        }
+        let stops = path.split(',').map(str::trim).collect::<Vec<_>>().join(" -> ");
+        let _ = writeln!(self.paths, "{from} -> {stops} -> {}", self.stop(target, is_pattern));
+        true
+    }
+
+    /// Paths from some stops on.
+    fn lead(&mut self, from: &mut Vec<String>, to: &str) {
+        for from in from.drain(..) {
+            let _ = writeln!(self.paths, "{from} -> {to}");
+        }
+    }
+
+    /// A guard for each event of a transition; one of them is enough.
+    fn events(&mut self, transition: Node<'d, 'd>) -> Vec<String> {
+        let events = transition.attribute("event").unwrap_or_default().split_whitespace();
+        let all: Vec<&str> = events.collect();
+        all.into_iter().map(|event| self.guard(event, event_function(event), false)).collect()
+    }
+
+    /// A guard for the condition of a transition.
+    fn condition(&mut self, transition: Node<'d, 'd>) -> Option<String> {
+        let cond = transition.attribute("cond").filter(|cond| !cond.trim().is_empty())?;
+        if self.asmetal && is_term(cond) {
+            return Some(self.guard(cond, cond.to_string(), false));
+        }
+        let (link, new) = self.made("guard", cond, &function);
+        if new {
+            let at = place(self.file, transition);
+            self.faults.push(fault::kept_as_text(at, &format!("the condition `{cond}`"), &link));
+        }
+        Some(self.guard(cond, link, true))
+    }
+
+    /// What a text in another language is linked to: one name for all its uses; and whether it is new.
+    fn made(&mut self, kind: &'static str, text: &str, name: &dyn Fn(&str) -> String) -> (String, bool) {
+        if let Some(known) = self.foreign.get(&(kind, text.to_string())) {
+            return (known.clone(), false);
+        }
+        let base = name(text);
+        let mut made = base.clone();
+        let mut count = 2;
+        while self.foreign.values().any(|known| *known == made) {
+            made = format!("{base}{count}");
+            count += 1;
+        }
+        self.foreign.insert((kind, text.to_string()), made.clone());
+        (made, true)
+    }
+
+    fn guard(&mut self, text: &str, link: String, to_refine: bool) -> String {
+        let name = self.names.fresh(&function(text));
+        let text = text.to_string();
+        self.shape("guard", &name, &|what| match what {
+            "text" => Some(text.clone()),
+            "link" => Some(link.clone()),
+            "refine" => to_refine.then(String::new),
+            _ => None,
+        });
+        name
+    }
+
+    /// The actions of a transition in the order in which they are done, and where it leads.
+    fn rest(
+        &mut self,
+        transition: Node<'d, 'd>,
+        state: usize,
+        owner: usize,
+        is_pattern: bool,
+    ) -> Option<(Vec<String>, String)> {
+        let at = place(self.file, transition);
+        let Some(id) = transition.attribute("target") else {
+            // Without a target nothing is left or entered.
+            let actions = self.actions(transition);
+            return Some((actions, self.stop(state, is_pattern)));
+        };
+        let mut ids = id.split_whitespace();
+        let first = ids.next().unwrap_or_default();
+        if ids.next().is_some() {
+            self.faults.push(fault::no_counterpart(at, "a transition to several states", "lead it to one"));
+        }
+        let Some(target) = self.states.named(first) else {
+            self.faults.push(fault::unknown_target(at, first));
+            return None;
+        };
+        let leaf = self.leaf(target)?;
+        // The innermost state around both that stays is neither left nor entered.
+        let (left, entered) = (self.states.around(state), self.states.around(leaf));
+        let internal = transition.attribute("type") == Some("internal") && entered.contains(&owner);
+        let outer: Vec<usize> = self.states.around(owner).into_iter().skip(usize::from(!internal)).collect();
+        let stays = outer.into_iter().find(|around| entered.contains(around) && *around != target);
+        let upto =
+            |states: &[usize]| -> Vec<usize> { states.iter().copied().take_while(|one| Some(*one) != stays).collect() };
+        let mut actions = Vec::new();
+        for state in upto(&left) {
+            actions.extend(self.handlers(state, "onexit"));
+        }
+        actions.extend(self.actions(transition));
+        for state in upto(&entered).into_iter().rev() {
+            actions.extend(self.handlers(state, "onentry"));
+        }
+        if actions.len() > 1 {
+            let _ = writeln!(self.sequences, "sequence {}", actions.join(", "));
+        }
+        Some((actions, self.stop(leaf, is_pattern)))
+    }
+
+    fn handlers(&mut self, state: usize, name: &str) -> Vec<String> {
+        let handlers: Vec<_> = self.states.all[state].node.children().filter(|child| is(*child, name)).collect();
+        handlers.into_iter().flat_map(|handler| self.actions(handler)).collect()
+    }
+
+    /// Executable content, each element an action.
+    fn actions(&mut self, of: Node<'d, 'd>) -> Vec<String> {
+        let content: Vec<_> = of.children().filter(|child| child.is_element() && is_scxml(*child)).collect();
+        content.into_iter().map(|content| self.action(content)).collect()
+    }
+
+    fn action(&mut self, node: Node<'d, 'd>) -> String {
+        let attribute = |name: &str| node.attribute(name).unwrap_or_default();
+        let kind = node.tag_name().name();
+        let text = match kind {
+            "script" => text_of(node),
+            "raise" => format!("raise {}", attribute("event")),
+            "send" => format!("send {}{}", attribute("event"), attribute("eventexpr")),
+            "assign" => format!("{} := {}{}", attribute("location"), attribute("expr"), text_of(node)),
+            "log" => format!("log {}", [attribute("label"), attribute("expr")].join(" ")),
+            "cancel" => format!("cancel {}", attribute("sendid")),
+            _ => node.document().input_text()[node.range()].split_whitespace().collect::<Vec<_>>().join(" "),
+        };
+        let text = text.trim().to_string();
+        let in_asmetal = self.asmetal && kind == "script" && is_rule(&text);
+        let (link, new) = match in_asmetal {
+            true => (text.clone(), false),
+            false => self.made("action", &text, &|text| format!("r_{}", bare(text))),
+        };
+        if new {
+            self.faults.push(fault::kept_as_text(place(self.file, node), &format!("`{kind}`"), &link));
+        }
+        let link = if in_asmetal { link } else { format!("{link}[]") };
+        let name = self.names.fresh(&function(text.trim_start_matches("r_")));
+        self.shape("action", &name, &|what| match what {
+            "text" => Some(text.clone()),
+            "link" => Some(link.clone()),
+            "refine" => (!in_asmetal).then(String::new),
+            _ => None,
+        });
+        name
+    }
+}
+
+/// The Boolean function that is true when an event comes; `*` is any event.
+fn event_function(event: &str) -> String {
+    if event == "*" { "anyEvent".to_string() } else { function(event.trim_end_matches(".*")) }
+}
+
+fn is_term(text: &str) -> bool {
+    syntax::parse_term(FileId(0), text).diagnostics.is_empty() && !text.contains(['{', '}'])
+}
+
+fn is_rule(text: &str) -> bool {
+    let parse = syntax::parse_chart(FileId(0), &format!("chart C machine m action a {{{text}}} endmachine"));
+    parse.diagnostics.is_empty()
+}
+
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n"))
+}

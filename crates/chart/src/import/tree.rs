@@ -1,0 +1,141 @@
+//! The states of an SCXML document: which lie in which, where each begins, and what happens on entering and leaving them.
+//!
+//! In: the elements. Out: [`States`], flat lists with parents. What has no counterpart is told on the way.
+
+use roxmltree::{Document, Node};
+use syntax::{Diagnostic, FileId, Span};
+
+use crate::fault::foreign as fault;
+
+/// The namespace of SCXML.
+pub(super) const SCXML: &str = "http://www.w3.org/2005/07/scxml";
+/// LIMIT: so deep states may lie in each other.
+const MAX_DEPTH: usize = 100;
+
+/// A state.
+#[derive(Debug)]
+pub(super) struct State<'d> {
+    /// Its id, or one made of its place.
+    pub(super) id: String,
+    /// Its element.
+    pub(super) node: Node<'d, 'd>,
+    /// The state that it lies in.
+    pub(super) parent: Option<usize>,
+    /// States lie in it.
+    pub(super) compound: bool,
+}
+
+/// All states of a machine.
+#[derive(Debug, Default)]
+pub(super) struct States<'d> {
+    /// In the order of the document, outer ones first.
+    pub(super) all: Vec<State<'d>>,
+}
+
+/// The span of an element's first tag's name.
+pub(super) fn place(file: FileId, node: Node<'_, '_>) -> Span {
+    let range = node.range();
+    let start = range.start as u32;
+    // A name of ASCII letters; anything else is told at the bracket alone.
+    let text = &node.document().input_text()[range];
+    let length = text[1..].bytes().take_while(|byte| byte.is_ascii_alphanumeric() || b":_-.".contains(byte)).count();
+    Span { file, start, end: start + 1 + length as u32 }
+}
+
+/// It is an element of SCXML of that name; one without a namespace counts, as some tools leave it out.
+pub(super) fn is(node: Node<'_, '_>, name: &str) -> bool {
+    node.is_element() && node.tag_name().name() == name && is_scxml(node)
+}
+
+pub(super) fn is_scxml(node: Node<'_, '_>) -> bool {
+    node.tag_name().namespace().is_none_or(|namespace| namespace == SCXML)
+}
+
+/// The text below an element.
+pub(super) fn text_of(node: Node<'_, '_>) -> String {
+    let texts = node.descendants().filter(Node::is_text).filter_map(|node| node.text());
+    texts.collect::<Vec<_>>().join(" ").split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// The machines of a document: the whole, or each region of a `parallel` that is all there is.
+pub(super) fn machines<'d>(document: &'d Document<'d>) -> Vec<Node<'d, 'd>> {
+    let root = document.root_element();
+    let states: Vec<Node<'_, '_>> = root.children().filter(|node| is_state(*node)).collect();
+    match states[..] {
+        [only] if is(only, "parallel") => only.children().filter(|node| is_state(*node)).collect(),
+        _ => vec![root],
+    }
+}
+
+/// An element that is a state.
+pub(super) fn is_state(node: Node<'_, '_>) -> bool {
+    is(node, "state") || is(node, "final") || is(node, "parallel")
+}
+
+impl<'d> States<'d> {
+    /// The states below an element.
+    pub(super) fn of(file: FileId, root: Node<'d, 'd>, faults: &mut Vec<Diagnostic>) -> Self {
+        let mut states = States::default();
+        states.below(file, root, None, 0, faults);
+        states
+    }
+
+    fn below(
+        &mut self,
+        file: FileId,
+        node: Node<'d, 'd>,
+        parent: Option<usize>,
+        depth: usize,
+        faults: &mut Vec<Diagnostic>,
+    ) {
+        for child in node.children().filter(|child| child.is_element() && is_scxml(*child)) {
+            let name = child.tag_name().name();
+            match name {
+                "state" | "final" => {}
+                "parallel" => {
+                    faults.push(fault::no_counterpart(place(file, child), "`parallel` within other states", PARALLEL));
+                    continue;
+                }
+                "history" => {
+                    faults.push(fault::no_counterpart(place(file, child), "`history`", HISTORY));
+                    continue;
+                }
+                _ => continue,
+            }
+            if depth > MAX_DEPTH {
+                faults.push(fault::no_counterpart(place(file, child), "so deep a state", "flatten it"));
+                return;
+            }
+            let id = child.attribute("id").map_or_else(|| format!("{name}{}", self.all.len() + 1), str::to_string);
+            if let Some(first) = self.all.iter().find(|state| state.id == id) {
+                faults.push(fault::second_state(place(file, child), &id, place(file, first.node)));
+            }
+            let compound = child.children().any(is_state);
+            self.all.push(State { id, node: child, parent, compound });
+            let index = self.all.len() - 1;
+            self.below(file, child, Some(index), depth + 1, faults);
+        }
+    }
+
+    /// The state of that id.
+    pub(super) fn named(&self, id: &str) -> Option<usize> {
+        self.all.iter().position(|state| state.id == id)
+    }
+
+    /// The states around one, itself first.
+    pub(super) fn around(&self, state: usize) -> Vec<usize> {
+        let mut around = vec![state];
+        while let Some(parent) = around.last().and_then(|last| self.all[*last].parent) {
+            around.push(parent);
+        }
+        around
+    }
+
+    /// The first state directly within one, or within the whole machine.
+    pub(super) fn first_in(&self, parent: Option<usize>) -> Option<usize> {
+        self.all.iter().position(|state| state.parent == parent)
+    }
+}
+
+const PARALLEL: &str = "make a machine of each region: the machines of a chart run in parallel";
+const HISTORY: &str = "keep the last state in a function of the specification, and test it with guards";

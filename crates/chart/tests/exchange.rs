@@ -1,0 +1,157 @@
+//! SCXML there and back: what our export writes is read back as the same machine; a change made in another tool is kept.
+
+#![allow(clippy::disallowed_methods, reason = "a test reads the repository's own charts")]
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use chart::export::{Notation, export};
+use chart::import::scxml;
+use chart::{Chart, drawings, dump, read};
+use syntax::{FileId, Severity, parse_chart};
+
+fn chart(text: &str) -> Chart {
+    let (chart, faults) = read(FileId(0), &parse_chart(FileId(0), text));
+    let errors: Vec<_> = faults.iter().filter(|fault| fault.severity == Severity::Error).collect();
+    assert!(errors.is_empty(), "{errors:#?}\n{text}");
+    chart
+}
+
+/// What a machine of a chart is and does, whatever the order of its shapes.
+fn lines(chart: &Chart, machine: &str) -> BTreeSet<String> {
+    let mut alone = chart.clone();
+    alone.imports.clear();
+    alone.charts.clear();
+    alone.machines.retain(|known| known.name == machine);
+    alone.patterns = chart.machines.iter().filter(|known| known.name != machine).cloned().collect();
+    dump(&alone).lines().skip(1).map(str::to_string).collect()
+}
+
+fn there_and_back(text: &str) {
+    let before = chart(text);
+    for drawing in drawings(&before) {
+        let Some(document) = export(&drawing, Notation::Scxml) else { continue };
+        let back = scxml(FileId(0), &document, "Back");
+        assert_eq!(back.diagnostics, [], "{document}");
+        // The other patterns of the chart stand in files of their own then; here they are put beside it.
+        let mut whole: String = back
+            .text
+            .expect("no errors")
+            .lines()
+            .filter(|line| !line.starts_with("import"))
+            .collect::<Vec<_>>()
+            .join("\n");
+        let mut others = before.clone();
+        others.machines.retain(|machine| machine.name != drawing.name());
+        others.imports.clear();
+        whole += &chart::write(&others).split_once('\n').map(|(_, rest)| rest.to_string()).unwrap_or_default();
+        let after = chart(&whole);
+        assert_eq!(lines(&after, drawing.name()), lines(&before, drawing.name()), "{document}");
+        let machine = |chart: &Chart| chart.machine(drawing.name()).map(|machine| machine.sequences.len());
+        assert_eq!(machine(&after), machine(&before));
+    }
+}
+
+#[test]
+fn the_repository_s_charts() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    for file in [
+        "library/patterns/DataProducer.chart",
+        "library/patterns/PatternMachines.chart",
+        "examples/visual_servoing/VisualServoingComponent.chart",
+    ] {
+        there_and_back(&std::fs::read_to_string(root.join(file)).expect("the chart is there"));
+    }
+}
+
+#[test]
+fn the_awkward_parts() {
+    there_and_back(
+        "chart Awkward
+machine m($c in Crane, $d in Prod(Crane, Crane)) \"Two\\nlines & <more> \\\"quotes\\\"\" {r_m}
+	control {at($c, $d)}
+	initial state a \"A\\nB\" {FIRST}
+	state b
+	guard g \"x < 3 & y\" {x($c) < 3 and y}
+	guard h to refine by later
+	action one {r_one[$c]}
+	action two to refine
+	instance p of fetch($c) \"Fetch\"
+	instance q of blink($c)
+	instance beside of blink($c) \"Beside\" {r_beside}
+	sequence one, two
+	a -> g yes -> one -> two -> b
+	g no -> h no -> a
+	h yes -> q -> p -> b
+	b -> a
+	b -> p
+endmachine
+pattern fetch($c in Crane)
+	control arm
+	state s
+	enter -> s -> exit
+endpattern
+pattern blink($c in Crane)
+	action light
+	enter -> light -> exit
+endpattern
+",
+    );
+}
+
+#[test]
+fn a_change_in_another_tool_is_kept() {
+    let text = "chart C machine m control x initial state a state b guard g {ready} action f {r_f[]} a -> g yes -> f -> b endmachine";
+    let before = chart(text);
+    let document = export(&drawings(&before)[0], Notation::Scxml).expect("it is a machine");
+    let back = |from: &str, to: &str| {
+        assert!(document.contains(from), "{document}");
+        let back = scxml(FileId(0), &document.replace(from, to), "C");
+        assert_eq!(back.diagnostics, []);
+        dump(&chart(&back.text.expect("no errors")))
+    };
+    assert!(
+        back("cond=\"ready\"", "cond=\"steady\"").contains("a --[steady]/f"),
+        "{}",
+        back("cond=\"ready\"", "cond=\"steady\"")
+    );
+    assert!(back("target=\"b\"", "target=\"a\"").contains("a --[g]/f--> a"));
+    assert!(back("<script>r_f[]</script>", "<script>r_h[]</script>").contains("{r_h[]}"));
+}
+
+/// Numbers that look random and are the same in every run.
+struct Dice(u64);
+
+impl Dice {
+    fn throw(&mut self, sides: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) as usize % sides.max(1)
+    }
+}
+
+#[test]
+fn damaged_documents() {
+    let whole = include_str!("../../cli/tests/cmd/chart.in/Player.scxml");
+    let pieces: Vec<&str> = whole.split_inclusive(['<', '>', '"', ' ']).collect();
+    let mut dice = Dice(7);
+    let mut read_back = 0;
+    for _ in 0..400 {
+        let mut damaged = pieces.clone();
+        for _ in 0..=dice.throw(2) {
+            let (at, other) = (dice.throw(damaged.len()), dice.throw(damaged.len()));
+            match dice.throw(3) {
+                0 => _ = damaged.remove(at),
+                1 => damaged.insert(at, pieces[dice.throw(pieces.len())]),
+                _ => damaged.swap(at, other),
+            }
+        }
+        let imported = scxml(FileId(0), &damaged.concat(), "Damaged");
+        let errors = imported.diagnostics.iter().any(|fault| fault.severity == Severity::Error);
+        assert_eq!(imported.text.is_none(), errors);
+        if let Some(text) = imported.text {
+            chart(&text);
+            read_back += 1;
+        }
+    }
+    assert!(read_back > 20, "only {read_back}");
+}
