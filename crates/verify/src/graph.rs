@@ -135,6 +135,8 @@ pub struct Graph {
     propositions: Vec<Bits>,
     /// Met, but their steps were not made.
     unexplored: Bits,
+    /// Propositions whose truth is not known in these.
+    unknown: Vec<usize>,
 }
 
 impl Graph {
@@ -185,6 +187,11 @@ impl Graph {
     /// The states that were met and whose steps were not made, because a limit ended the search.
     pub fn unexplored(&self) -> &Bits {
         &self.unexplored
+    }
+
+    /// Whether a proposition's truth is known in unexplored states too.
+    pub fn is_known_where_unexplored(&self, index: usize) -> bool {
+        !self.unknown.contains(&index)
     }
 
     /// Whether every state that can be reached is in the graph with all its edges.
@@ -241,6 +248,11 @@ impl Builder {
     pub fn new(propositions: usize) -> Builder {
         let propositions = vec![Bits::default(); propositions];
         Builder { graph: Graph { first_edge: vec![0], propositions, ..Graph::default() } }
+    }
+
+    /// The truth of a proposition is not known in states whose steps were not made.
+    pub fn unknown_where_unexplored(&mut self, proposition: usize) {
+        self.graph.unknown.push(proposition);
     }
 
     /// The next state is an initial one.

@@ -6,6 +6,7 @@
 mod check;
 mod coverage;
 pub mod graph;
+pub mod runs;
 mod search;
 mod table;
 pub mod temporal;

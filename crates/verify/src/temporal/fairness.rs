@@ -5,7 +5,7 @@
 //! of edges; a set of states is the set of edges that leave them. A run that has an edge in a set infinitely often meets
 //! it again and again.
 
-use crate::graph::{Bits, Graph, Label};
+use crate::graph::{Bits, Graph, StateId};
 use crate::temporal::component::{Acceptance, Marks};
 
 /// The constraints; a run is fair if it keeps all.
@@ -53,14 +53,15 @@ impl Fairness {
         self.compassion.push((leaving(graph, premise), leaving(graph, conclusion)));
     }
 
-    /// An agent moves again and again if it can: `moves` says whether an edge is a step of it that changes something.
+    /// An agent moves again and again if it can: `moves` says of a state and an edge of it whether that is a step of the
+    /// agent which changes something.
     /// In a state without such an edge it cannot move.
-    pub fn add_agent(&mut self, graph: &Graph, fairness: AgentFairness, moves: impl Fn(usize, Label) -> bool) {
+    pub fn add_agent(&mut self, graph: &Graph, fairness: AgentFairness, moves: impl Fn(StateId, usize) -> bool) {
         let mut taken = Bits::none(graph.edges());
         let mut enabled = Bits::none(graph.states());
-        for state in 0..graph.states() as u32 {
+        for state in 0..graph.states() as StateId {
             for edge in graph.edges_of(state) {
-                if moves(edge, graph.label(edge)) {
+                if moves(state, edge) {
                     taken.insert(edge as u32);
                     enabled.insert(state);
                 }

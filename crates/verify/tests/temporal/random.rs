@@ -110,13 +110,9 @@ pub fn fairness(graph: &Graph, constraints: &[Constraint]) -> Fairness {
         match constraint {
             Constraint::Justice(set) => fairness.add_justice(graph, &bits(set)),
             Constraint::Compassion(first, second) => fairness.add_compassion(graph, &bits(first), &bits(second)),
-            Constraint::Agent(agent, kind) => {
-                let source =
-                    |edge: usize| (0..graph.states() as u32).find(|s| graph.edges_of(*s).contains(&edge)).unwrap();
-                fairness.add_agent(graph, *kind, |edge, label| {
-                    label == Label(*agent) && graph.target(edge) != source(edge)
-                });
-            }
+            Constraint::Agent(agent, kind) => fairness.add_agent(graph, *kind, |state, edge| {
+                graph.label(edge) == Label(*agent) && graph.target(edge) != state
+            }),
         }
     }
     fairness

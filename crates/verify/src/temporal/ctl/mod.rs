@@ -9,7 +9,7 @@ mod evidence;
 
 use std::rc::Rc;
 
-use crate::graph::Bits;
+use crate::graph::{Bits, Graph};
 use crate::temporal::budget::{Budget, Ended};
 use crate::temporal::checker::{Checker, Side, Truth};
 use crate::temporal::formula::{Ctl, CtlFormulas, FormulaId};
@@ -28,7 +28,7 @@ pub fn label(checker: &Checker<'_>, formulas: &CtlFormulas, budget: &mut Budget<
         let truth = match node {
             Ctl::Constant(true) => Truth::known(Bits::all(graph.states())),
             Ctl::Constant(false) => Truth::known(Bits::none(graph.states())),
-            Ctl::Proposition(number) => Truth::known(graph.proposition(*number as usize).clone()),
+            Ctl::Proposition(number) => proposition(graph, *number as usize),
             Ctl::Not(p) if graph.is_complete() => Truth::known(of(p).must.complement()),
             Ctl::Not(p) => Truth { must: Rc::new(of(p).may.complement()), may: Rc::new(of(p).must.complement()) },
             Ctl::And(p, q) => checker.both(|side| Ok(intersection(of(p).side(side), of(q).side(side))))?,
@@ -41,6 +41,17 @@ pub fn label(checker: &Checker<'_>, formulas: &CtlFormulas, budget: &mut Budget<
         truths.push(truth);
     }
     Ok(truths)
+}
+
+fn proposition(graph: &Graph, number: usize) -> Truth {
+    let holds = graph.proposition(number);
+    if graph.is_complete() || graph.is_known_where_unexplored(number) {
+        return Truth::known(holds.clone());
+    }
+    let (mut must, mut may) = (holds.clone(), holds.clone());
+    must.intersect(&graph.unexplored().complement());
+    may.unite(graph.unexplored());
+    Truth { must: Rc::new(must), may: Rc::new(may) }
 }
 
 fn next(checker: &Checker<'_>, goal: &Bits, side: Side, budget: &mut Budget<'_>) -> Result<Bits, Ended> {

@@ -65,7 +65,7 @@ pub fn violating_run(
 }
 
 /// The propositions of a formula, ascending.
-fn propositions(formulas: &LtlFormulas, formula: FormulaId) -> Vec<u32> {
+pub fn propositions(formulas: &LtlFormulas, formula: FormulaId) -> Vec<u32> {
     let mut open = vec![formula];
     let mut seen = BTreeSet::new();
     let mut found = BTreeSet::new();

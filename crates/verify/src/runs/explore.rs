@@ -1,0 +1,373 @@
+//! The graph of a program's states, for properties of its runs.
+//!
+//! In: a program, propositions, bounds. Out: a [`Graph`] and what its states are. Where propositions read inputs, a state
+//! of the machine comes up once for each set of propositions that its inputs can make true, with the steps that these inputs
+//! allow; all other inputs, and choices, belong to the step. A step that is a fault leads nowhere: the run stays. A state
+//! with alternatives that cannot be gone through counts as unexplored.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use hashbrown::HashMap;
+use machine::Value;
+use machine::explore::{Explorer, Interner, Outcome, Path, Settings, Trouble, Truth, Widening};
+use program::Program;
+use rustc_hash::FxBuildHasher;
+use syntax::Span;
+
+use crate::graph::{Builder, Graph, Label, StateId};
+use crate::search::{Progress, Stop};
+
+/// What the graph is made from.
+#[derive(Debug, Clone)]
+pub struct Source {
+    /// The program, and how its steps are made. The conditions of the propositions are the last ones.
+    pub program: Arc<Program>,
+    /// See there.
+    pub settings: Settings,
+    /// The conditions on states that are assumptions.
+    pub assumed: Vec<usize>,
+    /// By proposition, where its condition stands.
+    pub propositions: Vec<Place>,
+    /// The rule that chooses who moves, where edges are to be labelled with the choice.
+    pub scheduler: Option<Span>,
+    /// Limits, as the search has them.
+    pub max_states: u64,
+    /// See there.
+    pub max_depth: u64,
+    /// See there.
+    pub max_bytes: u64,
+}
+
+/// Where a proposition's condition stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// Among the conditions on states.
+    State(usize),
+    /// Among the conditions on steps; its negation stands behind it.
+    Step(usize),
+}
+
+/// A graph and what is behind it.
+#[derive(Debug)]
+pub struct Explored {
+    /// The graph.
+    pub graph: Graph,
+    /// Makes steps again, to tell of them.
+    pub explorer: Explorer,
+    /// By node of the graph: the state, and what holds of its inputs.
+    pub nodes: Vec<(u32, u32)>,
+    /// The states.
+    pub states: Vec<Box<[u64]>>,
+    /// By number: for each condition on steps, whether it and its negation fail.
+    letters: Vec<Vec<u32>>,
+    /// By label: what was chosen.
+    pub choices: Vec<Vec<Value>>,
+    /// Propositions that are neither true nor false in some state.
+    pub undecided: Vec<bool>,
+    /// Why it is not complete, if a limit is the reason.
+    pub stop: Option<Stop>,
+    /// The first of the conditions on steps that are propositions.
+    first_step: u32,
+}
+
+/// A step of a state: its letter, where it leads, its label.
+type Row = (u32, u32, u32);
+
+/// Explores; `watch` is told how far it is and says whether it goes on.
+///
+/// # Errors
+/// There is no initial state.
+pub fn explore(source: &Source, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<Explored, Trouble> {
+    let mut widening = Widening::default();
+    loop {
+        let interner = Arc::new(Interner::default());
+        let explorer = match Explorer::new(&source.program, source.settings.clone(), &widening, &interner) {
+            Err(Trouble::TooNarrow(wider)) => {
+                widening.merge(&wider);
+                continue;
+            }
+            other => other?,
+        };
+        match Exploration::new(source, explorer).run(watch) {
+            Ok(explored) => return Ok(explored),
+            Err(wider) => widening.merge(&wider),
+        }
+    }
+}
+
+struct Exploration<'s> {
+    source: &'s Source,
+    explorer: Explorer,
+    states: Vec<Box<[u64]>>,
+    depths: Vec<u32>,
+    known: HashMap<Box<[u64]>, u32, FxBuildHasher>,
+    initial: usize,
+    rows: Vec<Row>,
+    /// By state explored: where its rows end.
+    ends: Vec<usize>,
+    cut: Vec<bool>,
+    letters: Vec<Vec<u32>>,
+    letter: BTreeMap<Vec<u32>, u32>,
+    choices: Vec<Vec<Value>>,
+    choice: BTreeMap<Vec<Value>, u32>,
+    undecided: Vec<bool>,
+    first_step: u32,
+    stop: Option<Stop>,
+}
+
+impl<'s> Exploration<'s> {
+    fn new(source: &'s Source, explorer: Explorer) -> Exploration<'s> {
+        let steps = source.propositions.iter().filter_map(|place| match place {
+            Place::Step(number) => Some(*number as u32),
+            Place::State(_) => None,
+        });
+        Exploration {
+            source,
+            explorer,
+            states: Vec::new(),
+            depths: Vec::new(),
+            known: HashMap::default(),
+            initial: 0,
+            rows: Vec::new(),
+            ends: Vec::new(),
+            cut: Vec::new(),
+            letters: Vec::new(),
+            letter: BTreeMap::new(),
+            choices: Vec::new(),
+            choice: BTreeMap::new(),
+            undecided: vec![false; source.propositions.len()],
+            first_step: steps.min().unwrap_or(u32::MAX),
+            stop: None,
+        }
+    }
+
+    fn run(mut self, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<Explored, Widening> {
+        let initial: Vec<Box<[u64]>> = self.explorer.initial().iter().map(|(state, _)| state.clone()).collect();
+        for state in initial {
+            self.state(&state, 0);
+        }
+        self.initial = self.states.len();
+        let mut next = 0;
+        while next < self.states.len() {
+            if next % 4096 == 0 {
+                self.stop = self.stop.or_else(|| (!watch(&self.progress(next))).then_some(Stop::Asked));
+            }
+            if (self.states.len() as u64) > self.source.max_states {
+                self.stop = Some(Stop::States);
+            } else if self.bytes() > self.source.max_bytes {
+                self.stop = Some(Stop::Memory);
+            }
+            if self.stop.is_some() {
+                break;
+            }
+            if u64::from(self.depths[next]) >= self.source.max_depth {
+                // States come by distance: all that follow are as deep.
+                self.stop = Some(Stop::Depth);
+                break;
+            }
+            self.expand(next)?;
+            next += 1;
+        }
+        Ok(self.graph())
+    }
+
+    fn progress(&self, next: usize) -> Progress {
+        let depth = self.depths.get(next).copied().unwrap_or(0);
+        Progress {
+            states: self.states.len() as u64,
+            transitions: self.rows.len() as u64,
+            queue: (self.states.len() - next) as u64,
+            depth: u64::from(depth),
+            bytes: self.bytes(),
+        }
+    }
+
+    fn bytes(&self) -> u64 {
+        (self.states.len() * (16 * self.explorer.words() + 48) + self.rows.len() * size_of::<Row>()) as u64
+    }
+
+    /// The number of a state; none if an assumption does not hold in it.
+    fn state(&mut self, state: &[u64], depth: u32) -> Option<u32> {
+        if let Some(known) = self.known.get(state) {
+            return Some(*known);
+        }
+        for condition in &self.source.assumed {
+            if self.explorer.truth(*condition, state) != Truth::True {
+                return None;
+            }
+        }
+        let number = self.states.len() as u32;
+        self.known.insert(state.into(), number);
+        self.states.push(state.into());
+        self.depths.push(depth);
+        Some(number)
+    }
+
+    fn expand(&mut self, index: usize) -> Result<(), Widening> {
+        let state = self.states[index].clone();
+        let depth = self.depths[index] + 1;
+        let start = self.rows.len();
+        let mut cut = false;
+        if self.first_step == u32::MAX && self.source.scheduler.is_none() {
+            let mut successors = Vec::new();
+            let expansion = self.explorer.expand(&state, &mut successors)?;
+            for successor in successors.chunks_exact(self.explorer.words()) {
+                if let Some(target) = self.state(successor, depth) {
+                    self.rows.push((0, target, 0));
+                }
+            }
+            if expansion.stayed > 0 {
+                self.rows.push((0, index as u32, 0));
+            }
+            if expansion.faults.iter().any(|faults| *faults > 0) {
+                self.rows.push((0, index as u32, Label::STUTTER.0));
+            }
+            cut = expansion.unbounded > 0;
+        } else {
+            let mut paths: Vec<Path> = Vec::new();
+            self.explorer.paths(&state, &mut |path| paths.push(path))?;
+            for path in paths {
+                let letter = self.letter_of(&path);
+                match &path.outcome {
+                    Outcome::Next(next) => {
+                        if let Some(target) = self.state(next, depth) {
+                            let label = self.label_of(&state, &path);
+                            self.rows.push((letter, target, label));
+                        }
+                    }
+                    Outcome::Fault(_) => self.rows.push((letter, index as u32, Label::STUTTER.0)),
+                    Outcome::Unbounded(_) => cut = true,
+                    Outcome::Excluded => {}
+                }
+            }
+        }
+        if cut {
+            self.rows.truncate(start);
+        }
+        // Without a step there are no inputs, so what holds of them is not known.
+        cut |= self.first_step != u32::MAX && self.rows.len() == start;
+        let own = &mut self.rows[start..];
+        own.sort_unstable_by_key(|(letter, ..)| *letter);
+        self.ends.push(self.rows.len());
+        self.cut.push(cut);
+        Ok(())
+    }
+
+    /// What holds of the inputs of a step.
+    fn letter_of(&mut self, path: &Path) -> u32 {
+        if self.first_step == u32::MAX {
+            return 0;
+        }
+        let failed: Vec<u32> = path.failed.iter().copied().filter(|condition| *condition >= self.first_step).collect();
+        let next = self.letters.len() as u32;
+        if let Some(known) = self.letter.get(&failed) {
+            return *known;
+        }
+        for (proposition, place) in self.source.propositions.iter().enumerate() {
+            if let Place::Step(condition) = place {
+                let fails = |condition: usize| failed.contains(&(condition as u32));
+                self.undecided[proposition] |= fails(*condition) == fails(*condition + 1);
+            }
+        }
+        self.letter.insert(failed.clone(), next);
+        self.letters.push(failed);
+        next
+    }
+
+    fn label_of(&mut self, state: &[u64], path: &Path) -> u32 {
+        let Some(scheduler) = self.source.scheduler else { return 0 };
+        let told = self.explorer.tell(state, &path.picks);
+        let Some(choice) = told.choices.into_iter().find(|choice| choice.span == scheduler) else {
+            return Label::STUTTER.0;
+        };
+        let next = self.choices.len() as u32;
+        *self.choice.entry(choice.values).or_insert_with_key(|values| {
+            self.choices.push(values.clone());
+            next
+        })
+    }
+
+    /// Puts the graph together: a node for each state and letter.
+    fn graph(mut self) -> Explored {
+        let explored = self.ends.len();
+        let rows_of = |state: usize| if state == 0 { 0 } else { self.ends[state - 1] };
+        let mut nodes: Vec<(u32, u32)> = Vec::new();
+        let mut first: Vec<u32> = Vec::with_capacity(self.states.len() + 1);
+        for state in 0..self.states.len() {
+            first.push(nodes.len() as u32);
+            let mut last = None;
+            if state < explored {
+                for (letter, ..) in &self.rows[rows_of(state)..self.ends[state]] {
+                    if last.replace(*letter) != Some(*letter) {
+                        nodes.push((state as u32, *letter));
+                    }
+                }
+            }
+            if last.is_none() {
+                nodes.push((state as u32, u32::MAX));
+            }
+        }
+        first.push(nodes.len() as u32);
+        let mut builder = Builder::new(self.source.propositions.len());
+        for (number, place) in self.source.propositions.iter().enumerate() {
+            if matches!(place, Place::Step(_)) {
+                builder.unknown_where_unexplored(number);
+            }
+        }
+        for (state, letter) in &nodes {
+            let index = *state as usize;
+            if index < self.initial {
+                builder.initial();
+            }
+            let mut truths = Vec::with_capacity(self.source.propositions.len());
+            for (number, place) in self.source.propositions.iter().enumerate() {
+                truths.push(match place {
+                    Place::State(condition) => match self.explorer.truth(*condition, &self.states[index]) {
+                        Truth::True => true,
+                        Truth::False => false,
+                        Truth::Undef | Truth::Fault | Truth::Unknown => {
+                            self.undecided[number] = true;
+                            false
+                        }
+                    },
+                    Place::Step(condition) => {
+                        let failed = self.letters.get(*letter as usize);
+                        failed.is_some_and(|failed| !failed.contains(&(*condition as u32)))
+                    }
+                });
+            }
+            if index >= explored || self.cut[index] {
+                builder.unexplored_state(truths);
+                continue;
+            }
+            let start = if index == 0 { 0 } else { self.ends[index - 1] };
+            for (own, target, label) in &self.rows[start..self.ends[index]] {
+                if own == letter {
+                    let targets = first[*target as usize]..first[*target as usize + 1];
+                    targets.for_each(|target: StateId| builder.edge(target, Label(*label)));
+                }
+            }
+            builder.state(truths);
+        }
+        Explored {
+            graph: builder.finish(),
+            explorer: self.explorer,
+            nodes,
+            states: self.states,
+            letters: self.letters,
+            choices: self.choices,
+            undecided: self.undecided,
+            stop: self.stop,
+            first_step: self.first_step,
+        }
+    }
+}
+
+impl Explored {
+    /// Whether a step as it was made again is one with this letter.
+    pub fn has_letter(&self, path: &Path, letter: u32) -> bool {
+        let own = path.failed.iter().filter(|condition| **condition >= self.first_step);
+        self.letters.get(letter as usize).is_none_or(|failed| own.eq(failed.iter()))
+    }
+}

@@ -1,0 +1,261 @@
+//! Properties of runs: the temporal formulas of a program decided on the graph of its states.
+//!
+//! In: a program and how its steps are made. Out: an outcome for each CTLSPEC and LTLSPEC, with a run told step by step
+//! where one is violated. INVARIANT: Holds is said only where the graph is complete, every proposition is true or false in
+//! every state, and some run is fair.
+
+mod close;
+mod explore;
+mod scheduler;
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use machine::explore::{Outcome as Came, Path, Settings, Told, Trouble};
+use program::Program;
+
+use crate::graph::{Bits, Label};
+use crate::search::{Progress, Stop};
+use crate::temporal::budget::{Budget, Ended, Limits};
+use crate::temporal::checker::Checker;
+use crate::temporal::fairness::{AgentFairness, Fairness};
+use crate::temporal::formula::{Ctl, CtlFormulas, FormulaId};
+use crate::temporal::ltl::propositions;
+use crate::temporal::read::{Formula, Properties, read};
+use crate::temporal::run::Run;
+use crate::temporal::{Verdict, decide_ctl, decide_ltl};
+use crate::trace::Trace;
+use explore::{Explored, Place, Source, explore};
+
+pub use scheduler::scheduler;
+
+/// What is asked.
+#[derive(Debug, Clone, Default)]
+pub struct Question {
+    /// How steps are made: bounds, and the assumptions among the conditions.
+    pub settings: Settings,
+    /// The conditions on states that are assumptions.
+    pub assumed: Vec<usize>,
+    /// How fair the choice of who moves is taken to be.
+    pub agents: Option<AgentFairness>,
+    /// Limits, as the search has them.
+    pub max_states: u64,
+    /// See there.
+    pub max_depth: u64,
+    /// See there.
+    pub max_bytes: u64,
+}
+
+/// What a property of runs comes to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum OfRuns {
+    /// On all fair runs of a complete graph.
+    Holds,
+    /// Not on this run; whether the run shows it by itself.
+    Violated(Box<Trace>, bool),
+    /// Not known.
+    Unknown(Why),
+}
+
+/// Why it is not known whether a property of runs holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Why {
+    /// States were left unexplored, by a limit or because alternatives cannot be gone through.
+    Unexplored(Option<Stop>),
+    /// A proposition of it is neither true nor false in some state.
+    NoTruth,
+    /// No run is fair.
+    NoFairRun,
+    /// The main rule does not choose who moves, so that no choice of it could be fair.
+    NoScheduler,
+    /// Deciding it took more than a limit allows.
+    TooLarge(&'static str, u64),
+    /// Whoever watches has had enough.
+    Asked,
+    /// The formula has a fault, or a value in it cannot be written down.
+    Unread,
+}
+
+/// Decides all temporal properties of a program, by their indices.
+///
+/// # Errors
+/// There is no initial state.
+pub fn decide(
+    program: &Arc<Program>,
+    question: &Question,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Vec<(usize, OfRuns)>, Trouble> {
+    let all = |why| {
+        let temporal = |kind| matches!(kind, program::PropertyKind::Ctl | program::PropertyKind::Ltl);
+        let formulas = program.properties.iter().enumerate().filter(|(_, property)| temporal(property.kind));
+        formulas.map(|(index, _)| (index, OfRuns::Unknown(why))).collect()
+    };
+    if question.agents.is_some() && scheduler(program).is_none() {
+        return Ok(all(Why::NoScheduler));
+    }
+    let Ok(properties) = read(program) else { return Ok(all(Why::Unread)) };
+    let Some(source) = source(program, question, &properties) else { return Ok(all(Why::Unread)) };
+    let mut explored = explore(&source, watch)?;
+    let fairness = fairness(&explored, &properties, question.agents);
+    let progress = Progress {
+        states: explored.states.len() as u64,
+        transitions: explored.graph.edges() as u64,
+        ..Progress::default()
+    };
+    let mut stop = || !watch(&progress);
+    let mut budget = Budget::new(Limits::default(), &mut stop);
+    let verdicts = verdicts(&explored, &fairness, &properties, &mut budget);
+    Ok(verdicts.into_iter().map(|(index, verdict)| (index, told(verdict, &mut explored))).collect())
+}
+
+fn verdicts(
+    explored: &Explored,
+    fairness: &Fairness,
+    properties: &Properties,
+    budget: &mut Budget<'_>,
+) -> Vec<(usize, Result<Verdict, Why>)> {
+    let checker = Checker::new(&explored.graph, fairness, budget);
+    let assumed = properties.justice.iter().chain(properties.compassion.iter().flat_map(|(p, q)| [p, q]));
+    let assumed_undecided = assumed.into_iter().any(|number| explored.undecided[*number]);
+    let decide = |formula: Formula| {
+        let speaks_of = match formula {
+            Formula::Ltl(formula) => propositions(&properties.ltl, formula),
+            Formula::Ctl(formula) => propositions_of_ctl(&properties.ctl, formula),
+        };
+        if assumed_undecided || speaks_of.iter().any(|number| explored.undecided[*number as usize]) {
+            return Err(Why::NoTruth);
+        }
+        let checker = match &checker {
+            Ok(checker) => checker,
+            Err(ended) => return Ok(Verdict::Ended(ended.clone())),
+        };
+        Ok(match formula {
+            Formula::Ltl(formula) => decide_ltl(checker, &properties.ltl, formula, budget),
+            Formula::Ctl(formula) => decide_ctl(checker, &properties.ctl, formula, budget),
+        })
+    };
+    let mut decide = decide;
+    properties.formulas.iter().map(|(index, formula)| (*index, decide(*formula))).collect()
+}
+
+fn told(verdict: Result<Verdict, Why>, explored: &mut Explored) -> OfRuns {
+    match verdict {
+        Err(why) => OfRuns::Unknown(why),
+        Ok(Verdict::Holds { vacuous: false }) => OfRuns::Holds,
+        Ok(Verdict::Holds { vacuous: true }) => OfRuns::Unknown(Why::NoFairRun),
+        Ok(Verdict::Violated { run, whole }) => OfRuns::Violated(Box::new(explored.trace(&run)), whole),
+        Ok(Verdict::Unexplored) => OfRuns::Unknown(Why::Unexplored(explored.stop)),
+        Ok(Verdict::Ended(Ended::Stopped)) => OfRuns::Unknown(Why::Asked),
+        Ok(Verdict::Ended(Ended::Limit { of, value })) => OfRuns::Unknown(Why::TooLarge(of, value)),
+    }
+}
+
+/// The propositions as conditions behind those of the question.
+fn source(program: &Arc<Program>, question: &Question, properties: &Properties) -> Option<Source> {
+    let mut extended = (**program).clone();
+    let mut settings = question.settings.clone();
+    let mut places = Vec::new();
+    for proposition in &properties.propositions {
+        let expression = close::closed(&mut extended, proposition)?;
+        if extended.reads_monitored(&expression) {
+            places.push(Place::Step(settings.step_conditions.len()));
+            let negated = close::negated(&mut extended, &expression);
+            settings.step_conditions.extend([(expression, false), (negated, false)]);
+        } else {
+            places.push(Place::State(settings.conditions.len()));
+            settings.conditions.push(expression);
+        }
+    }
+    Some(Source {
+        scheduler: question.agents.and_then(|_| scheduler(&extended)),
+        program: Arc::new(extended),
+        settings,
+        assumed: question.assumed.clone(),
+        propositions: places,
+        max_states: question.max_states,
+        max_depth: question.max_depth,
+        max_bytes: question.max_bytes,
+    })
+}
+
+fn fairness(explored: &Explored, properties: &Properties, agents: Option<AgentFairness>) -> Fairness {
+    let graph = &explored.graph;
+    let mut fairness = Fairness::none();
+    for number in &properties.justice {
+        fairness.add_justice(graph, graph.proposition(*number));
+    }
+    for (premise, conclusion) in &properties.compassion {
+        fairness.add_compassion(graph, graph.proposition(*premise), graph.proposition(*conclusion));
+    }
+    if let Some(kind) = agents {
+        for agent in 0..explored.choices.len() as u32 {
+            let state = |node: u32| explored.nodes[node as usize].0;
+            fairness.add_agent(graph, kind, |node, edge| {
+                graph.label(edge) == Label(agent) && state(graph.target(edge)) != state(node)
+            });
+        }
+    }
+    fairness
+}
+
+/// The propositions of a formula of CTL.
+fn propositions_of_ctl(formulas: &CtlFormulas, formula: FormulaId) -> Vec<u32> {
+    let mut seen = Bits::none(formulas.nodes().len());
+    let mut found = BTreeSet::new();
+    let mut open = vec![formula];
+    while let Some(formula) = open.pop() {
+        if !seen.insert(formula.0) {
+            continue;
+        }
+        match formulas.node(formula) {
+            Ctl::Constant(_) => {}
+            Ctl::Proposition(number) => {
+                found.insert(number);
+            }
+            Ctl::Not(p) | Ctl::ExistsNext(p) | Ctl::ExistsGlobally(p) => open.push(p),
+            Ctl::And(p, q) | Ctl::ExistsUntil(p, q) => open.extend([p, q]),
+        }
+    }
+    found.into_iter().collect()
+}
+
+impl Explored {
+    /// A run, told step by step.
+    fn trace(&mut self, run: &Run) -> Trace {
+        let nodes = run.states(&self.graph);
+        let first = self.states[self.nodes[nodes[0] as usize].0 as usize].clone();
+        let start = self.explorer.initial().iter().find(|(state, _)| *state == first);
+        let start = start.map(|(_, told)| told.clone()).unwrap_or_default();
+        let values = self.explorer.values(&first);
+        let ends = nodes.windows(2).zip(&run.edges);
+        let steps = ends.map(|(pair, edge)| self.step(pair[0], pair[1], *edge)).collect();
+        Trace { start, values, steps, turn: run.turn }
+    }
+
+    /// The first alternative that an edge of the graph stands for.
+    fn step(&mut self, from: u32, to: u32, edge: usize) -> Told {
+        let (state, letter) = self.nodes[from as usize];
+        let target = self.states[self.nodes[to as usize].0 as usize].clone();
+        let state = self.states[state as usize].clone();
+        let label = self.graph.label(edge);
+        let mut paths: Vec<Path> = Vec::new();
+        // A successor that does not fit was met before.
+        let _ = self.explorer.paths(&state, &mut |path| paths.push(path));
+        for path in paths {
+            let leads = match &path.outcome {
+                Came::Next(next) => label != Label::STUTTER && *next == target,
+                Came::Fault(_) => label == Label::STUTTER,
+                Came::Unbounded(_) | Came::Excluded => false,
+            };
+            if !leads || !self.has_letter(&path, letter) {
+                continue;
+            }
+            let told = self.explorer.tell(&state, &path.picks);
+            let chosen = self.choices.get(label.0 as usize);
+            if chosen.is_none_or(|values| told.choices.iter().any(|choice| choice.values == *values)) {
+                return told;
+            }
+        }
+        Told::default()
+    }
+}

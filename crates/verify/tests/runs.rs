@@ -1,0 +1,252 @@
+//! Properties of runs of whole models, under fairness of several kinds.
+
+#![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use machine::{Machine, Value};
+use program::Program;
+use syntax::SourceFile;
+use verify::Trace;
+use verify::runs::{OfRuns, Question, Why, decide};
+use verify::temporal::fairness::AgentFairness;
+
+struct Disk;
+
+impl Disk {
+    fn read(path: &Path) -> Result<SourceFile, String> {
+        let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+        Ok(SourceFile::new(path.display().to_string(), text))
+    }
+}
+
+impl model::Loader for Disk {
+    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        Disk::read(&Path::new(&importer.name).parent().unwrap_or(Path::new("")).join(format!("{path}.asm")))
+    }
+}
+
+fn lowered(file: SourceFile) -> Arc<Program> {
+    let checked = model::check(file, &mut Disk);
+    assert!(checked.diagnostics.is_empty(), "{:#?}", checked.diagnostics);
+    Arc::new(program::lower(&checked.model).expect("it can be lowered"))
+}
+
+/// The swinging buffer, with more assumptions before its properties.
+fn swing(assumptions: &str) -> Arc<Program> {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../bench/models/verify/SwingLive.asm");
+    let file = Disk::read(&path).expect("the model is there");
+    let text = file.text.replace("\tinvariant inv_whole", &format!("\t{assumptions}\n\tinvariant inv_whole"));
+    lowered(SourceFile::new(file.name.clone(), text))
+}
+
+fn model(signature: &str, definitions: &str) -> Arc<Program> {
+    let text = format!(
+        "asm example\nimport StandardLibrary\nimport CTLLibrary\nimport LTLLibrary\nsignature:\n{signature}\n\
+         definitions:\n{definitions}\n"
+    );
+    lowered(SourceFile::new("example.asm", text))
+}
+
+fn unlimited() -> Question {
+    Question { max_states: u64::MAX, max_depth: u64::MAX, max_bytes: u64::MAX, ..Question::default() }
+}
+
+fn ask(program: &Arc<Program>, question: &Question) -> Vec<(String, OfRuns)> {
+    let answers = decide(program, question, &mut |_| true).expect("there is an initial state");
+    answers.into_iter().map(|(index, answer)| (program.properties[index].name.clone(), answer)).collect()
+}
+
+fn word(answer: &OfRuns) -> String {
+    match answer {
+        OfRuns::Holds => "holds".to_string(),
+        OfRuns::Violated(trace, _) => match trace.turn {
+            Some(turn) => format!("violated {} + {}", turn, trace.steps.len() - turn),
+            None => format!("violated {}", trace.steps.len()),
+        },
+        OfRuns::Unknown(why) => format!("{why:?}"),
+    }
+}
+
+fn words(program: &Arc<Program>, question: &Question) -> Vec<String> {
+    ask(program, question).iter().map(|(name, answer)| format!("{name} {}", word(answer))).collect()
+}
+
+#[test]
+fn the_consumer_of_the_swinging_buffer_needs_strong_fairness() {
+    let plain = swing("");
+    let free = words(&plain, &unlimited());
+    assert_eq!(free[..3], ["ctlSpec_canRead holds", "ctlSpec_excluded holds", "ctlSpec_reads violated 3 + 1"]);
+    let weak = Question { agents: Some(AgentFairness::Weak), ..unlimited() };
+    let answers = words(&plain, &weak);
+    for (answer, name) in answers[2..5].iter().zip(["ctlSpec_reads", "ltlSpec_writes", "ltlSpec_reads"]) {
+        assert!(answer.starts_with(&format!("{name} violated")), "{answer}");
+    }
+    assert_eq!(answers[5..], ["ltlSpec_readsIfLetIn holds", "ltlSpec_readsWhatWasWritten holds"]);
+    // Strong fairness: of the agents, or said as an assumption on what the consumer gets.
+    let strong = Question { agents: Some(AgentFairness::Strong), ..unlimited() };
+    let let_in = swing("COMPASSION (lock = FREE, place(CONSUMER) = 1)");
+    let answers = words(&plain, &strong);
+    assert!(answers.iter().all(|answer| answer.ends_with(" holds")), "{answers:?}");
+    // The producer is not promised anything by what the consumer gets.
+    for (index, answer) in words(&let_in, &weak).iter().enumerate() {
+        assert_eq!(answer.ends_with(" holds"), index != 3, "{answer}");
+    }
+}
+
+/// What a machine comes to when it makes the steps of a trace.
+fn replay(program: &Arc<Program>, trace: &Trace) -> Vec<Vec<(machine::Location, Value)>> {
+    /// Inputs and choices of a step.
+    type Given = (Vec<(machine::Location, Value)>, Vec<Vec<Value>>);
+    struct Picks(Vec<Given>, usize, usize);
+    impl machine::Environment for Picks {
+        fn monitored(
+            &mut self,
+            program: &Program,
+            location: machine::LocationRef<'_>,
+            _: program::DomainId,
+        ) -> Result<Value, String> {
+            let shown = location.show(program).to_string();
+            let given = self.0[self.1].0.iter().find(|(given, _)| given.show(program).to_string() == shown);
+            given.map(|(_, value)| value.clone()).ok_or(shown)
+        }
+        fn choose(&mut self, _: &Program, choice: &machine::Choice<'_>) -> Result<usize, String> {
+            let wanted = &self.0[self.1].1[self.2];
+            self.2 += 1;
+            (0..choice.candidates()).find(|index| choice.candidate(*index) == wanted).ok_or("no candidate".to_string())
+        }
+        fn time(&mut self, _: machine::TimeUnit) -> Result<i64, String> {
+            Err("no clock".to_string())
+        }
+    }
+    let told = |told: &machine::explore::Told| -> Given {
+        (told.inputs.clone(), told.choices.iter().map(|choice| choice.values.clone()).collect())
+    };
+    let mut picks = Picks(std::iter::once(&trace.start).chain(&trace.steps).map(told).collect(), 0, 0);
+    let mut machine = Machine::new(Arc::clone(program), machine::Limits::default());
+    machine.start(&mut picks).expect("it starts");
+    let controlled = |machine: &mut Machine| {
+        machine.forget_inputs();
+        machine.locations()
+    };
+    let mut states = vec![controlled(&mut machine)];
+    for step in 1..=trace.steps.len() {
+        (picks.1, picks.2) = (step, 0);
+        machine.step(&mut picks).expect("the step can be made");
+        states.push(controlled(&mut machine));
+    }
+    states
+}
+
+#[test]
+fn a_lasso_goes_round_when_it_is_run() {
+    let plain = swing("");
+    for agents in [None, Some(AgentFairness::Weak)] {
+        let answers = ask(&plain, &Question { agents, ..unlimited() });
+        let (_, OfRuns::Violated(trace, true)) = &answers[4] else { panic!("{answers:?}") };
+        let states = replay(&plain, trace);
+        let turn = trace.turn.expect("a lasso");
+        assert_eq!(states[turn], states[states.len() - 1]);
+        let consumer = plain.find_function("place", 1).unwrap();
+        let reads = |state: &Vec<(machine::Location, Value)>| {
+            state.iter().any(|(location, value)| {
+                let consumer = location.function == consumer && location.show(&plain).to_string() == "place(CONSUMER)";
+                consumer && *value == Value::Integer(3)
+            })
+        };
+        assert!(!states[turn..].iter().any(reads));
+        // Without fairness the producer may rest; with it, the lock is taken and given back again and again.
+        let changes = trace.steps[turn..].iter().filter(|step| !step.changes.is_empty()).count();
+        assert_eq!(changes > 0, agents.is_some(), "{trace:?}");
+    }
+}
+
+const LAMP: &str = "monitored button: Boolean
+    controlled lamp: Boolean
+    controlled count: Integer";
+
+#[test]
+fn inputs_belong_to_the_state_as_far_as_a_formula_reads_them() {
+    let program = model(
+        LAMP,
+        "CTLSPEC ctlSpec_follows: ag(button implies ax(lamp))
+         CTLSPEC ctlSpec_can: ag(ef(lamp) and ef(not(lamp)))
+         LTLSPEC ltlSpec_before: g(lamp implies y(button))
+         LTLSPEC ltlSpec_on: f(lamp)
+         LTLSPEC ltlSpec_pressed: g(f(button)) implies g(f(lamp))
+         LTLSPEC ltlSpec_never: g(not(button))
+         main rule r_Main = lamp := button
+         default init s0: function lamp = false",
+    );
+    let expected = [
+        "ctlSpec_follows holds",
+        "ctlSpec_can holds",
+        "ltlSpec_before holds",
+        "ltlSpec_on violated 0 + 1",
+        "ltlSpec_pressed holds",
+        "ltlSpec_never violated 0",
+    ];
+    assert_eq!(words(&program, &unlimited()), expected);
+}
+
+#[test]
+fn assumptions_on_inputs_are_kept() {
+    let program = model(
+        LAMP,
+        "INVAR not(lamp) implies button
+         JUSTICE not(lamp)
+         LTLSPEC ltlSpec_on: f(lamp)
+         LTLSPEC ltlSpec_both: g(f(lamp) and f(not(lamp)))
+         main rule r_Main = lamp := button
+         default init s0: function lamp = false",
+    );
+    let condition = |property: &program::Property| (property.formula.clone(), true);
+    let assumed = program.properties.iter().filter(|p| p.kind == program::PropertyKind::Invar).map(condition);
+    let settings = machine::explore::Settings { step_conditions: assumed.collect(), ..Default::default() };
+    assert_eq!(words(&program, &Question { settings, ..unlimited() }), ["ltlSpec_on holds", "ltlSpec_both holds"]);
+}
+
+#[test]
+fn nothing_is_said_to_hold_that_is_not_known() {
+    let counter = model(
+        LAMP,
+        "LTLSPEC ltlSpec_small: g(count < 1000)
+         LTLSPEC ltlSpec_tiny: g(count < 5)
+         CTLSPEC ctlSpec_large: ef(count = 7)
+         LTLSPEC ltlSpec_undefined: g(f(lamp))
+         main rule r_Main = count := count + 1
+         default init s0: function count = 0",
+    );
+    let few = Question { max_states: 20, ..unlimited() };
+    let answers = ask(&counter, &few);
+    let unexplored = OfRuns::Unknown(Why::Unexplored(Some(verify::Stop::States)));
+    assert_eq!(answers[0].1, unexplored);
+    assert_eq!(word(&answers[1].1), "violated 5");
+    assert_eq!(answers[2].1, unexplored);
+    assert_eq!(answers[3].1, OfRuns::Unknown(Why::NoTruth));
+    let shallow = Question { max_depth: 3, ..unlimited() };
+    assert_eq!(ask(&counter, &shallow)[1].1, OfRuns::Unknown(Why::Unexplored(Some(verify::Stop::Depth))));
+    let unfair = model(
+        LAMP,
+        "JUSTICE count > 3
+         LTLSPEC ltlSpec_any: g(count = 17)
+         main rule r_Main = count := 1 - count
+         default init s0: function count = 0",
+    );
+    assert_eq!(ask(&unfair, &unlimited())[0].1, OfRuns::Unknown(Why::NoFairRun));
+    let weak = Question { agents: Some(AgentFairness::Weak), ..unlimited() };
+    assert_eq!(ask(&unfair, &weak)[0].1, OfRuns::Unknown(Why::NoScheduler));
+}
+
+#[test]
+fn a_step_that_cannot_be_made_is_the_end_of_a_run() {
+    let program = model(
+        LAMP,
+        "CTLSPEC ctlSpec_on: ag(ef(count = 3))
+         LTLSPEC ltlSpec_on: f(count = 3)
+         main rule r_Main = par count := count + 1 if count = 2 then count := 9 endif endpar
+         default init s0: function count = 0",
+    );
+    assert_eq!(words(&program, &unlimited()), ["ctlSpec_on violated 0", "ltlSpec_on violated 2 + 1"]);
+}
