@@ -1,5 +1,5 @@
 /* The input side of a data consumer: after the trigger (in ControlTask) it reads from its swinging
-   buffer, by the machine for its kind and role, or takes a message, and then elaborates. */
+   buffer, by the machine for its kind and role, takes a message or loads a value, and then elaborates. */
 module Consumer
 
 import ../std/StandardLibrary
@@ -29,6 +29,12 @@ definitions:
 
 	// The message was taken on entering the phase; an empty queue leaves the last one in place.
 	rule r_consumeMessage($c in Scheduler) =
+		if tElapsed($c) then
+			r_leavePhase[$c]
+		endif
+
+	// The value was taken on entering the phase; where nothing was ever written, none.
+	rule r_consumeValue($c in Scheduler) =
 		if tElapsed($c) then
 			r_leavePhase[$c]
 		endif

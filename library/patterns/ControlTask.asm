@@ -15,6 +15,7 @@ import Task
 import Semaphore
 import SwingingBuffer
 import MessageQueue
+import SharedValue
 import Scheduler
 import PatternMachines
 import Producer
@@ -31,6 +32,7 @@ definitions:
 		(forall $s in Semaphore with sem_sound($s))
 		and (forall $b in SwingingBuffer with sb_disjoint($b) and sb_newest($b) and sb_accounted($b))
 		and (forall $q in MessageQueue with mq_sound($q))
+		and (forall $v in SharedValue with sv_sound($v))
 
 	rule r_scheduler_execute($c in Scheduler) =
 		switch action(scheduler_currentPhase($c))
@@ -48,4 +50,8 @@ definitions:
 				r_produceMessage[$c]
 			case RECEIVING:
 				r_consumeMessage[$c]
+			case STORING:
+				r_produceValue[$c]
+			case LOADING:
+				r_consumeValue[$c]
 		endswitch

@@ -1,10 +1,11 @@
 /* The output side of a data producer: after the trigger and the elaboration (both in ControlTask) it
-   writes to its swinging buffer, by the machine for its kind and role, or sends a message. */
+   writes to its swinging buffer, by the machine for its kind and role, sends a message, or stores a value. */
 module Producer
 
 import ../std/StandardLibrary
 import Task
 import MessageQueue
+import SharedValue
 import Scheduler
 import PatternMachines
 
@@ -35,6 +36,15 @@ definitions:
 		else
 			par
 				r_mq_send[messageQueue(scheduler_currentPhase($c))]
+				r_leavePhase[$c]
+			endpar
+		endif
+
+	// The value is there for the reader when the time of the phase is over.
+	rule r_produceValue($c in Scheduler) =
+		if tElapsed($c) then
+			par
+				r_sv_write[sharedValue(scheduler_currentPhase($c))]
 				r_leavePhase[$c]
 			endpar
 		endif

@@ -1,7 +1,7 @@
 /* The periodic scheduler: takes one task through the cycle of its phases.
 
-   A phase elaborates, writes to or reads from a swinging buffer, sends or receives a message, or waits
-   for the trigger of the next cycle. Phases follow each other without a gap: the step that leaves a
+   A phase elaborates, writes to or reads from a swinging buffer, sends or receives a message, stores or
+   loads a shared value, or waits for the trigger of the next cycle. Phases follow each other without a gap: the step that leaves a
    phase also takes the first action of the next one, so a phase of time T takes T ticks, not T + 1.
    A synchronous task whose work fills its whole period thus keeps the period.
 
@@ -15,6 +15,7 @@ import Task
 import Semaphore
 import SwingingBuffer
 import MessageQueue
+import SharedValue
 
 export *
 
@@ -22,7 +23,8 @@ signature:
 	domain Scheduler subsetof Agent
 	abstract domain SchedulePhase
 
-	enum domain PhaseAction = {WAITING_TRIGGER | ELABORATING | WRITING_ON_SB | READING_FROM_SB | SENDING | RECEIVING}
+	enum domain PhaseAction = {
+		WAITING_TRIGGER | ELABORATING | WRITING_ON_SB | READING_FROM_SB | SENDING | RECEIVING | STORING | LOADING}
 	enum domain PatternState = {WRITING | READING | MANAGING_SB}
 	enum domain SyncPriority = {MASTER | SLAVE}
 
@@ -35,9 +37,10 @@ signature:
 	// ticks the action takes, without the waiting for a lock
 	controlled time: SchedulePhase -> Integer
 	controlled nextPhase: SchedulePhase -> SchedulePhase
-	// buffer or queue worked on; for a waiting phase of an asynchronous task: the one whose data it awaits
+	// buffer, queue or value worked on; for a waiting phase of an asynchronous task: the one whose data it awaits
 	controlled sharedMemory: SchedulePhase -> SwingingBuffer
 	controlled messageQueue: SchedulePhase -> MessageQueue
+	controlled sharedValue: SchedulePhase -> SharedValue
 	// the dashed action block of the diagrams, refined by the application
 	controlled elaborationRule: SchedulePhase -> Rule(Scheduler)
 	// The phase that manages the indexes of a buffer. A function: no buffer can have two masters.
@@ -73,7 +76,11 @@ definitions:
 			sb_newestSequence(sharedMemory($p)) != sb_receivedSequence(sharedMemory($p))
 			or (sb_pending(sharedMemory($p)) and action(sb_master(sharedMemory($p))) = READING_FROM_SB)
 		else
-			if isDef(messageQueue($p)) then not mq_isEmpty(messageQueue($p)) else true endif
+			if isDef(messageQueue($p)) then
+				not mq_isEmpty(messageQueue($p))
+			else
+				if isDef(sharedValue($p)) then sv_isNew(sharedValue($p)) else true endif
+			endif
 		endif
 
 	function trigger($c in Scheduler) =
@@ -110,6 +117,8 @@ definitions:
 			case ELABORATING: ELABORATION
 			case SENDING: MESSAGE_ACCESS
 			case RECEIVING: MESSAGE_ACCESS
+			case STORING: WRITE_ACCESS
+			case LOADING: READ_ACCESS
 			otherwise
 				switch sb_ctrlState(scheduler_currentPhase($c))
 					case WRITING: WRITE_ACCESS
@@ -217,6 +226,13 @@ definitions:
 					par
 						r_startTimer[$c]
 						r_mq_receive[messageQueue($phase)]
+					endpar
+				case STORING:
+					r_startTimer[$c]
+				case LOADING:
+					par
+						r_startTimer[$c]
+						r_sv_read[sharedValue($phase)]
 					endpar
 			endswitch
 		endpar

@@ -22,6 +22,8 @@ signature:
 	controlled task_period: Task -> Integer
 	// ticks a whole cycle takes when no lock is ever busy, the lock handshakes included
 	controlled task_timeForElaboration: Task -> Integer
+	// ticks from the start of a period to the time at which its cycle must be done; undef: the whole period
+	controlled task_deadline: Task -> Integer
 
 	// The present cycle
 	controlled task_periodStart: Task -> Integer
@@ -36,16 +38,20 @@ signature:
 	controlled task_skipped: Task -> Integer
 
 	derived task_elapsedTimeOfPeriod: Task -> Integer
+	derived task_timeAllowed: Task -> Integer
 	derived thereIsTime: Task -> Boolean
 
 definitions:
 	function task_elapsedTimeOfPeriod($t in Task) =
 		clock - task_periodStart($t)
 
-	// One more tick of waiting still lets the task finish within its period.
+	function task_timeAllowed($t in Task) =
+		if isDef(task_deadline($t)) then task_deadline($t) else task_period($t) endif
+
+	// One more tick of waiting still lets the task finish by its deadline.
 	function thereIsTime($t in Task) =
 		if task_kind($t) = SYNCHRONOUS then
-			task_timeInWait($t) < task_period($t) - task_timeForElaboration($t)
+			task_timeInWait($t) < task_timeAllowed($t) - task_timeForElaboration($t)
 		else
 			true
 		endif
@@ -64,13 +70,14 @@ definitions:
 	rule r_task_skip($t in Task) =
 		task_skipped($t) := task_skipped($t) + 1
 
-	// The work of a cycle is done. Only synchronous tasks have a deadline, the end of their period.
+	// The work of a cycle is done. Only synchronous tasks have a deadline: the end of their period, unless an
+	// earlier one is given.
 	rule r_task_complete($t in Task) =
 		par
 			task_cycles($t) := task_cycles($t) + 1
 			task_timeInWait($t) := 0
 			if task_kind($t) = SYNCHRONOUS then
-				if task_elapsedTimeOfPeriod($t) <= task_period($t) then
+				if task_elapsedTimeOfPeriod($t) <= task_timeAllowed($t) then
 					task_deadlinesMet($t) := task_deadlinesMet($t) + 1
 				else
 					task_deadlinesMissed($t) := task_deadlinesMissed($t) + 1

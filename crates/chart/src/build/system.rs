@@ -16,18 +16,16 @@ use crate::system::{Action, ChannelKind, Component, System, Timing};
 
 /// What of a system is not built yet.
 pub(super) fn unbuilt(system: &System) -> Vec<Diagnostic> {
-    let shared = system.channels.iter().filter(|channel| channel.kind == ChannelKind::Shared);
-    let shared = shared.map(|channel| fault::not_built(channel.span, "a shared value"));
-    let early = system.components.iter().filter(|component| match component.timing {
-        Timing::Synchronous { period, deadline, .. } => period != deadline,
+    let late = system.components.iter().filter(|component| match component.timing {
+        Timing::Synchronous { period, deadline, .. } => period < deadline,
         Timing::Asynchronous { .. } => false,
     });
-    shared.chain(early.map(|component| fault::not_built(component.span, "a deadline other than the period"))).collect()
+    late.map(|component| fault::not_built(component.span, "a deadline after the end of the period")).collect()
 }
 
 /// Domains whose elements the chart alone decides.
-pub(super) const OWNED: [&str; 6] =
-    ["Scheduler", "Task", "SwingingBuffer", "Semaphore", "SchedulePhase", "MessageQueue"];
+pub(super) const OWNED: [&str; 7] =
+    ["Scheduler", "Task", "SwingingBuffer", "Semaphore", "SchedulePhase", "MessageQueue", "SharedValue"];
 
 /// The parts of a system's file.
 pub(super) fn parts(chart: &Chart, system: &System, known: &Known) -> Parts {
@@ -46,7 +44,8 @@ pub(super) fn parts(chart: &Chart, system: &System, known: &Known) -> Parts {
                 element(&channel.name, "SwingingBuffer");
                 element(&lock(&channel.name), "Semaphore");
             }
-            _ => element(&channel.name, "MessageQueue"),
+            ChannelKind::Queue { .. } => element(&channel.name, "MessageQueue"),
+            ChannelKind::Shared => element(&channel.name, "SharedValue"),
         }
     }
     for component in &system.components {
@@ -138,6 +137,14 @@ fn tasks(system: &System, define: &mut impl FnMut(&str, &str)) {
     define("task_kind($t in Task)", &by_case("$t", &kind));
     let periods = each(&|c| period(c).map_or("undef".to_string(), |period| period.to_string()));
     define("task_period($t in Task)", &by_case("$t", &periods));
+    let early = |timing: Timing| match timing {
+        Timing::Synchronous { period, deadline, .. } if period != deadline => Some(deadline),
+        _ => None,
+    };
+    if system.components.iter().any(|component| early(component.timing).is_some()) {
+        let deadlines = each(&|c| early(c.timing).map_or("undef".to_string(), |deadline| deadline.to_string()));
+        define("task_deadline($t in Task)", &by_case("$t", &deadlines));
+    }
     let budget = each(&|c| period(c).map_or("undef".to_string(), |_| busy(system, c).to_string()));
     define("task_timeForElaboration($t in Task)", &by_case("$t", &budget));
     let start = each(&|c| match c.timing {
@@ -216,6 +223,12 @@ fn channels(system: &System, define: &mut impl FnMut(&str, &str)) {
             define(&format!("mq_{name}($q in MessageQueue)"), "0");
         }
     }
+    if system.channels.iter().any(|channel| channel.kind == ChannelKind::Shared) {
+        for name in ["sequence", "overwritten", "receivedSequence"] {
+            define(&format!("sv_{name}($v in SharedValue)"), "0");
+        }
+        define("sv_fresh($v in SharedValue)", "false");
+    }
 }
 
 fn schedulers(system: &System, define: &mut impl FnMut(&str, &str)) {
@@ -236,6 +249,7 @@ struct Row {
     next: String,
     buffer: Option<String>,
     queue: Option<String>,
+    value: Option<String>,
     rule: Option<String>,
 }
 
@@ -248,8 +262,12 @@ fn phases(system: &System, define: &mut impl FnMut(&str, &str)) {
             let next = names.get(index + 1).map_or(wait.clone(), |next| (*next).to_string());
             let mut row = Row { name: phase.name.clone(), time: phase.time, next, ..Row::default() };
             match &phase.action {
-                Action::Read(channel) => use_channel(&mut row, system, *channel, "READING_FROM_SB", "RECEIVING"),
-                Action::Write(channel) => use_channel(&mut row, system, *channel, "WRITING_ON_SB", "SENDING"),
+                Action::Read(channel) => {
+                    use_channel(&mut row, system, *channel, ["READING_FROM_SB", "RECEIVING", "LOADING"])
+                }
+                Action::Write(channel) => {
+                    use_channel(&mut row, system, *channel, ["WRITING_ON_SB", "SENDING", "STORING"])
+                }
                 Action::Elaborate(link) => {
                     row.action = "ELABORATING";
                     row.rule = link.as_ref().map(|link| link.name.clone());
@@ -260,7 +278,7 @@ fn phases(system: &System, define: &mut impl FnMut(&str, &str)) {
         let next = names.first().map_or(wait.clone(), |first| (*first).to_string());
         let mut row = Row { name: wait, time: 1, next, ..Row::default() };
         if let Timing::Asynchronous { awaits: Some(channel) } = component.timing {
-            use_channel(&mut row, system, channel, "", "");
+            use_channel(&mut row, system, channel, ["", "", ""]);
         }
         row.action = "WAITING_TRIGGER";
         rows.push(row);
@@ -276,17 +294,20 @@ fn phases(system: &System, define: &mut impl FnMut(&str, &str)) {
     if rows.iter().any(|row| row.queue.is_some()) {
         define("messageQueue($p in SchedulePhase)", &by_case("$p", &column(&|row| or_undef(&row.queue))));
     }
+    if rows.iter().any(|row| row.value.is_some()) {
+        define("sharedValue($p in SchedulePhase)", &by_case("$p", &column(&|row| or_undef(&row.value))));
+    }
     let rule = |row: &Row| row.rule.as_ref().map_or("undef".to_string(), |rule| format!("<<{rule}(Scheduler)>>"));
     define("elaborationRule($p in SchedulePhase)", &by_case("$p", &column(&rule)));
 }
 
-fn use_channel(row: &mut Row, system: &System, channel: usize, buffer: &'static str, queue: &'static str) {
+/// Lets a phase use a channel; its action by the kind of that: a buffer, a queue, a value.
+fn use_channel(row: &mut Row, system: &System, channel: usize, actions: [&'static str; 3]) {
     let channel = &system.channels[channel];
-    if let ChannelKind::Buffer { .. } = channel.kind {
-        row.action = buffer;
-        row.buffer = Some(channel.name.clone());
-    } else {
-        row.action = queue;
-        row.queue = Some(channel.name.clone());
+    let name = Some(channel.name.clone());
+    match channel.kind {
+        ChannelKind::Buffer { .. } => (row.action, row.buffer) = (actions[0], name),
+        ChannelKind::Queue { .. } => (row.action, row.queue) = (actions[1], name),
+        ChannelKind::Shared => (row.action, row.value) = (actions[2], name),
     }
 }

@@ -258,9 +258,9 @@ pub(crate) fn no_whole_ticks(span: Span) -> Diagnostic {
 
 /// A part of a system that is not built.
 pub(crate) fn not_built(span: Span, what: &str) -> Diagnostic {
-    Diagnostic::error("not-built", span, format!("{what} is not built yet"))
-        .because("the library of patterns has nothing for it")
-        .with_help("use a swinging buffer or a queue; let the deadline be the period")
+    Diagnostic::error("not-built", span, format!("{what} cannot be built"))
+        .because("the next cycle begins at the end of the period, and would have to wait")
+        .with_help("let the deadline be the period, or make the period longer")
 }
 
 /// A name of the chart from which no name of a function can be made.
