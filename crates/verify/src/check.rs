@@ -13,7 +13,9 @@ use program::{Expression, FunctionId, Program, PropertyKind};
 use syntax::Span;
 
 use crate::coverage::unreachable_rules;
+use crate::runs::{OfRuns, Question, Why, decide};
 use crate::search::{Plan, Progress, Search, Stop, Target};
+use crate::temporal::fairness::AgentFairness;
 use crate::trace::Trace;
 
 /// How a program is checked.
@@ -84,7 +86,7 @@ pub enum Reason {
     Assumption(usize),
     /// It asks in some state for what cannot be gone through.
     Undecided,
-    /// Temporal formulas are not decided.
+    /// It speaks of runs; [`Report::runs`] tells why it is not known.
     Temporal,
 }
 
@@ -121,6 +123,8 @@ pub struct Report {
     pub width: (usize, usize),
     /// Rules that run in no step, though the rule around them or its caller does; only where every state was met.
     pub unreachable: Vec<Span>,
+    /// By property: why it is not known whether a property of runs holds, where that is so.
+    pub runs: BTreeMap<usize, Why>,
 }
 
 /// Why nothing could be checked.
@@ -141,6 +145,19 @@ pub fn verify(
     options: &Options,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Report, NoStart> {
+    verify_fair(program, options, None, watch)
+}
+
+/// The same, where the main rule's choice of who moves is taken to be fair in temporal properties.
+///
+/// # Errors
+/// There is no initial state.
+pub fn verify_fair(
+    program: &Arc<Program>,
+    options: &Options,
+    agents: Option<AgentFairness>,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Report, NoStart> {
     let questions = Questions::of(program, options);
     let mut search = Search::run(program, &questions.plan, watch).map_err(|trouble| match trouble {
         Trouble::Fault(fault) => NoStart::Fault(fault),
@@ -150,9 +167,10 @@ pub fn verify(
     let traces = search.traces();
     let mut found: BTreeMap<Target, Trace> = search.found.iter().map(|found| found.target).zip(traces).collect();
     let reasons = reasons(&search, &questions, options);
+    let (mut of_runs, runs) = of_runs(program, &questions, options, agents, &reasons, watch);
     let verdicts = questions.subjects.iter().map(|(subject, target)| {
         let outcome = match target {
-            None => Outcome::Unknown(vec![Reason::Temporal]),
+            None => of_runs.remove(subject).unwrap_or(Outcome::Unknown(vec![Reason::Temporal])),
             Some(target) => match found.remove(target) {
                 Some(trace) => Outcome::Violated(Box::new(trace)),
                 None => {
@@ -170,7 +188,49 @@ pub fn verify(
     });
     let verdicts = verdicts.collect();
     let unreachable = if reasons.is_empty() { unreachable_rules(program, &search) } else { Vec::new() };
-    Ok(Report { verdicts, progress: search.progress, stop: search.stop, width: search.width(), unreachable })
+    Ok(Report { verdicts, progress: search.progress, stop: search.stop, width: search.width(), unreachable, runs })
+}
+
+/// The outcomes of temporal properties, and why those are unknown that are. A limit that ended the search is none for them
+/// if their own graph is complete.
+fn of_runs(
+    program: &Arc<Program>,
+    questions: &Questions,
+    options: &Options,
+    agents: Option<AgentFairness>,
+    reasons: &[Reason],
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> (BTreeMap<Subject, Outcome>, BTreeMap<usize, Why>) {
+    if questions.subjects.iter().all(|(_, target)| target.is_some()) {
+        return Default::default();
+    }
+    let question = Question {
+        settings: questions.plan.settings.clone(),
+        assumed: questions.plan.assumed.clone(),
+        agents,
+        max_states: options.max_states,
+        max_depth: options.max_depth,
+        max_bytes: options.max_bytes,
+    };
+    let stays = |reason: &&Reason| !matches!(reason, Reason::Stopped(_));
+    let reasons: Vec<Reason> = reasons.iter().filter(stays).copied().collect();
+    let mut unknown = BTreeMap::new();
+    // There are initial states: the search has begun with them.
+    let decided = decide(program, &question, watch).unwrap_or_default();
+    let outcomes = decided.into_iter().map(|(index, decided)| {
+        let outcome = match decided {
+            OfRuns::Holds if reasons.is_empty() => Outcome::Holds,
+            // Inputs that were not tried may lead to what one tree of runs is found to lack, not undo what one run does.
+            OfRuns::Violated(trace) if !trace.branch || reasons.is_empty() => Outcome::Violated(trace),
+            OfRuns::Holds | OfRuns::Violated(_) => Outcome::Unknown(reasons.clone()),
+            OfRuns::Unknown(why) => {
+                unknown.insert(index, why);
+                Outcome::Unknown(vec![Reason::Temporal])
+            }
+        };
+        (Subject::Property(index), outcome)
+    });
+    (outcomes.collect(), unknown)
 }
 
 /// Why a check that found nothing is still not known to hold.

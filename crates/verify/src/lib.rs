@@ -12,6 +12,6 @@ mod table;
 pub mod temporal;
 mod trace;
 
-pub use check::{NoStart, Options, Outcome, Reason, Report, Subject, Verdict, verify};
+pub use check::{NoStart, Options, Outcome, Reason, Report, Subject, Verdict, verify, verify_fair};
 pub use search::{Progress, Stop};
 pub use trace::Trace;

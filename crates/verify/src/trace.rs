@@ -20,6 +20,8 @@ pub struct Trace {
     pub steps: Vec<Told>,
     /// The step that the run goes back to after the last one, again and again; none for a run that ends.
     pub turn: Option<usize>,
+    /// The violation is that of a tree of runs, of which this is one branch.
+    pub branch: bool,
 }
 
 impl Search {
@@ -87,7 +89,7 @@ fn first_path(explorer: &mut Explorer, state: &[u64], wanted: &mut dyn FnMut(&Pa
 fn tell(explorer: &mut Explorer, chain: &[Box<[u64]>], found: &Found) -> Trace {
     let start = explorer.initial().iter().find(|(state, _)| *state == chain[0]);
     let start = start.map(|(_, told)| told.clone()).unwrap_or_default();
-    let mut trace = Trace { start, values: explorer.values(&chain[0]), steps: Vec::new(), turn: None };
+    let mut trace = Trace { start, values: explorer.values(&chain[0]), steps: Vec::new(), turn: None, branch: false };
     for pair in chain.windows(2) {
         let mut leads = |path: &Path| matches!(&path.outcome, Outcome::Next(next) if *next == pair[1]);
         let path = first_path(explorer, &pair[0], &mut leads).expect("the step was made before");

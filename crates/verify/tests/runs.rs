@@ -61,7 +61,7 @@ fn ask(program: &Arc<Program>, question: &Question) -> Vec<(String, OfRuns)> {
 fn word(answer: &OfRuns) -> String {
     match answer {
         OfRuns::Holds => "holds".to_string(),
-        OfRuns::Violated(trace, _) => match trace.turn {
+        OfRuns::Violated(trace) => match trace.turn {
             Some(turn) => format!("violated {} + {}", turn, trace.steps.len() - turn),
             None => format!("violated {}", trace.steps.len()),
         },
@@ -144,7 +144,7 @@ fn a_lasso_goes_round_when_it_is_run() {
     let plain = swing("");
     for agents in [None, Some(AgentFairness::Weak)] {
         let answers = ask(&plain, &Question { agents, ..unlimited() });
-        let (_, OfRuns::Violated(trace, true)) = &answers[4] else { panic!("{answers:?}") };
+        let (_, OfRuns::Violated(trace)) = &answers[4] else { panic!("{answers:?}") };
         let states = replay(&plain, trace);
         let turn = trace.turn.expect("a lasso");
         assert_eq!(states[turn], states[states.len() - 1]);
@@ -249,4 +249,33 @@ fn a_step_that_cannot_be_made_is_the_end_of_a_run() {
          default init s0: function count = 0",
     );
     assert_eq!(words(&program, &unlimited()), ["ctlSpec_on violated 0", "ltlSpec_on violated 2 + 1"]);
+}
+
+#[test]
+fn temporal_properties_are_checked_with_all_others() {
+    use verify::{Outcome, Reason, Subject, verify, verify_fair};
+    let plain = swing("");
+    let options = verify::Options::default();
+    let report = verify_fair(&plain, &options, Some(AgentFairness::Strong), &mut |_| true).unwrap();
+    assert!(report.verdicts.iter().all(|verdict| verdict.outcome == Outcome::Holds), "{:#?}", report.verdicts);
+    assert_eq!(report.verdicts.len(), 4 + plain.properties.len());
+    let bounded = model(
+        "monitored level: Integer
+         controlled seen: Integer",
+        "CTLSPEC ctlSpec_high: ef(seen = 7)
+         CTLSPEC ctlSpec_low: ag(seen = 0)
+         LTLSPEC ltlSpec_any: g(seen < 7)
+         main rule r_Main = seen := level
+         default init s0: function seen = 0",
+    );
+    let level = bounded.find_function("level", 0).unwrap();
+    let bounds = [(level, vec![Value::Integer(0), Value::Integer(1)])].into();
+    let report = verify(&bounded, &verify::Options { bounds, ..options }, &mut |_| true).unwrap();
+    let outcome = |index| {
+        let mut verdicts = report.verdicts.iter().filter(|verdict| verdict.subject == Subject::Property(index));
+        verdicts.next().map(|verdict| verdict.outcome.clone()).expect("a verdict")
+    };
+    assert_eq!(outcome(0), Outcome::Unknown(vec![Reason::Bounded(level)]));
+    assert!(matches!(outcome(1), Outcome::Violated(trace) if trace.steps.len() == 1));
+    assert_eq!(outcome(2), Outcome::Unknown(vec![Reason::Bounded(level)]));
 }

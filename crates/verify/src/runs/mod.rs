@@ -51,8 +51,8 @@ pub struct Question {
 pub enum OfRuns {
     /// On all fair runs of a complete graph.
     Holds,
-    /// Not on this run; whether the run shows it by itself.
-    Violated(Box<Trace>, bool),
+    /// Not on this run.
+    Violated(Box<Trace>),
     /// Not known.
     Unknown(Why),
 }
@@ -143,7 +143,9 @@ fn told(verdict: Result<Verdict, Why>, explored: &mut Explored) -> OfRuns {
         Err(why) => OfRuns::Unknown(why),
         Ok(Verdict::Holds { vacuous: false }) => OfRuns::Holds,
         Ok(Verdict::Holds { vacuous: true }) => OfRuns::Unknown(Why::NoFairRun),
-        Ok(Verdict::Violated { run, whole }) => OfRuns::Violated(Box::new(explored.trace(&run)), whole),
+        Ok(Verdict::Violated { run, whole }) => {
+            OfRuns::Violated(Box::new(Trace { branch: !whole, ..explored.trace(&run) }))
+        }
         Ok(Verdict::Unexplored) => OfRuns::Unknown(Why::Unexplored(explored.stop)),
         Ok(Verdict::Ended(Ended::Stopped)) => OfRuns::Unknown(Why::Asked),
         Ok(Verdict::Ended(Ended::Limit { of, value })) => OfRuns::Unknown(Why::TooLarge(of, value)),
@@ -229,7 +231,7 @@ impl Explored {
         let values = self.explorer.values(&first);
         let ends = nodes.windows(2).zip(&run.edges);
         let steps = ends.map(|(pair, edge)| self.step(pair[0], pair[1], *edge)).collect();
-        Trace { start, values, steps, turn: run.turn }
+        Trace { start, values, steps, turn: run.turn, branch: false }
     }
 
     /// The first alternative that an edge of the graph stands for.

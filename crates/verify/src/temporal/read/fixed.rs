@@ -1,7 +1,7 @@
 //! Which terms have the same value in every state.
 
 use machine::{Closed, Machine, Show, Value};
-use program::{Builtin, DomainKind, FunctionKind, Program, Slot, Term, TermId};
+use program::{Builtin, DomainId, DomainKind, FunctionKind, Program, Slot, Term, TermId};
 
 /// Whether a term's value depends on the values of its variables alone.
 pub fn is_fixed(program: &Program, term: TermId) -> bool {
@@ -18,15 +18,7 @@ pub fn is_fixed(program: &Program, term: TermId) -> bool {
                     open.extend(declared.definition.as_ref().map(|definition| definition.body));
                 }
             }
-            Term::Domain(domain) => {
-                let kind = &program.domain(*domain).kind;
-                if matches!(
-                    kind,
-                    DomainKind::Abstract { dynamic: true, .. } | DomainKind::Concrete { dynamic: true, .. }
-                ) {
-                    return false;
-                }
-            }
+            Term::Domain(domain) if !is_fixed_domain(program, *domain) => return false,
             Term::Builtin { builtin, .. } => {
                 use Builtin::*;
                 let outside = matches!(
@@ -40,6 +32,24 @@ pub fn is_fixed(program: &Program, term: TermId) -> bool {
             _ => {}
         }
         program.each_child_of_term(id, &mut |child| open.push(child));
+    }
+    true
+}
+
+/// Whether a domain has the same elements in every state.
+fn is_fixed_domain(program: &Program, domain: DomainId) -> bool {
+    let mut open = vec![domain];
+    while let Some(domain) = open.pop() {
+        match &program.domain(domain).kind {
+            DomainKind::Abstract { dynamic: true, .. } | DomainKind::Concrete { dynamic: true, .. } => return false,
+            DomainKind::Concrete { base: part, .. }
+            | DomainKind::Seq(part)
+            | DomainKind::Powerset(part)
+            | DomainKind::Bag(part) => open.push(*part),
+            DomainKind::Map(from, to) => open.extend([*from, *to]),
+            DomainKind::Prod(parts) => open.extend(parts),
+            _ => {}
+        }
     }
     true
 }
