@@ -132,6 +132,16 @@ fn an_exec_works_on_the_current_state_in_order() {
 }
 
 #[test]
+fn an_exec_writes_inputs_that_stay() {
+    check("exec input := sum + 4; check input = 4; step step check sum = 8;", "passed, 2 steps");
+    check(
+        "exec choose $i in {3 : 5} with $i > 3 do par input := $i mode := 3 endpar; step check last = 4;",
+        "passed, 1 steps",
+    );
+    check("set input := 1; exec input := undef; step check sum = 0;", "passed, 1 steps");
+}
+
+#[test]
 fn step_until_tests_first() {
     check("set input := 3; step until sum = 0; check sum = 0; step until sum > 7; check sum = 9;", "passed, 3 steps");
     check("set input := 1; step until sum = 3 within 3;", "passed, 3 steps");

@@ -83,6 +83,9 @@ impl<'a> Executor<'a> {
             }
             Term::Rule(procedure) => Ok(Value::Rule(*procedure)),
             Term::Unbound => self.fault(program.term_span(id), FaultKind::Unbound),
+            Term::Missing(function) => {
+                self.fault(program.term_span(id), FaultKind::NoDefinition { function: *function })
+            }
             Term::Coerce(operand) => {
                 let value = self.evaluate(*operand)?;
                 Ok(self.coerce(value, &program.domain(program.term_domain(id)).kind))

@@ -5,7 +5,7 @@
 
 use std::fmt;
 
-use program::{DomainId, Program};
+use program::{DomainId, FunctionId, Program};
 use syntax::Span;
 
 use crate::location::Location;
@@ -82,6 +82,11 @@ pub enum FaultKind {
         /// The domain.
         domain: DomainId,
     },
+    /// A static or derived function without definition was evaluated.
+    NoDefinition {
+        /// The function.
+        function: FunctionId,
+    },
     /// A variable was read outside the scope that binds it.
     Unbound,
     /// An agent has no program, or a value that is no rule was run.
@@ -127,6 +132,7 @@ impl FaultKind {
             FaultKind::Overflow { .. } => "integer-overflow",
             FaultKind::NotANumber { .. } => "not-a-number",
             FaultKind::NotEnumerable { .. } => "domain-not-enumerable",
+            FaultKind::NoDefinition { .. } => "no-definition",
             FaultKind::Unbound => "unbound-variable",
             FaultKind::NotARule { .. } => "not-runnable",
             FaultKind::WrongArguments { .. } => "wrong-arguments",
@@ -176,6 +182,9 @@ impl fmt::Display for ShowFault<'_> {
             FaultKind::NotANumber { operation } => write!(f, "{operation} is not a number"),
             FaultKind::NotEnumerable { domain } => {
                 write!(f, "the elements of {} cannot be enumerated", program.domain(*domain).name)
+            }
+            FaultKind::NoDefinition { function } => {
+                write!(f, "`{}` has no definition", program.function(*function).name)
             }
             FaultKind::Unbound => f.write_str("the variable is not bound here"),
             FaultKind::NotARule { value } => write!(f, "{} is not a rule that can be run", value.show(program)),

@@ -214,6 +214,8 @@ impl<'a> Executor<'a> {
         let joined = self.core.updates.join(unit, result);
         // The target stands in the place of `result`: where nothing is written to that, the target stays as it is.
         match self.consistent(joined)? {
+            // What a monitored location holds is the environment's affair: the value is lost.
+            Some(_) if self.program.function(function).kind == FunctionKind::Monitored => Ok(()),
             Some(value) => self.update(function, target, value, id),
             None => Ok(()),
         }

@@ -71,11 +71,12 @@ impl Model {
         })
     }
 
-    /// Checks a rule.
+    /// Checks a rule of a scenario; it may update monitored functions as well.
     pub fn check_rule(&mut self, file: FileId, rule: &ast::Rule) -> Fragment<RuleNode> {
         let updated = local_state::updated_variables(rule, &macros::updated_by_name(self));
         let mut fragment = self.fragment(file, |body| {
             body.updated = updated;
+            body.in_scenario = true;
             body.rule(rule)
         });
         let mut faults = Faults::default();

@@ -17,6 +17,7 @@ mod compat;
 mod constant;
 mod declare;
 mod dump;
+mod endless;
 mod fault;
 mod fragment;
 mod imports;

@@ -108,11 +108,9 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The element that a static function without definition denotes, or undef.
-    pub(crate) fn element(&self, id: FunctionId) -> Value {
-        named_elements(self.model)
-            .find(|(function, ..)| *function == id)
-            .map_or(Value::Undef, |(_, _, element)| element)
+    /// The element that a static function without definition denotes, if it denotes one.
+    pub(crate) fn element(&self, id: FunctionId) -> Option<Value> {
+        named_elements(self.model).find(|(function, ..)| *function == id).map(|(_, _, element)| element)
     }
 
     /// The program of an agent: that of the smallest domain it is in.

@@ -7,7 +7,8 @@
 use std::ops::ControlFlow;
 
 use model::{
-    Basic, Binder, Call, DomainId, DomainKind, Literal, RuleKind, RuleNode, Target, Term, TermKind, VariableId,
+    Basic, Binder, Call, DomainId, DomainKind, FunctionKind, Literal, RuleKind, RuleNode, Target, Term, TermKind,
+    VariableId,
 };
 
 use crate::fault::{Fault, Stop, consistent, join};
@@ -290,6 +291,12 @@ impl Interpreter<'_> {
         let Some((result, _)) = result else { return Ok(updates) };
         let Some(value) = updates.value(&Location::function(result, Vec::new())).cloned() else { return Ok(updates) };
         let updates = updates.without(result);
+        // l is the environment's to write.
+        if let Target::Location { function, .. } = target
+            && self.model.function(*function).kind == FunctionKind::Monitored
+        {
+            return Ok(updates);
+        }
         let update = self.location(target, state, zeta).map_err(Stop::from);
         let update = update.and_then(|location| self.update(location, value, state));
         join(updates, update)

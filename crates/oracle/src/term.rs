@@ -130,10 +130,10 @@ impl Interpreter<'_> {
         {
             return Ok(agent.clone());
         }
-        if function.kind == FunctionKind::Static {
+        if matches!(function.kind, FunctionKind::Static | FunctionKind::Derived) {
             return match function.library {
                 true => self.library(function, terms, domain, state, zeta),
-                false => Ok(self.element(id)),
+                false => self.element(id).ok_or(Fault::NoDefinition),
             };
         }
         let values = self.values(terms, state, zeta)?;

@@ -260,9 +260,26 @@ impl Play<'_> {
     }
 
     fn exec(&mut self, procedure: ProcedureId, span: Span) -> Going {
+        // The inputs are given, so that it is a change to write undef to one.
+        self.machine.forget_inputs();
+        for (location, value) in self.environment.inputs.clone() {
+            let set = self.machine.set(&location, value);
+            self.try_to(set, span)?;
+        }
         let prepared = self.machine.prepare_procedure(procedure, &mut self.environment);
         self.try_to(prepared, span)?;
         self.machine.commit();
+        // What it writes to monitored locations is an input until it is set again.
+        for change in self.machine.changes() {
+            if self.program.function(change.location.function).kind == FunctionKind::Monitored {
+                let set = self.machine.set(&change.location, change.after.clone());
+                self.try_to(set, span)?;
+                match change.after {
+                    Value::Undef => self.environment.inputs.remove(&change.location),
+                    value => self.environment.inputs.insert(change.location, value),
+                };
+            }
+        }
         Ok(())
     }
 

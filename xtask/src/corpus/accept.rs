@@ -28,7 +28,6 @@ pub fn compare(checkout: &Checkout, path: &str, accepted: bool, message: &str) -
 pub fn refusal(fault: &Diagnostic) -> Option<&'static str> {
     match fault.id {
         "unknown-variable" => Some(reason::UNBOUND),
-        "update-not-allowed" if fault.message.contains("monitored") => Some(reason::UPDATE_OF_MONITORED),
         _ => None,
     }
 }
@@ -51,7 +50,10 @@ fn superset(message: &str) -> Option<&'static str> {
     if message.contains("Unresolved reference to r_") {
         return Some(reason::RULE_TERM);
     }
-    (message.contains("static function") && message.contains("AgentDomainImpl")).then_some(reason::STATIC_AGENTS)
+    // What the peer found dynamic is nothing but domains.
+    let found = message.contains("static function").then(|| message.split("contains (dynamic) [").nth(1)).flatten();
+    let mut names = found.map(|found| found.split("asmeta.definitions.").skip(1)).into_iter().flatten().peekable();
+    (names.peek().is_some() && names.all(|name| name.starts_with("domains."))).then_some(reason::STATIC_OVER_DYNAMIC)
 }
 
 /// One fault as a line: place, kind, sentence.

@@ -3,11 +3,10 @@
 //! In: the program, the trace, one difference. Out: the name of a [`super::reason`], or none. A difference of one value
 //! can be mended: our state takes the recorded value on, and the run is compared further.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::sync::Arc;
+use std::collections::BTreeSet;
 
-use machine::{Limits, Location, Machine};
-use program::{Builtin, Expression, FunctionId, FunctionKind, Program, Rule, Term, TermId};
+use machine::{Location, Machine};
+use program::{DomainKind, Expression, FunctionId, FunctionKind, Program, Rule, Term, TermId};
 
 use super::difference::What;
 use super::reason;
@@ -35,10 +34,16 @@ impl<'a> Excuses<'a> {
     }
 
     /// Takes a recorded value on, if there is a reason why it differs.
-    pub fn mend(&mut self, machine: &mut Machine, listed: &Listed, location: &str, theirs: &str, ours: &str) -> bool {
+    pub fn mend(
+        &mut self,
+        machine: &mut Machine,
+        listed: &Listed,
+        level: usize,
+        (location, theirs, ours): (&str, &str, &str),
+    ) -> bool {
         let program = self.program;
         let found = listed.location(location).cloned().or_else(|| text::location_of(program, location));
-        let Some(reason) = self.value(machine, location, found.as_ref(), ours) else { return false };
+        let Some(reason) = self.value(machine, location, found.as_ref(), level, ours) else { return false };
         self.noted.insert(reason);
         if let Some(found) = found {
             let domain = program.function(found.function).codomain;
@@ -60,6 +65,7 @@ impl<'a> Excuses<'a> {
         machine: &mut Machine,
         name: &str,
         location: Option<&Location>,
+        level: usize,
         ours: &str,
     ) -> Option<&'static str> {
         let program = self.program;
@@ -74,11 +80,18 @@ impl<'a> Excuses<'a> {
             if ours == "undef" && self.outside(machine, location) {
                 return Some(reason::INITIAL_OUTSIDE);
             }
-            if self.reads_state(&initial.value) {
+            if self.reads_state(&initial.value) && self.is_first_listed(name, level) {
                 return Some(reason::LAZY_INITIAL);
             }
         }
         None
+    }
+
+    /// No state before lists the location: the peer has not read it before this step.
+    fn is_first_listed(&self, name: &str, level: usize) -> bool {
+        let before = self.trace.steps.iter().take(level.saturating_sub(1)).filter_map(|step| step.after.as_ref());
+        let lists = |listing: &super::trace::Listing| listing.iter().any(|(location, _)| location == name);
+        level == 0 || !(lists(&self.trace.initial) || before.into_iter().any(lists))
     }
 
     /// A domain one of whose declared elements is defined as another element.
@@ -100,40 +113,41 @@ impl<'a> Excuses<'a> {
         pairs.any(|(domain, argument)| argument.is_undef() || !machine.contains(*domain, argument))
     }
 
-    /// An initial value depends on other locations or on a choice.
+    /// An initial value depends on other locations.
     fn reads_state(&self, expression: &Expression) -> bool {
         mentions(self.program, &[expression.body], &|term| match term {
             Term::Read { function, .. } => self.program.function(*function).element.is_none(),
-            Term::Builtin { builtin, .. } => *builtin == Builtin::ChooseOne,
             _ => false,
         })
     }
 
-    /// The reason why a run parts for good.
+    /// The reason why a run parts for good, as far as the difference alone tells it. What takes another run to tell is
+    /// found by [`super::defect`].
     pub fn parting(&self, what: &What, step: usize) -> Option<&'static str> {
         match what {
             What::Fault { id, text, theirs } => self.fault(id, text, theirs.as_ref(), step),
             What::GoesOn { theirs } => self.stops(theirs, step),
-            What::Violation { .. } if self.uses_clock() => Some(reason::CLOCK),
-            What::Violation { .. } | What::Value { .. } | What::Written { .. } | What::Beyond { .. } => None,
+            What::Value { location, theirs, ours } => self.splits_by_pattern(location, theirs, ours),
+            What::Violation { .. } | What::Written { .. } | What::Beyond { .. } => None,
         }
-        .or_else(|| self.initialised_outside(step).then_some(reason::INITIAL_OUTSIDE))
-        .or_else(|| self.asked_twice(step).then_some(reason::ASKED_TWICE))
-        .or_else(|| self.uses(&[Builtin::NaturalRange]).then_some(reason::RANGE))
-        .or_else(|| self.uses(&[Builtin::SetDifference]).then_some(reason::DIFFERENCE))
-        .or_else(|| self.reads_self_beside_program().then_some(reason::SELF_KEPT))
-        .or_else(|| self.splits_by_pattern(what).then_some(reason::SPLIT))
     }
 
     fn fault(&self, id: &str, text: &str, theirs: Option<&End>, step: usize) -> Option<&'static str> {
+        // Both stop, each for what it meets first.
+        if theirs.is_some_and(|end| end.status != "OK") {
+            return (step > 0).then_some(reason::OTHER_FAULT);
+        }
         match id {
             "integer-overflow" => Some(reason::OVERFLOW),
             "division-by-zero" => Some(reason::DIVISION),
             "value-outside-domain" if step == 0 => Some(reason::INITIAL_UNCHECKED),
             "bad-operand" if text.contains("so it is no Natural") => Some(reason::NEGATIVE_NATURAL),
             "domain-not-enumerable" => Some(reason::INFINITE_CHOICE),
-            // Both stop, each for what it meets first.
-            _ if theirs.is_some_and(|end| end.status != "OK") && step > 0 => Some(reason::OTHER_FAULT),
+            // The same fault there, in the step in which the initial value is first read.
+            "no-definition" if step == 0 => {
+                let later = self.trace.end.as_ref().and_then(|end| unresolved(&end.message))?;
+                text.starts_with(&format!("`{later}` ")).then_some(reason::LAZY_INITIAL)
+            }
             _ => None,
         }
     }
@@ -142,18 +156,17 @@ impl<'a> Excuses<'a> {
         let message = theirs.message.as_str();
         match theirs.class.as_str() {
             "UnresolvedReferenceException" => {
-                let name = message.split("Unresolved reference ").nth(1)?.split('(').next()?;
-                let functions = || self.program.functions.iter().filter(|function| function.name == name);
-                if functions().any(|function| function.library) {
-                    return Some(reason::NOT_IMPLEMENTED);
-                }
-                functions()
-                    .any(|f| f.kind == FunctionKind::Static && f.definition.is_none())
-                    .then_some(reason::NO_DEFINITION)
+                let name = unresolved(message)?;
+                let mut functions = self.program.functions.iter().filter(|function| function.name == name);
+                functions.any(|function| function.library).then_some(reason::NOT_IMPLEMENTED)
             }
-            "RuntimeException" if message.contains("is unbound") => Some(reason::UNBOUND),
+            "RuntimeException" if message.contains("is unbound") => Some(reason::DEPENDENT_RANGE),
             "RuntimeException" if message.starts_with("definition of ") => Some(reason::NO_CONTENTS),
             "InvalidValueException" => self.is_new(message, step).then_some(reason::NEW_ELEMENT),
+            "NullPointerException" if message.contains("\"updateSet\" is null") && self.runs_unrun() => {
+                Some(reason::NOT_RUN)
+            }
+            "NullPointerException" if message.contains("LocationSet.formatString") => Some(reason::NO_RESULT),
             "NullPointerException" | "ClassCastException" | "IllegalArgumentException" => {
                 Some(reason::INTERNAL_FAILURE)
             }
@@ -169,61 +182,31 @@ impl<'a> Excuses<'a> {
         value.is_some_and(|value| value.contains('!') && !listing.iter().any(|(_, held)| held.contains(value)))
     }
 
-    /// The record lists, up to this step, a value of an initialised function for arguments outside its domains.
-    fn initialised_outside(&self, step: usize) -> bool {
-        let program = self.program;
-        let initialised =
-            |name: &str| program.initials.iter().any(|initial| program.function(initial.function).name == name);
-        let mut machine = Machine::new(Arc::new(program.clone()), Limits::default());
-        let listings = self.trace.steps.iter().take(step).filter_map(|step| step.after.as_ref());
-        let locations: BTreeSet<&String> =
-            listings.flatten().filter(|(_, value)| value != "undef").map(|(name, _)| name).collect();
-        locations.into_iter().any(|name| {
-            let named = name.split('(').next().is_some_and(initialised);
-            named && text::location_of(program, name).is_some_and(|location| self.outside(&mut machine, &location))
-        })
+    /// The model has a rule that the peer parses and does not run.
+    fn runs_unrun(&self) -> bool {
+        let unrun =
+            |rule: &Rule| matches!(rule, Rule::Local { .. } | Rule::Iterate { .. } | Rule::RecursiveWhile { .. });
+        self.program.rules.iter().any(unrun)
     }
 
-    /// The environment gave one location two values in one step, up to this one.
-    fn asked_twice(&self, step: usize) -> bool {
-        self.trace.steps.iter().take(step).any(|step| {
-            let mut first: BTreeMap<&str, &str> = BTreeMap::new();
-            step.inputs.iter().any(|(location, value)| *first.entry(location).or_insert(value) != value.as_str())
-        })
+    /// Both hold the same text, cut at other places.
+    fn splits_by_pattern(&self, location: &str, theirs: &str, ours: &str) -> Option<&'static str> {
+        let location = text::location_of(self.program, location)?;
+        let codomain = self.program.function(location.function).codomain;
+        let texts = matches!(&self.program.domain(codomain).kind, DomainKind::Seq(of)
+            if matches!(self.program.domain(*of).kind, DomainKind::Basic(model::Basic::String)));
+        let joined = |list: &str| list.split(',').collect::<String>();
+        (texts
+            && theirs != ours
+            && joined(theirs).replace(|c: char| !c.is_alphanumeric(), "")
+                == joined(ours).replace(|c: char| !c.is_alphanumeric(), ""))
+        .then_some(reason::SPLIT)
     }
+}
 
-    fn uses(&self, builtins: &[Builtin]) -> bool {
-        self.program
-            .terms
-            .iter()
-            .any(|term| matches!(term, Term::Builtin { builtin, .. } if builtins.contains(builtin)))
-    }
-
-    fn uses_clock(&self) -> bool {
-        self.uses(&[Builtin::TimeNanoseconds, Builtin::TimeMilliseconds, Builtin::TimeSeconds])
-    }
-
-    /// A rule runs an agent's program and reads `self` itself.
-    fn reads_self_beside_program(&self) -> bool {
-        let program = self.program;
-        program.procedures.iter().any(|procedure| {
-            let (mut runs, mut reads) = (false, false);
-            let mut open = vec![procedure.body];
-            while let Some(id) = open.pop() {
-                runs |= matches!(program.rule(id), Rule::RunAgent { .. });
-                program.each_child_of_rule(id, &mut |child| open.push(child));
-                let mut terms = Vec::new();
-                program.each_term_of_rule(id, &mut |term| terms.push(term));
-                let is_self = |term: &Term| matches!(term, Term::Read { function, .. } if Some(*function) == program.self_function);
-                reads |= mentions(program, &terms, &is_self);
-            }
-            runs && reads
-        })
-    }
-
-    fn splits_by_pattern(&self, what: &What) -> bool {
-        matches!(what, What::Value { .. }) && self.uses(&[Builtin::Split])
-    }
+/// The function that the peer could not evaluate.
+fn unresolved(message: &str) -> Option<&str> {
+    message.split("Unresolved reference ").nth(1)?.split('(').next()
 }
 
 /// Whether a term or what it is defined by has a part of some form.

@@ -131,6 +131,11 @@ impl<'a> RecordedInputs<'a> {
         RecordedInputs { values, samples, numbers, renaming, strict, plan, habits, made, chosen, beyond }
     }
 
+    /// Of a location that the record has several times the last value counts.
+    pub fn take_last(&mut self, step: &'a Step) {
+        self.values.extend(step.inputs.iter().map(|(location, value)| (location.as_str(), value.as_str())));
+    }
+
     fn take(&mut self, of: usize, habit: usize) -> usize {
         let index = self.plan.get(self.made.len()).map_or(habit, |planned| planned.index.min(of - 1));
         self.made.push(Made { index, of });
@@ -179,11 +184,21 @@ impl Environment for RecordedInputs<'_> {
             TimeUnit::Milliseconds => "currTimeMillisecs",
             TimeUnit::Seconds => "currTimeSecs",
         };
-        let value = self.values.get(name).and_then(|value| value.parse().ok());
-        Ok(value.unwrap_or_else(|| {
+        if let Some(value) = self.values.get(name).and_then(|value| value.parse().ok()) {
+            return Ok(value);
+        }
+        // A reading that the record lacks is among the numbers of the next state, if anything came of it.
+        let whole = |number: &Value| matches!(number, Value::Integer(_));
+        let numbers: Vec<Value> = self.numbers.iter().rev().filter(|number| whole(number)).cloned().collect();
+        if self.strict || numbers.is_empty() {
             self.beyond.push(name.to_string());
-            0
-        }))
+            return Ok(0);
+        }
+        let index = self.take(numbers.len(), 0);
+        match numbers[index] {
+            Value::Integer(time) => Ok(time),
+            _ => Ok(0),
+        }
     }
 }
 

@@ -26,6 +26,13 @@ pub enum Job {
         /// The model.
         path: String,
     },
+    /// A model or scenario to run, whatever its recorded result.
+    Explore {
+        /// The model or scenario.
+        path: String,
+        /// There is a recorded result for it.
+        recorded: bool,
+    },
     /// A scenario's verdict.
     Scenario {
         /// The scenario.
@@ -43,7 +50,10 @@ impl Job {
     /// What the job is about: a path in the checkout.
     pub fn subject(&self) -> &str {
         match self {
-            Job::Accept { path, .. } | Job::Replay { path, .. } | Job::Scenario { path, .. } => path,
+            Job::Accept { path, .. }
+            | Job::Replay { path, .. }
+            | Job::Explore { path, .. }
+            | Job::Scenario { path, .. } => path,
         }
     }
 
@@ -52,6 +62,7 @@ impl Job {
         match self {
             Job::Accept { .. } => "accept",
             Job::Replay { kind, .. } => kind,
+            Job::Explore { .. } => "explore",
             Job::Scenario { .. } => "scenario",
         }
     }
@@ -70,6 +81,13 @@ pub enum Answer {
         /// The names of the reasons; none where it is not explained.
         reasons: Vec<String>,
         /// How it differs.
+        detail: String,
+    },
+    /// Run without anything to compare with.
+    Explored {
+        /// How far it came.
+        outcome: String,
+        /// What there is to say of it.
         detail: String,
     },
     /// Nothing to compare: the peer's result says nothing of the model.

@@ -5,8 +5,10 @@
 //! the difference, never by a file's name.
 
 mod accept;
+mod defect;
 mod difference;
 mod excuse;
+mod explore;
 mod inputs;
 mod job;
 mod loader;
@@ -44,6 +46,8 @@ pub fn run(words: &[String]) -> Result<Outcome, Failure> {
     let recorded =
         arguments.option("--recorded").map_or_else(|| repository::root().join("../shared/conformance"), PathBuf::from);
     let mut recorded = recorded::read(&recorded)?;
+    let everything = recorded::everything(&checkout, &recorded.jobs)?;
+    recorded.jobs.extend(everything);
     if let Some(only) = arguments.option("--only") {
         recorded.jobs.retain(|job| job.section() == only || job.subject().contains(only));
     }

@@ -17,7 +17,7 @@ use crate::Failure;
 /// How many workers run beside each other.
 const WORKERS: usize = 2;
 /// LIMIT: how long one job may take.
-const TIME_LIMIT: Duration = Duration::from_secs(60);
+const TIME_LIMIT: Duration = Duration::from_secs(240);
 
 /// Does all jobs.
 ///

@@ -3,6 +3,7 @@
 //! In: the folder with `parse.csv`, `avalla.csv` and the traces, packed (`traces.tar.xz`) or not (`traces/`). Out: jobs
 //! in the order of the tables, the traces by name.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -52,6 +53,32 @@ pub fn read(folder: &Path) -> Result<Recorded, Failure> {
         jobs.push(Job::Scenario { path, status, message, checks });
     }
     Ok(Recorded { jobs, _unpacked: unpacked })
+}
+
+/// All models and scenarios of a checkout as jobs to run, in the order of their paths.
+///
+/// # Errors
+/// A folder cannot be read.
+pub fn everything(checkout: &Path, recorded: &[Job]) -> Result<Vec<Job>, Failure> {
+    let known: BTreeSet<String> = recorded.iter().map(|job| job.subject().to_string()).collect();
+    let mut paths = Vec::new();
+    let mut open = vec![checkout.to_path_buf()];
+    while let Some(folder) = open.pop() {
+        let wrap = |error: std::io::Error| format!("{}: {error}", folder.display());
+        for entry in std::fs::read_dir(&folder).map_err(wrap)? {
+            let entry = entry.map_err(wrap)?;
+            let path = entry.path();
+            let kind = entry.file_type().map_err(wrap)?;
+            if kind.is_dir() {
+                open.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "asm" || extension == "avalla") {
+                paths.extend(path.strip_prefix(checkout).ok().map(|path| path.display().to_string()));
+            }
+        }
+    }
+    paths.sort();
+    let job = |path: String| Job::Explore { recorded: known.contains(&path), path };
+    Ok(paths.into_iter().map(job).collect())
 }
 
 fn rows(path: &Path, columns: usize) -> Result<Vec<Vec<String>>, Failure> {

@@ -39,13 +39,15 @@ pub struct Replayed {
     pub cut: bool,
 }
 
-/// Makes the recorded run again.
-pub fn replay(program: &Arc<Program>, sources: &Sources, trace: &Trace) -> Replayed {
-    let strict = Search::new(program, sources, trace, true).run();
+/// Makes the recorded run again. Where an input is asked for several times in a step, the first value counts; in the step
+/// `last` the last one.
+pub fn replay(program: &Arc<Program>, sources: &Sources, trace: &Trace, last: Option<usize>) -> Replayed {
+    let search = |strict| Search { last, ..Search::new(program, sources, trace, strict) };
+    let strict = search(true).run();
     if strict.difference.is_none() {
         return strict;
     }
-    let lenient = Search::new(program, sources, trace, false).run();
+    let lenient = search(false).run();
     let step = |replayed: &Replayed| replayed.difference.as_ref().map_or(usize::MAX, |difference| difference.step);
     if step(&lenient) >= step(&strict) { lenient } else { strict }
 }
@@ -72,6 +74,10 @@ struct Search<'a> {
     wrong: usize,
     /// The level is made for the first time, with the first choices.
     first_plan: bool,
+    /// The level being made.
+    depth: usize,
+    /// Inputs asked for several times: in this step the last value counts.
+    last: Option<usize>,
     /// The level's choices are so few that all can be tried with care.
     few_choices: bool,
 }
@@ -107,6 +113,8 @@ impl<'a> Search<'a> {
             renaming_next: BTreeMap::new(),
             wrong: 0,
             first_plan: true,
+            depth: 0,
+            last: None,
             few_choices: false,
         }
     }
@@ -242,6 +250,7 @@ impl<'a> Search<'a> {
     /// The initial state (level 0) or a step, with one plan: the choices made, and whether it is as recorded.
     fn level(&mut self, level: usize, plan: Vec<Made>, by_habit: bool) -> (Vec<Made>, Result<(), What>) {
         self.spent += 100;
+        self.depth = level;
         self.wrong = HOPELESS;
         self.first_plan = plan.is_empty();
         self.renaming_next.clone_from(&self.renaming);
@@ -254,6 +263,9 @@ impl<'a> Search<'a> {
         let habits = std::mem::take(&mut self.habits);
         let by_habit = by_habit.then_some(&habits);
         let mut inputs = RecordedInputs::new(step, plan, by_habit, self.strict, &samples, &renaming);
+        if self.last == Some(level) {
+            inputs.take_last(step);
+        }
         let mut outcome = if level == 0 { self.start(&mut inputs) } else { self.step(step, &mut inputs) };
         let RecordedInputs { made, chosen, beyond, .. } = inputs;
         (self.samples, self.habits) = (samples, habits);
@@ -372,7 +384,8 @@ impl<'a> Search<'a> {
         let mut first = None;
         self.wrong = 0;
         for (location, theirs, ours) in differences {
-            if !self.excuses.mend(&mut self.machine, &listed, &location, &theirs, &ours) {
+            let difference = (location.as_str(), theirs.as_str(), ours.as_str());
+            if !self.excuses.mend(&mut self.machine, &listed, self.depth, difference) {
                 self.wrong += 1;
                 first.get_or_insert(What::Value { location, theirs, ours });
             }

@@ -1,13 +1,13 @@
 //! The outcome of the whole comparison as a Markdown page.
 //!
-//! In: jobs and their answers. Out: counts, the reasons with the models that each explains, and what is not explained.
-//! INVARIANT: the same answers give the same bytes.
+//! In: jobs and their answers. Out: counts, the reasons with the models that each explains, what is not explained, and
+//! what came of everything that was run. INVARIANT: the same answers give the same bytes.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use super::job::{Answer, Job};
-use super::reason;
+use super::reason::{self, Class};
 
 /// Name of a section, and what it says in the table.
 const SECTIONS: [(&str, &str); 5] = [
@@ -17,6 +17,8 @@ const SECTIONS: [(&str, &str); 5] = [
     ("choose", "runs with choices, followed"),
     ("scenario", "verdicts of scenarios"),
 ];
+/// The section of what is run without comparing.
+const EXPLORE: &str = "explore";
 
 /// The comparison as a whole.
 #[derive(Debug)]
@@ -28,10 +30,27 @@ pub struct Report<'a> {
 struct Counts {
     compared: usize,
     same: usize,
-    explained: usize,
+    /// By class of the reason.
+    explained: BTreeMap<Class, usize>,
     unexplained: usize,
     panics: usize,
     timeouts: usize,
+}
+
+impl Counts {
+    fn of(&self, class: Class) -> usize {
+        self.explained.get(&class).copied().unwrap_or_default()
+    }
+
+    /// The share that agrees, as the work's goal counts it, as parts: a named defect of the peer is not counted at all,
+    /// and of models accepted or refused a superset or a better fault is an agreement.
+    fn agreement(&self, section: &str) -> (usize, usize) {
+        let agreed = match section {
+            "accept" => self.same + self.of(Class::Superset) + self.of(Class::BetterFault),
+            _ => self.same,
+        };
+        (agreed, self.compared - self.of(Class::Defect))
+    }
 }
 
 impl<'a> Report<'a> {
@@ -46,11 +65,13 @@ impl<'a> Report<'a> {
             counts.compared += usize::from(!matches!(answer, Answer::Void { .. }));
             match answer {
                 Answer::Same { .. } => counts.same += 1,
-                Answer::Different { reasons, .. } if reasons.is_empty() => counts.unexplained += 1,
-                Answer::Different { .. } => counts.explained += 1,
+                Answer::Different { reasons, .. } => match reason::class(reasons) {
+                    Some(class) => *counts.explained.entry(class).or_default() += 1,
+                    None => counts.unexplained += 1,
+                },
                 Answer::Panic { .. } => counts.panics += 1,
                 Answer::Timeout => counts.timeouts += 1,
-                Answer::Void { .. } => {}
+                Answer::Explored { .. } | Answer::Void { .. } => {}
             }
         }
         counts
@@ -58,7 +79,7 @@ impl<'a> Report<'a> {
 
     /// Every difference has a reason, and nothing panicked or took too long.
     pub fn is_explained(&self) -> bool {
-        SECTIONS.iter().all(|(section, _)| {
+        SECTIONS.iter().map(|(section, _)| *section).chain([EXPLORE]).all(|section| {
             let counts = self.counts(section);
             counts.unexplained + counts.panics + counts.timeouts == 0
         })
@@ -66,21 +87,32 @@ impl<'a> Report<'a> {
 
     /// The table of counts.
     pub fn summary(&self) -> String {
-        let mut out = String::from(
-            "| compared | number | same | same % | explained | with those % | unexplained | panics | timeouts |\n\
-             | --- | --: | --: | --: | --: | --: | --: | --: | --: |\n",
+        let classes: Vec<&str> = Class::ALL.iter().map(|class| class.column()).collect();
+        let mut out = format!(
+            "| compared | number | same | same % | {} | without a reason | panics | timeouts | agreement % |\n\
+             | --- |{}\n",
+            classes.join(" | "),
+            " --: |".repeat(classes.len() + 7)
         );
         for (section, title) in SECTIONS {
-            let c = self.counts(section);
-            if c.compared == 0 {
+            let counts = self.counts(section);
+            if counts.compared == 0 {
                 continue;
             }
-            let percent = |part: usize| 100.0 * part as f64 / c.compared as f64;
-            let (same, with) = (percent(c.same), percent(c.same + c.explained));
-            let Counts { compared, same: number, explained, unexplained, panics, timeouts } = c;
+            let percent = |part: usize, of: usize| 100.0 * part as f64 / of.max(1) as f64;
+            let (agreed, of) = counts.agreement(section);
+            let classes: Vec<String> = Class::ALL.iter().map(|class| counts.of(*class).to_string()).collect();
             let _ = writeln!(
                 out,
-                "| {title} | {compared} | {number} | {same:.1} | {explained} | {with:.1} | {unexplained} | {panics} | {timeouts} |"
+                "| {title} | {} | {} | {:.1} | {} | {} | {} | {} | {:.1} |",
+                counts.compared,
+                counts.same,
+                percent(counts.same, counts.compared),
+                classes.join(" | "),
+                counts.unexplained,
+                counts.panics,
+                counts.timeouts,
+                percent(agreed, of),
             );
         }
         out
@@ -90,32 +122,43 @@ impl<'a> Report<'a> {
     pub fn page(&self) -> String {
         let mut page = String::from(HEAD);
         page.push_str(&self.summary());
+        page.push_str(LEGEND);
         self.reasons(&mut page);
         self.unexplained(&mut page);
         self.notes(&mut page);
+        self.explored(&mut page);
         page
     }
 
     fn reasons(&self, page: &mut String) {
-        let mut by_reason: BTreeMap<&str, BTreeMap<&str, Vec<String>>> = BTreeMap::new();
+        let mut by_reason: BTreeMap<(Class, &str), BTreeMap<&str, Vec<String>>> = BTreeMap::new();
         for (job, answer) in &self.results {
             let Answer::Different { reasons, detail } = answer else { continue };
-            for reason in reasons {
+            for reason in reasons.iter().filter_map(|name| reason::named(name)) {
                 let line = format!("{} ({}): {}", job.subject(), job.section(), escaped(detail));
-                by_reason.entry(reason).or_default().entry(job.section()).or_default().push(line);
+                let lines = by_reason.entry((reason.class, reason.name)).or_default();
+                lines.entry(job.section()).or_default().push(line);
             }
         }
-        page.push_str("\n## Differences with a reason\n\n| reason | what it means | accept | det | mon | choose | scenario |\n| --- | --- | --: | --: | --: | --: | --: |\n");
-        for (reason, sections) in &by_reason {
-            let count = |section: &str| sections.get(section).map_or(String::new(), |lines| lines.len().to_string());
-            let counts: Vec<String> = SECTIONS.iter().map(|(section, _)| count(section)).collect();
-            let _ = writeln!(page, "| {reason} | {} | {} |", reason::sentence(reason), counts.join(" | "));
-        }
-        for (reason, sections) in &by_reason {
-            let _ = writeln!(page, "\n### {}\n", capital(reason));
-            for (section, _) in SECTIONS {
-                for line in sections.get(section).into_iter().flatten() {
-                    let _ = writeln!(page, "- {line}");
+        for class in Class::ALL {
+            if by_reason.keys().any(|(found, _)| *found == class) {
+                let _ = writeln!(page, "\n## {}\n", class.title());
+                page.push_str("| reason | what it means | accept | det | mon | choose | scenario |\n| --- | --- | --: | --: | --: | --: | --: |\n");
+            }
+            let of_class = || by_reason.iter().filter(|((found, _), _)| *found == class);
+            for ((_, name), sections) in of_class() {
+                let count =
+                    |section: &str| sections.get(section).map_or(String::new(), |lines| lines.len().to_string());
+                let counts: Vec<String> = SECTIONS.iter().map(|(section, _)| count(section)).collect();
+                let sentence = reason::named(name).map_or("", |reason| reason.sentence);
+                let _ = writeln!(page, "| {name} | {sentence} | {} |", counts.join(" | "));
+            }
+            for ((_, name), sections) in of_class() {
+                let _ = writeln!(page, "\n### {}\n", capital(name));
+                for (section, _) in SECTIONS {
+                    for line in sections.get(section).into_iter().flatten() {
+                        let _ = writeln!(page, "- {line}");
+                    }
                 }
             }
         }
@@ -146,7 +189,7 @@ impl<'a> Report<'a> {
     fn notes(&self, page: &mut String) {
         page.push_str("\n## Agreements worth a word\n\n");
         let mut any = false;
-        for (job, answer) in &self.results {
+        for (job, answer) in self.results.iter().filter(|(job, _)| job.section() != EXPLORE) {
             let what = match answer {
                 Answer::Same { note: Some(note) } => note.clone(),
                 Answer::Void { why } => format!("not compared: {why}"),
@@ -159,7 +202,47 @@ impl<'a> Report<'a> {
             page.push_str("None.\n");
         }
     }
+
+    /// What came of everything that was run, and of each model and scenario that has no recorded result.
+    fn explored(&self, page: &mut String) {
+        let (mut models, mut scenarios) = (Outcomes::default(), Outcomes::default());
+        let mut lines: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+        for (job, answer) in &self.results {
+            let Job::Explore { path, recorded } = job else { continue };
+            let (outcome, detail) = match answer {
+                Answer::Explored { outcome, detail } => (outcome.as_str(), detail.as_str()),
+                Answer::Panic { .. } => ("panic", ""),
+                Answer::Timeout => ("timeout", ""),
+                Answer::Different { .. } => ("engines that part", ""),
+                Answer::Same { .. } | Answer::Void { .. } => ("not read", ""),
+            };
+            let outcomes = if path.ends_with(".avalla") { &mut scenarios } else { &mut models };
+            let count = outcomes.entry(outcome).or_default();
+            count.0 += 1;
+            count.1 += usize::from(!recorded);
+            if !recorded && !detail.is_empty() {
+                lines.entry(outcome).or_default().push(format!("- {path}: {}", escaped(detail)));
+            }
+        }
+        if models.is_empty() && scenarios.is_empty() {
+            return;
+        }
+        page.push_str(EXPLORED);
+        for (title, outcomes) in [("models", models), ("scenarios", scenarios)] {
+            let all = outcomes.values().fold((0, 0), |sum, count| (sum.0 + count.0, sum.1 + count.1));
+            let _ = writeln!(page, "| **{title}** | **{}** | **{}** |", all.0, all.1);
+            for (outcome, count) in outcomes {
+                let _ = writeln!(page, "| {outcome} | {} | {} |", count.0, count.1);
+            }
+        }
+        for (outcome, lines) in lines {
+            let _ = writeln!(page, "\n### Without a recorded result: {outcome}\n\n{}", lines.join("\n"));
+        }
+    }
 }
+
+/// How many there are of each outcome: in all, and without a recorded result.
+type Outcomes<'a> = BTreeMap<&'a str, (usize, usize)>;
 
 const HEAD: &str = "\
 # Conformance with the public corpus
@@ -169,13 +252,30 @@ not part of this project, and paths below are relative to their checkout. The pe
 
 Compared are: whether a model is accepted; recorded runs, state by state, on every location that the record lists, with
 the recorded inputs and with choices that lead to the recorded states; the ends of runs; verdicts of scenarios. A
-difference is explained only by a reason that a test on the model or on the difference finds.
+difference is explained only by a reason that a test on the difference finds: on what came there and what came here.
 
 The recorded results are not part of this project either: tables `parse.csv` (path, OK or FAIL, message) and `avalla.csv`
 (path, verdict, message), and traces `traces/{det,mon,choose}/*`, whose form `xtask/src/corpus/trace.rs` reads. Whoever
 has the peer makes them by running its parser, simulator and validator over the checkout; `cargo xtask corpus CHECKOUT
---recorded FOLDER` names their folder.
+--recorded FOLDER` names their folder. Besides, every model and scenario of the checkout is run in every engine, whether
+there is a recorded result for it or not.
 
+";
+
+const LEGEND: &str = "
+A result with several reasons counts for the worst of them, which stands furthest to the right. The last column leaves out
+the peer's defects, as the language page names them (the sections are given with each reason); a model that is accepted
+as a stated superset or refused for a better reason agrees. Nothing else is left out or counts as agreement.
+";
+
+const EXPLORED: &str = "
+## Everything run
+
+Models: twice 25 steps in each of the two engines, with random inputs, taking first candidates and random ones; the
+engines must give the same records. Scenarios: once, taking first candidates.
+
+| outcome | all | without a recorded result |
+| --- | --: | --: |
 ";
 
 fn escaped(text: &str) -> String {
@@ -192,12 +292,32 @@ fn capital(text: &str) -> String {
 mod tests {
     use super::*;
 
+    fn accept(path: &str) -> Job {
+        Job::Accept { path: path.to_string(), accepted: true, message: String::new() }
+    }
+
     #[test]
     fn a_difference_without_reason_is_told() {
-        let job = Job::Accept { path: "a/B.asm".to_string(), accepted: true, message: String::new() };
-        let (jobs, answers) = ([job], [Answer::different(None, "x | y".to_string())]);
+        let (jobs, answers) = ([accept("a/B.asm")], [Answer::different(None, "x | y".to_string())]);
         let report = Report::new(&jobs, &answers);
         assert!(!report.is_explained());
         assert!(report.page().contains("- a/B.asm (accept): UNEXPLAINED: x \\| y"));
+    }
+
+    #[test]
+    fn the_worst_reason_counts() {
+        let reasons = vec![reason::RANGE.to_string(), reason::SPLIT.to_string()];
+        let jobs = [accept("a/B.asm"), accept("a/C.asm")];
+        let answers = [Answer::same(), Answer::Different { reasons, detail: String::new() }];
+        let counts = Report::new(&jobs, &answers).counts("accept");
+        assert_eq!((counts.of(Class::Defect), counts.of(Class::Decision)), (0, 1));
+        assert_eq!(counts.agreement("det"), (1, 2));
+    }
+
+    #[test]
+    fn a_named_defect_is_left_out_of_the_agreement() {
+        let jobs = [accept("a/B.asm"), accept("a/C.asm")];
+        let answers = [Answer::same(), Answer::different(Some(reason::RANGE), String::new())];
+        assert_eq!(Report::new(&jobs, &answers).counts("accept").agreement("det"), (1, 1));
     }
 }

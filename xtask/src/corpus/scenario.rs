@@ -5,7 +5,7 @@
 //! The record's choices are the first in the peer's hash order, which is not ours: where a verdict differs, other
 //! choices are tried.
 
-use groundstate::scenario::{Choices, FailureKind, FirstCandidate, Options};
+use groundstate::scenario::{Choices, Failure, FailureKind, FirstCandidate, Options};
 use groundstate::{SeededChoices, Suite, Tested};
 use machine::Limits;
 use syntax::Severity;
@@ -71,17 +71,21 @@ fn verdict(checkout: &Checkout, path: &str, choices: &mut dyn Choices) -> (&'sta
     if verdict.passed() {
         return ("PASS", format!("{} checks", verdict.checks.0));
     }
-    let failure = verdict.failures().first();
-    let place = failure.map(|failure| tested.sources.position(failure.span)).unwrap_or_default();
-    match failure.map(|failure| &failure.kind) {
-        Some(FailureKind::Fault { fault, .. }) => {
+    verdict.failures().first().map_or(("FAIL", String::new()), |first| failure(&tested, first))
+}
+
+/// The first failure in the peer's words, and why.
+pub fn failure(tested: &Tested, failure: &Failure) -> (&'static str, String) {
+    let place = tested.sources.position(failure.span);
+    match &failure.kind {
+        FailureKind::Fault { fault, .. } => {
             let text = tested.program.as_ref().map(|program| fault.show(program).to_string()).unwrap_or_default();
             ("ERROR", format!("{text} ({place})"))
         }
-        Some(FailureKind::Pick { message, .. }) => ("PICK", format!("{message} ({place})")),
-        Some(FailureKind::Check { .. }) => ("FAIL", format!("a check does not hold ({place})")),
-        Some(FailureKind::Invariant { name, .. }) => ("FAIL", format!("invariant {name} is violated ({place})")),
-        Some(FailureKind::Bound { bound }) => ("ERROR", format!("`step until` reached {bound} steps ({place})")),
-        Some(FailureKind::Expected { .. }) | None => ("FAIL", place),
+        FailureKind::Pick { message, .. } => ("PICK", format!("{message} ({place})")),
+        FailureKind::Check { .. } => ("FAIL", format!("a check does not hold ({place})")),
+        FailureKind::Invariant { name, .. } => ("FAIL", format!("invariant {name} is violated ({place})")),
+        FailureKind::Bound { bound } => ("ERROR", format!("`step until` reached {bound} steps ({place})")),
+        FailureKind::Expected { .. } => ("FAIL", place),
     }
 }

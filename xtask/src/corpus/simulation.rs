@@ -8,10 +8,11 @@ use std::sync::Arc;
 
 use model::Loader;
 use program::Program;
-use syntax::Severity;
 use syntax::ast::AstNode;
+use syntax::{Severity, Sources};
 
 use super::accept::{refusal, refused};
+use super::defect;
 use super::difference::{Difference, What};
 use super::excuse::Excuses;
 use super::job::Answer;
@@ -23,7 +24,7 @@ use super::{reason, text};
 /// Replays and compares.
 pub fn compare(checkout: &Checkout, path: &str, file: &str) -> Answer {
     let trace = std::fs::read_to_string(file).map_err(|error| error.to_string()).and_then(|text| trace::read(&text));
-    let (trace, source) = match (trace, checkout.source(path)) {
+    let (mut trace, source) = match (trace, checkout.source(path)) {
         (Ok(trace), Ok(source)) => (trace, source),
         (Err(reason), _) | (_, Err(reason)) => return Answer::Void { why: reason },
     };
@@ -38,11 +39,45 @@ pub fn compare(checkout: &Checkout, path: &str, file: &str) -> Answer {
             return Answer::different(None, fault);
         }
     };
-    let replayed = replay(&program, &checked.sources, &trace);
-    judge(checkout, path, &program, &trace, &replayed)
+    let own = elements_of_own_library(checkout, path, &program);
+    let lists_own = trace.forget_elements(&own);
+    let replayed = replay(&program, &checked.sources, &trace, None);
+    match judge(checkout, path, &program, &checked.sources, &trace, &replayed) {
+        Answer::Same { .. } if lists_own => {
+            Answer::different(Some(reason::OWN_LIBRARY), "agrees but for the elements that this explains".to_string())
+        }
+        Answer::Different { mut reasons, detail } if lists_own && !reasons.is_empty() => {
+            reasons.push(reason::OWN_LIBRARY.to_string());
+            Answer::Different { reasons, detail }
+        }
+        answer => answer,
+    }
 }
 
-fn judge(checkout: &Checkout, path: &str, program: &Program, trace: &Trace, replayed: &Replayed) -> Answer {
+/// Elements, with their domains, that a copy of the standard library beside the model declares and the built-in one does
+/// not.
+fn elements_of_own_library(checkout: &Checkout, path: &str, program: &Program) -> Vec<(String, String)> {
+    let copy = checkout.source(path).and_then(|root| checkout.clone().load(&root, "StandardLibrary"));
+    let Ok(copy) = copy else { return Vec::new() };
+    let declared = copy.text.lines().filter_map(|line| {
+        let (name, domain) = line.trim().strip_prefix("static ")?.split_once(':')?;
+        Some((domain.trim().to_string(), name.trim().to_string()))
+    });
+    let abstracts = |name: &str| {
+        program.domains.iter().any(|d| d.name == name && matches!(d.kind, program::DomainKind::Abstract { .. }))
+    };
+    let known = |name: &str| program.functions.iter().any(|f| f.name == name && f.element.is_some());
+    declared.filter(|(domain, name)| abstracts(domain) && !known(name)).collect()
+}
+
+fn judge(
+    checkout: &Checkout,
+    path: &str,
+    program: &Arc<Program>,
+    sources: &Sources,
+    trace: &Trace,
+    replayed: &Replayed,
+) -> Answer {
     let mut reasons: BTreeSet<&'static str> = replayed.reasons.clone();
     let Some(difference) = &replayed.difference else {
         if !reasons.is_empty() {
@@ -62,6 +97,7 @@ fn judge(checkout: &Checkout, path: &str, program: &Program, trace: &Trace, repl
         return Answer::Same { note: (!notes.is_empty()).then(|| notes.join("; ")) };
     };
     let found = Excuses::new(program, trace).parting(&difference.what, difference.step);
+    let found = found.or_else(|| defect::found(program, sources, trace, difference));
     let found = found.or_else(|| own_library(checkout, path, program, difference));
     let initial =
         difference.step <= 1 && !replayed.beyond.is_empty() && matches!(difference.what, What::Violation { .. });

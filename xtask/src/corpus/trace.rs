@@ -43,6 +43,24 @@ pub struct End {
     pub message: String,
 }
 
+impl Trace {
+    /// Takes elements out of the listed contents of their domains; tells whether there were any.
+    pub fn forget_elements(&mut self, elements: &[(String, String)]) -> bool {
+        let mut any = false;
+        let after = self.steps.iter_mut().filter_map(|step| step.after.as_mut());
+        for (location, value) in after.chain([&mut self.initial]).flatten() {
+            for (_, element) in elements.iter().filter(|(domain, _)| domain == location) {
+                let Some(inner) = value.strip_prefix('{').and_then(|rest| rest.strip_suffix('}')) else { continue };
+                let kept: Vec<&str> = inner.split(',').filter(|listed| listed != element).collect();
+                let shorter = format!("{{{}}}", kept.join(","));
+                any |= shorter != *value;
+                *value = shorter;
+            }
+        }
+        any
+    }
+}
+
 /// Reads a trace.
 ///
 /// # Errors
@@ -97,6 +115,15 @@ fn assignment(line: &str) -> Result<(String, String), Failure> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn elements_are_forgotten() {
+        let mut trace = read("# a/B.asm\nSTATE 0\nAgent={a,self}\nx={self}\n").unwrap();
+        assert!(trace.forget_elements(&[("Agent".to_string(), "self".to_string())]));
+        let texts: Vec<&str> = trace.initial.iter().map(|(_, value)| value.as_str()).collect();
+        assert_eq!(texts, ["{a}", "{self}"]);
+        assert!(!trace.forget_elements(&[("Agent".to_string(), "self".to_string())]));
+    }
 
     #[test]
     fn a_trace_is_taken_apart() {

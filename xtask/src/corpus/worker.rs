@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex};
 
 use super::job::{Answer, Job};
 use super::loader::Checkout;
-use super::{accept, scenario, simulation};
+use super::{accept, explore, scenario, simulation};
 use crate::Failure;
 
 /// Does the jobs of standard input until it ends.
@@ -41,6 +41,7 @@ fn answer(checkout: &Checkout, job: &Job) -> Answer {
     match job {
         Job::Accept { path, accepted, message } => accept::compare(checkout, path, *accepted, message),
         Job::Replay { file, path, .. } => simulation::compare(checkout, path, file),
+        Job::Explore { path, .. } => explore::explore(checkout, path),
         Job::Scenario { path, status, message, checks } => scenario::compare(checkout, path, status, message, *checks),
     }
 }

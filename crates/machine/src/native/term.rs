@@ -80,7 +80,7 @@ impl Translator<'_, '_> {
                 self.require(component);
                 Operand::Boxed(component)
             }
-            Term::Unbound => self.interpreted(id),
+            Term::Unbound | Term::Missing(_) => self.interpreted(id),
             Term::Rule(procedure) => {
                 let n = i64::from(procedure.0);
                 let value = self.word(n);

@@ -49,6 +49,8 @@ pub(crate) struct Body<'a> {
     pub(crate) result: Option<DomainId>,
     /// The environment's functions may be updated too (a scenario sets them).
     pub(crate) as_environment: bool,
+    /// In a rule that a scenario runs, which stands for the machine and the environment alike.
+    pub(crate) in_scenario: bool,
 }
 
 /// What a variable's name means.
@@ -81,6 +83,7 @@ impl<'a> Body<'a> {
             locals: Vec::new(),
             result: None,
             as_environment: false,
+            in_scenario: false,
         }
     }
 

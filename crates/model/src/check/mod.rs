@@ -30,7 +30,7 @@ use crate::model::{Checked, FunctionKind, Loader, Model, RuleId, VariableId};
 use crate::names::{Names, Selection};
 use crate::site::{Site, kind_word};
 use crate::suggest::nearest;
-use crate::{declare, macros};
+use crate::{declare, endless, macros};
 use body::{Body, Bound};
 use definition::Defined;
 use local_state::UpdatedParameters;
@@ -80,7 +80,9 @@ pub fn check(root: SourceFile, loader: &mut dyn Loader) -> Checked {
     let Checker { model, mut faults, .. } = checker;
     macros::check(&model, &mut faults);
     if !faults.has_errors() {
+        endless::check(&model, &mut faults);
         report_undefined(&model, &mut faults);
+        report_without_contents(&model, &mut faults);
     }
     Checked { diagnostics: faults.into_sorted(), model, sources }
 }
@@ -277,6 +279,17 @@ fn report_undefined(model: &Model, faults: &mut Faults) {
             );
         if !element && function.codomain != Domains::ERROR {
             faults.push(fault::function::undefined(function.span, &function.name, kind_word(function.kind)));
+        }
+    }
+}
+
+/// Warns of static subsets without contents. The elements of a subset of an abstract domain may be declared elsewhere.
+fn report_without_contents(model: &Model, faults: &mut Faults) {
+    for (_, domain) in model.domains.iter() {
+        let DomainKind::Concrete { base, dynamic: false, definition: None } = &domain.kind else { continue };
+        let declared = matches!(model.domains.kind(*base), DomainKind::Abstract { .. } | DomainKind::Error);
+        if let (false, Some(name), Some(span)) = (declared, &domain.name, domain.span) {
+            faults.push(fault::domain::without_contents(span, name, &model.domains.display(*base)));
         }
     }
 }

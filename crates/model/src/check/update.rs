@@ -41,7 +41,7 @@ impl Body<'_> {
         value: Option<ast::Term>,
         span: Span,
     ) -> Option<(Target, Term)> {
-        let place = target.and_then(|target| self.target(&target));
+        let place = target.and_then(|target| self.target(&target, false));
         let value = self.optional_term(value, span);
         let place = place?;
         if !can_coerce(self.site.model, &value, place.domain) {
@@ -55,7 +55,7 @@ impl Body<'_> {
 
     /// `target <- r_x(…)`
     pub(crate) fn return_rule(&mut self, rule: &ast::ReturnRule, span: Span) -> RuleKind {
-        let place = rule.target().and_then(|target| self.target(&target));
+        let place = rule.target().and_then(|target| self.target(&target, true));
         let call = rule.call().and_then(|call| {
             let span = self.site.span(&call);
             self.call(call.name(), call.arguments(), true, span)
@@ -81,7 +81,8 @@ impl Body<'_> {
         RuleKind::Return { target: place.target, call }
     }
 
-    fn target(&mut self, target: &ast::Term) -> Option<Place> {
+    /// The location that a term stands for; `returned` where a turbo rule gives it its result.
+    fn target(&mut self, target: &ast::Term, returned: bool) -> Option<Place> {
         if let ast::Term::Variable(variable) = target {
             return self.variable_place(variable);
         }
@@ -106,7 +107,7 @@ impl Body<'_> {
             }
             return None;
         };
-        self.may_update(function, target).then(|| self.function_place(function, arguments, span))
+        self.may_update(function, target, returned).then(|| self.function_place(function, arguments, span))
     }
 
     fn variable_place(&mut self, variable: &ast::VariableTerm) -> Option<Place> {
@@ -147,9 +148,18 @@ impl Body<'_> {
         self.site.faults.push(fault::rule::update_of_variable(span, name, declared, what, help));
     }
 
-    fn may_update(&mut self, id: FunctionId, target: &ast::Term) -> bool {
+    fn may_update(&mut self, id: FunctionId, target: &ast::Term, returned: bool) -> bool {
         let function = self.site.model.function(id);
         let (kind, name, declared) = (function.kind, function.name.clone(), function.span);
+        if returned && kind == FunctionKind::Monitored && !self.in_scenario {
+            // Accepted by the peer, which forgets the value at the end of the step.
+            let span = self.site.span(target);
+            self.site.faults.push(fault::rule::return_lost(span, &name, declared));
+            return true;
+        }
+        if self.in_scenario && kind == FunctionKind::Monitored {
+            return true;
+        }
         let (reason, help) = match (kind, self.as_environment) {
             (FunctionKind::Shared, _) => return true,
             (FunctionKind::Monitored, true) => return true,

@@ -33,6 +33,17 @@ pub(crate) fn not_definable(span: Span, name: &str, kind: &str, help: &str) -> D
         .with_help(help)
 }
 
+/// A static subset of which nobody says what is in it.
+pub(crate) fn without_contents(span: Span, name: &str, base: &str) -> Diagnostic {
+    Diagnostic::warning(
+        "domain-without-contents",
+        span,
+        format!("nothing says which elements of {base} are in `{name}`"),
+    )
+    .because("no value can be written where it is the codomain, and its elements cannot be ranged over")
+    .with_help(format!("define it: `domain {name} = {{…}}` in the definitions section"))
+}
+
 /// Contents that are no set of elements of the base.
 pub(crate) fn contents(span: Span, name: &str, base: &str, found: &str) -> Diagnostic {
     Diagnostic::error("domain-contents", span, format!("`{name}` is a subset of {base}, but its contents are {found}"))

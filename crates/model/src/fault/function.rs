@@ -33,8 +33,21 @@ pub(crate) fn no_declaration(
 /// A static function with a concrete meaning but without definition.
 pub(crate) fn undefined(span: Span, name: &str, kind: &str) -> Diagnostic {
     Diagnostic::warning("undefined-function", span, format!("the {kind} function `{name}` has no definition"))
-        .because("its value is undef everywhere")
+        .because("a run stops where it is evaluated")
         .with_help(format!("define it: `function {name}… = …` in the definitions section"))
+}
+
+/// Definitions that use each other in a circle whatever the state is.
+pub(crate) fn endless(span: Span, cycle: &[String], declared: Span) -> Diagnostic {
+    let name = cycle.last().map(String::as_str).unwrap_or_default();
+    let message = match cycle {
+        [_, _] => format!("every evaluation of `{name}` evaluates `{name}` again"),
+        _ => format!("the definitions of {} use each other in a circle", cycle.join(" → ")),
+    };
+    Diagnostic::warning("endless-definition", span, message)
+        .because("a run that comes here never ends, but for a limit")
+        .with_label(declared, format!("`{name}` is declared here"))
+        .with_help("put the use behind a condition that comes false, or remove it")
 }
 
 /// A second definition.

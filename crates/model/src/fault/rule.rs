@@ -36,6 +36,14 @@ pub(crate) fn update_not_allowed(
         .with_help(help)
 }
 
+/// A turbo rule's result for a function that only the environment writes.
+pub(crate) fn return_lost(span: Span, name: &str, declared: Span) -> Diagnostic {
+    Diagnostic::warning("return-lost", span, format!("what is returned to the monitored function `{name}` is lost"))
+        .because("only the environment writes it")
+        .with_label(declared, "declared monitored here")
+        .with_help(format!("declare `{name}` controlled, or call the rule without `<-`"))
+}
+
 /// An update of a variable that changes nothing but the variable.
 pub(crate) fn update_of_variable(span: Span, name: &str, bound: Span, what: &str, help: &str) -> Diagnostic {
     Diagnostic::warning(

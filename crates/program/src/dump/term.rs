@@ -98,6 +98,11 @@ impl Dump<'_> {
                 self.text.push(')');
                 Ok(())
             }
+            Term::Missing(function) => {
+                self.text.push_str("missing ");
+                self.text.push_str(&self.program.function(*function).name);
+                Ok(())
+            }
             Term::Unbound => {
                 self.text.push_str("unbound");
                 Ok(())

@@ -14,8 +14,8 @@ pub enum Term {
     Constant(u32),
     /// A variable.
     Slot(Slot),
-    /// The value of a location of a dynamic function (controlled, monitored, shared, out, local), or of a static
-    /// function without definition: an element of its abstract domain (then without arguments), or else undef.
+    /// The value of a location of a dynamic function (controlled, monitored, shared, out, local), or an element of an
+    /// abstract domain, which is a static function without arguments and without definition.
     Read {
         /// The function.
         function: FunctionId,
@@ -114,6 +114,8 @@ pub enum Term {
     Rule(ProcedureId),
     /// A variable outside its scope: a fault.
     Unbound,
+    /// A static or derived function that has no definition and is no element: a fault.
+    Missing(FunctionId),
     /// A numeric coercion to the term's domain, Real or Complex.
     Coerce(TermId),
 }

@@ -13,7 +13,7 @@ impl Program {
     /// Calls `visit` with each child of a term: arguments, ranges, conditions, bodies.
     pub fn each_child_of_term(&self, id: TermId, visit: &mut dyn FnMut(TermId)) {
         match self.term(id) {
-            Term::Constant(_) | Term::Slot(_) | Term::Domain(_) | Term::Rule(_) | Term::Unbound => {}
+            Term::Constant(_) | Term::Slot(_) | Term::Domain(_) | Term::Rule(_) | Term::Unbound | Term::Missing(_) => {}
             Term::Read { arguments: list, .. }
             | Term::Define { arguments: list, .. }
             | Term::Builtin { arguments: list, .. }

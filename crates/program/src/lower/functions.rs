@@ -16,6 +16,8 @@ pub(super) enum Meaning {
     Read,
     /// Its definition.
     Define,
+    /// A fault: it has no definition and is no element.
+    Missing,
     /// An operation of the library.
     Builtin(Builtin),
     /// Just its argument of that index: unary plus, `first(1, 2)`.
@@ -35,8 +37,10 @@ impl<'m> Lowering<'m, '_> {
                     Meaning::Define
                 } else if function.library {
                     builtin::resolve(self.model, function).unwrap_or(Meaning::Read)
-                } else {
+                } else if self.program.function(id).element.is_some() {
                     Meaning::Read
+                } else {
+                    Meaning::Missing
                 }
             }
             FunctionKind::Monitored

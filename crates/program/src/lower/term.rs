@@ -104,6 +104,7 @@ impl<'m> Lowering<'m, '_> {
         let lowered = match self.meaning(function) {
             Meaning::Read => ir::Term::Read { function, arguments: self.lower_terms(arguments) },
             Meaning::Define => ir::Term::Define { function, arguments: self.lower_terms(arguments) },
+            Meaning::Missing => ir::Term::Missing(function),
             Meaning::Builtin(builtin) => self.lower_operation(builtin, arguments),
             Meaning::Argument(index) => match arguments.get(index) {
                 Some(argument) => return self.lower_term(argument),

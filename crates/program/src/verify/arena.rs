@@ -59,6 +59,11 @@ fn verify_term(program: &Program, id: TermId) -> Result<(), String> {
         }
         Term::Rule(procedure) => procedure_exists(program, *procedure),
         Term::Unbound => Ok(()),
+        Term::Missing(function) => {
+            ensure((function.0 as usize) < program.functions.len(), || "there is no such function".to_string())?;
+            let missing = program.function(*function);
+            ensure(missing.definition.is_none() && missing.element.is_none(), || "the function is defined".to_string())
+        }
     }
 }
 

@@ -150,7 +150,7 @@ fn binding_and_branching_terms() {
 }
 
 #[test]
-fn statics_without_meaning_are_undef_locations_and_elements_are_numbered() {
+fn statics_without_meaning_are_missing_and_elements_are_numbered() {
     check(
         "abstract domain Node\n domain Inner subsetof Node\n static root: Node\n static left: Inner\n static right: Inner\n
          static weight: Node -> Integer\n static limit: Integer\n controlled at: Node",
@@ -166,7 +166,7 @@ fn statics_without_meaning_are_undef_locations_and_elements_are_numbered() {
             static limit: Integer
             controlled at: Node
             rule r_Main#0 main
-              if Eq(weight(right), limit)
+              if Eq(missing weight, missing limit)
                 at := left
         "#]],
     );

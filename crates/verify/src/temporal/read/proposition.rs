@@ -90,6 +90,7 @@ impl Proposition {
             Term::Let { slot, .. } => format!("let {}", slot.0),
             Term::Rule(procedure) => format!("rule {procedure:?}"),
             Term::Unbound => "unbound".to_string(),
+            Term::Missing(function) => format!("missing {function:?}"),
             Term::Coerce(_) => format!("coerce {domain:?}"),
         })
     }
