@@ -3,17 +3,17 @@
 
 CARGO ?= cargo
 GROUNDSTATE := target/release/groundstate
-MODELS := library/patterns examples
+MODELS := library/patterns library/runtime examples
 
-.PHONY: help demo test lint unit scenarios fuzz bench corpus update clean
+.PHONY: help demo test lint unit scenarios cpp fuzz bench corpus update clean
 
 help: ## this list
-	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*##/\t/' | expand -t 12
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*##/\t/' | expand -t 12
 
 demo: $(GROUNDSTATE) ## check the library, run the complete controller for a second, test every scenario, write out/report.html
 	@GROUNDSTATE=$(GROUNDSTATE) sh docs/demo.sh
 
-test: lint unit scenarios fuzz ## everything that must hold before a change lands
+test: lint unit scenarios cpp fuzz ## everything that must hold before a change lands
 
 lint: $(GROUNDSTATE)
 	$(CARGO) fmt --all --check
@@ -26,6 +26,9 @@ unit:
 scenarios: $(GROUNDSTATE)
 	$(GROUNDSTATE) check $(MODELS)
 	$(GROUNDSTATE) test $(MODELS)
+
+cpp: ## the C++ runtime: its tests as they are and under the sanitizers
+	sh cpp/run.sh
 
 fuzz: ## the fuzz targets, for a short time
 	sh fuzz/run.sh 15

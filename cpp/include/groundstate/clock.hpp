@@ -1,0 +1,101 @@
+// Time and waiting, in nanoseconds.
+//
+// A Clock tells the time, sleeps until an instant, and waits while a word keeps its value. The runtime waits in no
+// other way, so that what runs in real time runs unchanged in virtual time (virtual_clock.hpp): every class below
+// takes its clock as a parameter. MonotonicClock is the one of a running robot: CLOCK_MONOTONIC, clock_nanosleep, and
+// the futex of Linux, which is what POSIX lacks: a wait for a word, on an absolute monotonic instant, that costs the
+// waker nothing while nobody waits.
+#pragma once
+
+#include <cerrno>
+#include <climits>
+#include <concepts>
+#include <cstdint>
+#include <ctime>
+
+#include <atomic>
+
+#include <linux/futex.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+namespace groundstate {
+
+/// What a thread can wait for: it sleeps while the word keeps the value it has seen.
+using Word = std::atomic<std::uint32_t>;
+
+/// An instant that does not come.
+inline constexpr std::int64_t never_ns = INT64_MAX;
+
+/// `start + span`, at most `never_ns`. Both are at least 0.
+constexpr std::int64_t later_ns(std::int64_t start_ns, std::int64_t span_ns) noexcept {
+    return span_ns >= never_ns - start_ns ? never_ns : start_ns + span_ns;
+}
+
+/// What tells the time and waits.
+///
+///     now_ns()                       the time since some beginning; never goes back
+///     sleep_until_ns(instant)        returns at the instant or after it
+///     wait_while(word, seen, until)  returns when the word has changed, at the instant, or for no reason at all: the
+///                                    caller looks again at what it waits for
+///     wake(word)                     after a change of the word: those who wait for it go on
+///     enter(rank), leave()           the calling thread begins and ends to live by this clock; of those who are ready
+///                                    at one instant of virtual time the least rank goes first
+///
+/// All may be called by any thread. None allocates.
+template <class C>
+concept Clock = requires(C& clock, const C& face, Word& word, std::uint32_t seen, std::int64_t instant_ns, int rank) {
+    { face.now_ns() } noexcept -> std::same_as<std::int64_t>;
+    { clock.sleep_until_ns(instant_ns) } noexcept;
+    { clock.wait_while(word, seen, instant_ns) } noexcept;
+    { clock.wake(word) } noexcept;
+    { clock.enter(rank) } noexcept;
+    { clock.leave() } noexcept;
+};
+
+/// Real time.
+class MonotonicClock {
+  public:
+    /// Blocks: no. Worst case: one read of the clock, some 30 ns, without a system call on usual machines.
+    std::int64_t now_ns() const noexcept {
+        timespec now{};
+        clock_gettime(CLOCK_MONOTONIC, &now);
+        return std::int64_t{now.tv_sec} * second_ns + now.tv_nsec;
+    }
+
+    /// Blocks: until the instant, and as long after it as the scheduler takes.
+    void sleep_until_ns(std::int64_t instant_ns) noexcept {
+        const timespec instant = split(instant_ns);
+        while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &instant, nullptr) == EINTR) {
+        }
+    }
+
+    /// Blocks: at most until the instant.
+    void wait_while(Word& word, std::uint32_t seen, std::int64_t until_ns) noexcept {
+        const timespec until = split(until_ns);
+        futex(word, FUTEX_WAIT_BITSET_PRIVATE, seen, until_ns == never_ns ? nullptr : &until);
+    }
+
+    /// Blocks: no. Worst case: one system call.
+    void wake(Word& word) noexcept { futex(word, FUTEX_WAKE_BITSET_PRIVATE, INT_MAX, nullptr); }
+
+    void enter(int) noexcept {}
+    void leave() noexcept {}
+
+  private:
+    static constexpr std::int64_t second_ns = 1'000'000'000;
+
+    static timespec split(std::int64_t instant_ns) noexcept {
+        return {.tv_sec = static_cast<std::time_t>(instant_ns / second_ns), .tv_nsec = instant_ns % second_ns};
+    }
+
+    // The result is not looked at: a wait may end for no reason, and a wake finds whom it finds.
+    static void futex(Word& word, int operation, std::uint32_t value, const timespec* until) noexcept {
+        static_assert(sizeof(Word) == sizeof(std::uint32_t) && Word::is_always_lock_free);
+        syscall(SYS_futex, &word, operation, value, until, nullptr, FUTEX_BITSET_MATCH_ANY);
+    }
+};
+
+static_assert(Clock<MonotonicClock>);
+
+}  // namespace groundstate

@@ -1,0 +1,34 @@
+// Counters that one thread advances and every thread may look at.
+//
+// Statistics never cost a control task a locked instruction: there is one writer, so a load and a store do for an
+// increment. Each value is whole; several of them together are a snapshot only while their writer rests.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+namespace groundstate {
+
+class Counter {
+  public:
+    /// Who: the one writer. Blocks: no.
+    void add(std::int64_t amount = 1) noexcept { set(value() + amount); }
+
+    /// Who: the one writer. Blocks: no.
+    void set(std::int64_t value) noexcept { value_.store(value, std::memory_order_relaxed); }
+
+    /// Who: the one writer. Blocks: no.
+    void raise_to(std::int64_t value) noexcept {
+        if (value > this->value()) {
+            set(value);
+        }
+    }
+
+    /// Who: everybody. Blocks: no.
+    std::int64_t value() const noexcept { return value_.load(std::memory_order_relaxed); }
+
+  private:
+    std::atomic<std::int64_t> value_{0};
+};
+
+}  // namespace groundstate

@@ -1,0 +1,195 @@
+// The paper's swinging buffer (section V-B, Figures 8 to 10): N >= 2 arrays and a lock for the indexes.
+//
+// One of the two, the master, swaps the indexes, and only inside the lock; it works on its array without the lock,
+// since nobody else moves the index. The other one, the slave, keeps the lock while it works on its array, so that no
+// array is swapped away under its hands.
+//
+//                  writes                           reads
+//     master       array, then lock, swap, release  lock, swap, release, then array
+//     slave        lock, array, release             lock, array, release
+//
+// When the watchdog ends first: a master's datum stays pending for its next swap, a master reads the old array, a slave
+// leaves the action out. The protocol is that of library/patterns/{SwingingBuffer,PatternMachines}.asm: the index read
+// becomes the index written, which goes on to the next array of the ring; a swap without a pending datum does nothing.
+//
+// SYNC(permit): plain members are shared under the lock alone; its release and acquire (semaphore.hpp) order them.
+#pragma once
+
+#include <array>
+
+#include "semaphore.hpp"
+#include "signal.hpp"
+#include "swinging_buffer.hpp"
+
+namespace groundstate {
+
+enum class Master { writer, reader };
+
+template <class T, std::size_t N, Master master, Clock C>
+class LockedBuffer {
+    static_assert(N >= 2, "one array to write, one to read");
+
+  public:
+    using Datum = T;
+
+    explicit LockedBuffer(C& clock) : clock_{clock}, lock_{clock} {}
+
+    LockedBuffer(const LockedBuffer&) = delete;
+    LockedBuffer& operator=(const LockedBuffer&) = delete;
+
+    /// Gives every array what it needs, so that nothing is allocated later. Who: before the tasks start.
+    template <class F>
+    void prepare(F&& each) {
+        for (Array<T>& array : arrays_) {
+            each(array.datum);
+        }
+    }
+
+    /// The signal is raised when there is something new to read. Who: before the tasks start.
+    void wakes(Signal<C>& trigger) noexcept { trigger_ = &trigger; }
+
+    /// Begins to write. The datum is as it was left there N swaps ago.
+    /// Who: the producer. Blocks: a master no; a slave until its watchdog. Allocates: no.
+    Writing<LockedBuffer> write(Watchdog& watchdog) noexcept {
+        if constexpr (master == Master::reader) {
+            if (!lock_.acquire(producer, watchdog)) {
+                dropped_.add();
+                return {};
+            }
+        }
+        if (std::exchange(pending_, false)) {
+            overwritten_.add();
+            if constexpr (master == Master::reader) {
+                offered_.store(arrays_[index_read_].sequence, std::memory_order_relaxed);
+            }
+        }
+        return {*this, arrays_[index_write_], watchdog};
+    }
+
+    /// Begins to read. Who: the consumer. Blocks: until its watchdog. Allocates: no.
+    /// Worst case without contention: a master two exchanges, a slave one, and one when it ends.
+    Reading<LockedBuffer> read(Watchdog& watchdog) noexcept {
+        if (!lock_.acquire(consumer, watchdog)) {
+            missed_.add();
+            if constexpr (master == Master::writer) {
+                return {};
+            }
+        } else if constexpr (master == Master::reader) {
+            swap();
+            lock_.release();
+        }
+        const std::uint64_t number = arrays_[index_read_].sequence;
+        const bool fresh = number != received_.load(std::memory_order_relaxed);
+        if (fresh) {
+            received_.store(number, std::memory_order_relaxed);
+            read_.add();
+        }
+        return {*this, arrays_[index_read_], fresh};
+    }
+
+    /// Reading now would give something new. Who: the consumer. Blocks: no.
+    bool available() const noexcept {
+        // SYNC(offer): relaxed is enough: it is a hint, and the datum itself is taken under the lock.
+        return offered_.load(std::memory_order_relaxed) != received_.load(std::memory_order_relaxed);
+    }
+
+    /// Who: everybody. Blocks: no.
+    Account account() const noexcept {
+        return {.written = written_.value(),
+                .handed_over = handed_over_.value(),
+                .overwritten = overwritten_.value(),
+                .read = read_.value(),
+                .unread = unread_.value(),
+                .dropped = dropped_.value(),
+                .withdrawn = withdrawn_.value(),
+                .missed = missed_.value()};
+    }
+
+    C& clock() const noexcept { return clock_; }
+
+  private:
+    friend Writing<LockedBuffer>;
+    friend Reading<LockedBuffer>;
+
+    static constexpr int producer = 0;
+    static constexpr int consumer = 1;
+
+    // Ends a writing. Blocks: a master until its watchdog, a slave no. Worst case without contention: two exchanges.
+    bool hand_over(std::int64_t stamp_ns, Watchdog& watchdog) noexcept {
+        Array<T>& array = arrays_[index_write_];
+        written_.add();
+        array.sequence = static_cast<std::uint64_t>(written_.value());
+        array.stamp_ns = stamp_ns;
+        pending_ = true;
+        if constexpr (master == Master::writer) {
+            if (!lock_.acquire(producer, watchdog)) {
+                return false;
+            }
+            swap();
+        }
+        // SYNC(offer): relaxed, before the signal: who is woken by it sees it (SYNC(sleeper)).
+        offered_.store(array.sequence, std::memory_order_relaxed);
+        lock_.release();
+        if (trigger_ != nullptr) {
+            trigger_->raise();
+        }
+        return true;
+    }
+
+    void withdraw() noexcept {
+        withdrawn_.add();
+        if constexpr (master == Master::reader) {
+            lock_.release();
+        }
+    }
+
+    void end_read() noexcept {
+        if constexpr (master == Master::writer) {
+            lock_.release();
+        }
+    }
+
+    // The index section; its caller, the master, is inside the lock.
+    void swap() noexcept {
+        if (!std::exchange(pending_, false)) {
+            return;
+        }
+        if (arrays_[index_read_].sequence != received_.load(std::memory_order_relaxed)) {
+            unread_.add();
+        }
+        index_read_ = index_write_;
+        index_write_ = (index_write_ + 1) % N;
+        handed_over_.add();
+    }
+
+    // Behind the array read lie those handed over before, up to the one that is written, the next in the ring.
+    const T* earlier(std::size_t back) const noexcept {
+        const Array<T>& array = arrays_[(index_read_ + N - back % N) % N];
+        return back + 2 <= N && array.sequence != 0 ? &array.datum : nullptr;
+    }
+
+    C& clock_;
+    Semaphore<C> lock_;
+    Signal<C>* trigger_ = nullptr;
+    std::array<Array<T>, N> arrays_{};
+
+    // Moved by the master inside the lock; read by the slave inside the lock.
+    std::size_t index_read_ = N - 1;
+    std::size_t index_write_ = 0;
+    // The array at index_write_ holds a datum that was not handed over. Shared only if the reader is the master.
+    bool pending_ = false;
+
+    alignas(64) std::atomic<std::uint64_t> offered_{0};
+    Counter written_{};
+    Counter overwritten_{};
+    Counter dropped_{};
+    Counter withdrawn_{};
+    alignas(64) std::atomic<std::uint64_t> received_{0};
+    Counter read_{};
+    Counter missed_{};
+    // The master's.
+    alignas(64) Counter handed_over_{};
+    Counter unread_{};
+};
+
+}  // namespace groundstate

@@ -1,0 +1,109 @@
+// A synchronous task: one cycle a period, on a grid that does not drift.
+//
+// The grid is origin + offset + n * period, whenever the cycles really begin. A cycle is due on the grid and met its
+// deadline if it is done by then (the end of its period, unless set). A cycle that begins late does not move the
+// grid: the next one is due when it always was, at once if need be, as in library/patterns/{Task,Scheduler}.asm. A
+// task that is overloaded for long would so lag behind for ever; `Late::skip` leaves out the periods that have begun
+// meanwhile, and counts them.
+#pragma once
+
+#include <cassert>
+
+#include "task.hpp"
+
+namespace groundstate {
+
+/// What a task does that is behind by whole periods.
+enum class Late { catch_up, skip };
+
+struct Period {
+    std::int64_t period_ns = 0;
+    std::int64_t offset_ns = 0;
+    std::int64_t deadline_ns = 0;     ///< from when a cycle is due; 0: the period
+    std::int64_t elaboration_ns = 0;  ///< a cycle's time without any waiting; what is left of the period may be waited
+    Late late = Late::catch_up;
+};
+
+template <Clock C>
+class PeriodicTask {
+  public:
+    /// Who: whoever builds the system. Allocates: yes.
+    PeriodicTask(C& clock, std::string name, const Period& period, Step step, const Schedule& schedule = {})
+        : clock_{clock},
+          period_{period},
+          step_{std::move(step)},
+          watchdog_{period.period_ns - period.elaboration_ns},
+          thread_{clock, std::move(name), schedule} {
+        assert(period.period_ns > 0 && period.elaboration_ns >= 0 && period.offset_ns >= 0);
+    }
+
+    ~PeriodicTask() { stop(); }
+
+    /// The first cycle is due at the origin plus the offset. Tasks started with one origin keep step.
+    /// Who: the owner, once. Allocates: yes. Throws: std::system_error if there is no thread to be had.
+    void start(std::int64_t origin_ns) {
+        thread_.start([this, origin_ns] { run(origin_ns + period_.offset_ns); });
+    }
+
+    /// No cycle begins any more. Who: everybody. Blocks: no.
+    void ask_to_stop() noexcept { stop_.store(true, std::memory_order_relaxed); }
+
+    /// Who: the owner; in virtual time after leaving the clock. Blocks: until the present cycle is done, or the next
+    /// one is due.
+    void stop() noexcept {
+        ask_to_stop();
+        thread_.join();
+    }
+
+    /// Who: everybody. Blocks: no.
+    const Statistics& statistics() const noexcept { return statistics_; }
+    const Watchdog& watchdog() const noexcept { return watchdog_; }
+    const TaskThread<C>& thread() const noexcept { return thread_; }
+
+  private:
+    void run(std::int64_t due_ns) {
+        const std::int64_t allowed_ns = period_.deadline_ns > 0 ? period_.deadline_ns : period_.period_ns;
+        for (std::int64_t number = 0;; ++number) {
+            clock_.sleep_until_ns(due_ns);
+            if (stop_.load(std::memory_order_relaxed)) {
+                return;
+            }
+            watchdog_.restart();
+            const std::int64_t begun_ns = clock_.now_ns();
+            step_({.number = number, .start_ns = due_ns, .deadline_ns = due_ns + allowed_ns, .watchdog = watchdog_});
+            account(due_ns, begun_ns, clock_.now_ns(), allowed_ns);
+            due_ns = next_ns(due_ns, clock_.now_ns());
+        }
+    }
+
+    void account(std::int64_t due_ns, std::int64_t begun_ns, std::int64_t done_ns, std::int64_t allowed_ns) noexcept {
+        statistics_.cycles.add();
+        (done_ns - due_ns <= allowed_ns ? statistics_.deadlines_met : statistics_.deadlines_missed).add();
+        if (done_ns > due_ns + period_.period_ns) {
+            statistics_.overruns.add();
+        }
+        statistics_.worst_lateness_ns.raise_to(begun_ns - due_ns);
+        statistics_.worst_duration_ns.raise_to(done_ns - begun_ns);
+    }
+
+    // On the grid, always.
+    std::int64_t next_ns(std::int64_t due_ns, std::int64_t now_ns) noexcept {
+        std::int64_t periods = 1;
+        if (period_.late == Late::skip && now_ns > due_ns + period_.period_ns) {
+            const std::int64_t begun = (now_ns - due_ns - 1) / period_.period_ns;
+            statistics_.periods_skipped.add(begun);
+            periods += begun;
+        }
+        return due_ns + periods * period_.period_ns;
+    }
+
+    C& clock_;
+    Period period_;
+    Step step_;
+    Watchdog watchdog_;
+    Statistics statistics_{};
+    std::atomic<bool> stop_{false};
+    TaskThread<C> thread_;
+};
+
+}  // namespace groundstate

@@ -1,0 +1,115 @@
+// What periodic and asynchronous tasks have in common: a thread, its settings, its statistics, and how it ends.
+//
+// A task is built, started once, and stopped. Its step is called in cycles, always by the task's own thread. A step
+// that throws ends the task, which keeps the exception; the others go on. All that is allocated is allocated before
+// the first cycle. The statistics are those of library/patterns/Task.asm.
+#pragma once
+
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "realtime.hpp"
+#include "watchdog.hpp"
+
+namespace groundstate {
+
+/// The cycle that a step is called for.
+struct Cycle {
+    std::int64_t number = 0;             ///< from 0 on
+    std::int64_t start_ns = 0;           ///< when it was due; in an asynchronous task: when it was woken
+    std::int64_t deadline_ns = never_ns;  ///< when it must be done
+    Watchdog& watchdog;                  ///< bounds the waiting of this cycle
+};
+
+using Step = std::function<void(const Cycle&)>;
+
+/// How a task is scheduled. In virtual time of those ready at one instant the one with the least rank goes first.
+struct Schedule {
+    Realtime realtime{};
+    int rank = 0;
+};
+
+/// What is known of a task's cycles since its start; each number is whole. One writer, the task.
+struct Statistics {
+    Counter cycles{};
+    Counter deadlines_met{};
+    Counter deadlines_missed{};
+    Counter overruns{};         ///< cycles that were not done when the next one was due
+    Counter periods_skipped{};  ///< left out to get back onto the grid
+    Counter worst_lateness_ns{};  ///< from when a cycle was due to when it began
+    Counter worst_duration_ns{};  ///< from when a cycle began to when it was done
+};
+
+enum class TaskState { built, running, stopped, faulted };
+
+/// The thread of a task.
+template <Clock C>
+class TaskThread {
+  public:
+    TaskThread(C& clock, std::string name, Schedule schedule)
+        : clock_{clock}, name_{std::move(name)}, schedule_{schedule} {}
+
+    TaskThread(const TaskThread&) = delete;
+    TaskThread& operator=(const TaskThread&) = delete;
+
+    /// The owner asks the body to end before; here is only waited for it.
+    ~TaskThread() { join(); }
+
+    /// Who: the owner, once. Throws: std::system_error if there is no thread to be had.
+    template <class Body>
+    void start(Body body) {
+        state_.store(TaskState::running, std::memory_order_relaxed);
+        thread_ = std::thread{[this, body = std::move(body)] {
+            // A thread's name has at most 15 letters.
+            std::array<char, 16> name{};
+            std::snprintf(name.data(), name.size(), "%s", name_.c_str());
+            pthread_setname_np(pthread_self(), name.data());
+            granted_.store(become_realtime(schedule_.realtime), std::memory_order_relaxed);
+            clock_.enter(schedule_.rank);
+            TaskState end = TaskState::stopped;
+            try {
+                body();
+            } catch (...) {
+                failure_ = std::current_exception();
+                end = TaskState::faulted;
+            }
+            // SYNC(end): release; pairs with the acquire in state().
+            state_.store(end, std::memory_order_release);
+            clock_.leave();
+        }};
+    }
+
+    /// Who: the owner. Blocks: until the body has ended.
+    void join() noexcept {
+        if (thread_.joinable()) {
+            thread_.join();
+        }
+    }
+
+    /// Who: everybody. Blocks: no. Once it says stopped or faulted, `failure` may be asked.
+    TaskState state() const noexcept {
+        return state_.load(std::memory_order_acquire);  // SYNC(end)
+    }
+
+    /// What the step threw. Who: everybody, after the task has ended.
+    std::exception_ptr failure() const noexcept { return failure_; }
+    /// What the operating system granted; known before the first cycle. Who: everybody. Blocks: no.
+    Granted granted() const noexcept { return granted_.load(std::memory_order_relaxed); }
+    const std::string& name() const noexcept { return name_; }
+
+  private:
+    C& clock_;
+    std::string name_;
+    Schedule schedule_;
+    std::atomic<TaskState> state_{TaskState::built};
+    std::atomic<Granted> granted_{Granted{}};
+    std::exception_ptr failure_{};
+    std::thread thread_{};
+};
+
+}  // namespace groundstate

@@ -1,0 +1,181 @@
+// Virtual time: the same tasks, without the wall clock, and the same run each time.
+//
+// Of the threads that have entered exactly one runs; the others stand in line or wait. When the running one sleeps or
+// waits, the next goes on: first whoever is ready, in the order of ranks; when nobody is, time jumps to the earliest
+// instant somebody sleeps until. Computing takes no time, only sleeping does. A run thus depends on ranks and instants
+// alone, never on the machine.
+//
+// For tests and simulation; it locks, and is not meant for a control loop in real time.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "clock.hpp"
+
+namespace groundstate {
+
+class VirtualClock {
+  public:
+    /// LIMIT: so many threads can live by one clock.
+    static constexpr std::size_t seats = 32;
+
+    /// Time stands still until so many threads have entered; so it does not matter in which order they start.
+    explicit VirtualClock(std::size_t expected = 0) noexcept : expected_{expected} {}
+
+    VirtualClock(const VirtualClock&) = delete;
+    VirtualClock& operator=(const VirtualClock&) = delete;
+
+    std::int64_t now_ns() const noexcept { return now_ns_.load(std::memory_order_acquire); }
+
+    /// Takes part from now on; returns when it is the turn of the calling thread.
+    void enter(int rank) noexcept {
+        std::unique_lock guard{mutex_};
+        take_seat(guard, rank);
+    }
+
+    /// Takes part no longer; the next one goes on.
+    void leave() noexcept {
+        const std::lock_guard guard{mutex_};
+        if (Seat* seat = mine(); seat != nullptr) {
+            stand_up(*seat);
+        }
+    }
+
+    /// A thread that has not entered does so for the length of the call.
+    void sleep_until_ns(std::int64_t instant_ns) noexcept {
+        std::unique_lock guard{mutex_};
+        while (now_ns() < instant_ns) {
+            rest(guard, nullptr, instant_ns);
+        }
+    }
+
+    void wait_while(Word& word, std::uint32_t seen, std::int64_t until_ns) noexcept {
+        std::unique_lock guard{mutex_};
+        if (word.load(std::memory_order_seq_cst) == seen && now_ns() < until_ns) {
+            rest(guard, &word, until_ns);
+        }
+    }
+
+    void wake(Word& word) noexcept {
+        const std::lock_guard guard{mutex_};
+        for (Seat& seat : seats_) {
+            if (seat.state == State::resting && seat.word == &word) {
+                seat.state = State::ready;
+            }
+        }
+        next();
+    }
+
+  private:
+    enum class State { empty, ready, running, resting };
+
+    struct Seat {
+        State state = State::empty;
+        std::thread::id thread{};
+        int rank = 0;
+        std::int64_t until_ns = never_ns;
+        const Word* word = nullptr;
+        std::condition_variable turn{};
+    };
+
+    Seat* mine() noexcept {
+        for (Seat& seat : seats_) {
+            if (seat.state != State::empty && seat.thread == std::this_thread::get_id()) {
+                return &seat;
+            }
+        }
+        return nullptr;
+    }
+
+    Seat& take_seat(std::unique_lock<std::mutex>& guard, int rank) noexcept {
+        for (Seat& seat : seats_) {
+            if (seat.state == State::empty) {
+                seat.state = State::ready;
+                seat.thread = std::this_thread::get_id();
+                seat.rank = rank;
+                ++present_;
+                await_turn(guard, seat);
+                return seat;
+            }
+        }
+        assert(false && "more threads live by one virtual clock than it has seats");
+        std::terminate();
+    }
+
+    void stand_up(Seat& seat) noexcept {
+        seat.state = State::empty;
+        --present_;
+        next();
+    }
+
+    // Lets the others go on until the word is woken or the instant has come.
+    void rest(std::unique_lock<std::mutex>& guard, const Word* word, std::int64_t until_ns) noexcept {
+        Seat* seat = mine();
+        const bool guest = seat == nullptr;
+        if (guest) {
+            seat = &take_seat(guard, INT_MAX);
+        }
+        seat->state = State::resting;
+        seat->word = word;
+        seat->until_ns = until_ns;
+        await_turn(guard, *seat);
+        if (guest) {
+            stand_up(*seat);
+        }
+    }
+
+    void await_turn(std::unique_lock<std::mutex>& guard, Seat& seat) noexcept {
+        next();
+        seat.turn.wait(guard, [&] { return seat.state == State::running; });
+    }
+
+    // INVARIANT: at most one seat runs. Gives the turn to the next one, if nobody has it.
+    void next() noexcept {
+        started_ = started_ || present_ >= expected_;
+        Seat* first = nullptr;
+        for (Seat& seat : seats_) {
+            if (seat.state == State::running) {
+                return;
+            }
+            if (seat.state != State::empty && (first == nullptr || before(seat, *first))) {
+                first = &seat;
+            }
+        }
+        if (!started_ || first == nullptr || instant_of(*first) == never_ns) {
+            return;  // all wait for data that only a thread outside can bring
+        }
+        now_ns_.store(std::max(now_ns(), instant_of(*first)), std::memory_order_release);
+        first->state = State::running;
+        first->turn.notify_one();
+    }
+
+    // Who is ready goes on now, before those who sleep until this very instant.
+    static std::int64_t instant_of(const Seat& seat) noexcept {
+        return seat.state == State::ready ? -1 : seat.until_ns;
+    }
+
+    static bool before(const Seat& left, const Seat& right) noexcept {
+        if (instant_of(left) != instant_of(right)) {
+            return instant_of(left) < instant_of(right);
+        }
+        return left.rank < right.rank;
+    }
+
+    std::mutex mutex_{};
+    std::array<Seat, seats> seats_{};
+    std::size_t expected_;
+    std::size_t present_ = 0;
+    bool started_ = false;
+    std::atomic<std::int64_t> now_ns_{0};
+};
+
+static_assert(Clock<VirtualClock>);
+
+}  // namespace groundstate

@@ -1,0 +1,53 @@
+// The bound on a task's waiting, as in the paper's Figures 9 and 10 and `thereIsTime` in library/patterns/Task.asm.
+//
+// A cycle may spend so much time waiting that its work still fits into the period: budget = period - elaboration.
+// Every wait of the cycle draws on the same budget; when it is used up, the wait is given up, the action left out,
+// and that is counted. A budget is always finite: no operation of the runtime waits without end.
+#pragma once
+
+#include <cassert>
+
+#include "clock.hpp"
+#include "counter.hpp"
+
+namespace groundstate {
+
+class Watchdog {
+  public:
+    /// The time that one cycle may spend waiting; 0 tries once and never waits.
+    explicit Watchdog(std::int64_t budget_ns) noexcept : budget_ns_{budget_ns} {
+        assert(budget_ns >= 0 && budget_ns < never_ns);
+    }
+
+    /// A new cycle has the whole budget again. Who: the task. Blocks: no.
+    void restart() noexcept { waited_ns_ = 0; }
+
+    /// What is left of the budget. Who: the task. Blocks: no.
+    std::int64_t left_ns() const noexcept { return waited_ns_ < budget_ns_ ? budget_ns_ - waited_ns_ : 0; }
+
+    /// Takes a wait off the budget. Who: the task. Blocks: no.
+    void waited(std::int64_t span_ns) noexcept {
+        waited_ns_ += span_ns;
+        total_wait_ns_.add(span_ns);
+        longest_wait_ns_.raise_to(waited_ns_);
+    }
+
+    /// An action was left out, since waiting any longer would cost the deadline. Who: the task. Blocks: no.
+    void skip() noexcept { skipped_.add(); }
+
+    // Who: everybody. Block: no.
+    std::int64_t budget_ns() const noexcept { return budget_ns_; }
+    std::int64_t total_wait_ns() const noexcept { return total_wait_ns_.value(); }
+    /// The longest waiting of one cycle.
+    std::int64_t longest_wait_ns() const noexcept { return longest_wait_ns_.value(); }
+    std::int64_t skipped() const noexcept { return skipped_.value(); }
+
+  private:
+    std::int64_t budget_ns_;
+    std::int64_t waited_ns_ = 0;
+    Counter total_wait_ns_{};
+    Counter longest_wait_ns_{};
+    Counter skipped_{};
+};
+
+}  // namespace groundstate

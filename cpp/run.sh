@@ -1,0 +1,25 @@
+#!/bin/sh
+# Builds the C++ runtime's tests as they are, under ThreadSanitizer, and under AddressSanitizer with
+# UndefinedBehaviorSanitizer, and runs them. Usage: cpp/run.sh [PRESET...]. What is missing it installs, and says so.
+set -eu
+cd "$(dirname "$0")"
+
+missing=
+command -v cmake >/dev/null || missing="$missing cmake"
+command -v ninja >/dev/null || missing="$missing ninja-build"
+[ -e /usr/include/gtest/gtest.h ] || missing="$missing libgtest-dev"
+if [ -n "$missing" ]; then
+    if ! command -v apt-get >/dev/null; then
+        echo "cpp/run.sh: cmake 3.21 or later, ninja and GoogleTest are needed; missing:$missing" >&2
+        exit 2
+    fi
+    echo "installing$missing"
+    sudo=$([ "$(id -u)" = 0 ] || echo sudo)
+    $sudo apt-get install -y --no-install-recommends $missing
+fi
+
+for preset in ${*:-plain thread address}; do
+    cmake --preset "$preset" >/dev/null
+    cmake --build --preset "$preset" -- --quiet
+    ctest --preset "$preset"
+done

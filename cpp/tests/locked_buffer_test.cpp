@@ -1,0 +1,123 @@
+// The paper's form: who holds the lock when, and what happens when the watchdog ends first. As in the scenarios of
+// library/patterns/tests: PairWatchdogMaster, PairWatchdogMasterWriting, PairWatchdogSlave.
+#include "groundstate/locked_buffer.hpp"
+
+#include <gtest/gtest.h>
+
+#include "groundstate/virtual_clock.hpp"
+
+namespace groundstate {
+namespace {
+
+template <Master master, std::size_t N = 2>
+struct Pair {
+    VirtualClock clock{};
+    LockedBuffer<int, N, master, VirtualClock> buffer{clock};
+    Watchdog producer{50};
+    Watchdog consumer{50};
+
+    void write(int value) {
+        auto writing = buffer.write(producer);
+        *writing = value;
+        writing.publish();
+    }
+};
+
+TEST(LockedBuffer, AMasterReadsTheOldArrayWhenItsWatchdogEnds) {
+    Pair<Master::reader> pair;
+    pair.write(1);
+    EXPECT_EQ(*pair.buffer.read(pair.consumer), 1);
+    auto writing = pair.buffer.write(pair.producer);  // the slave has the lock
+    *writing = 2;
+    {
+        const auto reading = pair.buffer.read(pair.consumer);
+        ASSERT_TRUE(reading);
+        EXPECT_EQ(*reading, 1);
+        EXPECT_FALSE(reading.fresh());
+        EXPECT_EQ(pair.clock.now_ns(), 50);
+    }
+    EXPECT_EQ(pair.buffer.account().missed, 1);
+    EXPECT_EQ(pair.consumer.skipped(), 1);
+    writing.publish();
+    pair.consumer.restart();
+    EXPECT_EQ(*pair.buffer.read(pair.consumer), 2);
+}
+
+TEST(LockedBuffer, AMastersDatumStaysPendingWhenItsWatchdogEnds) {
+    Pair<Master::writer> pair;
+    pair.write(1);
+    {
+        const auto reading = pair.buffer.read(pair.consumer);  // the slave has the lock
+        auto writing = pair.buffer.write(pair.producer);
+        *writing = 2;
+        EXPECT_FALSE(writing.publish());
+        EXPECT_EQ(*reading, 1) << "what is being read does not change";
+    }
+    EXPECT_EQ(pair.buffer.account().pending(), 1);
+    EXPECT_EQ(pair.producer.skipped(), 1);
+    EXPECT_FALSE(pair.buffer.available());
+    pair.producer.restart();
+    pair.write(3);
+    EXPECT_EQ(pair.buffer.account().overwritten, 1) << "lost, but not silently";
+    EXPECT_EQ(*pair.buffer.read(pair.consumer), 3);
+}
+
+TEST(LockedBuffer, ASlaveReaderLeavesTheReadingOut) {
+    Pair<Master::writer> pair;
+    pair.write(1);
+    const auto first = pair.buffer.read(pair.consumer);
+    Watchdog hasty{0};
+    const auto second = pair.buffer.read(hasty);  // as if by a master in the index section
+    EXPECT_FALSE(second);
+    EXPECT_FALSE(second.fresh());
+    EXPECT_EQ(pair.buffer.account().missed, 1);
+    EXPECT_EQ(hasty.skipped(), 1);
+}
+
+TEST(LockedBuffer, ASlaveWriterDropsAndCounts) {
+    Pair<Master::reader> pair;
+    auto first = pair.buffer.write(pair.producer);
+    Watchdog hasty{0};
+    EXPECT_FALSE(pair.buffer.write(hasty));
+    EXPECT_EQ(pair.buffer.account().dropped, 1);
+    EXPECT_EQ(pair.buffer.account().written, 0);
+}
+
+// The camera writes for 30 of every 100 ns as a slave; the servoing asks in the middle of it, and waits for just 10.
+TEST(LockedBuffer, AMasterWaitsForTheSlavesAccess) {
+    VirtualClock clock{2};
+    LockedBuffer<int, 2, Master::reader, VirtualClock> buffer{clock};
+    std::thread camera{[&] {
+        clock.enter(0);
+        Watchdog watchdog{0};
+        for (int image = 1; image <= 10; ++image) {
+            clock.sleep_until_ns(image * 100);
+            auto writing = buffer.write(watchdog);
+            ASSERT_TRUE(writing);
+            *writing = image;
+            clock.sleep_until_ns(clock.now_ns() + 30);
+            writing.publish();
+        }
+        clock.leave();
+    }};
+    std::thread servoing{[&] {
+        clock.enter(1);
+        Watchdog watchdog{20};
+        for (int image = 1; image <= 10; ++image) {
+            watchdog.restart();
+            clock.sleep_until_ns(image * 100 + 20);
+            const auto reading = buffer.read(watchdog);
+            EXPECT_TRUE(reading.fresh());
+            EXPECT_EQ(*reading, image);
+            EXPECT_EQ(clock.now_ns(), image * 100 + 30);
+        }
+        EXPECT_EQ(watchdog.longest_wait_ns(), 10);
+        clock.leave();
+    }};
+    camera.join();
+    servoing.join();
+    EXPECT_EQ(buffer.account().read, 10);
+}
+
+}  // namespace
+}  // namespace groundstate

@@ -1,0 +1,89 @@
+// The semaphore: permits, order of arrival, hand-over, and the watchdog.
+#include "groundstate/semaphore.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "groundstate/virtual_clock.hpp"
+
+namespace groundstate {
+namespace {
+
+TEST(Semaphore, GivesAsManyPermitsAsItHas) {
+    VirtualClock clock;
+    Semaphore semaphore{clock, 2};
+    Watchdog never_waits{0};
+    EXPECT_TRUE(semaphore.acquire(0, never_waits));
+    EXPECT_TRUE(semaphore.acquire(1, never_waits));
+    EXPECT_FALSE(semaphore.acquire(2, never_waits));
+    EXPECT_EQ(never_waits.skipped(), 1);
+    semaphore.release();
+    EXPECT_TRUE(semaphore.acquire(2, never_waits));
+}
+
+TEST(Semaphore, WaitsExactlyAsLongAsTheWatchdogAllows) {
+    VirtualClock clock;
+    Semaphore semaphore{clock};
+    Watchdog watchdog{300};
+    ASSERT_TRUE(semaphore.acquire(0, watchdog));
+    EXPECT_FALSE(semaphore.acquire(1, watchdog));
+    EXPECT_EQ(clock.now_ns(), 300);
+    EXPECT_EQ(watchdog.longest_wait_ns(), 300);
+    EXPECT_FALSE(semaphore.acquire(1, watchdog)) << "the budget is the cycle's, not the wait's";
+    EXPECT_EQ(clock.now_ns(), 300);
+    watchdog.restart();
+    EXPECT_FALSE(semaphore.acquire(1, watchdog));
+    EXPECT_EQ(clock.now_ns(), 600);
+    EXPECT_EQ(watchdog.skipped(), 3);
+    semaphore.release();
+    EXPECT_TRUE(semaphore.acquire(1, watchdog)) << "who gave up is no longer in line";
+}
+
+TEST(Semaphore, CountsReleasesOfNobody) {
+    VirtualClock clock;
+    Semaphore semaphore{clock};
+    semaphore.release();
+    EXPECT_EQ(semaphore.illegal_releases(), 1);
+    EXPECT_EQ(semaphore.permits(), 1);
+}
+
+// Six users ask one nanosecond after the other, while the first holds the permit; user 3 gives up in between.
+TEST(Semaphore, ServesInTheOrderOfArrival) {
+    VirtualClock clock{6};
+    Semaphore semaphore{clock};
+    std::string served;
+    std::vector<std::thread> users;
+    const std::array<int, 6> arrival{0, 4, 2, 3, 5, 1};
+    for (std::size_t i = 0; i < arrival.size(); ++i) {
+        users.emplace_back([&, i] {
+            const int user = arrival[i];
+            clock.enter(user);
+            clock.sleep_until_ns(static_cast<std::int64_t>(i));
+            Watchdog watchdog{user == 3 ? 50 : 10'000};
+            if (semaphore.acquire(user, watchdog)) {
+                served += std::to_string(user);
+                clock.sleep_until_ns(clock.now_ns() + 100);
+                semaphore.release();
+                // Asking again at once does not overtake those in line.
+                if (user == 0 && semaphore.acquire(user, watchdog)) {
+                    served += 'o';
+                    semaphore.release();
+                }
+            } else {
+                served += '-';
+            }
+            clock.leave();
+        });
+    }
+    for (std::thread& user : users) {
+        user.join();
+    }
+    EXPECT_EQ(served, "0-4251o");
+    EXPECT_EQ(semaphore.permits(), 1);
+}
+
+}  // namespace
+}  // namespace groundstate

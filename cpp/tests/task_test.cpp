@@ -1,0 +1,201 @@
+// Tasks in virtual time: the grid, deadlines, overruns, waking by data, faults; and both kinds once in real time.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "groundstate/runtime.hpp"
+
+namespace groundstate {
+namespace {
+
+constexpr std::int64_t ms = 1'000'000;
+
+// Runs one periodic task for so long; the durations of its cycles are given, the last one for ever.
+std::vector<std::int64_t> begins(const Period& period, std::vector<std::int64_t> durations, std::int64_t until_ns,
+                                 const Statistics** statistics, std::unique_ptr<PeriodicTask<VirtualClock>>& task,
+                                 VirtualClock& clock) {
+    std::vector<std::int64_t> begun;
+    task = std::make_unique<PeriodicTask<VirtualClock>>(clock, "task", period, [&](const Cycle& cycle) {
+        begun.push_back(clock.now_ns());
+        const std::size_t last = durations.size() - 1;
+        clock.sleep_until_ns(clock.now_ns() + durations[std::min(static_cast<std::size_t>(cycle.number), last)]);
+    });
+    task->start(0);
+    clock.enter(1);
+    clock.sleep_until_ns(until_ns);
+    task->ask_to_stop();
+    clock.leave();
+    task->stop();
+    *statistics = &task->statistics();
+    return begun;
+}
+
+struct PeriodicTaskTest : testing::Test {
+    VirtualClock clock{2};
+    std::unique_ptr<PeriodicTask<VirtualClock>> task{};
+    const Statistics* statistics = nullptr;
+
+    std::vector<std::int64_t> run(const Period& period, std::vector<std::int64_t> durations, std::int64_t until_ns) {
+        return begins(period, std::move(durations), until_ns, &statistics, task, clock);
+    }
+};
+
+using Instants = std::vector<std::int64_t>;
+
+TEST_F(PeriodicTaskTest, KeepsItsGridAndOffset) {
+    EXPECT_EQ(run({.period_ns = 10, .offset_ns = 3}, {4}, 45), (Instants{3, 13, 23, 33, 43}));
+    EXPECT_EQ(statistics->deadlines_met.value(), 5);
+    EXPECT_EQ(statistics->worst_duration_ns.value(), 4);
+}
+
+TEST_F(PeriodicTaskTest, WorkOfAWholePeriodKeepsThePeriod) {
+    EXPECT_EQ(run({.period_ns = 10}, {10}, 35), (Instants{0, 10, 20, 30}));
+    EXPECT_EQ(statistics->deadlines_missed.value(), 0);
+    EXPECT_EQ(statistics->overruns.value(), 0);
+}
+
+TEST_F(PeriodicTaskTest, ALateCycleDoesNotMoveTheGrid) {
+    EXPECT_EQ(run({.period_ns = 10}, {2, 25, 2}, 55), (Instants{0, 10, 35, 37, 40, 50}));
+    EXPECT_EQ(statistics->overruns.value(), 2);
+    EXPECT_EQ(statistics->deadlines_missed.value(), 2);
+    EXPECT_EQ(statistics->worst_lateness_ns.value(), 15);
+}
+
+TEST_F(PeriodicTaskTest, SkipsPeriodsThatHaveBegun) {
+    EXPECT_EQ(run({.period_ns = 10, .late = Late::skip}, {2, 35, 2}, 65), (Instants{0, 10, 50, 60}));
+    EXPECT_EQ(statistics->periods_skipped.value(), 3);
+}
+
+TEST_F(PeriodicTaskTest, ADeadlineMayComeBeforeTheEndOfThePeriod) {
+    run({.period_ns = 10, .deadline_ns = 3}, {3, 4}, 35);
+    EXPECT_EQ(statistics->deadlines_met.value(), 1);
+    EXPECT_EQ(statistics->deadlines_missed.value(), 3);
+    EXPECT_EQ(statistics->overruns.value(), 0);
+}
+
+TEST(PeriodicTask, TheWatchdogsBudgetIsWhatThePeriodLeaves) {
+    MonotonicClock clock;
+    const PeriodicTask task{clock, "t", {.period_ns = 10, .elaboration_ns = 7}, [](const Cycle&) {}};
+    EXPECT_EQ(task.watchdog().budget_ns(), 3);
+    EXPECT_EQ(task.thread().state(), TaskState::built);
+}
+
+TEST(PeriodicTask, AStepThatThrowsEndsItsTaskAlone) {
+    VirtualClock clock{3};
+    PeriodicTask bad{clock, "bad", {.period_ns = 10}, [](const Cycle& cycle) {
+                         if (cycle.number == 3) {
+                             throw std::runtime_error{"no camera"};
+                         }
+                     }};
+    PeriodicTask good{clock, "good", {.period_ns = 10}, [](const Cycle&) {}};
+    bad.start(0);
+    good.start(0);
+    clock.enter(1);
+    clock.sleep_until_ns(95);
+    EXPECT_EQ(bad.thread().state(), TaskState::faulted);
+    EXPECT_EQ(good.thread().state(), TaskState::running);
+    EXPECT_THROW(std::rethrow_exception(bad.thread().failure()), std::runtime_error);
+    good.ask_to_stop();
+    clock.leave();
+    good.stop();
+    EXPECT_EQ(bad.statistics().cycles.value(), 3);
+    EXPECT_EQ(good.statistics().cycles.value(), 10);
+}
+
+// Camera (10 ms), asynchronous servoing (3 ms of work, master of both buffers), robot (5 ms): the paper's Figure 2.
+TEST(AsynchronousTask, IsWokenByDataAndNeverPolls) {
+    VirtualClock clock{4};
+    LockedBuffer<int, 2, Master::reader, VirtualClock> images{clock};
+    LockedBuffer<int, 2, Master::writer, VirtualClock> set_points{clock};
+    std::vector<std::int64_t> servoed;
+    std::vector<std::uint64_t> reached;
+    PeriodicTask camera{clock, "camera", {.period_ns = 10 * ms, .elaboration_ns = 5 * ms}, [&](const Cycle& cycle) {
+                            if (auto writing = images.write(cycle.watchdog)) {
+                                *writing = static_cast<int>(cycle.number);
+                                writing.publish();
+                            }
+                        }};
+    AsynchronousTask servoing{clock, "servoing", 100 * ms, [&] { return images.available(); },
+                              [&](const Cycle& cycle) {
+                                  const auto image = images.read(cycle.watchdog);
+                                  servoed.push_back(clock.now_ns() / ms);
+                                  EXPECT_TRUE(image.fresh());
+                                  clock.sleep_until_ns(clock.now_ns() + 3 * ms);
+                                  auto set_point = set_points.write(cycle.watchdog);
+                                  *set_point = *image;
+                                  set_point.publish_at(image.stamp_ns());
+                              }};
+    images.wakes(servoing.trigger());
+    PeriodicTask robot{clock, "robot", {.period_ns = 5 * ms, .elaboration_ns = 2 * ms}, [&](const Cycle& cycle) {
+                           const auto set_point = set_points.read(cycle.watchdog);
+                           if (set_point && set_point.fresh()) {
+                               reached.push_back(set_point.sequence());
+                               EXPECT_LE(clock.now_ns() - set_point.stamp_ns(), 5 * ms) << "age";
+                           }
+                       }};
+    camera.start(0);
+    servoing.start();
+    robot.start(0);
+    clock.enter(9);
+    clock.sleep_until_ns(49 * ms);
+    servoing.ask_to_stop();
+    camera.ask_to_stop();
+    robot.ask_to_stop();
+    clock.leave();
+    camera.stop();
+    servoing.stop();
+    robot.stop();
+    EXPECT_EQ(servoed, (std::vector<std::int64_t>{0, 10, 20, 30, 40}));
+    EXPECT_EQ(servoing.statistics().cycles.value(), 5) << "not once in vain";
+    EXPECT_EQ(reached, (std::vector<std::uint64_t>{1, 2, 3, 4, 5}));
+    EXPECT_EQ(camera.statistics().deadlines_missed.value(), 0);
+}
+
+TEST(AsynchronousTask, StopsWhileItRests) {
+    MonotonicClock clock;
+    AsynchronousTask task{clock, "idle", ms, [] { return false; }, [](const Cycle&) {}};
+    task.start();
+    task.stop();
+    EXPECT_EQ(task.thread().state(), TaskState::stopped);
+    EXPECT_EQ(task.statistics().cycles.value(), 0);
+}
+
+TEST(RealTime, BothKindsOfTaskRun) {
+    MonotonicClock clock;
+    WaitFreeBuffer<std::int64_t, 3, MonotonicClock> buffer{clock};
+    Signal done{clock};
+    // What is not granted is refused, and the task runs all the same.
+    PeriodicTask producer{clock, "producer", {.period_ns = ms},
+                          [&](const Cycle& cycle) {
+                              auto writing = buffer.write(cycle.watchdog);
+                              *writing = cycle.number;
+                              writing.publish();
+                          },
+                          {.realtime = {.priority = 20, .processor = 0}}};
+    std::atomic<std::int64_t> last{-1};
+    AsynchronousTask consumer{clock, "consumer", ms, [&] { return buffer.available(); },
+                              [&](const Cycle& cycle) {
+                                  const auto reading = buffer.read(cycle.watchdog);
+                                  EXPECT_GT(*reading, last.load());
+                                  last = *reading;
+                                  done.raise();
+                              }};
+    buffer.wakes(consumer.trigger());
+    consumer.start();
+    producer.start(clock.now_ns());
+    for (std::uint32_t seen = done.count(); last < 20; seen = done.count()) {
+        done.wait_while(seen, clock.now_ns() + 100 * ms);
+    }
+    producer.stop();
+    consumer.stop();
+    EXPECT_GE(buffer.account().read, 1);
+    EXPECT_EQ(producer.thread().state(), TaskState::stopped);
+    EXPECT_NE(producer.thread().granted().priority, Grant::not_asked);
+    EXPECT_NE(producer.thread().granted().processor, Grant::not_asked);
+    EXPECT_EQ(consumer.thread().granted().priority, Grant::not_asked);
+}
+
+}  // namespace
+}  // namespace groundstate
