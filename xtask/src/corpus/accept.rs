@@ -60,3 +60,22 @@ fn superset(message: &str) -> Option<&'static str> {
 pub fn refused(sources: &Sources, fault: &Diagnostic) -> String {
     format!("refused here: {} ({}, {})", fault.message, fault.id, sources.position(fault.primary.span))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_static_function_over_dynamic_domains_alone_is_a_superset() {
+        let refused = |found: &str| {
+            superset(&format!(
+                "ParseException: Error: static function f contains (dynamic) [{found}] in its definition"
+            ))
+        };
+        let domain = "asmeta.definitions.domains.impl.AgentDomainImpl@1 (name: Agent)";
+        let function = "asmeta.definitions.impl.ControlledFunctionImpl@2 (name: g)";
+        assert_eq!(refused(domain), Some(reason::STATIC_OVER_DYNAMIC));
+        assert_eq!(refused(function), None);
+        assert_eq!(refused(&format!("{domain}, {function}")), None);
+    }
+}

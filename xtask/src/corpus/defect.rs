@@ -25,7 +25,7 @@ pub fn found(
     let goes = |program: &Arc<Program>, last: Option<usize>| {
         let again = replay(program, sources, trace, last).difference;
         again.is_none_or(|again| {
-            again.step > difference.step || again.step == difference.step && is_other(&again.what, &difference.what)
+            again.step > difference.step || again.step == difference.step && is_later(trace, &again.what, difference)
         })
     };
     if asked_twice(trace, difference.step) && goes(program, Some(difference.step)) {
@@ -44,12 +44,16 @@ pub fn found(
 /// A copy of the program with the defect, if it is of any consequence there.
 type Defect = fn(&Program) -> Option<Program>;
 
-/// The two are of different locations: what the one was about is as recorded in the other.
-fn is_other(again: &What, difference: &What) -> bool {
-    match (again, difference) {
-        (What::Value { location, .. }, What::Value { location: before, .. }) => location != before,
-        _ => false,
-    }
+/// The two are of different locations, which are compared in the order of the listing: what the one was about, and all
+/// before it, is as recorded in the other.
+fn is_later(trace: &Trace, again: &What, difference: &Difference) -> bool {
+    let (What::Value { location, .. }, What::Value { location: before, .. }) = (again, &difference.what) else {
+        return false;
+    };
+    let step = difference.step.checked_sub(1).and_then(|index| trace.steps.get(index));
+    let listing = step.and_then(|step| step.after.as_ref()).unwrap_or(&trace.initial);
+    let place = |name: &str| listing.iter().position(|(location, _)| location == name);
+    place(location) > place(before)
 }
 
 /// The environment gave one location two values in the step.
@@ -124,4 +128,51 @@ fn reads_self(program: &Program, root: TermId) -> bool {
         program.each_child_of_term(id, &mut |child| open.push(child));
     }
     false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::corpus::trace;
+
+    struct NoFiles;
+
+    impl model::Loader for NoFiles {
+        fn load(&mut self, _: &syntax::SourceFile, path: &str) -> Result<syntax::SourceFile, String> {
+            Err(format!("there is no {path}"))
+        }
+    }
+
+    /// The reason why a model with these declarations and this main rule parts from a recorded first step.
+    fn reason_of(declarations: &str, rule: &str, record: &str) -> Option<&'static str> {
+        let text =
+            format!("asm a import StandardLibrary signature: {declarations} definitions: main rule r_Main = {rule}");
+        let loaded = groundstate::load(syntax::SourceFile::new("a.asm", text), &mut NoFiles).expect("a model");
+        let (program, sources) = (Arc::new(loaded.program), loaded.sources);
+        let trace = trace::read(&format!("# a.asm\nSTATE 0\nSTEP 1\n{record}\nEND OK\n")).expect("a trace");
+        let difference = replay(&program, &sources, &trace, None).difference.expect("they part");
+        found(&program, &sources, &trace, &difference)
+    }
+
+    #[test]
+    fn a_range_without_its_upper_bound_is_known_by_what_it_gives() {
+        let declarations = "controlled s: Powerset(Natural) controlled t: Powerset(Natural)";
+        let rule = "par s := range(1n, 3n) t := {1n} endpar";
+        assert_eq!(reason_of(declarations, rule, "STATE 1\ns={1,2}\nt={1}"), Some(reason::RANGE));
+        assert_eq!(reason_of(declarations, rule, "STATE 1\ns={1,2,3}\nt={2}"), None);
+    }
+
+    #[test]
+    fn a_symmetric_difference_is_known_by_what_it_gives() {
+        let (declarations, rule) = ("controlled s: Powerset(Integer)", "s := difference({1, 2}, {2, 3})");
+        assert_eq!(reason_of(declarations, rule, "STATE 1\ns={1,3}"), Some(reason::DIFFERENCE));
+        assert_eq!(reason_of(declarations, rule, "STATE 1\ns={3}"), None);
+    }
+
+    #[test]
+    fn an_input_asked_twice_is_known_by_its_other_value() {
+        let (declarations, rule) = ("monitored m: Integer controlled x: Integer", "x := m");
+        assert_eq!(reason_of(declarations, rule, "MON m=1\nMON m=2\nSTATE 1\nx=2"), Some(reason::ASKED_TWICE));
+        assert_eq!(reason_of(declarations, rule, "MON m=1\nMON m=2\nSTATE 1\nx=3"), None);
+    }
 }
