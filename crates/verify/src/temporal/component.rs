@@ -255,3 +255,62 @@ impl Search {
         Ok(found)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::temporal::budget::Limits;
+
+    /// Edges with their targets and marks, by node.
+    struct Rows(Vec<Vec<(u32, u128)>>);
+
+    impl Edges for Rows {
+        fn nodes(&self) -> usize {
+            self.0.len()
+        }
+        fn edges_of(&self, node: u32) -> Range<usize> {
+            let before: usize = self.0[..node as usize].iter().map(Vec::len).sum();
+            before..before + self.0[node as usize].len()
+        }
+        fn target(&self, edge: usize) -> u32 {
+            self.0.iter().flatten().nth(edge).expect("an edge").0
+        }
+        fn marks(&self, edge: usize) -> Marks {
+            Marks(self.0.iter().flatten().nth(edge).expect("an edge").1)
+        }
+    }
+
+    fn check(rows: Vec<Vec<(u32, u128)>>, again: u128, pairs: &[(u128, u128)], expected: &[&[u32]]) {
+        let pairs = pairs.iter().map(|(first, second)| (Marks(*first), Marks(*second))).collect();
+        let acceptance = Acceptance { again: Marks(again), pairs };
+        let rows = Rows(rows);
+        let mut go_on = || false;
+        let mut budget = Budget::new(Limits::default(), &mut go_on);
+        let mut found = Vec::new();
+        accepting_components(&rows, &Bits::all(rows.nodes()), &acceptance, &mut budget, |component| {
+            found.push(component.nodes);
+            ControlFlow::Continue(())
+        })
+        .expect("nobody stops it");
+        found.sort();
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn a_component_has_all_that_must_come_up() {
+        let ring = || vec![vec![(1, 1)], vec![(0, 0), (2, 2)], vec![(2, 0)]];
+        check(ring(), 0, &[], &[&[0, 1], &[2]]);
+        check(ring(), 1, &[], &[&[0, 1]]);
+        check(ring(), 2, &[], &[]);
+    }
+
+    #[test]
+    fn what_is_avoided_counts_no_more() {
+        // Two ways round: one has the mark 1 that must come up, and the mark 2 that asks for 4; the other has neither.
+        let rows = || vec![vec![(1, 1 | 2), (1, 0)], vec![(0, 0)]];
+        check(rows(), 0, &[(2, 4)], &[&[0, 1]]);
+        check(rows(), 1, &[], &[&[0, 1]]);
+        check(rows(), 1, &[(2, 4)], &[]);
+        check(rows(), 1, &[(2, 1)], &[&[0, 1]]);
+    }
+}
