@@ -95,6 +95,17 @@ fn the_consumer_of_the_swinging_buffer_needs_strong_fairness() {
     }
 }
 
+#[test]
+fn who_asks_for_the_critical_section_gets_in_if_both_go_on() {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../examples/mutual_exclusion/Peterson.asm");
+    let program = lowered(Disk::read(&path).expect("the model is there"));
+    let free = words(&program, &unlimited());
+    assert!(free[..3].iter().all(|answer| answer.ends_with(" holds")), "{free:?}");
+    assert_eq!(free[3..], ["ltlSpec_served violated 5 + 1", "ltlSpec_overtakenOnce holds"]);
+    let weak = words(&program, &Question { agents: Some(AgentFairness::Weak), ..unlimited() });
+    assert!(weak.iter().all(|answer| answer.ends_with(" holds")), "{weak:?}");
+}
+
 /// What a machine comes to when it makes the steps of a trace.
 fn replay(program: &Arc<Program>, trace: &Trace) -> Vec<Vec<(machine::Location, Value)>> {
     /// Inputs and choices of a step.
