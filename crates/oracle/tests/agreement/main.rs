@@ -193,3 +193,38 @@ fn models_of_the_library_and_the_examples() {
     }
     assert!(run > 5, "only {run} models found");
 }
+
+/// What the generator does not write.
+#[test]
+fn models_without_definitions_and_with_lost_results() {
+    let model = |declarations: &str, main: &str| {
+        format!(
+            "asm Model import StandardLibrary signature: controlled x: Integer controlled y: Integer\n\
+             monitored m: Boolean abstract domain Door static door: Door\n{declarations}\n\
+             main rule r_Main = {main}\ndefault init s0: function x = 0"
+        )
+    };
+    let missing = "static limit: Integer static next: Door -> Door\ndefinitions:";
+    let turbo = "definitions: turbo rule r_Count in Boolean = par x := x + 1 result := true endpar";
+    let cases = [
+        (model(missing, "par if m then y := limit endif x := x + 1 endpar"), "no-definition"),
+        (model(missing, "if x > 2 then y := y + limit else x := x + 1 endif"), "no-definition"),
+        (model(missing, "if m then if next(door) = door then skip endif else x := 1 endif"), "no-definition"),
+        (model(turbo, "seq m <- r_Count() if m then y := x endif endseq"), ""),
+        (model(turbo, "par m <- r_Count() x := 7 endpar"), "inconsistent-update"),
+    ];
+    for (text, expected) in cases {
+        for engine in [EngineChoice::Interpreted, EngineChoice::Compiled] {
+            let plan = Plan { seed: 3, steps: 20, bounds: Bounds::default(), engine };
+            match deep(|| judge(&text, plan)) {
+                Verdict::Rejected(why) => panic!("refused: {why}\n{text}"),
+                Verdict::Disagreed(found) => panic!("{}: {}\n{text}", found.kind, found.detail),
+                Verdict::Agreed(outcome) => {
+                    let faults: Vec<&str> = outcome.faults.keys().copied().collect();
+                    let expected: Vec<&str> = [expected].into_iter().filter(|id| !id.is_empty()).collect();
+                    assert_eq!(faults, expected, "{text}");
+                }
+            }
+        }
+    }
+}
