@@ -36,7 +36,7 @@ fuzz: ## the fuzz targets, for a short time
 bench: ## steps per second and peak memory; with CORPUS=path also of the public models with a reference
 	$(CARGO) xtask bench $(if $(CORPUS),--corpus $(CORPUS))
 
-corpus: ## make corpus CORPUS=path: compare with recorded results of the public corpus
+corpus: ## make corpus CORPUS=path: compare with recorded results of the public corpus, and count charts
 	$(CARGO) xtask corpus $(CORPUS)
 
 update: ## rewrite all golden expectations

@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use model::{DomainKind, FunctionId, Literal, Model, RuleId, TermKind};
+use model::{Call, DomainKind, FunctionId, Literal, Model, RuleId, RuleKind, TermKind};
 
 use crate::chart::{Arrow, Chart, Control, End, Link, Machine, Parameter, Shape, ShapeId, ShapeKind, WORDS};
 use crate::read::spoken;
@@ -26,11 +26,13 @@ pub struct Extracted {
 
 /// Extracts the machines of a model's own rules; of one rule alone, if it is named.
 ///
-/// Without `control` the control location is found: one on which all that the rule does depends. With it, a location of
-/// this function is taken, also where some of what the rule does is done in every state.
+/// Without `control` the control location is found: one on which all that the rule does depends; where a rule has none, one
+/// on which some of it does. With it, a location of this function is taken. Rules that are parts of machines are none of
+/// their own, unless they are named.
 pub fn extract(model: &Model, only: Option<&str>, control: Option<&str>) -> Extracted {
     let chart = Chart { name: model.name.clone(), ..Chart::default() };
     let mut found = Extracted { chart, others: Vec::new() };
+    let mut left: Vec<(RuleId, FunctionId, String)> = Vec::new();
     for (index, rule) in model.rules.iter().enumerate() {
         let own = rule.span.file == model.root && !rule.turbo;
         if !only.map_or(own, |name| name == rule.name) {
@@ -41,10 +43,121 @@ pub fn extract(model: &Model, only: Option<&str>, control: Option<&str>) -> Extr
         for (function, location) in controls(model, id).into_iter().filter(|(function, _)| wanted(*function)) {
             match machine(model, id, function, &location, control.is_none()) {
                 Ok(Some(machine)) => found.chart.machines.push(machine),
-                Ok(None) => {}
+                Ok(None) => left.push((id, function, location)),
                 Err(reason) => found.others.push((rule.name.clone(), told(reason))),
             }
         }
+    }
+    if only.is_none() {
+        without_parts(model, &mut found.chart.machines);
+    }
+    mixed(model, left, &mut found.chart.machines);
+    found
+}
+
+/// Machines among rules that also do something whatever the state is: one for each rule that has none, that is no part of a
+/// machine and has none as a part.
+fn mixed(model: &Model, left: Vec<(RuleId, FunctionId, String)>, machines: &mut Vec<Machine>) {
+    let strict: Vec<String> = machines.iter().map(|machine| rule_of(machine).to_string()).collect();
+    let parts: BTreeSet<String> = strict.iter().flat_map(|name| called(model, name)).collect();
+    let mut more: Vec<Machine> = Vec::new();
+    for (id, function, location) in left {
+        let name = &model.rule(id).name;
+        let calls = called(model, name);
+        let known = |name: &String| strict.contains(name) || more.iter().any(|machine| rule_of(machine) == name);
+        // A location that is looked up over others is not what people call the state of this rule.
+        let looked_up = location.matches('(').count() > 1;
+        if looked_up || known(name) || parts.contains(name) || strict.iter().any(|machine| calls.contains(machine)) {
+            continue;
+        }
+        if let Ok(Some(machine)) = machine(model, id, function, &location, false) {
+            // One control state and no other is none.
+            let states = machine.shapes.iter().filter(|shape| matches!(shape.kind, ShapeKind::State { .. }));
+            if states.count() > 1 || machine.is_pattern {
+                more.push(machine);
+            }
+        }
+    }
+    without_parts(model, &mut more);
+    machines.extend(more);
+}
+
+/// Takes out machines that are parts of others: rules for one control state that another machine of the same control
+/// function calls; and callers that are the same machine as what they call.
+fn without_parts(model: &Model, machines: &mut Vec<Machine>) {
+    let names: Vec<String> = machines.iter().map(|machine| rule_of(machine).to_string()).collect();
+    let calls: Vec<BTreeSet<String>> = names.iter().map(|name| called(model, name)).collect();
+    let mut part = vec![false; machines.len()];
+    for (caller, inner) in machines.iter().enumerate() {
+        for (callee, outer) in machines.iter().enumerate() {
+            let same_control = control_of(inner) == control_of(outer);
+            if caller == callee || !same_control || !calls[caller].contains(&names[callee]) {
+                continue;
+            }
+            if same_machine(inner, outer) {
+                part[caller] = true;
+            } else if !goes_on(outer) {
+                part[callee] = true;
+            }
+        }
+    }
+    let mut index = 0;
+    machines.retain(|_| {
+        index += 1;
+        !part[index - 1]
+    });
+}
+
+/// Paths lead on from more than one control state.
+fn goes_on(machine: &Machine) -> bool {
+    let starts = |end: End| match end {
+        End::Enter => true,
+        End::Shape(id) => matches!(machine.shape(id).kind, ShapeKind::State { .. }),
+        End::Exit => false,
+    };
+    let origins: BTreeSet<End> = machine.arrows.iter().map(|arrow| arrow.from).filter(|from| starts(*from)).collect();
+    origins.len() > 1
+}
+
+fn rule_of(machine: &Machine) -> &str {
+    machine.rule.as_ref().map_or("", |link| link.name.as_str())
+}
+
+fn control_of(machine: &Machine) -> &str {
+    match &machine.control {
+        Some(Control::Linked(link)) => &link.name,
+        _ => "",
+    }
+}
+
+/// The same shapes, up to what parameters are called.
+fn same_machine(one: &Machine, other: &Machine) -> bool {
+    let kinds = |machine: &Machine| -> Vec<(String, ShapeKind)> {
+        let shapes = machine.shapes.iter();
+        shapes
+            .map(|shape| (shape.link.as_ref().map_or(String::new(), |link| link.name.clone()), shape.kind.clone()))
+            .collect()
+    };
+    let arrows = |machine: &Machine| -> Vec<(End, Option<bool>, End)> {
+        machine.arrows.iter().map(|arrow| (arrow.from, arrow.branch, arrow.to)).collect()
+    };
+    kinds(one) == kinds(other) && arrows(one) == arrows(other)
+}
+
+/// The rules that a rule calls, and those call.
+fn called(model: &Model, name: &str) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    let mut open = vec![name.to_string()];
+    while let Some(name) = open.pop() {
+        let Some(rule) = model.rules.iter().find(|rule| rule.name == name) else { continue };
+        rule.body.walk(&mut |rule| {
+            if let RuleKind::MacroCall(Call { rule, .. }) | RuleKind::TurboCall(Call { rule, .. }) = &rule.kind {
+                let name = &model.rule(*rule).name;
+                if found.insert(name.clone()) {
+                    open.push(name.clone());
+                }
+            }
+        });
     }
     found
 }

@@ -1,10 +1,11 @@
 //! `cargo xtask corpus CHECKOUT`: our results over the public corpus against the recorded ones of the peer.
 //!
 //! In: a checkout of the models and the folder of recorded results. Out: `spec/conformance.md`: counts, and each
-//! difference with its reason. The models never enter this project; a reason is decided by a test on the model or on
+//! difference with its reason; and `spec/charts-found.md`, see `charts.rs` (`--only charts` prints it alone). The models never enter this project; a reason is decided by a test on the model or on
 //! the difference, never by a file's name.
 
 mod accept;
+mod charts;
 mod defect;
 mod difference;
 mod excuse;
@@ -45,6 +46,10 @@ pub fn run(words: &[String]) -> Result<Outcome, Failure> {
     let checkout = PathBuf::from(checkout);
     let recorded =
         arguments.option("--recorded").map_or_else(|| repository::root().join("../shared/conformance"), PathBuf::from);
+    if arguments.option("--only") == Some("charts") {
+        println!("{}", charts::page(&checkout)?);
+        return Ok(Outcome::Good);
+    }
     let mut recorded = recorded::read(&recorded)?;
     let everything = recorded::everything(&checkout, &recorded.jobs)?;
     recorded.jobs.extend(everything);
@@ -63,6 +68,9 @@ pub fn run(words: &[String]) -> Result<Outcome, Failure> {
         Some(path) => {
             std::fs::write(&path, report.page()).map_err(|error| format!("{}: {error}", path.display()))?;
             println!("{}", report.summary());
+            println!("written to {}", path.display());
+            let path = path.with_file_name("charts-found.md");
+            std::fs::write(&path, charts::page(&checkout)?).map_err(|error| format!("{}: {error}", path.display()))?;
             println!("written to {}", path.display());
         }
         None => println!("{}", report.page()),

@@ -14,7 +14,9 @@ pub(crate) fn flat(node: &SyntaxNode) -> String {
             space = !text.is_empty();
             continue;
         }
-        if std::mem::take(&mut space) {
+        // Where a line was broken within brackets there is no gap.
+        let bracket = text.ends_with(['(', '[']) || [")", "]", ","].contains(&token.text());
+        if std::mem::take(&mut space) && !bracket {
             text.push(' ');
         }
         text.push_str(token.text());
