@@ -13,16 +13,31 @@ use program::{Expression, FunctionId, Program, PropertyKind};
 use syntax::Span;
 
 use crate::coverage::unreachable_rules;
+use crate::engine::{Ended, run_engine};
 use crate::runs::{OfRuns, Question, Why, decide};
-use crate::search::{Plan, Progress, Search, Stop, Target};
+use crate::search::{Plan, Progress, Stop, Target};
 use crate::temporal::fairness::AgentFairness;
 use crate::trace::Trace;
+
+/// How states are gone through.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Engine {
+    /// One after the other while they are few, else as sets; one after the other again where sets become too large.
+    #[default]
+    Automatic,
+    /// One after the other.
+    Explicit,
+    /// As sets, by binary decision diagrams.
+    Symbolic,
+}
 
 /// How a program is checked.
 #[derive(Debug, Clone)]
 pub struct Options {
     /// The machine's limits.
     pub limits: Limits,
+    /// How states are gone through.
+    pub engine: Engine,
     /// How many workers search.
     pub workers: usize,
     /// The search ends with the first level in which a check is violated.
@@ -46,6 +61,7 @@ impl Default for Options {
     fn default() -> Self {
         Options {
             limits: Limits::default(),
+            engine: Engine::Automatic,
             workers: 1,
             first: false,
             max_states: u64::MAX,
@@ -115,6 +131,8 @@ pub struct Verdict {
 pub struct Report {
     /// The verdicts, the checks that nobody asked for first, then properties in the order of the text.
     pub verdicts: Vec<Verdict>,
+    /// What went through the states in the end.
+    pub engine: Engine,
     /// How far the search came.
     pub progress: Progress,
     /// Why the search ended early, if it did.
@@ -159,24 +177,22 @@ pub fn verify_fair(
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Report, NoStart> {
     let questions = Questions::of(program, options);
-    let mut search = Search::run(program, &questions.plan, watch).map_err(|trouble| match trouble {
+    let mut ended = run_engine(program, &questions.plan, options.engine, watch).map_err(|trouble| match trouble {
         Trouble::Fault(fault) => NoStart::Fault(fault),
         Trouble::Unbounded(unbounded) => NoStart::Unbounded(unbounded),
         Trouble::TooNarrow(_) => unreachable!("the search widens its states"),
     })?;
-    let traces = search.traces();
-    let mut found: BTreeMap<Target, Trace> = search.found.iter().map(|found| found.target).zip(traces).collect();
-    let reasons = reasons(&search, &questions, options);
+    let reasons = reasons(&ended, &questions, options);
     let (mut of_runs, runs) = of_runs(program, &questions, options, agents, &reasons, watch);
     let verdicts = questions.subjects.iter().map(|(subject, target)| {
         let outcome = match target {
             None => of_runs.remove(subject).unwrap_or(Outcome::Unknown(vec![Reason::Temporal])),
-            Some(target) => match found.remove(target) {
+            Some(target) => match ended.found.remove(target) {
                 Some(trace) => Outcome::Violated(Box::new(trace)),
                 None => {
                     let mut reasons = reasons.clone();
                     if let Target::Condition(condition) = target
-                        && search.unknown.contains(condition)
+                        && ended.unknown.contains(condition)
                     {
                         reasons.push(Reason::Undecided);
                     }
@@ -187,8 +203,9 @@ pub fn verify_fair(
         Verdict { subject: *subject, outcome }
     });
     let verdicts = verdicts.collect();
-    let unreachable = if reasons.is_empty() { unreachable_rules(program, &search) } else { Vec::new() };
-    Ok(Report { verdicts, progress: search.progress, stop: search.stop, width: search.width(), unreachable, runs })
+    let unreachable = if reasons.is_empty() { unreachable_rules(program, &ended.executed) } else { Vec::new() };
+    let Ended { progress, stop, width, engine, .. } = ended;
+    Ok(Report { verdicts, progress, stop, width, unreachable, runs, engine })
 }
 
 /// The outcomes of temporal properties, and why those are unknown that are. A limit that ended the search is none for them
@@ -234,7 +251,7 @@ fn of_runs(
 }
 
 /// Why a check that found nothing is still not known to hold.
-fn reasons(search: &Search, questions: &Questions, options: &Options) -> Vec<Reason> {
+fn reasons(search: &Ended, questions: &Questions, options: &Options) -> Vec<Reason> {
     let mut reasons = BTreeSet::new();
     reasons.extend(search.stop.map(Reason::Stopped));
     reasons.extend(search.unbounded.iter().copied().map(Reason::Unbounded));

@@ -1,6 +1,6 @@
 //! Rules that no step of any reachable state runs.
 //!
-//! In: a search that has met all states. Out: the places of rules that never ran though the rule around them, or a call of
+//! In: by rule, whether some step ran it, of all states. Out: the places of rules that never ran though the rule around them, or a call of
 //! them, did. A rule that stands in the program several times, specialised for its callers, ran if one of them did.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -8,12 +8,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use program::{Program, Rule, RuleId};
 use syntax::Span;
 
-use crate::search::Search;
-
 /// See the module.
-pub fn unreachable_rules(program: &Program, search: &Search) -> Vec<Span> {
+pub fn unreachable_rules(program: &Program, executed: &[bool]) -> Vec<Span> {
     let mut ran: BTreeMap<Span, bool> = BTreeMap::new();
-    let executed: Vec<bool> = (0..program.rules.len()).map(|rule| search.executed(RuleId(rule as u32)) > 0).collect();
     for (rule, executed) in executed.iter().enumerate() {
         *ran.entry(program.rule_spans[rule]).or_default() |= executed;
     }

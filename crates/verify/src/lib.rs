@@ -5,13 +5,15 @@
 
 mod check;
 mod coverage;
+mod engine;
 pub mod graph;
 pub mod runs;
 mod search;
+mod symbolic;
 mod table;
 pub mod temporal;
 mod trace;
 
-pub use check::{NoStart, Options, Outcome, Reason, Report, Subject, Verdict, verify, verify_fair};
+pub use check::{Engine, NoStart, Options, Outcome, Reason, Report, Subject, Verdict, verify, verify_fair};
 pub use search::{Progress, Stop};
 pub use trace::Trace;

@@ -86,7 +86,7 @@ fn first_path(explorer: &mut Explorer, state: &[u64], wanted: &mut dyn FnMut(&Pa
     first
 }
 
-fn tell(explorer: &mut Explorer, chain: &[Box<[u64]>], found: &Found) -> Trace {
+pub(crate) fn tell(explorer: &mut Explorer, chain: &[Box<[u64]>], found: &Found) -> Trace {
     let start = explorer.initial().iter().find(|(state, _)| *state == chain[0]);
     let start = start.map(|(_, told)| told.clone()).unwrap_or_default();
     let mut trace = Trace { start, values: explorer.values(&chain[0]), steps: Vec::new(), turn: None, branch: false };

@@ -9,7 +9,9 @@ use std::cmp::Ordering;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use hashbrown::HashMap;
 use program::{Expression, Program};
+use rustc_hash::FxBuildHasher;
 
 use crate::coverage::Coverage;
 use crate::explore::branches::{Bounds, Branches, REST, Unbounded, UnboundedKind};
@@ -17,6 +19,7 @@ use crate::explore::conditions::{Condition, Part, Truth};
 use crate::explore::encoding::{Encoding, TooNarrow, Widening};
 use crate::explore::interner::{Interner, View};
 use crate::explore::paths::{Outcome, Path, Told};
+use crate::explore::sets::Overwrite;
 use crate::explore::tree::{DEAD, End, Tree};
 use crate::fault::{Fault, FaultKind};
 use crate::limits::Limits;
@@ -70,10 +73,10 @@ pub struct Expansion {
 
 /// What an end of the tree of steps means.
 #[derive(Debug, Clone, Copy)]
-struct Effect {
-    kind: Kind,
+pub(super) struct Effect {
+    pub kind: Kind,
     /// A condition on the step does not hold.
-    failed: bool,
+    pub failed: bool,
     /// Which of the overwrites are its own.
     first: u32,
     len: u32,
@@ -102,19 +105,11 @@ impl FaultClass {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
+pub(super) enum Kind {
     Next,
     Fault(FaultClass),
     Unbounded,
     Excluded,
-}
-
-/// Bits of one word that a step sets.
-#[derive(Debug, Clone, Copy)]
-struct Overwrite {
-    word: u32,
-    clear: u64,
-    set: u64,
 }
 
 /// What became of one alternative.
@@ -131,13 +126,15 @@ pub struct Explorer {
     program: Arc<Program>,
     machine: Machine,
     branches: Branches,
-    encoding: Encoding,
+    pub(super) encoding: Encoding,
     view: View,
     settings: Settings,
-    steps: Tree,
-    effects: Vec<Effect>,
+    pub(super) steps: Tree,
+    pub(super) effects: Vec<Effect>,
     overwrites: Vec<Overwrite>,
-    conditions: Vec<Condition>,
+    /// By end, the conditions on the step that do not hold, where there are any.
+    failures: HashMap<End, Box<[u32]>, FxBuildHasher>,
+    pub(super) conditions: Vec<Condition>,
     /// The packed state that the machine is in.
     loaded: Vec<u64>,
     is_loaded: bool,
@@ -209,6 +206,7 @@ impl Explorer {
             // The first end is that of the dead.
             effects: vec![Effect { kind: Kind::Excluded, failed: false, first: 0, len: 0 }],
             overwrites: Vec::new(),
+            failures: HashMap::default(),
             conditions,
             is_loaded: false,
             initial,
@@ -269,7 +267,18 @@ impl Explorer {
         self.expand_by_machine(state, out)
     }
 
-    fn expand_by_machine(&mut self, state: &[u64], out: &mut Vec<u64>) -> Result<Expansion, Widening> {
+    /// How the next state differs from the state, at an end of the tree of steps.
+    pub(super) fn overwrites_of(&self, end: End) -> &[Overwrite] {
+        let effect = self.effects[end as usize];
+        &self.overwrites[effect.first as usize..(effect.first + effect.len) as usize]
+    }
+
+    /// The conditions on the step that do not hold at an end.
+    pub(super) fn failures_of(&self, end: End) -> &[u32] {
+        self.failures.get(&end).map_or(&[], |failed| failed)
+    }
+
+    pub(super) fn expand_by_machine(&mut self, state: &[u64], out: &mut Vec<u64>) -> Result<Expansion, Widening> {
         let mut expansion = Expansion::default();
         self.branches.first();
         loop {
@@ -283,7 +292,11 @@ impl Explorer {
                         self.overwrites.extend(&attempt.overwrites);
                         let len = attempt.overwrites.len() as u32;
                         self.effects.push(Effect { kind: attempt.kind, failed, first, len });
-                        self.learn(state, self.effects.len() as End - 1);
+                        let end = self.effects.len() as End - 1;
+                        if failed {
+                            self.failures.insert(end, attempt.failed.into());
+                        }
+                        self.learn(state, end);
                     }
                 }
             }
@@ -479,7 +492,7 @@ impl Explorer {
 
     /// Decides a part of a condition by evaluating it.
     #[cold]
-    fn decide(&mut self, condition: usize, part: usize, state: &[u64]) -> Truth {
+    pub(super) fn decide(&mut self, condition: usize, part: usize, state: &[u64]) -> Truth {
         let mut worst = Truth::True;
         self.branches.first();
         loop {

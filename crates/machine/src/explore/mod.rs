@@ -12,6 +12,7 @@ mod encoding;
 mod explorer;
 mod interner;
 mod paths;
+mod sets;
 mod tree;
 
 pub(crate) use branches::Branches;
@@ -21,3 +22,4 @@ pub use encoding::Widening;
 pub use explorer::{Expansion, Explorer, FaultClass, Settings, Trouble};
 pub use interner::Interner;
 pub use paths::{Outcome, Path, Told};
+pub use sets::{Alternative, AlternativeKind, Bits, Judged, Overwrite, SetTrouble, StateSets, Visit};

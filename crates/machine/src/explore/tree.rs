@@ -11,6 +11,7 @@ use rustc_hash::FxBuildHasher;
 
 use crate::explore::branches::{Asked, Event};
 use crate::explore::encoding::Field;
+use crate::explore::sets::Bits;
 
 /// The number of an end, given by who keeps what ends mean.
 pub(crate) type End = u32;
@@ -54,10 +55,31 @@ pub(crate) struct Tree {
 }
 
 /// Where a link stands.
-enum Place {
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Place {
     Root,
     Link(usize),
     Wide(u32, u32),
+}
+
+/// What a link leads to, for who walks it with many states at a time.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Stop {
+    /// The alternative is none.
+    Dead,
+    /// What the step came to.
+    End(End),
+    /// A field is looked at; `below` is where its children are.
+    Field { bits: Bits, below: Below },
+    /// Every child is walked; where they are guarded and all are dead, the one after them.
+    Ask { base: u32, of: u32, guarded: bool },
+}
+
+/// Where the children of a field are.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Below {
+    Links(u32),
+    Table(u32),
 }
 
 /// Some alternative is not known.
@@ -207,6 +229,70 @@ impl Tree {
         };
         self.nodes.push(node);
         self.nodes.len() as Link
+    }
+
+    /// Whether no more can be remembered.
+    pub fn is_crowded(&self) -> bool {
+        self.given_up || self.links.len() + self.wide.len() > LINKS
+    }
+
+    /// What a link leads to, if that is known.
+    pub fn stop(&self, place: Place) -> Option<Stop> {
+        let link = self.link(&place);
+        if link & END != 0 {
+            let end = link & !END;
+            return Some(if end == DEAD { Stop::Dead } else { Stop::End(end) });
+        }
+        let node = self.nodes.get((link as usize).checked_sub(1)?)?;
+        Some(match *node {
+            Node::Field { word, shift, bits, base } => {
+                Stop::Field { bits: Bits { word, shift, bits }, below: Below::Links(base) }
+            }
+            Node::Wide { word, shift, bits, index } => {
+                Stop::Field { bits: Bits { word, shift, bits }, below: Below::Table(index) }
+            }
+            Node::Ask { base, of } => Stop::Ask { base, of, guarded: false },
+            Node::Guarded { base, of } => Stop::Ask { base, of, guarded: true },
+        })
+    }
+
+    /// A child of what is no end: for a code, or for an answer.
+    pub fn child(stop: Stop, child: u32) -> Place {
+        match stop {
+            Stop::Field { below: Below::Links(base), .. } | Stop::Ask { base, .. } => {
+                Place::Link((base + child) as usize)
+            }
+            Stop::Field { below: Below::Table(index), .. } => Place::Wide(index, child),
+            Stop::Dead | Stop::End(_) => unreachable!("an end has no children"),
+        }
+    }
+
+    /// Calls `visit` with each end and the fields looked at on the way to it.
+    pub fn each_end(&self, visit: &mut dyn FnMut(&[Bits], End)) {
+        let mut open = vec![(Place::Root, Vec::new())];
+        while let Some((place, looked)) = open.pop() {
+            match self.stop(place) {
+                None | Some(Stop::Dead) => {}
+                Some(Stop::End(end)) => visit(&looked, end),
+                Some(stop @ Stop::Field { bits, below }) => {
+                    let longer: Vec<Bits> = looked.iter().copied().chain([bits]).collect();
+                    let codes: Vec<u32> = match below {
+                        Below::Links(_) => (0..1 << bits.bits).collect(),
+                        Below::Table(index) => {
+                            let mut codes: Vec<u32> =
+                                self.wide.keys().filter(|(node, _)| *node == index).map(|(_, code)| *code).collect();
+                            codes.sort_unstable();
+                            codes
+                        }
+                    };
+                    open.extend(codes.into_iter().map(|code| (Tree::child(stop, code), longer.clone())));
+                }
+                Some(stop @ Stop::Ask { of, guarded, .. }) => {
+                    let children = of + u32::from(guarded);
+                    open.extend((0..children).map(|child| (Tree::child(stop, child), looked.clone())));
+                }
+            }
+        }
     }
 
     fn link(&self, place: &Place) -> Link {

@@ -1,0 +1,10 @@
+//! Verification by sets of states: binary decision diagrams instead of one state after the other.
+//!
+//! Where a model has many states for few reasons (philosophers who do not know of each other), a set of them is small even
+//! if it has 10¹¹ members. The verdicts are those of [`crate::verify`], on the same machine.
+
+mod bdd;
+mod order;
+mod reach;
+
+pub(crate) use reach::Reach;

@@ -1,0 +1,409 @@
+//! Reachability by sets: all states that can be reached, as one binary decision diagram.
+//!
+//! In: a program and what is asked of its states, as for [`crate::search`]. Out: a [`Reach`] with what was found. The steps
+//! of a set are the machine's own, learned as far as they are reached ([`machine::explore::StateSets`]). The closure takes
+//! one part of the step after the other (chaining: O. Roig, J. Cortadella, E. Pastor, *Verification of asynchronous circuits
+//! by BDD-based model checking of Petri nets*, 1995), which needs fewer rounds than level by level; only where something is
+//! found are the levels gone through, for a shortest run to it.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use machine::explore::{
+    Alternative, AlternativeKind, Explorer, Interner, SetTrouble, StateSets, Trouble, Truth, Unbounded, Widening,
+};
+use program::Program;
+use rustc_hash::FxHashSet;
+
+use crate::search::{Found, Plan, Progress, Stop, Target};
+use crate::symbolic::bdd::{Diagrams, Full, Set};
+use crate::symbolic::order::force;
+use crate::trace::{Trace, tell};
+
+/// LIMIT: so many states are gone through one by one first, to see what steps look at.
+const SAMPLE: usize = 2000;
+/// Bytes that a node takes, with its share of the tables.
+const NODE: u64 = 40;
+/// LIMIT: nodes.
+const NODES: u64 = 1 << 24;
+
+/// A symbolic search that has ended.
+pub(crate) struct Reach {
+    explorer: Explorer,
+    diagrams: Diagrams,
+    /// The states by their distance, as far as that was looked at.
+    rings: Vec<Set>,
+    /// What was found, each target at most once.
+    pub found: Vec<Found>,
+    /// Why it ended early; none where all states were met.
+    pub stop: Option<Stop>,
+    /// How far it came.
+    pub progress: Progress,
+    /// What could not be gone through.
+    pub unbounded: BTreeSet<Unbounded>,
+    /// Conditions whose truth is not known in some state.
+    pub unknown: BTreeSet<usize>,
+}
+
+/// Why the search goes no further.
+enum Halt {
+    Narrow(Widening),
+    Stopped(Stop),
+}
+
+impl From<Full> for Halt {
+    fn from(_: Full) -> Halt {
+        Halt::Stopped(Stop::Memory)
+    }
+}
+
+impl From<SetTrouble<Full>> for Halt {
+    fn from(trouble: SetTrouble<Full>) -> Halt {
+        match trouble {
+            SetTrouble::Narrow(widening) => Halt::Narrow(widening),
+            SetTrouble::Crowded | SetTrouble::Failed(Full) => Halt::Stopped(Stop::Memory),
+        }
+    }
+}
+
+/// What the alternatives of a set of states come to.
+struct Steps {
+    next: Set,
+    /// States with an alternative that changes them, one that does not, one that is a fault …
+    moved: Set,
+    stayed: Set,
+    faults: [Set; 3],
+    unbounded: Set,
+    /// By condition on the step: the states in which it does not hold of some alternative.
+    failing: BTreeMap<usize, Set>,
+}
+
+impl Reach {
+    /// Searches all states of a program.
+    ///
+    /// # Errors
+    /// There is no initial state.
+    pub fn run(
+        program: &Arc<Program>,
+        plan: &Plan,
+        watch: &mut dyn FnMut(&Progress) -> bool,
+    ) -> Result<Reach, Trouble> {
+        let mut widening = Widening::default();
+        loop {
+            match Reach::attempt(program, plan, &widening, watch) {
+                Err(Trouble::TooNarrow(more)) => widening.merge(&more),
+                outcome => return outcome,
+            }
+        }
+    }
+
+    fn attempt(
+        program: &Arc<Program>,
+        plan: &Plan,
+        widening: &Widening,
+        watch: &mut dyn FnMut(&Progress) -> bool,
+    ) -> Result<Reach, Trouble> {
+        let interner = Arc::new(Interner::default());
+        let mut settings = plan.settings.clone();
+        settings.forgetful = false;
+        let mut explorer = Explorer::new(program, settings, widening, &interner)?;
+        sample(&mut explorer).map_err(Trouble::TooNarrow)?;
+        let fields = explorer.fields();
+        let order = force(fields.len(), &explorer.dependencies());
+        let order: Vec<_> = order.into_iter().map(|field| fields[field]).collect();
+        let nodes = (plan.max_bytes / NODE).clamp(1 << 12, NODES) as usize;
+        let diagrams = Diagrams::new(&order, explorer.words(), nodes).expect("room for the variables");
+        let mut reach = Reach {
+            explorer,
+            diagrams,
+            rings: Vec::new(),
+            found: Vec::new(),
+            stop: None,
+            progress: Progress::default(),
+            unbounded: BTreeSet::new(),
+            unknown: BTreeSet::new(),
+        };
+        match reach.search(plan, watch) {
+            Ok(()) => {}
+            Err(Halt::Narrow(widening)) => return Err(Trouble::TooNarrow(widening)),
+            Err(Halt::Stopped(stop)) => reach.stop = Some(stop),
+        }
+        reach.unbounded = reach.explorer.unbounded().clone();
+        Ok(reach)
+    }
+
+    fn search(&mut self, plan: &Plan, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<(), Halt> {
+        let initial = self.initial(plan)?;
+        let reached = self.close(plan, &initial, watch)?;
+        let targets = self.targets(plan, &reached)?;
+        self.locate(plan, initial, targets, watch)
+    }
+
+    /// The initial states.
+    fn initial(&mut self, plan: &Plan) -> Result<Set, Halt> {
+        let mut set = self.diagrams.empty();
+        let states: Vec<Box<[u64]>> = self.explorer.initial().iter().map(|(state, _)| state.clone()).collect();
+        for state in states {
+            let state = self.diagrams.state(&state)?;
+            set = self.diagrams.union(&set, &state)?;
+        }
+        self.admit(plan, set)
+    }
+
+    /// Leaves out states in which an assumption does not hold.
+    fn admit(&mut self, plan: &Plan, set: Set) -> Result<Set, Halt> {
+        let mut admitted = set.clone();
+        for condition in &plan.assumed {
+            for (truth, states) in self.explorer.truths(*condition, &mut self.diagrams, &set)? {
+                admitted = self.diagrams.minus(&admitted, &states)?;
+                if matches!(truth, Truth::Fault | Truth::Unknown) {
+                    self.unknown.insert(*condition);
+                }
+            }
+        }
+        Ok(admitted)
+    }
+
+    /// All states that can be reached.
+    fn close(&mut self, plan: &Plan, initial: &Set, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<Set, Halt> {
+        let mut reached = initial.clone();
+        let mut frontier = initial.clone();
+        while !self.diagrams.is_empty(&frontier) {
+            while !self.diagrams.is_empty(&frontier) {
+                self.report(&reached, &frontier, watch)?;
+                let mut open = std::mem::replace(&mut frontier, self.diagrams.empty());
+                for part in 0..self.explorer.parts() {
+                    let steps = self.expand(&open, Some(part))?;
+                    let new = self.diagrams.minus(&steps.next, &reached)?;
+                    let new = self.admit(plan, new)?;
+                    reached = self.diagrams.union(&reached, &new)?;
+                    frontier = self.diagrams.union(&frontier, &new)?;
+                    open = self.diagrams.union(&open, &new)?;
+                }
+            }
+            // Where no part is alive something else may come.
+            let steps = self.expand(&reached, None)?;
+            let new = self.diagrams.minus(&steps.next, &reached)?;
+            frontier = self.admit(plan, new)?;
+            reached = self.diagrams.union(&reached, &frontier)?;
+        }
+        self.report(&reached, &frontier, watch)?;
+        Ok(reached)
+    }
+
+    fn report(&mut self, reached: &Set, frontier: &Set, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<(), Halt> {
+        self.progress = Progress {
+            states: self.diagrams.count(reached) as u64,
+            transitions: 0,
+            queue: self.diagrams.count(frontier) as u64,
+            depth: self.progress.depth + 1,
+            bytes: self.diagrams.nodes() as u64 * NODE,
+        };
+        if watch(&self.progress) { Ok(()) } else { Err(Halt::Stopped(Stop::Asked)) }
+    }
+
+    /// The steps of a set: of one part, or all of them.
+    fn expand(&mut self, set: &Set, part: Option<usize>) -> Result<Steps, Halt> {
+        let empty = || self.diagrams.empty();
+        let mut steps = Steps {
+            next: empty(),
+            moved: empty(),
+            stayed: empty(),
+            faults: [empty(), empty(), empty()],
+            unbounded: empty(),
+            failing: BTreeMap::new(),
+        };
+        let whole = part.is_none();
+        let mut visit = |sets: &mut Diagrams, alternative: &Alternative<'_>, states: &Set| -> Result<(), Full> {
+            if whole {
+                for condition in alternative.failed {
+                    let failing = steps.failing.entry(*condition as usize).or_insert_with(|| sets.empty());
+                    *failing = sets.union(failing, states)?;
+                }
+            }
+            let kind = match alternative.kind {
+                AlternativeKind::Next => {
+                    let image = sets.image(states, alternative.overwrites)?;
+                    steps.next = sets.union(&steps.next, &image)?;
+                    if whole {
+                        let unmoved = sets.unmoved(states, alternative.overwrites)?;
+                        let moved = sets.minus(states, &unmoved)?;
+                        steps.moved = sets.union(&steps.moved, &moved)?;
+                        steps.stayed = sets.union(&steps.stayed, &unmoved)?;
+                    }
+                    return Ok(());
+                }
+                AlternativeKind::Fault(class) => &mut steps.faults[class as usize],
+                AlternativeKind::Unbounded => &mut steps.unbounded,
+                AlternativeKind::Excluded => return Ok(()),
+            };
+            *kind = sets.union(kind, states)?;
+            Ok(())
+        };
+        if let Some(part) = part {
+            self.explorer.expand_part(part, &mut self.diagrams, set, &mut visit)?;
+            return Ok(steps);
+        }
+        let mut none = set.clone();
+        for part in 0..self.explorer.parts() {
+            if let Some(alive) = self.explorer.expand_part(part, &mut self.diagrams, set, &mut visit)? {
+                none = self.diagrams.minus(&none, &alive)?;
+            }
+        }
+        self.explorer.expand_otherwise(&mut self.diagrams, &none, &mut visit)?;
+        Ok(steps)
+    }
+
+    /// What is found in a set of states, and in which of them.
+    fn targets(&mut self, plan: &Plan, set: &Set) -> Result<BTreeMap<Target, Set>, Halt> {
+        let mut targets = BTreeMap::new();
+        let steps = self.expand(set, None)?;
+        let mut rest = self.diagrams.minus(&steps.stayed, &steps.moved)?;
+        for (class, states) in steps.faults.iter().enumerate() {
+            rest = self.diagrams.minus(&rest, states)?;
+            targets.insert(Target::Fault(class), states.clone());
+        }
+        rest = self.diagrams.minus(&rest, &steps.unbounded)?;
+        if let Some(terminal) = plan.terminal {
+            let mut stuck = self.diagrams.empty();
+            for (truth, states) in self.explorer.truths(terminal, &mut self.diagrams, &rest)? {
+                if matches!(truth, Truth::Fault | Truth::Unknown) {
+                    self.unknown.insert(terminal);
+                } else {
+                    stuck = self.diagrams.union(&stuck, &states)?;
+                }
+            }
+            rest = stuck;
+        }
+        targets.insert(Target::Rest, rest);
+        for (condition, states) in steps.failing {
+            if plan.wanted_steps.contains(&condition) {
+                targets.insert(Target::StepCondition(condition), states);
+            }
+        }
+        for condition in &plan.wanted {
+            let mut violating = self.diagrams.empty();
+            for (truth, states) in self.explorer.truths(*condition, &mut self.diagrams, set)? {
+                if truth == Truth::Unknown {
+                    self.unknown.insert(*condition);
+                } else {
+                    violating = self.diagrams.union(&violating, &states)?;
+                }
+            }
+            targets.insert(Target::Condition(*condition), violating);
+        }
+        targets.retain(|_, states| !self.diagrams.is_empty(states));
+        Ok(targets)
+    }
+
+    /// Goes through the levels until each target was met.
+    fn locate(
+        &mut self,
+        plan: &Plan,
+        initial: Set,
+        mut targets: BTreeMap<Target, Set>,
+        watch: &mut dyn FnMut(&Progress) -> bool,
+    ) -> Result<(), Halt> {
+        let mut reached = initial.clone();
+        let mut ring = initial;
+        while !targets.is_empty() && !self.diagrams.is_empty(&ring) {
+            let depth = self.rings.len();
+            let mut met = Vec::new();
+            for (target, states) in &targets {
+                let here = self.diagrams.and(states, &ring)?;
+                if !self.diagrams.is_empty(&here) {
+                    met.push(Found { target: *target, depth, state: self.diagrams.member(&here) });
+                }
+            }
+            for found in met {
+                targets.remove(&found.target);
+                self.found.push(found);
+            }
+            self.rings.push(ring.clone());
+            if targets.is_empty() {
+                break;
+            }
+            if !watch(&self.progress) {
+                return Err(Halt::Stopped(Stop::Asked));
+            }
+            let steps = self.expand(&ring, None)?;
+            let new = self.diagrams.minus(&steps.next, &reached)?;
+            ring = self.admit(plan, new)?;
+            reached = self.diagrams.union(&reached, &ring)?;
+        }
+        self.found.sort_by_key(|found| found.target);
+        Ok(())
+    }
+
+    /// A shortest run to each state found, in the order of `found`.
+    pub fn traces(&mut self) -> Vec<Trace> {
+        let found = self.found.clone();
+        found
+            .iter()
+            .map(|found| {
+                let mut chain = vec![found.state.clone()];
+                for level in (0..found.depth).rev() {
+                    let last = chain[chain.len() - 1].clone();
+                    match self.parent(level, &last) {
+                        Ok(parent) => chain.push(parent),
+                        // Without room for the way the state found is all there is to show.
+                        Err(_) => break,
+                    }
+                }
+                chain.reverse();
+                tell(&mut self.explorer, &chain, found)
+            })
+            .collect()
+    }
+
+    /// A state of a level that leads to a state of the next one.
+    fn parent(&mut self, level: usize, of: &[u64]) -> Result<Box<[u64]>, Halt> {
+        let ring = self.rings[level].clone();
+        let mut parents = self.diagrams.empty();
+        let mut visit = |sets: &mut Diagrams, alternative: &Alternative<'_>, states: &Set| -> Result<(), Full> {
+            if alternative.kind == AlternativeKind::Next {
+                let some = sets.preimage(states, alternative.overwrites, of)?;
+                parents = sets.union(&parents, &some)?;
+            }
+            Ok(())
+        };
+        let mut none = ring.clone();
+        for part in 0..self.explorer.parts() {
+            if let Some(alive) = self.explorer.expand_part(part, &mut self.diagrams, &ring, &mut visit)? {
+                none = self.diagrams.minus(&none, &alive)?;
+            }
+        }
+        self.explorer.expand_otherwise(&mut self.diagrams, &none, &mut visit)?;
+        Ok(self.diagrams.member(&parents))
+    }
+
+    /// By rule, whether some step ran it.
+    pub fn executed(&self) -> Vec<bool> {
+        self.explorer.coverage().executed.iter().map(|count| *count > 0).collect()
+    }
+
+    /// How many words a state has, and how many bits of them are used.
+    pub fn width(&self) -> (usize, usize) {
+        (self.explorer.words(), self.explorer.bits())
+    }
+}
+
+/// Expands some states one by one, so that it is seen what steps look at.
+fn sample(explorer: &mut Explorer) -> Result<(), Widening> {
+    let words = explorer.words();
+    let mut states: Vec<Box<[u64]>> = explorer.initial().iter().map(|(state, _)| state.clone()).collect();
+    let mut met: FxHashSet<Box<[u64]>> = states.iter().cloned().collect();
+    let mut successors = Vec::new();
+    let mut next = 0;
+    while next < states.len().min(SAMPLE) {
+        successors.clear();
+        explorer.expand(&states[next], &mut successors)?;
+        for successor in successors.chunks_exact(words) {
+            if states.len() < SAMPLE && met.insert(successor.into()) {
+                states.push(successor.into());
+            }
+        }
+        next += 1;
+    }
+    Ok(())
+}

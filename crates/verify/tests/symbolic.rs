@@ -1,0 +1,145 @@
+//! Sets of states against states one by one: the same verdicts, the same counts, shortest runs of the same length.
+
+#![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use program::Program;
+use syntax::SourceFile;
+use verify::{Engine, Options, Outcome, Report, Subject, verify};
+
+struct Disk;
+
+impl Disk {
+    fn read(path: &Path) -> Result<SourceFile, String> {
+        let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+        Ok(SourceFile::new(path.display().to_string(), text))
+    }
+}
+
+impl model::Loader for Disk {
+    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        Disk::read(&Path::new(&importer.name).parent().unwrap_or(Path::new("")).join(format!("{path}.asm")))
+    }
+}
+
+fn lowered(file: SourceFile) -> Arc<Program> {
+    let checked = model::check(file, &mut Disk);
+    assert!(checked.diagnostics.is_empty(), "{:#?}", checked.diagnostics);
+    Arc::new(program::lower(&checked.model).expect("it can be lowered"))
+}
+
+fn reference(name: &str, change: impl Fn(&str) -> String) -> Arc<Program> {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../bench/models/verify").join(name);
+    let file = Disk::read(&path).expect("the model is there");
+    lowered(SourceFile::new(file.name.clone(), change(&file.text)))
+}
+
+fn model(text: &str) -> Arc<Program> {
+    lowered(SourceFile::new("example.asm", format!("asm example\nimport StandardLibrary\nsignature:\n{text}\n")))
+}
+
+fn by(engine: Engine, program: &Arc<Program>) -> Report {
+    let options = Options { engine, ..Options::default() };
+    verify(program, &options, &mut |_| true).expect("there is an initial state")
+}
+
+/// Each verdict, with the length of its run.
+fn verdicts(report: &Report) -> Vec<(Subject, String)> {
+    let word = |outcome: &Outcome| match outcome {
+        Outcome::Holds => "holds".to_string(),
+        Outcome::Violated(trace) => format!("violated in {} steps", trace.steps.len()),
+        Outcome::Unknown(reasons) => format!("unknown {reasons:?}"),
+    };
+    report.verdicts.iter().map(|verdict| (verdict.subject, word(&verdict.outcome))).collect()
+}
+
+#[track_caller]
+fn agree(program: &Arc<Program>) -> Report {
+    let explicit = by(Engine::Explicit, program);
+    let symbolic = by(Engine::Symbolic, program);
+    assert_eq!(symbolic.engine, Engine::Symbolic);
+    assert_eq!(verdicts(&symbolic), verdicts(&explicit));
+    assert_eq!(symbolic.progress.states, explicit.progress.states);
+    assert_eq!(symbolic.unreachable, explicit.unreachable);
+    symbolic
+}
+
+#[test]
+fn the_swinging_buffer() {
+    assert_eq!(agree(&reference("Swing.asm", str::to_string)).progress.states, 203);
+    let unlocked = agree(&reference("SwingUnlocked.asm", str::to_string));
+    assert!(verdicts(&unlocked).iter().any(|(_, word)| word == "violated in 12 steps"), "{:?}", verdicts(&unlocked));
+}
+
+#[test]
+fn philosophers() {
+    let of = |count: u32| {
+        reference("Phil12.asm", move |text| {
+            text.replace("{0 : 11}", &format!("{{0 : {}}}", count - 1)).replace("mod 12", &format!("mod {count}"))
+        })
+    };
+    assert_eq!(agree(&of(7)).progress.states, 3u64.pow(7) - 1);
+    // No other engine would end.
+    let many = by(Engine::Symbolic, &of(24));
+    assert_eq!(many.progress.states, 3u64.pow(24) - 1);
+    let stuck = verdicts(&many);
+    assert!(stuck.contains(&(Subject::NoDeadlock, "violated in 24 steps".to_string())), "{stuck:?}");
+}
+
+#[test]
+fn a_chain_of_buffers() {
+    agree(&reference("ChainXS.asm", str::to_string));
+}
+
+#[test]
+fn faults_and_rest() {
+    let report = agree(&model(
+        "enum domain Light = {RED | GREEN | YELLOW}
+        domain Small subsetof Integer
+        monitored go: Boolean
+        controlled light: Light
+        controlled count: Small
+        controlled mark: Integer
+        definitions:
+        domain Small = {0 : 5}
+        invariant inv_mark over mark: mark < 3
+        invariant inv_go over go: go or count < 4
+        main rule r_main = par
+            if go then count := count + 1 endif
+            if count = 2 then light := GREEN endif
+            if count = 2 and light = YELLOW then light := RED endif
+            if not go and light = GREEN then par light := YELLOW mark := count endpar endif
+        endpar
+        default init s: function light = RED function count = 0 function mark = 0",
+    ));
+    let words: Vec<String> = verdicts(&report).into_iter().map(|(_, word)| word).collect();
+    assert!(words.contains(&"violated in 6 steps".to_string()), "{words:?}");
+}
+
+#[test]
+fn choices_without_a_candidate() {
+    agree(&model(
+        "domain Small subsetof Integer
+        controlled left: Small -> Boolean
+        controlled rounds: Small
+        definitions:
+        domain Small = {0 : 3}
+        main rule r_main = choose $s in Small with left($s) do left($s) := false
+            ifnone if rounds < 3 then par rounds := rounds + 1 forall $t in Small with true do left($t) := true endpar endif
+        default init s: function left($s in Small) = true function rounds = 0",
+    ));
+}
+
+#[test]
+fn values_without_a_bound_of_their_own() {
+    agree(&model(
+        "controlled x: Integer
+        controlled word: Seq(Integer)
+        definitions:
+        invariant inv_x over x: x < 60
+        main rule r_main = choose $d in {1, 2} with x + $d < 64 do par x := x + $d if x mod 8 = 0 then word := [x] endif endpar
+        default init s: function x = 0 function word = [0]",
+    ));
+}
