@@ -5,7 +5,7 @@ CARGO ?= cargo
 GROUNDSTATE := target/release/groundstate
 MODELS := library/patterns library/runtime examples
 
-.PHONY: help demo test lint unit scenarios cpp fuzz bench corpus update clean
+.PHONY: help demo test lint unit scenarios cpp fuzz bench bench-cpp corpus update clean
 
 help: ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*##/\t/' | expand -t 12
@@ -35,6 +35,10 @@ fuzz: ## the fuzz targets, for a short time
 
 bench: ## steps per second and peak memory; with CORPUS=path also of the public models with a reference
 	$(CARGO) xtask bench $(if $(CORPUS),--corpus $(CORPUS))
+
+bench-cpp: ## what it costs to hand data over in C++
+	sh cpp/run.sh plain
+	target/cpp/plain/bench/hand_over
 
 corpus: ## make corpus CORPUS=path: compare with recorded results of the public corpus, and count charts
 	$(CARGO) xtask corpus $(CORPUS)

@@ -84,7 +84,7 @@ class LockedBuffer {
             received_.store(number, std::memory_order_relaxed);
             read_.add();
         }
-        return {*this, arrays_[index_read_], fresh};
+        return {*this, number != 0 ? &arrays_[index_read_] : nullptr, fresh};
     }
 
     /// Reading now would give something new. Who: the consumer. Blocks: no.

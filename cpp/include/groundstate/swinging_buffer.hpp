@@ -98,7 +98,7 @@ class [[nodiscard]] Reading {
         }
     }
 
-    explicit operator bool() const noexcept { return array_ != nullptr && array_->sequence != 0; }
+    explicit operator bool() const noexcept { return array_ != nullptr; }
     const Datum& operator*() const noexcept { return array_->datum; }
     const Datum* operator->() const noexcept { return &array_->datum; }
 
@@ -115,8 +115,9 @@ class [[nodiscard]] Reading {
   private:
     friend Buffer;
     Reading() noexcept = default;
-    Reading(Buffer& buffer, const Array<Datum>& array, bool fresh) noexcept
-        : buffer_{&buffer}, array_{&array}, fresh_{fresh} {}
+    // The array is null if there is nothing to read; the access has to be ended all the same.
+    Reading(Buffer& buffer, const Array<Datum>* array, bool fresh) noexcept
+        : buffer_{&buffer}, array_{array}, fresh_{fresh} {}
 
     Buffer* buffer_ = nullptr;
     const Array<Datum>* array_ = nullptr;

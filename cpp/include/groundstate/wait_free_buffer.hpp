@@ -60,7 +60,8 @@ class WaitFreeBuffer {
             held_[newest_] = between_.exchange(held_[newest_], std::memory_order_acq_rel) & index_mask;
             read_.add();
         }
-        return {*this, arrays_[held_[newest_]], fresh};
+        // The array itself is not looked at: it may still be in the cache of the producer's processor.
+        return {*this, read_.value() != 0 ? &arrays_[held_[newest_]] : nullptr, fresh};
     }
 
     /// Reading now gives something new. Who: the consumer. Blocks: no.
@@ -121,16 +122,19 @@ class WaitFreeBuffer {
         return back < kept && array.sequence != 0 ? &array.datum : nullptr;
     }
 
-    C& clock_;
-    Signal<C>* trigger_ = nullptr;
     std::array<Array<T>, N> arrays_{};
 
     // INVARIANT: written_array_, between_ and held_ name each array once.
     alignas(64) std::atomic<Index> between_{1};
-    alignas(64) Index written_array_ = 0;
+
+    // What the producer uses lies together, and so does what the consumer uses.
+    alignas(64) C& clock_;
+    Signal<C>* trigger_ = nullptr;
+    Index written_array_ = 0;
     Counter written_{};
     Counter unread_{};
     Counter withdrawn_{};
+
     alignas(64) std::size_t newest_ = 0;
     std::array<Index, kept> held_{};
     Counter read_{};
