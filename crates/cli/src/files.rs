@@ -178,8 +178,13 @@ impl Write for Unfinished {
 
 /// Writes a whole text file.
 pub fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
+    write_bytes(path, text.as_bytes())
+}
+
+/// Writes a whole file.
+pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let mut file = Unfinished::create(path)?;
-    file.write_all(text.as_bytes()).map_err(|error| Failure::of_file("write", path, error))?;
+    file.write_all(bytes).map_err(|error| Failure::of_file("write", path, error))?;
     file.finish()
 }
 

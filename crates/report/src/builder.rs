@@ -6,6 +6,7 @@
 //! memory grows with the ticks shown only, see [`ReportBuilder::show_ticks`].
 
 mod buffer;
+mod chart;
 mod reading;
 mod task;
 
@@ -17,6 +18,7 @@ use crate::time::TimeBase;
 use crate::track::{Curve, Kind};
 
 use buffer::BufferWatch;
+use chart::ChartWatch;
 use reading::{Readings, Slot};
 use task::TaskWatch;
 
@@ -37,6 +39,7 @@ pub struct ReportBuilder {
     queues: Vec<(Slot, Queue)>,
     series: Vec<(Slot, Series)>,
     flow: Option<(Vec<Slot>, Flow)>,
+    charts: Vec<ChartWatch>,
 }
 
 /// What all watches share while they look at a state.
@@ -62,8 +65,9 @@ impl ReportBuilder {
             let hops = flow.hops.iter().map(|hop| (hop.task.clone(), hop.event.clone())).collect();
             (slots, Flow::new(flow.noun.clone(), hops))
         });
+        let charts = spec.charts.iter().map(|chart| ChartWatch::new(chart, &mut readings)).collect();
         let (tick, shown, begun) = (0, SHOWN_TICKS, false);
-        ReportBuilder { spec, readings, tick, shown, begun, activities, tasks, buffers, queues, series, flow }
+        ReportBuilder { spec, readings, tick, shown, begun, activities, tasks, buffers, queues, series, flow, charts }
     }
 
     /// Lets the lanes show so many ticks of the run.
@@ -111,6 +115,7 @@ impl ReportBuilder {
         }
         let moment = Moment { readings: &self.readings, tick, shown };
         self.buffers.iter_mut().for_each(|buffer| buffer.step(&moment));
+        self.charts.iter_mut().for_each(|chart| chart.step(&moment));
         for (slot, queue) in &mut self.queues {
             watch(*slot, &moment, &mut queue.length, &mut queue.lengths);
         }
@@ -131,7 +136,9 @@ impl ReportBuilder {
 
     /// The run is over.
     pub fn finish(self, model: &str) -> Report {
-        let ReportBuilder { spec, readings, tick, shown, activities, tasks, buffers, queues, series, flow, .. } = self;
+        let ReportBuilder {
+            spec, readings, tick, shown, activities, tasks, buffers, queues, series, flow, charts, ..
+        } = self;
         let now = |counters: &[CounterSpec]| -> Vec<(String, Option<i64>)> {
             counters.iter().map(|c| (c.label.clone(), readings.number(Some(&c.term)))).collect()
         };
@@ -163,6 +170,8 @@ impl ReportBuilder {
                 flow.finish(shown);
                 flow
             }),
+            charts: charts.into_iter().map(ChartWatch::finish).collect(),
+            chart_style: spec.chart_style,
             invariants: Vec::new(),
             stopped: None,
             scenarios: Vec::new(),

@@ -24,9 +24,12 @@ mod track;
 pub use builder::{ReportBuilder, SHOWN_TICKS};
 pub use flow::{Flow, Journey};
 pub use html::render_html;
-pub use report::{Buffer, Coverage, Fact, Invariant, Measure, Queue, Report, Scenario, Series, Task, Verdict};
+pub use report::{
+    Buffer, Chart, Coverage, Fact, Invariant, Lights, Measure, Queue, Report, Scenario, Series, Task, Verdict,
+};
 pub use spec::{
-    ActivitySpec, BufferSpec, CounterSpec, FlowSpec, HopSpec, QueueSpec, SeriesSpec, Spec, TaskSpec, TermText,
+    ActivitySpec, BufferSpec, ChartSpec, CounterSpec, FlowSpec, HopSpec, LightsSpec, PartSpec, QueueSpec, SeriesSpec,
+    Spec, TaskSpec, TermText,
 };
 pub use svg::{SvgOptions, render_svg};
 pub use tally::Tally;

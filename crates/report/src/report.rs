@@ -38,6 +38,10 @@ pub struct Report {
     pub series: Vec<Series>,
     /// The way of data through the tasks.
     pub flow: Option<Flow>,
+    /// Pictures in which the present states are lit.
+    pub charts: Vec<Chart>,
+    /// The style of these pictures.
+    pub chart_style: String,
     /// The invariants, and whether each held in every state. Added by the shell.
     pub invariants: Vec<Invariant>,
     /// Why the run ended before its time, if it did. Added by the shell.
@@ -136,6 +140,32 @@ pub struct Series {
     pub ticks: bool,
     /// What it must never exceed.
     pub bound: Option<i64>,
+}
+
+/// A picture of a machine, and what was lit in it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Chart {
+    /// The title.
+    pub title: String,
+    /// An `svg` element, in which each part that can be lit has its name in `data-shape`.
+    pub picture: String,
+    /// What goes from part to part.
+    pub lights: Vec<Lights>,
+    /// Several may be in one part: they are told apart by their names.
+    pub named: bool,
+}
+
+/// Where something was in a picture.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Lights {
+    /// Its name.
+    pub name: String,
+    /// The names of the parts in `data-shape`; the kinds of the track, in their order.
+    pub parts: Vec<String>,
+    /// Where it was.
+    pub track: Track,
+    /// Ticks spent in each part, in the whole run.
+    pub shares: Vec<u64>,
 }
 
 /// An invariant of the model.

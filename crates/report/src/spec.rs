@@ -32,6 +32,47 @@ pub struct Spec {
     pub series: Vec<SeriesSpec>,
     /// The way of a datum through the tasks.
     pub flow: Option<FlowSpec>,
+    /// Pictures in which the present states are lit.
+    pub charts: Vec<ChartSpec>,
+    /// The style of these pictures.
+    pub chart_style: String,
+}
+
+/// A picture of a machine, and what is lit in it.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct ChartSpec {
+    /// The title.
+    pub title: String,
+    /// An `svg` element, in which each part that can be lit has its name in `data-shape`.
+    pub picture: String,
+    /// What goes from part to part.
+    pub lights: Vec<LightsSpec>,
+    /// Several may be in one part: they are told apart by their names.
+    pub named: bool,
+}
+
+/// Something that goes from part to part of a picture.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct LightsSpec {
+    /// Its name for people.
+    pub name: String,
+    /// The term whose value says where it is.
+    pub term: TermText,
+    /// Without it being true, it is nowhere.
+    pub when: Option<TermText>,
+    /// For each value the part that is lit, and what that is in words.
+    pub parts: Vec<PartSpec>,
+}
+
+/// A part of a picture.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct PartSpec {
+    /// The value, as the model prints it.
+    pub value: String,
+    /// The name in `data-shape`.
+    pub part: String,
+    /// In words.
+    pub label: String,
 }
 
 /// What a value of an activity term means.
@@ -180,6 +221,10 @@ impl Spec {
             terms.extend(&series.bound);
         }
         terms.extend(self.flow.iter().flat_map(|flow| flow.hops.iter().map(|hop| &hop.value)));
+        for lights in self.charts.iter().flat_map(|chart| &chart.lights) {
+            terms.push(&lights.term);
+            terms.extend(&lights.when);
+        }
         let mut distinct: Vec<TermText> = Vec::new();
         for term in terms {
             if !distinct.contains(term) {

@@ -36,6 +36,13 @@ fn hostile(name: &str) -> Report {
         buffer.counters.iter_mut().for_each(|counter| counter.label.push_str(name));
     }
     spec.series.iter_mut().for_each(|series| (series.name, series.caption) = (name.into(), name.into()));
+    for chart in &mut spec.charts {
+        chart.title = name.into();
+        for lights in &mut chart.lights {
+            lights.name = name.into();
+            lights.parts.iter_mut().for_each(|part| part.label.push_str(name));
+        }
+    }
     if let Some(flow) = &mut spec.flow {
         flow.noun = (name.into(), name.into());
         flow.hops.iter_mut().for_each(|hop| {

@@ -4,6 +4,7 @@
 //! public corpus is named, the models of bench/reference.csv. Out: tables with ratios, never a pass or fail by the
 //! clock; wrong results of a twin are a fault. bench/README.md says how each figure is made.
 
+mod charts;
 mod command;
 mod memory;
 mod models;
@@ -45,6 +46,7 @@ pub fn run(words: &[String]) -> Result<Outcome, Failure> {
     println!("{}", describe_machine());
     models::own(&binary, effort, only)?;
     process::whole(&binary, effort, only)?;
+    charts::drawn(&binary, effort, only)?;
     memory::peaks(&binary, if quick { 10_000 } else { 1_000_000 }, only)?;
     let twins = twins::compare(effort, only)?;
     if let Some(corpus) = arguments.option("--corpus") {

@@ -47,7 +47,7 @@ pub fn whole(binary: &Path, effort: Effort, only: &str) -> Result<(), Failure> {
 }
 
 /// One run, in milliseconds.
-fn once(binary: &Path, words: &[&str]) -> Result<f64, Failure> {
+pub fn once(binary: &Path, words: &[&str]) -> Result<f64, Failure> {
     let began = Instant::now();
     let status = Command::new(binary)
         .args(words)

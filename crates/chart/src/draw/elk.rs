@@ -7,7 +7,7 @@
 use serde_json::{Value, json};
 
 use super::picture::{Figure, Label, Line, Picture, Placed};
-use super::scene::{Node, Scene, branch_size, link_size};
+use super::scene::{Edge, Node, Scene, branch_size, link_size};
 
 /// The layout library refused a graph: our bug or its own.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -148,30 +148,18 @@ fn list<'v>(value: &'v Value, key: &str) -> impl Iterator<Item = &'v Value> {
 fn picture(scene: &Scene, answer: &Value) -> Picture {
     let mut picture =
         Picture { width: number(answer, "width"), height: number(answer, "height"), ..Picture::default() };
-    for (node, child) in scene.nodes.iter().zip(list(answer, "children")) {
+    for (index, (node, child)) in scene.nodes.iter().zip(list(answer, "children")).enumerate() {
         let (x, y) = (number(child, "x"), number(child, "y"));
-        picture.boxes.push(Placed {
-            id: node.id.clone(),
-            figure: node.figure,
-            dashed: node.dashed,
-            initial: node.initial,
-            lines: node.lines.clone(),
-            small: node.small.clone(),
-            x,
-            y,
-            width: node.width,
-            height: node.height,
-        });
-        picture.labels.extend(list(child, "labels").map(|given| label(given, x, y, true)));
+        picture.boxes.push(shape_at(node, (x + node.width / 2.0, y + node.height / 2.0)));
+        picture.labels.extend(list(child, "labels").map(|given| label(given, index, x, y, true)));
         for port in list(child, "ports") {
-            let leads = |edge: &&super::scene::Edge| {
+            let leads = |edge: &&Edge| {
                 let name = port.get("id").and_then(Value::as_str).unwrap_or_default();
-                let index = picture.boxes.len() - 1;
                 edge.from == index && name.ends_with(if edge.branch == Some(true) { "yes" } else { "no" })
             };
             if scene.edges.iter().any(|edge| leads(&edge)) {
                 let (x, y) = (x + number(port, "x"), y + number(port, "y"));
-                picture.labels.extend(list(port, "labels").map(|given| label(given, x, y, false)));
+                picture.labels.extend(list(port, "labels").map(|given| label(given, index, x, y, false)));
             }
         }
     }
@@ -183,13 +171,35 @@ fn picture(scene: &Scene, answer: &Value) -> Picture {
             points.extend(list(section, "bendPoints").map(corner));
             points.extend(section.get("endPoint").map(corner));
         }
-        picture.lines.push(Line { from: edge.from, to: edge.to, points: straightened(points) });
+        picture.lines.push(line(edge, points));
     }
     picture
 }
 
-fn label(given: &Value, x: f64, y: f64, is_link: bool) -> Label {
+/// The shape of a node with its centre there.
+pub(super) fn shape_at(node: &Node, (x, y): (f64, f64)) -> Placed {
+    Placed {
+        id: node.id.clone(),
+        figure: node.figure,
+        dashed: node.dashed,
+        initial: node.initial,
+        lines: node.lines.clone(),
+        details: node.details.clone(),
+        x: x - node.width / 2.0,
+        y: y - node.height / 2.0,
+        width: node.width,
+        height: node.height,
+    }
+}
+
+/// The arrow of an edge.
+pub(super) fn line(edge: &Edge, points: Vec<(f64, f64)>) -> Line {
+    Line { from: edge.from, to: edge.to, points: straightened(points) }
+}
+
+fn label(given: &Value, of: usize, x: f64, y: f64, is_link: bool) -> Label {
     Label {
+        of,
         text: given.get("text").and_then(Value::as_str).unwrap_or_default().to_string(),
         is_link,
         x: x + number(given, "x"),

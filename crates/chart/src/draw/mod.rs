@@ -9,16 +9,24 @@
 
 mod components;
 mod elk;
+mod fixed;
+mod font;
+mod lights;
 mod notation;
 mod picture;
+mod route;
 pub(crate) mod scene;
+mod still;
+mod style;
 mod svg;
 mod words;
 
 pub use elk::LayoutFault;
-pub use picture::{Figure, Label, Line, Picture, Placed};
+pub use lights::{Light, Lights};
+pub use picture::{Detail, Figure, Label, Line, Picture, Placed};
+pub use still::DrawFault;
+pub use style::Theme;
 pub(crate) use svg::Text;
-pub use svg::Theme;
 
 use crate::chart::{Chart, Machine};
 use crate::system::System;
@@ -56,16 +64,29 @@ impl<'c> Drawing<'c> {
     pub(crate) fn scene(&self) -> scene::Scene {
         match self.subject {
             Subject::Machine(machine) => scene::of_machine(self.chart, machine),
-            Subject::System(system) => components::of_system(system),
+            Subject::System(system) => components::of_system(system, self.chart.layouts.get(&system.name)),
+        }
+    }
+
+    /// What stands above it.
+    pub fn title(&self) -> String {
+        match self.subject {
+            Subject::Machine(machine) => words::title(&machine.text),
+            Subject::System(system) => words::title(&system.text),
         }
     }
 
     /// The machine, if it is one.
-    pub(crate) fn machine(&self) -> Option<(&'c Chart, &'c Machine)> {
+    pub fn machine(&self) -> Option<&'c Machine> {
         match self.subject {
-            Subject::Machine(machine) => Some((self.chart, machine)),
+            Subject::Machine(machine) => Some(machine),
             Subject::System(_) => None,
         }
+    }
+
+    /// The chart it is of.
+    pub(crate) fn chart(&self) -> &'c Chart {
+        self.chart
     }
 
     /// Where everything lies.
@@ -73,14 +94,12 @@ impl<'c> Drawing<'c> {
     /// # Errors
     /// The layout library refused the graph; this is a bug, told with the library's words.
     pub fn picture(&self) -> Result<Picture, LayoutFault> {
-        let (title, link) = match self.subject {
-            Subject::Machine(machine) => {
-                let link = machine.rule.as_ref().map(|link| format!("{{{}}}", link.name));
-                (words::title(&machine.text), link)
-            }
-            Subject::System(system) => (words::title(&system.text), None),
-        };
-        let mut picture = elk::placed(&self.scene())?;
+        let title = self.title();
+        let rule = self.machine().and_then(|machine| machine.rule.as_ref());
+        let link = rule.map(|link| format!("{{{}}}", link.name));
+        let scene = self.scene();
+        let given = scene.nodes.iter().any(|node| node.place.is_some());
+        let mut picture = if given { fixed::placed(&scene)? } else { elk::placed(&scene)? };
         picture.make_room(notation::HEADING, notation::heading_width(&title, link.as_deref()));
         picture.heading = (title, link);
         Ok(picture)
@@ -91,10 +110,43 @@ impl<'c> Drawing<'c> {
     /// # Errors
     /// As [`Drawing::picture`].
     pub fn svg(&self, theme: Theme) -> Result<String, LayoutFault> {
-        let description = match self.subject {
+        Ok(svg::svg(&self.picture()?, &self.description(), theme))
+    }
+
+    /// The drawing as a part of a page that has the [`style`] of its class: without heading and paper. A shape is a group
+    /// with its name in `data-shape`, and is lit by the class `lit`. Identifiers begin with `prefix`.
+    ///
+    /// # Errors
+    /// As [`Drawing::picture`].
+    pub fn part(&self, prefix: &str, class: &str) -> Result<String, LayoutFault> {
+        Ok(svg::part(&self.picture()?, &self.description(), prefix, class))
+    }
+
+    /// The drawing as a PNG of so many dots a pixel; [`Theme::Auto`] is light there.
+    ///
+    /// # Errors
+    /// As [`Drawing::picture`], and where the picture is too large for memory.
+    pub fn png(&self, theme: Theme, scale: f32) -> Result<Vec<u8>, DrawFault> {
+        still::png(&self.svg(theme)?, scale)
+    }
+
+    /// The drawing as a PDF of one page; [`Theme::Auto`] is light there. Its text can be searched.
+    ///
+    /// # Errors
+    /// As [`Drawing::picture`].
+    pub fn pdf(&self, theme: Theme) -> Result<Vec<u8>, DrawFault> {
+        still::pdf(&self.svg(theme)?)
+    }
+
+    fn description(&self) -> String {
+        match self.subject {
             Subject::Machine(machine) => words::of_machine(self.chart, machine),
             Subject::System(system) => words::of_system(system),
-        };
-        Ok(svg::svg(&self.picture()?, &description, theme))
+        }
     }
+}
+
+/// The style of all drawings of a class in a page, in light and dark as the reader's screen is.
+pub fn style(class: &str) -> String {
+    style::css(Theme::Auto, &format!(".{class} "))
 }

@@ -1,7 +1,9 @@
 //! The measures of the notation: how wide a text is, how it is broken into lines, how large its shape must be.
 //!
-//! Lengths are CSS pixels. Text is measured by the widths of Helvetica (Adobe's published font metrics), with a margin
-//! for faces that run wider.
+//! Lengths are CSS pixels. Text is measured in the faces that PNG and PDF are drawn with, whose letters are as wide as
+//! Helvetica's and Arial's; a margin is added for faces that run wider.
+
+use super::font;
 
 /// Size of the text in shapes.
 pub(super) const TEXT: f64 = 13.0;
@@ -9,33 +11,27 @@ pub(super) const TEXT: f64 = 13.0;
 pub(super) const SMALL: f64 = 10.5;
 /// From one line of text in a shape to the next.
 pub(super) const LEADING: f64 = 16.0;
+/// Size of the heading.
+pub(super) const TITLE: f64 = 15.0;
 /// How high the heading is.
 pub(super) const HEADING: f64 = 34.0;
 /// From the left end of the picture to the heading.
 pub(super) const INDENT: f64 = 20.0;
+/// From one small line to the next.
+pub(super) const SMALL_LEADING: f64 = 14.0;
+/// The room of the rule between what a component is and its phases.
+pub(super) const RULE: f64 = 8.0;
 /// Faces that stand in for Helvetica run up to so much wider.
 const MARGIN: f64 = 1.08;
 
-/// Widths of the printable ASCII characters of Helvetica, in thousandths of the size, from the space on.
-#[rustfmt::skip]
-const WIDTHS: [u16; 95] = [
-    278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278, 556, 556, 556, 556, 556, 556, 556,
-    556, 556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667, 611, 778, 722, 278, 500, 667, 556, 833,
-    722, 778, 667, 778, 722, 667, 611, 722, 667, 944, 667, 667, 611, 278, 278, 278, 469, 556, 333, 556, 556, 500, 556,
-    556, 278, 556, 556, 222, 222, 500, 222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500, 500, 334,
-    260, 334, 584,
-];
-
 /// How wide a text is at a size.
 pub(super) fn text_width(text: &str, size: f64) -> f64 {
-    let units: f64 = text
-        .chars()
-        .map(|letter| match (letter as usize).checked_sub(32).and_then(|index| WIDTHS.get(index)) {
-            Some(width) => f64::from(*width),
-            None => 1000.0,
-        })
-        .sum();
-    units * size * MARGIN / 1000.0
+    font::width(font::Face::Sans, text, size) * MARGIN
+}
+
+/// How wide a text is at a size in bold.
+pub(super) fn bold_width(text: &str, size: f64) -> f64 {
+    font::width(font::Face::Bold, text, size) * MARGIN
 }
 
 /// How wide a text of a link is: these are set in a face whose letters are equally wide.
@@ -46,7 +42,7 @@ pub(super) fn link_width(text: &str) -> f64 {
 /// How wide a picture must be for its heading.
 pub(super) fn heading_width(title: &str, link: Option<&str>) -> f64 {
     let link = link.map_or(0.0, |link| link_width(link) + 10.0);
-    2.0 * INDENT + text_width(title, TEXT) * 1.1 + link
+    2.0 * INDENT + bold_width(title, TITLE) + link
 }
 
 /// A text in lines of at most this width, as even as can be; a longer word has a line of its own.

@@ -1,6 +1,7 @@
 //! Where everything lies: boxes, lines and labels with their coordinates, for the SVG and for tests that measure it.
 //!
-//! Lengths are CSS pixels, to the right and down from the upper left corner.
+//! Lengths are CSS pixels, to the right and down. Where a chart has a `layout` section, the origin is that of the section,
+//! else the upper left corner of what was laid out; the heading stands above it.
 
 /// What a shape looks like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -39,7 +40,7 @@ pub struct Placed {
     /// The text in it.
     pub lines: Vec<String>,
     /// Smaller text below.
-    pub small: Vec<String>,
+    pub details: Vec<Detail>,
     /// Left end.
     pub x: f64,
     /// Upper end.
@@ -50,9 +51,22 @@ pub struct Placed {
     pub height: f64,
 }
 
+/// A line of smaller text in a shape.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Detail {
+    /// The part of the shape that it tells of, if it can be pointed at: a component's phase.
+    pub id: Option<String>,
+    /// The text, at the left where there is one at the right, else in the middle.
+    pub text: String,
+    /// At the right.
+    pub right: Option<String>,
+}
+
 /// A text beside a shape or a line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Label {
+    /// The index of the box it belongs to.
+    pub of: usize,
     /// The text.
     pub text: String,
     /// A link to the specification; else the exit of a guard.
@@ -89,6 +103,10 @@ pub struct Picture {
     pub labels: Vec<Label>,
     /// The heading, and the link of the whole machine beside it.
     pub heading: (String, Option<String>),
+    /// Left end of the whole.
+    pub left: f64,
+    /// Upper end of the whole.
+    pub top: f64,
     /// Width of the whole.
     pub width: f64,
     /// Height of the whole.
@@ -96,19 +114,12 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Moves everything down, and makes the whole at least this wide.
+    /// Makes room above everything, and makes the whole at least this wide.
     pub(super) fn make_room(&mut self, above: f64, width: f64) {
-        let right = ((width - self.width) / 2.0).max(0.0);
-        self.width = self.width.max(width);
+        let wider = (width - self.width).max(0.0);
+        self.left -= (wider / 2.0).ceil();
+        self.width += wider;
+        self.top -= above;
         self.height += above;
-        for shape in &mut self.boxes {
-            (shape.x, shape.y) = (shape.x + right, shape.y + above);
-        }
-        for label in &mut self.labels {
-            (label.x, label.y) = (label.x + right, label.y + above);
-        }
-        for point in self.lines.iter_mut().flat_map(|line| &mut line.points) {
-            *point = (point.0 + right, point.1 + above);
-        }
     }
 }

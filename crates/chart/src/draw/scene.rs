@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 
 use super::notation::{TEXT, extent, in_circle, link_width, text_width, wrapped};
-use super::picture::Figure;
+use super::picture::{Detail, Figure};
 use crate::chart::{Chart, End, Machine, Shape, ShapeKind};
 
 /// A shape to be placed.
@@ -18,13 +18,26 @@ pub(crate) struct Node {
     pub(crate) dashed: bool,
     pub(crate) lines: Vec<String>,
     /// Small lines below.
-    pub(crate) small: Vec<String>,
+    pub(crate) details: Vec<Detail>,
     /// With its braces.
     pub(crate) link: Option<String>,
     pub(crate) width: f64,
     pub(crate) height: f64,
+    /// Where its centre has to lie.
+    pub(crate) place: Option<(f64, f64)>,
     /// The machine starts here.
     pub(crate) initial: bool,
+}
+
+impl Node {
+    /// All its lines of text.
+    pub(crate) fn told(&self) -> impl Iterator<Item = String> {
+        let detail = |detail: &Detail| match &detail.right {
+            Some(right) => format!("{}, {right}", detail.text),
+            None => detail.text.clone(),
+        };
+        self.lines.iter().cloned().chain(self.details.iter().map(detail))
+    }
 }
 
 /// An arrow to be routed.
@@ -51,10 +64,12 @@ pub(super) fn of_machine(chart: &Chart, machine: &Machine) -> Scene {
     let radius = radius.map(|shape| in_circle(&shape.text).1).fold(34.0, f64::max).ceil();
     let mut scene = Scene::default();
     for end in &order {
-        scene.nodes.push(match end {
+        let mut node = match end {
             End::Shape(id) => node(chart, machine.shape(*id), radius),
             _ => point("enter".to_string(), Figure::Enter),
-        });
+        };
+        node.place = chart.layouts.get(&machine.name).and_then(|places| places.get(&node.id)).copied();
+        scene.nodes.push(node);
     }
     let place = |end: End| order.iter().position(|known| *known == end);
     // Drawn in the order of the shapes they start at, `yes` before `no`.
@@ -101,8 +116,18 @@ fn reading_order(machine: &Machine) -> Vec<End> {
 
 /// The invisible end of a floating arrow.
 fn point(id: String, figure: Figure) -> Node {
-    let (lines, small) = (Vec::new(), Vec::new());
-    Node { id, figure, dashed: false, lines, small, link: None, width: 2.0, height: 2.0, initial: false }
+    Node {
+        id,
+        figure,
+        dashed: false,
+        lines: Vec::new(),
+        details: Vec::new(),
+        link: None,
+        width: 2.0,
+        height: 2.0,
+        place: None,
+        initial: false,
+    }
 }
 
 fn node(chart: &Chart, shape: &Shape, radius: f64) -> Node {
@@ -136,7 +161,8 @@ fn node(chart: &Chart, shape: &Shape, radius: f64) -> Node {
         figure,
         dashed: shape.refinement.is_some(),
         lines,
-        small: Vec::new(),
+        details: Vec::new(),
+        place: None,
         link: link.map(|link| format!("{{{}}}", link.name)),
         // Even, so that the middle lies on a whole pixel and straight arrows are straight.
         width: 2.0 * (width / 2.0).ceil(),

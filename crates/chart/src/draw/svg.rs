@@ -5,94 +5,10 @@
 
 use std::fmt::Write;
 
-use super::components::SMALL_LEADING;
-use super::notation::{HEADING, INDENT, LEADING, SMALL, TEXT};
-use super::picture::{Figure, Line, Picture, Placed};
+use super::notation::{HEADING, INDENT, LEADING, RULE, SMALL_LEADING, TEXT};
+use super::picture::{Figure, Label, Line, Picture, Placed};
 use super::scene::corner;
-
-/// Light or dark.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Theme {
-    /// As the reader's screen is.
-    Auto,
-    /// Dark on light.
-    Light,
-    /// Light on dark.
-    Dark,
-}
-
-/// Colours: paper, ink, and fill and line of each figure.
-struct Palette {
-    paper: &'static str,
-    ink: &'static str,
-    faint: &'static str,
-    line: &'static str,
-    circle: (&'static str, &'static str),
-    hexagon: (&'static str, &'static str),
-    rectangle: (&'static str, &'static str),
-    block: (&'static str, &'static str),
-}
-
-const LIGHT: Palette = Palette {
-    paper: "#ffffff",
-    ink: "#1c2227",
-    faint: "#5b6670",
-    line: "#3c464f",
-    circle: ("#e8f1fa", "#1769aa"),
-    hexagon: ("#fcf4dc", "#96701a"),
-    rectangle: ("#f3f5f7", "#3c464f"),
-    block: ("#f0eaf7", "#6d4c99"),
-};
-
-const DARK: Palette = Palette {
-    paper: "#14181c",
-    ink: "#e4e7ea",
-    faint: "#9aa5ae",
-    line: "#b3bcc4",
-    circle: ("#17293a", "#58aee8"),
-    hexagon: ("#332a12", "#d2b044"),
-    rectangle: ("#22282e", "#b3bcc4"),
-    block: ("#2a2138", "#b493e0"),
-};
-
-fn colours(palette: &Palette) -> String {
-    let mut css = format!(
-        ".paper{{fill:{}}}text{{fill:{}}}.link{{fill:{}}}.arrow{{stroke:{}}}.tip{{fill:{}}}",
-        palette.paper, palette.ink, palette.faint, palette.line, palette.line
-    );
-    let figures = [
-        ("state", palette.circle),
-        ("guard", palette.hexagon),
-        ("action", palette.rectangle),
-        ("instance", palette.block),
-        ("component", palette.circle),
-        ("channel", palette.hexagon),
-        ("device", palette.rectangle),
-    ];
-    for (class, (fill, stroke)) in figures {
-        let _ = write!(css, ".{class}{{fill:{fill};stroke:{stroke}}}");
-    }
-    css
-}
-
-fn style(theme: Theme) -> String {
-    let (sans, mono) =
-        ("Helvetica,Arial,'Liberation Sans',sans-serif", "ui-monospace,Menlo,Consolas,'Liberation Mono',monospace");
-    let forms = format!(
-        "text{{font:{TEXT}px {sans};text-anchor:middle}}.exit{{font-size:{}px;font-style:italic}}\
-         .heading{{font-weight:bold;text-anchor:start}}.link{{font:{SMALL}px {mono};text-anchor:start}}\
-         .small{{font-size:{SMALL}px}}\
-         .state,.guard,.action,.instance,.component,.channel,.device{{stroke-width:1.5}}.refine{{stroke-dasharray:6 4}}\
-         .inner{{fill:none}}.sign{{stroke-width:1}}.arrow{{fill:none;stroke-width:1.4}}",
-        TEXT - 1.5
-    );
-    let colours = match theme {
-        Theme::Light => colours(&LIGHT),
-        Theme::Dark => colours(&DARK),
-        Theme::Auto => format!("{}@media(prefers-color-scheme:dark){{{}}}", colours(&LIGHT), colours(&DARK)),
-    };
-    forms + &colours
-}
+use super::style::{Theme, css};
 
 /// A number to tenths, without needless digits.
 struct N(f64);
@@ -123,29 +39,60 @@ impl std::fmt::Display for Text<'_> {
     }
 }
 
-/// The SVG of a picture.
+/// The SVG of a picture, as a file of its own.
 pub(super) fn svg(picture: &Picture, description: &str, theme: Theme) -> String {
-    let (width, height) = (N(picture.width.ceil()), N(picture.height.ceil()));
+    let Picture { left, top, width, height, .. } = *picture;
+    let style = format!(
+        "<style>{}</style>\n<rect class=\"paper\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n",
+        css(theme, ""),
+        N(left),
+        N(top),
+        N(width.ceil()),
+        N(height.ceil())
+    );
+    element(picture, description, "", "", &style)
+}
+
+/// The SVG of a picture as a part of a page that has the style: no paper, no heading. Its identifiers begin with `prefix`.
+pub(super) fn part(picture: &Picture, description: &str, prefix: &str, class: &str) -> String {
+    element(picture, description, prefix, class, "")
+}
+
+fn element(picture: &Picture, description: &str, prefix: &str, class: &str, style: &str) -> String {
+    // Without its style it is a part of a page, which has the heading.
+    let above = if style.is_empty() { HEADING } else { 0.0 };
+    let (left, top) = (N(picture.left), N(picture.top + above));
+    let (width, height) = (N(picture.width.ceil()), N((picture.height - above).ceil()));
+    let class = if class.is_empty() { String::new() } else { format!(" class=\"{class}\"") };
+    // Within HTML the name space goes without saying.
+    let space = if style.is_empty() { "" } else { " xmlns=\"http://www.w3.org/2000/svg\"" };
     let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {width} {height}\" role=\"img\" aria-labelledby=\"title desc\">\n\
-         <title id=\"title\">{}</title>\n<desc id=\"desc\">{}</desc>\n<style>{}</style>\n\
-         <rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>\n",
+        "<svg{space}{class} width=\"{width}\" height=\"{height}\" \
+         viewBox=\"{left} {top} {width} {height}\" role=\"img\" aria-labelledby=\"{prefix}title {prefix}desc\">\n\
+         <title id=\"{prefix}title\">{}</title>\n<desc id=\"{prefix}desc\">{}</desc>\n{style}",
         Text(&picture.heading.0),
         Text(description),
-        style(theme)
     );
-    heading(&mut out, picture);
+    if !style.is_empty() {
+        heading(&mut out, picture);
+    }
     for line in &picture.lines {
         arrow(&mut out, line);
     }
-    for shape in &picture.boxes {
+    for (index, shape) in picture.boxes.iter().enumerate() {
+        let labels: Vec<&Label> = picture.labels.iter().filter(|label| label.of == index).collect();
+        let floating = matches!(shape.figure, Figure::Enter | Figure::Exit);
+        if floating {
+            continue;
+        }
+        let _ = writeln!(out, "<g data-shape=\"{}\">", Text(&shape.id));
         figure(&mut out, shape);
-    }
-    for label in &picture.labels {
-        let (class, x) = if label.is_link { ("link", label.x) } else { ("exit", label.x + label.width / 2.0) };
-        let y = label.y + label.height - 3.5;
-        let _ = writeln!(out, "<text class=\"{class}\" x=\"{}\" y=\"{}\">{}</text>", N(x), N(y), Text(&label.text));
+        for label in labels {
+            let (class, x) = if label.is_link { ("link", label.x) } else { ("branch", label.x + label.width / 2.0) };
+            let y = label.y + label.height - 3.5;
+            let _ = writeln!(out, "<text class=\"{class}\" x=\"{}\" y=\"{}\">{}</text>", N(x), N(y), Text(&label.text));
+        }
+        out.push_str("</g>\n");
     }
     out.push_str("</svg>\n");
     out
@@ -153,8 +100,8 @@ pub(super) fn svg(picture: &Picture, description: &str, theme: Theme) -> String 
 
 fn heading(out: &mut String, picture: &Picture) {
     let (title, link) = &picture.heading;
-    let y = N(HEADING - 8.0);
-    let _ = write!(out, "<text class=\"heading\" x=\"{}\" y=\"{y}\">{}", N(INDENT), Text(title));
+    let (x, y) = (N(picture.left + INDENT), N(picture.top + HEADING - 8.0));
+    let _ = write!(out, "<text class=\"heading\" x=\"{x}\" y=\"{y}\">{}", Text(title));
     if let Some(link) = link {
         let _ = write!(out, "<tspan class=\"link\" dx=\"10\">{}</tspan>", Text(link));
     }
@@ -211,14 +158,15 @@ fn figure(out: &mut String, shape: &Placed) {
         Figure::Circle => {
             let _ = writeln!(
                 out,
-                "<circle class=\"state{dashed}\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>",
+                "<circle class=\"shape state{dashed}\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>",
                 N(cx),
                 N(cy),
                 N(width / 2.0)
             );
             if shape.initial {
                 let r = N(width / 2.0 - 3.5);
-                let _ = writeln!(out, "<circle class=\"state inner\" cx=\"{}\" cy=\"{}\" r=\"{r}\"/>", N(cx), N(cy));
+                let _ =
+                    writeln!(out, "<circle class=\"shape state inner\" cx=\"{}\" cy=\"{}\" r=\"{r}\"/>", N(cx), N(cy));
             }
         }
         Figure::Hexagon => {
@@ -232,20 +180,15 @@ fn figure(out: &mut String, shape: &Placed) {
                 (x + c, y + height),
             ];
             let points: Vec<String> = points.iter().map(|(x, y)| format!("{},{}", N(*x), N(*y))).collect();
-            let _ = writeln!(out, "<polygon class=\"guard{dashed}\" points=\"{}\"/>", points.join(" "));
+            let _ = writeln!(out, "<polygon class=\"shape guard{dashed}\" points=\"{}\"/>", points.join(" "));
         }
         Figure::Enter | Figure::Exit => {}
         _ => {
-            let (class, round) = match shape.figure {
-                Figure::Block => ("instance", 8.0),
-                Figure::Component => ("component", 3.0),
-                Figure::Channel => ("channel", height / 2.0),
-                Figure::Device => ("device", 3.0),
-                _ => ("action", 2.0),
-            };
+            let (class, round) = class_of(shape.figure);
+            let round = N(round.min(height / 2.0));
             let _ = writeln!(
                 out,
-                "<rect class=\"{class}{dashed}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"{round}\"/>",
+                "<rect class=\"shape {class}{dashed}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"{round}\"/>",
                 N(x),
                 N(y),
                 N(width),
@@ -253,8 +196,13 @@ fn figure(out: &mut String, shape: &Placed) {
             );
             if shape.figure == Figure::Block {
                 for x in [x + 9.0, x + width - 9.0] {
-                    let _ =
-                        writeln!(out, "<path class=\"instance inner\" d=\"M{} {}V{}\"/>", N(x), N(y), N(y + height));
+                    let _ = writeln!(
+                        out,
+                        "<path class=\"shape instance inner\" d=\"M{} {}V{}\"/>",
+                        N(x),
+                        N(y),
+                        N(y + height)
+                    );
                 }
             }
             if shape.figure == Figure::Component {
@@ -262,15 +210,64 @@ fn figure(out: &mut String, shape: &Placed) {
             }
         }
     }
-    let rest = shape.small.len() as f64 * SMALL_LEADING;
+    words(out, shape);
+}
+
+/// The text in a shape, and the smaller one below it.
+fn words(out: &mut String, shape: &Placed) {
+    let (left, right) = (shape.x + 12.0, shape.x + shape.width - 12.0);
+    let (cx, cy) = (shape.x + shape.width / 2.0, shape.y + shape.height / 2.0);
+    let ruled = shape.details.iter().any(|detail| detail.right.is_some());
+    let rest = shape.details.len() as f64 * SMALL_LEADING + if ruled { RULE } else { 0.0 };
     let first = cy - ((shape.lines.len() as f64 - 1.0) * LEADING + rest) / 2.0 + TEXT * 0.35;
+    let named = matches!(shape.figure, Figure::Component | Figure::Channel | Figure::Device);
+    let class = if named { " class=\"name\"" } else { "" };
     for (index, line) in shape.lines.iter().enumerate() {
         let y = first + index as f64 * LEADING;
-        let _ = writeln!(out, "<text x=\"{}\" y=\"{}\">{}</text>", N(cx), N(y), Text(line));
+        let _ = writeln!(out, "<text{class} x=\"{}\" y=\"{}\">{}</text>", N(cx), N(y), Text(line));
     }
-    for (index, line) in shape.small.iter().enumerate() {
-        let y = first + shape.lines.len() as f64 * LEADING + index as f64 * SMALL_LEADING - 2.0;
-        let _ = writeln!(out, "<text class=\"small\" x=\"{}\" y=\"{}\">{}</text>", N(cx), N(y), Text(line));
+    let mut y = first + shape.lines.len() as f64 * LEADING - 2.0;
+    let mut above = true;
+    for detail in &shape.details {
+        let text = Text(&detail.text);
+        let Some(time) = &detail.right else {
+            let _ = writeln!(out, "<text class=\"small faint\" x=\"{}\" y=\"{}\">{text}</text>", N(cx), N(y));
+            y += SMALL_LEADING;
+            continue;
+        };
+        if std::mem::take(&mut above) {
+            let line = y - 7.0;
+            let class = class_of(shape.figure).0;
+            let (x, end) = (N(shape.x), N(shape.x + shape.width));
+            let _ = writeln!(out, "<path class=\"shape {class} inner sign\" d=\"M{x} {}H{end}\"/>", N(line));
+            y += RULE;
+        }
+        let id = Text(detail.id.as_deref().unwrap_or_default());
+        let (x, width) = (N(left - 6.0), N(right - left + 12.0));
+        let _ = writeln!(
+            out,
+            "<g data-shape=\"{id}\"><rect class=\"row\" x=\"{x}\" y=\"{}\" width=\"{width}\" height=\"14\" rx=\"3\"/>\
+             <text class=\"small start\" x=\"{}\" y=\"{}\">{text}</text>\
+             <text class=\"small end\" x=\"{}\" y=\"{}\">{}</text></g>",
+            N(y - 10.5),
+            N(left),
+            N(y),
+            N(right),
+            N(y),
+            Text(time)
+        );
+        y += SMALL_LEADING;
+    }
+}
+
+/// The class of a rectangle and how round its corners are.
+fn class_of(figure: Figure) -> (&'static str, f64) {
+    match figure {
+        Figure::Block => ("instance", 8.0),
+        Figure::Component => ("component", 4.0),
+        Figure::Channel => ("channel", f64::INFINITY),
+        Figure::Device => ("device", 4.0),
+        _ => ("action", 3.0),
     }
 }
 
@@ -280,5 +277,5 @@ fn icon(out: &mut String, right: f64, top: f64) {
     let d = rect(right - 9.0, top, 9.0, 11.0)
         + &rect(right - 11.5, top + 2.0, 5.0, 2.4)
         + &rect(right - 11.5, top + 6.4, 5.0, 2.4);
-    let _ = writeln!(out, "<path class=\"component sign\" d=\"{d}\"/>");
+    let _ = writeln!(out, "<path class=\"shape component sign\" d=\"{d}\"/>");
 }

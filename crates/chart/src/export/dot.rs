@@ -23,7 +23,7 @@ pub(super) fn dot(scene: &Scene, name: &str) -> String {
             Figure::Channel => "oval",
             Figure::Enter | Figure::Exit => "none",
         };
-        let lines: Vec<String> = node.lines.iter().chain(&node.small).map(|line| quoted(line)).collect();
+        let lines: Vec<String> = node.told().map(|line| quoted(&line)).collect();
         let style = if node.dashed { ", style=dashed" } else { "" };
         let link = node.link.as_ref().map(|link| format!(", xlabel=\"{}\"", quoted(link))).unwrap_or_default();
         let _ =

@@ -9,7 +9,7 @@ use crate::draw::scene::Scene;
 pub(super) fn mermaid(scene: &Scene, name: &str) -> String {
     let mut out = format!("---\ntitle: {name}\n---\nflowchart TD\n");
     for (index, node) in scene.nodes.iter().enumerate() {
-        let mut text = node.lines.iter().chain(&node.small).cloned().collect::<Vec<_>>().join("<br/>");
+        let mut text = node.told().collect::<Vec<_>>().join("<br/>");
         if let Some(link) = &node.link {
             let _ = write!(text, "<br/><small>{link}</small>");
         }

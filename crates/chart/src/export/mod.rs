@@ -25,6 +25,6 @@ pub fn export(drawing: &Drawing<'_>, notation: Notation) -> Option<String> {
     match notation {
         Notation::Mermaid => Some(mermaid::mermaid(&drawing.scene(), drawing.name())),
         Notation::Dot => Some(dot::dot(&drawing.scene(), drawing.name())),
-        Notation::Scxml => drawing.machine().map(|(chart, machine)| scxml::scxml(chart, machine)),
+        Notation::Scxml => drawing.machine().map(|machine| scxml::scxml(drawing.chart(), machine)),
     }
 }

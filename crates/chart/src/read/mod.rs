@@ -98,27 +98,32 @@ impl Reader {
 
     fn layout(&mut self, chart: &mut Chart, node: &ast::Layout) {
         let Some(name) = node.name() else { return };
-        if chart.system.as_ref().is_some_and(|system| system.name == name.text()) {
-            let places = node.placements().filter_map(|place| Some((place.name()?.text().to_string(), place.place()?)));
-            chart.layouts.insert(name.text().to_string(), places.collect());
-            return;
-        }
         let names: Vec<&str> = chart.machines.iter().map(|machine| machine.name.as_str()).collect();
-        let Some(machine) = chart.machines.iter().find(|machine| machine.name == name.text()) else {
-            let span = Span::new(self.file, name.text_range());
-            self.faults.push(fault::unknown(span, "machine", name.text(), &names));
-            return;
+        let shapes: Vec<&str> = match (&chart.system, chart.machines.iter().find(|machine| machine.name == name.text()))
+        {
+            (_, Some(machine)) => {
+                let shapes = machine.shapes.iter().map(|shape| shape.name.as_str());
+                machine.is_pattern.then_some("enter").into_iter().chain(shapes).collect()
+            }
+            (Some(system), None) if system.name == name.text() => {
+                let components = system.components.iter().map(|component| component.name.as_str());
+                let channels = system.channels.iter().map(|channel| channel.name.as_str());
+                components.chain(channels).chain(system.devices.iter().map(|device| device.name.as_str())).collect()
+            }
+            _ => {
+                let span = Span::new(self.file, name.text_range());
+                self.faults.push(fault::unknown(span, "machine", name.text(), &names));
+                return;
+            }
         };
         let mut places = BTreeMap::new();
         for placement in node.placements() {
             let (Some(shape), Some(place)) = (placement.name(), placement.place()) else { continue };
-            let known = shape.text() == "enter" || machine.shapes.iter().any(|known| known.name == shape.text());
-            if known {
+            if shapes.contains(&shape.text()) {
                 places.insert(shape.text().to_string(), place);
             } else {
-                let names: Vec<&str> = machine.shapes.iter().map(|shape| shape.name.as_str()).collect();
                 let span = Span::new(self.file, shape.text_range());
-                self.faults.push(fault::unknown(span, "shape", shape.text(), &names));
+                self.faults.push(fault::unknown(span, "shape", shape.text(), &shapes));
             }
         }
         chart.layouts.insert(name.text().to_string(), places);

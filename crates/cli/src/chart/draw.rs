@@ -1,8 +1,9 @@
-//! `groundstate chart draw FILE`: the machines of a chart as SVG.
+//! `groundstate chart draw FILE`: the machines and the system of a chart as SVG, PNG or PDF.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use chart::draw::{DrawFault, Drawing};
 use clap::{Args, ValueEnum};
 
 use crate::exit::Exit;
@@ -17,12 +18,48 @@ pub struct Arguments {
     /// Draw this machine or system alone
     #[arg(long, value_name = "NAME")]
     machine: Option<String>,
-    /// A folder for the pictures, NAME.svg for each machine; or a file, where there is one picture. Default: stdout
+    /// A folder for the pictures, one for each machine; or a file .svg, .png or .pdf, where there is one picture.
+    /// Default: stdout
     #[arg(long, short, value_name = "PATH")]
     output: Option<PathBuf>,
-    /// Colours: as the reader's screen is, or fixed
+    /// The form of the pictures. Default: as the file ends, else svg
+    #[arg(long = "as", value_enum, value_name = "FORM")]
+    form: Option<Form>,
+    /// Colours: as the reader's screen is, or fixed; PNG and PDF are light unless they are dark
     #[arg(long, value_enum, default_value_t = Theme::Auto)]
     theme: Theme,
+    /// Dots of a PNG for each pixel
+    #[arg(long, value_name = "N", default_value_t = 2.0, value_parser = scale)]
+    scale: f32,
+}
+
+/// The form of a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Form {
+    /// Lines and text for browsers
+    Svg,
+    /// Dots
+    Png,
+    /// A page
+    Pdf,
+}
+
+impl Form {
+    const ALL: [Form; 3] = [Form::Svg, Form::Png, Form::Pdf];
+
+    fn ending(self) -> &'static str {
+        match self {
+            Form::Svg => "svg",
+            Form::Png => "png",
+            Form::Pdf => "pdf",
+        }
+    }
+
+    /// The form of a file of that name; none of a folder.
+    fn of(path: &Path) -> Option<Form> {
+        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+        Form::ALL.into_iter().find(|form| form.ending() == ending)
+    }
 }
 
 /// Colours.
@@ -36,6 +73,13 @@ enum Theme {
     Dark,
 }
 
+fn scale(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(scale) if (0.1..=20.0).contains(&scale) => Ok(scale),
+        _ => Err("a number from 0.1 to 20 is expected".to_string()),
+    }
+}
+
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let (_, chart) = match super::read(shell, &arguments.file)? {
@@ -46,37 +90,51 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let all = chart::drawings(&chart);
     let machines: Vec<_> = all.iter().filter(|drawing| wanted(drawing.name())).collect();
     if machines.is_empty() {
-        let names: Vec<&str> = all.iter().map(chart::draw::Drawing::name).collect();
+        let names: Vec<&str> = all.iter().map(Drawing::name).collect();
         let help = format!("it has: {}", names.join(", "));
         return Err(Failure::usage_with_help("the chart has no such machine", help));
     }
-    let theme = match arguments.theme {
-        Theme::Auto => chart::draw::Theme::Auto,
-        Theme::Light => chart::draw::Theme::Light,
-        Theme::Dark => chart::draw::Theme::Dark,
-    };
-    let several = machines.len() > 1;
-    let folder = arguments.output.as_ref().filter(|path| path.extension().is_none_or(|extension| extension != "svg"));
-    if several && folder.is_none() {
+    let ending = arguments.output.as_deref().and_then(Form::of);
+    let form = arguments.form.or(ending).unwrap_or(Form::Svg);
+    let folder = arguments.output.as_ref().filter(|_| ending.is_none());
+    if machines.len() > 1 && folder.is_none() {
         let help = "name a folder with --output, or one machine with --machine";
         return Err(Failure::usage_with_help(format!("the chart has {} machines", machines.len()), help));
     }
+    // All are drawn before the first is written.
+    let mut pictures = Vec::new();
     for machine in machines {
-        let svg = machine.svg(theme).map_err(|fault| Failure::usage(fault.to_string()))?;
+        let picture = drawn(machine, form, arguments).map_err(|fault| Failure::usage(fault.to_string()))?;
+        pictures.push((machine.name(), picture));
+    }
+    for (name, picture) in pictures {
         match (&arguments.output, folder) {
-            (None, _) => shell.out().write_all(svg.as_bytes())?,
+            (None, _) => shell.out().write_all(&picture)?,
             (Some(_), Some(folder)) => {
                 std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
-                written(shell, &folder.join(format!("{}.svg", machine.name())), &svg)?;
+                written(shell, &folder.join(format!("{name}.{}", form.ending())), &picture)?;
             }
-            (Some(file), None) => written(shell, file, &svg)?,
+            (Some(file), None) => written(shell, file, &picture)?,
         }
     }
     Ok(Exit::Good)
 }
 
-fn written(shell: &mut Shell, path: &std::path::Path, svg: &str) -> Result<(), Failure> {
-    crate::files::write_text(path, svg)?;
+fn drawn(drawing: &Drawing, form: Form, arguments: &Arguments) -> Result<Vec<u8>, DrawFault> {
+    let theme = match (arguments.theme, form) {
+        (Theme::Auto, Form::Svg) => chart::draw::Theme::Auto,
+        (Theme::Auto | Theme::Light, _) => chart::draw::Theme::Light,
+        (Theme::Dark, _) => chart::draw::Theme::Dark,
+    };
+    match form {
+        Form::Svg => Ok(drawing.svg(theme)?.into_bytes()),
+        Form::Png => drawing.png(theme, arguments.scale),
+        Form::Pdf => drawing.pdf(theme),
+    }
+}
+
+fn written(shell: &mut Shell, path: &Path, picture: &[u8]) -> Result<(), Failure> {
+    crate::files::write_bytes(path, picture)?;
     if shell.talks() {
         writeln!(shell.out(), "{}", path.display())?;
     }

@@ -6,6 +6,7 @@ mod draw;
 mod export;
 mod extract;
 mod import;
+mod place;
 
 use std::path::Path;
 
@@ -38,6 +39,8 @@ enum Command {
     Import(import::Arguments),
     /// Write a chart's machines and system as pictures
     Draw(draw::Arguments),
+    /// Write into a chart where its shapes lie, so that they stay there
+    Place(place::Arguments),
 }
 
 /// Runs the command.
@@ -49,6 +52,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Command::Export(arguments) => export::run(shell, arguments),
         Command::Import(arguments) => import::run(shell, arguments),
         Command::Draw(arguments) => draw::run(shell, arguments),
+        Command::Place(arguments) => place::run(shell, arguments),
     }
 }
 

@@ -4,6 +4,7 @@
 //! beside it give verdicts and coverage. The page holds no date and no path of this machine but those given, so the
 //! same model, options and version give the same bytes.
 
+mod charts;
 mod evidence;
 mod node;
 mod specification;
@@ -61,7 +62,13 @@ A report specification is a YAML file that says which terms of the model make wh
     noun: [frame, frames]
     hops:
       - { task: camera, event: captured, value: captured }
-      - { task: robot, event: used, value: used }";
+      - { task: robot, event: used, value: used }
+  charts:                            # pictures in which the present control states are lit
+    System.chart: {}                 # a system: its components' phases
+    Patterns.chart:
+      each: [camera, robot]          # for the parameter of the machines; all tasks unless given
+      machines:                      # those to be shown; all unless given
+        writing: { when: writes({}) }  # at work while this is true";
 
 /// Arguments of `report`.
 #[derive(Debug, Args)]
@@ -158,11 +165,19 @@ fn prepare(shell: &mut Shell, loaded: &mut Loaded, path: &Path) -> Result<Option
         read => read?,
     };
     let file = loaded.sources.add(SourceFile::new(path.display().to_string(), text.as_str()));
-    let ready = specification(file, &text).and_then(|Specification { spec, places }| {
-        let builder = ReportBuilder::new(spec);
-        let watch = Watch::new(loaded, builder.terms(), &places)?;
-        Ok((builder, watch))
-    });
+    let mut wanted = match specification(file, &text) {
+        Ok(wanted) => wanted,
+        Err(faults) => {
+            shell.diagnostics(&loaded.sources, &faults)?;
+            return Ok(None);
+        }
+    };
+    if !charts::add(shell, &mut loaded.sources, &mut wanted, path)? {
+        return Ok(None);
+    }
+    let Specification { spec, places, .. } = wanted;
+    let builder = ReportBuilder::new(spec);
+    let ready = Watch::new(loaded, builder.terms(), &places).map(|watch| (builder, watch));
     match ready {
         Ok(ready) => Ok(Some(ready)),
         Err(faults) => {

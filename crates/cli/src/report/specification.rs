@@ -10,11 +10,36 @@ use syntax::{Diagnostic, FileId, Span};
 
 use super::node::{Key, Node, Shape, fault, read};
 
-/// A specification and where its terms stand.
+/// A specification, where its terms stand, and the charts it wants.
 #[derive(Debug)]
 pub struct Specification {
     pub spec: Spec,
     pub places: BTreeMap<String, Span>,
+    pub charts: Vec<Wanted>,
+}
+
+/// A chart to be shown.
+#[derive(Debug)]
+pub struct Wanted {
+    /// The file, seen from the specification.
+    pub file: String,
+    /// Where it is named.
+    pub span: Span,
+    /// What is put in for the parameters of its machines: names in the model, and for people.
+    pub each: Vec<(String, String)>,
+    /// The machines to be shown; none: all, always at work.
+    pub machines: Vec<WantedMachine>,
+}
+
+/// A machine of a chart to be shown.
+#[derive(Debug)]
+pub struct WantedMachine {
+    /// Its name.
+    pub name: String,
+    /// Where it is named.
+    pub span: Span,
+    /// The term that is true when it is at work, and where that stands.
+    pub when: Option<(String, Span)>,
 }
 
 /// Reads a specification.
@@ -22,11 +47,16 @@ pub fn specification(file: FileId, source: &str) -> Result<Specification, Vec<Di
     let root = read(file, source).map_err(|fault| vec![*fault])?;
     let mut reader = Reader { faults: Vec::new(), places: BTreeMap::new() };
     let spec = reader.spec(&root);
+    let charts = reader.charts(&root);
     let whole = Span { file, start: 0, end: 0 };
     if reader.faults.is_empty() {
         reader.faults.extend(spec.faults().into_iter().map(|message| fault(whole, message)));
     }
-    if reader.faults.is_empty() { Ok(Specification { spec, places: reader.places }) } else { Err(reader.faults) }
+    if reader.faults.is_empty() {
+        Ok(Specification { spec, places: reader.places, charts })
+    } else {
+        Err(reader.faults)
+    }
 }
 
 struct Reader {
@@ -108,7 +138,8 @@ impl Reader {
     }
 
     fn spec(&mut self, root: &Node) -> Spec {
-        let known = ["title", "note", "tick", "window", "activities", "tasks", "buffers", "queues", "series", "flow"];
+        let known =
+            ["title", "note", "tick", "window", "activities", "tasks", "buffers", "queues", "series", "flow", "charts"];
         let fields = self.fields(Some(root), &known);
         let tick_ns = fields.get("tick").and_then(|node| self.duration(node));
         let window = fields.get("window").map_or(0, |node| self.ticks(node, tick_ns));
@@ -124,7 +155,49 @@ impl Reader {
             queues: self.queues(fields.get("queues")),
             series: self.series(fields.get("series")),
             flow: fields.get("flow").map(|node| self.flow(node, fields.get("tasks"))),
+            ..Spec::default()
         }
+    }
+
+    fn charts(&mut self, root: &Node) -> Vec<Wanted> {
+        let root = match &root.shape {
+            Shape::Map(entries) => Fields(entries),
+            _ => return Vec::new(),
+        };
+        let tasks: Vec<(String, String)> = match root.get("tasks").map(|node| &node.shape) {
+            Some(Shape::Map(entries)) => {
+                let each = self.fields(Fields(entries).get("each"), &[]).0;
+                let name = |node: &Node| match &node.shape {
+                    Shape::Map(entries) => self.text(Fields(entries).get("name")),
+                    _ => None,
+                };
+                let mut name = name;
+                each.iter().map(|(key, node)| (key.text.clone(), name(node).unwrap_or(key.text.clone()))).collect()
+            }
+            _ => Vec::new(),
+        };
+        let mut charts = Vec::new();
+        for (key, node) in self.fields(root.get("charts"), &[]).0 {
+            let fields = self.fields(Some(node), &["each", "machines"]);
+            let named = |id: String| {
+                let name = tasks.iter().find(|(known, _)| *known == id).map(|(_, name)| name.clone());
+                (id.clone(), name.unwrap_or(id))
+            };
+            let each = match fields.get("each") {
+                None => tasks.clone(),
+                Some(node) => {
+                    self.list(Some(node)).iter().filter_map(|item| self.text(Some(item))).map(named).collect()
+                }
+            };
+            let mut machines = Vec::new();
+            for (machine, node) in self.fields(fields.get("machines"), &[]).0 {
+                let when = self.fields(Some(node), &["when"]).get("when");
+                let when = when.and_then(|node| Some((self.text(Some(node))?, node.span)));
+                machines.push(WantedMachine { name: machine.text.clone(), span: machine.span, when });
+            }
+            charts.push(Wanted { file: key.text.clone(), span: key.span, each, machines });
+        }
+        charts
     }
 
     /// `100 us` in nanoseconds.

@@ -6,7 +6,7 @@
 
 use crate::lanes::{Graph, Lane, LineKind, Strip, lanes};
 use crate::markup::{Json, Px, put};
-use crate::report::Report;
+use crate::report::{Lights, Report};
 use crate::svg::flow_indices;
 use crate::track::{Kind, Track};
 
@@ -38,8 +38,31 @@ pub(super) fn run_data(report: &Report) -> String {
         }
         out.push_str("]}");
     }
+    if !report.charts.is_empty() {
+        out.push_str(",\n\"charts\":[");
+        for (index, chart) in report.charts.iter().enumerate() {
+            put!(out, "{}{{\"named\":{},\"lights\":[", comma(index), chart.named);
+            for (index, lights) in chart.lights.iter().enumerate() {
+                put_lights(&mut out, lights, index);
+            }
+            out.push_str("]}");
+        }
+        out.push(']');
+    }
     out.push_str("}\n");
     out
+}
+
+/// Where something was in a picture: its parts, and its spans, whose letters are these parts.
+fn put_lights(out: &mut String, lights: &Lights, index: usize) {
+    put!(out, "{}{{\"n\":{},\"parts\":[", comma(index), Json(&lights.name));
+    for (index, (part, kind)) in lights.parts.iter().zip(&lights.track.kinds).enumerate() {
+        put!(out, "{}[{},{}]", comma(index), Json(part), Json(&kind.label));
+    }
+    out.push_str("],\"d\":\"");
+    let names: Vec<String> = (0..lights.parts.len()).map(letters).collect();
+    put_spans(out, &lights.track, &names);
+    out.push_str("\"}");
 }
 
 fn comma(index: usize) -> &'static str {
@@ -91,6 +114,11 @@ fn put_strip<'a>(out: &mut String, strip: &Strip<'a>, kinds: &mut Vec<&'a Kind>,
         put!(out, ",\"r\":{rhythm}");
     }
     out.push_str(",\"d\":\"");
+    put_spans(out, track, &letters);
+    out.push_str("\"}");
+}
+
+fn put_spans(out: &mut String, track: &Track, letters: &[String]) {
     let mut at = 0;
     for span in track.spans() {
         if span.start > at {
@@ -99,7 +127,6 @@ fn put_strip<'a>(out: &mut String, strip: &Strip<'a>, kinds: &mut Vec<&'a Kind>,
         put!(out, "{}{}", letters[span.kind as usize], base36(span.end - span.start));
         at = span.end;
     }
-    out.push_str("\"}");
 }
 
 fn put_graph(out: &mut String, graph: &Graph) {

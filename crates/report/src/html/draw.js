@@ -223,5 +223,5 @@ function drawTimeline(view) {
   const all = (draw) => run.lanes.map((lane) => draw(lane, view)).join("");
   const clip = `<clipPath id="window"><rect x="${px(view.left - 0.5)}" y="-6" width="${px(view.right - view.left + 1)}" height="${px(run.height + 6)}"/></clipPath>`;
   const graphs = run.lanes.filter((lane) => lane.g).map((lane) => drawGraph(lane, view)).join("");
-  return `<g transform="translate(0 ${HEAD})">${drawAxis(view)}${all(drawLabels)}${clip}<g clip-path="url(#window)">${all(drawLane)}${drawWays(view)}</g>${graphs}<path id="cursor" d=""/></g>`;
+  return `<g transform="translate(0 ${HEAD})">${drawAxis(view)}${all(drawLabels)}${clip}<g clip-path="url(#window)">${all(drawLane)}${drawWays(view)}</g>${graphs}<path id="mark" d=""/><path id="cursor" d=""/></g>`;
 }

@@ -25,10 +25,20 @@ function draw() {
   const scale = strip.viewBox.baseVal.width / run.shown, frame = strip.querySelector(".brush");
   frame.setAttribute("x", px(from * scale));
   frame.setAttribute("width", px(Math.max(3, (to - from) * scale)));
+  mark();
   const spare = to - from < 50 ? 1 : 0;
   where.textContent = `${time(from, spare)}\u2013${timed(to, spare)}`;
   if (moved) history.replaceState(null, "", `#t=${from.toFixed(1)}-${to.toFixed(1)}`);
 }
+
+/** The moment that the charts show, as a line; a page without charts has none. */
+let moment = null;
+function mark() {
+  const inside = moment !== null && moment >= from && moment <= to;
+  document.getElementById("mark").setAttribute("d", inside ? `M${px(view.x(moment + 0.5))} -4V${run.height}` : "");
+}
+/** Told of each moment that is pointed at. */
+const pointed = [];
 
 const zoom = (factor, at) => { moved = true; show(at - (at - from) * factor, at + (to - at) * factor); };
 const move = (ticks) => { moved = true; show(from + ticks, to + ticks); };
@@ -106,6 +116,7 @@ function point(event) {
   cursor.setAttribute("d", inside ? `M${px(x)} -4V${run.height}` : "");
   if (!inside) return;
   tip.innerHTML = read(tickAt(x), y);
+  for (const told of pointed) told(tickAt(x));
   const width = tip.offsetWidth, room = stage.clientWidth;
   tip.style.left = `${Math.max(0, x + 14 + width > room ? x - 14 - width : x + 14)}px`;
   tip.style.top = `${y + HEAD + 16}px`;

@@ -4,6 +4,7 @@
 //! scroll through, every figure in a table. The script adds zooming, moving and reading off. The markup is well-formed
 //! XML as well, but for the doctype and what stands in `style` and `script`.
 
+mod charts;
 mod data;
 mod figures;
 mod lanes;
@@ -30,10 +31,17 @@ pub fn render_html(report: &Report) -> String {
         "<meta name=\"color-scheme\" content=\"light dark\"/>\n<meta name=\"generator\" content=\"Groundstate\"/>\n",
     );
     put!(out, "<title>{}</title>\n", Text(&report.title));
-    put!(out, "<style>\n{}{}</style>\n</head>\n<body>\n", include_str!("page.css"), svg_css());
+    put!(
+        out,
+        "<style>\n{}{}{}</style>\n</head>\n<body>\n",
+        include_str!("page.css"),
+        svg_css(),
+        if report.charts.is_empty() { "" } else { &report.chart_style }
+    );
     figures::header(&mut out, report);
     out.push_str("<main>\n");
     lanes::timeline_section(&mut out, report);
+    charts::charts(&mut out, report);
     tables::tasks(&mut out, report);
     tables::waiting(&mut out, report);
     tables::ages(&mut out, report);
@@ -49,7 +57,8 @@ pub fn render_html(report: &Report) -> String {
         Text(&report.model)
     );
     put!(out, "<script type=\"application/json\" id=\"run\">\n{}</script>\n", data::run_data(report));
-    put!(out, "<script>\n{}{}</script>\n", include_str!("draw.js"), include_str!("explore.js"));
+    let charts = if report.charts.is_empty() { "" } else { include_str!("charts.js") };
+    put!(out, "<script>\n{}{}{charts}</script>\n", include_str!("draw.js"), include_str!("explore.js"));
     out.push_str("</body>\n</html>\n");
     out
 }

@@ -1,0 +1,55 @@
+//! `groundstate chart place FILE`: where shapes lie, written into the chart.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::files::write_text;
+use crate::shell::Shell;
+
+/// Arguments of `chart place`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// A chart
+    file: PathBuf,
+    /// This machine or system alone
+    #[arg(long, value_name = "NAME")]
+    machine: Option<String>,
+    /// Write the chart there; `-` for stdout. Default: into the file itself
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// Runs the command.
+pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    let (sources, chart) = match super::read(shell, &arguments.file)? {
+        Ok(read) => read,
+        Err(exit) => return Ok(exit),
+    };
+    let wanted = |name: &str| arguments.machine.as_ref().is_none_or(|machine| machine == name);
+    let drawings = chart::drawings(&chart);
+    if !drawings.iter().any(|drawing| wanted(drawing.name())) {
+        let names: Vec<&str> = drawings.iter().map(chart::draw::Drawing::name).collect();
+        let help = format!("it has: {}", names.join(", "));
+        return Err(Failure::usage_with_help("the chart has no such machine", help));
+    }
+    let file = syntax::FileId(0);
+    let text = &sources.file(file).text;
+    let parse = syntax::parse_chart(file, text);
+    let placed = chart::place(&chart, &parse, text, wanted).map_err(|fault| Failure::usage(fault.to_string()))?;
+    let output = arguments.output.as_deref().unwrap_or(&arguments.file);
+    if output == Path::new("-") {
+        shell.out().write_all(placed.as_bytes())?;
+        return Ok(Exit::Good);
+    }
+    if arguments.output.is_some() || *placed != **text {
+        write_text(output, &placed)?;
+    }
+    if shell.talks() {
+        writeln!(shell.out(), "{}", output.display())?;
+    }
+    Ok(Exit::Good)
+}

@@ -1,0 +1,93 @@
+//! The charts that a report specification names: read, drawn, and what is to be lit in them.
+//!
+//! In: the names of the files and of the elements that their machines work for. Out: pictures and terms in the
+//! specification. What is lit when, the charts say themselves.
+
+use std::path::Path;
+
+use ::report::{ChartSpec, LightsSpec, PartSpec};
+use chart::draw::{Drawing, Lights};
+use syntax::{Diagnostic, Sources};
+
+use super::node::fault;
+use super::specification::{Specification, Wanted};
+use crate::failure::Failure;
+use crate::shell::Shell;
+
+/// The class of the pictures in the page.
+const CLASS: &str = "chart";
+
+/// Adds the charts that are wanted to the specification; `false`: there are faults, and they were shown.
+pub fn add(
+    shell: &mut Shell,
+    sources: &mut Sources,
+    specification: &mut Specification,
+    path: &Path,
+) -> Result<bool, Failure> {
+    let mut faults = Vec::new();
+    for wanted in std::mem::take(&mut specification.charts) {
+        let file = path.parent().unwrap_or(Path::new("")).join(&wanted.file);
+        let source = match shell.disk().root(&file) {
+            Ok(source) => source,
+            Err(failure) => {
+                faults.push(fault(wanted.span, failure.to_string()));
+                continue;
+            }
+        };
+        let loaded = chart::load_beside(std::mem::take(sources), source, &mut shell.disk());
+        *sources = loaded.sources;
+        let chart = loaded.chart;
+        let whole = !groundstate::has_errors(&loaded.diagnostics);
+        faults.extend(loaded.diagnostics);
+        if whole {
+            show(specification, &chart, &wanted, &mut faults)?;
+        }
+    }
+    specification.spec.chart_style = chart::draw::style(CLASS);
+    shell.diagnostics(sources, &faults)?;
+    Ok(!groundstate::has_errors(&faults))
+}
+
+fn show(
+    specification: &mut Specification,
+    chart: &chart::Chart,
+    wanted: &Wanted,
+    faults: &mut Vec<Diagnostic>,
+) -> Result<(), Failure> {
+    let drawings = chart::drawings(chart);
+    let names: Vec<&str> = drawings.iter().map(Drawing::name).collect();
+    for machine in wanted.machines.iter().filter(|machine| !names.contains(&machine.name.as_str())) {
+        let unknown = fault(machine.span, format!("{} has no machine `{}`", wanted.file, machine.name));
+        faults.push(unknown.with_help(format!("it has: {}", names.join(", "))));
+    }
+    let elements: Vec<String> = wanted.each.iter().map(|(id, _)| id.clone()).collect();
+    for drawing in &drawings {
+        let own = wanted.machines.iter().find(|machine| machine.name == drawing.name());
+        if own.is_none() && !wanted.machines.is_empty() {
+            continue;
+        }
+        let prefix = format!("chart-{}-", specification.spec.charts.len());
+        let picture = drawing.part(&prefix, CLASS).map_err(|fault| Failure::usage(fault.to_string()))?;
+        let parametric = drawing.machine().is_some_and(|machine| !machine.parameters.is_empty());
+        let lights = drawing.lights(&elements);
+        let lights = lights.into_iter().enumerate().map(|(index, lights)| {
+            let element = parametric.then(|| &wanted.each[index]);
+            let when = own.and_then(|machine| machine.when.as_ref());
+            let when = when.map(|(term, span)| (term.replace("{}", element.map_or("", |(id, _)| id)), *span));
+            specification.places.entry(lights.term.clone()).or_insert(wanted.span);
+            if let Some((term, span)) = &when {
+                specification.places.entry(term.clone()).or_insert(*span);
+            }
+            of(lights, element.map(|(_, name)| name.clone()), when.map(|(term, _)| term))
+        });
+        let lights = lights.collect();
+        specification.spec.charts.push(ChartSpec { title: drawing.title(), picture, lights, named: parametric });
+    }
+    Ok(())
+}
+
+fn of(lights: Lights, name: Option<String>, when: Option<String>) -> LightsSpec {
+    let parts = lights.shapes.into_iter();
+    let parts = parts.map(|light| PartSpec { value: light.value, part: light.shape, label: light.label });
+    LightsSpec { name: name.unwrap_or(lights.name), term: lights.term, when, parts: parts.collect() }
+}
