@@ -7,15 +7,15 @@ cd "$(dirname "$0")"
 missing=
 command -v cmake >/dev/null || missing="$missing cmake"
 command -v ninja >/dev/null || missing="$missing ninja-build"
-[ -e /usr/include/gtest/gtest.h ] || missing="$missing libgtest-dev"
-if [ -n "$missing" ]; then
-    if ! command -v apt-get >/dev/null; then
-        echo "cpp/run.sh: cmake 3.21 or later, ninja and GoogleTest are needed; missing:$missing" >&2
-        exit 2
+if command -v apt-get >/dev/null; then
+    [ -e /usr/include/gtest/gtest.h ] || missing="$missing libgtest-dev"
+    if [ -n "$missing" ]; then
+        echo "installing$missing"
+        $([ "$(id -u)" = 0 ] || echo sudo) apt-get install -y --no-install-recommends $missing
     fi
-    echo "installing$missing"
-    sudo=$([ "$(id -u)" = 0 ] || echo sudo)
-    $sudo apt-get install -y --no-install-recommends $missing
+elif [ -n "$missing" ]; then
+    echo "cpp/run.sh: cmake 3.21 or later, ninja and GoogleTest are needed; missing:$missing" >&2
+    exit 2
 fi
 
 for preset in ${*:-plain thread address}; do

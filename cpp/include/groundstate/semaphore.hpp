@@ -3,6 +3,7 @@
 // The protocol of library/patterns/Semaphore.asm. All of the state, permits and line, is one word, so that each
 // operation is one atomic step. A release hands its permit over to the first in line: a later request never overtakes
 // an earlier one, and nobody starves. Who gives up leaves the line, unless the permit is already his; then he has it.
+// library/runtime/PermitLine.asm is this file step by atomic step.
 //
 //     | byte 0  | byte 1          | ... | byte 7         |
 //     | permits | first in line   |     | last in line   |     0 stands for nobody, u + 1 for user u
