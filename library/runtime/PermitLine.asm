@@ -23,12 +23,12 @@ signature:
 	controlled permits: Integer
 	controlled line: Seq(User)
 
-	// What a user sleeps on, and what he saw of it
+	// What a user sleeps on, and what he saw of it; undef when it does not matter
 	controlled calls: User -> Count
 	controlled seen: User -> Count
 
 	controlled place: User -> Place
-	// whom a user that released has to call
+	// whom a user that released has to call; undef when he has called him
 	controlled called: User -> User
 
 	derived inLine: User -> Boolean
@@ -36,7 +36,8 @@ signature:
 	derived isCalled: User -> Boolean
 
 definitions:
-	domain Count = {0 : 3}
+	// Two calls may come between the look at the count and the sleep, so this is the least; the program's has 32 bits.
+	domain Count = {0 : 2}
 
 	function inLine($u in User) =
 		contains(line, $u)
@@ -78,11 +79,17 @@ definitions:
 	// Still in line: his watchdog may have ended, or he is going to sleep.
 	rule r_look($u in User) =
 		if not inLine($u) then
-			place($u) := INSIDE
+			par
+				place($u) := INSIDE
+				seen($u) := undef
+			endpar
 		else
 			choose $late in Boolean with true do
 				if $late then
-					place($u) := LEAVING
+					par
+						place($u) := LEAVING
+						seen($u) := undef
+					endpar
 				else
 					if countsFirst then
 						place($u) := DOZING
@@ -93,15 +100,18 @@ definitions:
 		endif
 
 	rule r_doze($u in User) =
-		if calls($u) = seen($u) then
-			place($u) := ASLEEP
-		else
-			if countsFirst then
-				place($u) := COUNTING
+		par
+			seen($u) := undef
+			if calls($u) = seen($u) then
+				place($u) := ASLEEP
 			else
-				place($u) := LOOKING
+				if countsFirst then
+					place($u) := COUNTING
+				else
+					place($u) := LOOKING
+				endif
 			endif
-		endif
+		endpar
 
 	// Too late to give up if the permit has been handed over.
 	rule r_leave($u in User) =
@@ -130,7 +140,7 @@ definitions:
 
 	rule r_call($u in User) =
 		par
-			calls(called($u)) := (calls(called($u)) + 1) mod 4
+			calls(called($u)) := (calls(called($u)) + 1) mod 3
 			place($u) := WAKING
 		endpar
 
@@ -139,6 +149,7 @@ definitions:
 			if place(called($u)) = ASLEEP then
 				place(called($u)) := COUNTING
 			endif
+			called($u) := undef
 			place($u) := OUTSIDE
 		endpar
 
@@ -166,6 +177,4 @@ default init s0:
 	function permits = 1
 	function line = []
 	function calls($u in User) = 0
-	function seen($u in User) = 0
 	function place($u in User) = OUTSIDE
-	function called($u in User) = ANNA

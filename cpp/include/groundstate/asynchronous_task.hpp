@@ -12,6 +12,7 @@
 
 namespace groundstate {
 
+/// A task whose step is called when there is something to do.
 template <Clock C>
 class AsynchronousTask {
   public:

@@ -9,6 +9,7 @@
 
 namespace groundstate {
 
+/// A number with one writer and any number of readers.
 class Counter {
   public:
     /// Who: the one writer. Blocks: no.

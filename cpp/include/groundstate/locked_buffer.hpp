@@ -23,8 +23,10 @@
 
 namespace groundstate {
 
+/// Who swaps the indexes: of two synchronous tasks the slower one; else the asynchronous one.
 enum class Master { writer, reader };
 
+/// A swinging buffer of `N` arrays of `T` between one producer and one consumer, of which one is the master.
 template <class T, std::size_t N, Master master, Clock C>
 class LockedBuffer {
     static_assert(N >= 2, "one array to write, one to read");

@@ -17,6 +17,7 @@
 
 namespace groundstate {
 
+/// At most `Capacity` messages between one sender and one receiver.
 template <class T, std::size_t Capacity, Clock C>
 class MessageQueue {
     static_assert(Capacity > 0);

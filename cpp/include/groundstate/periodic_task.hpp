@@ -16,6 +16,7 @@ namespace groundstate {
 /// What a task does that is behind by whole periods.
 enum class Late { catch_up, skip };
 
+/// When the cycles of a task are due, and what they take.
 struct Period {
     std::int64_t period_ns = 0;
     std::int64_t offset_ns = 0;
@@ -24,6 +25,7 @@ struct Period {
     Late late = Late::catch_up;
 };
 
+/// A task whose step is called once a period.
 template <Clock C>
 class PeriodicTask {
   public:

@@ -20,6 +20,7 @@
 
 namespace groundstate {
 
+/// Permits for users 0 to 6, in the order of their asking.
 template <Clock C>
 class Semaphore {
   public:

@@ -9,6 +9,7 @@
 
 namespace groundstate {
 
+/// A count of occasions, on which one task or more can wait.
 template <Clock C>
 class Signal {
   public:

@@ -20,10 +20,10 @@ namespace groundstate {
 
 /// The cycle that a step is called for.
 struct Cycle {
-    std::int64_t number = 0;             ///< from 0 on
-    std::int64_t start_ns = 0;           ///< when it was due; in an asynchronous task: when it was woken
+    std::int64_t number = 0;              ///< from 0 on
+    std::int64_t start_ns = 0;            ///< when it was due; in an asynchronous task: when it was woken
     std::int64_t deadline_ns = never_ns;  ///< when it must be done
-    Watchdog& watchdog;                  ///< bounds the waiting of this cycle
+    Watchdog& watchdog;                   ///< bounds the waiting of this cycle
 };
 
 using Step = std::function<void(const Cycle&)>;
@@ -39,8 +39,8 @@ struct Statistics {
     Counter cycles{};
     Counter deadlines_met{};
     Counter deadlines_missed{};
-    Counter overruns{};         ///< cycles that were not done when the next one was due
-    Counter periods_skipped{};  ///< left out to get back onto the grid
+    Counter overruns{};           ///< cycles that were not done when the next one was due
+    Counter periods_skipped{};    ///< left out to get back onto the grid
     Counter worst_lateness_ns{};  ///< from when a cycle was due to when it began
     Counter worst_duration_ns{};  ///< from when a cycle began to when it was done
 };

@@ -21,6 +21,7 @@
 
 namespace groundstate {
 
+/// A clock that stands still while somebody works, and jumps when all sleep.
 class VirtualClock {
   public:
     /// LIMIT: so many threads can live by one clock.

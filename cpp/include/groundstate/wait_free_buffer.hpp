@@ -17,6 +17,7 @@
 
 namespace groundstate {
 
+/// A swinging buffer of `N` arrays of `T` between one producer and one consumer, of which neither waits.
 template <class T, std::size_t N, Clock C>
 class WaitFreeBuffer {
     static_assert(N >= 3 && N <= 128, "one array to write, one to read, and one between them");

@@ -12,6 +12,7 @@
 
 namespace groundstate {
 
+/// The time that a task may still spend waiting in this cycle.
 class Watchdog {
   public:
     /// The time that one cycle may spend waiting; 0 tries once and never waits.
