@@ -14,6 +14,7 @@
 // Broadcast takes a buffer for each consumer.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <utility>
 
@@ -60,15 +61,22 @@ class [[nodiscard]] Writing {
     }
 
     explicit operator bool() const noexcept { return buffer_ != nullptr; }
-    Datum& operator*() const noexcept { return array_->datum; }
-    Datum* operator->() const noexcept { return &array_->datum; }
+    Datum& operator*() const noexcept { return *operator->(); }
+    Datum* operator->() const noexcept {
+        assert(buffer_ != nullptr && "nothing to write to: the watchdog ended, or it was published");
+        return &array_->datum;
+    }
 
     /// Ends the access and hands the datum over, stamped with the time. False if the watchdog ended before the swap:
     /// the datum stays pending for the next one. Contract: that of the form.
-    bool publish() noexcept { return publish_at(buffer_->clock().now_ns()); }
+    bool publish() noexcept {
+        assert(buffer_ != nullptr && "nothing to publish: the watchdog ended, or it was published");
+        return publish_at(buffer_->clock().now_ns());
+    }
 
     /// The same, with the time at which the datum was true: the camera's, not the computer's.
     bool publish_at(std::int64_t stamp_ns) noexcept {
+        assert(buffer_ != nullptr && "nothing to publish: the watchdog ended, or it was published");
         return std::exchange(buffer_, nullptr)->hand_over(stamp_ns, *watchdog_);
     }
 
@@ -99,8 +107,13 @@ class [[nodiscard]] Reading {
     }
 
     explicit operator bool() const noexcept { return array_ != nullptr; }
-    const Datum& operator*() const noexcept { return array_->datum; }
-    const Datum* operator->() const noexcept { return &array_->datum; }
+    const Datum& operator*() const noexcept { return *operator->(); }
+    const Datum* operator->() const noexcept {
+        assert(array_ != nullptr && "nothing to read");
+        return &array_->datum;
+    }
+
+    // When there is nothing to read, `fresh` alone may be asked.
 
     /// The datum was not there at the reading before.
     bool fresh() const noexcept { return fresh_; }
