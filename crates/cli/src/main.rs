@@ -36,6 +36,7 @@ mod shell;
 mod solver;
 mod test;
 mod tracefile;
+mod verify;
 mod wire;
 
 use std::process::ExitCode;
@@ -57,7 +58,8 @@ struct Arguments {
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 good; 1 the model is at fault, an invariant is violated or a scenario fails; \
-                          2 wrong usage or the world (a missing file); 3 not known (interrupted).";
+                          2 wrong usage or the world (a missing file); 3 not known (interrupted, a bound was \
+                          reached).";
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -67,6 +69,8 @@ enum Command {
     Run(Box<run::Arguments>),
     /// Run scenarios and report which fail
     Test(test::Arguments),
+    /// Explore every state of a model: what always holds, what is violated and how, what is not known
+    Verify(Box<verify::Arguments>),
     /// Run a recorded trace again and compare
     Replay(replay::Arguments),
     /// Run a model and write the run as a page: timeline, deadlines, waiting, coverage
@@ -114,6 +118,7 @@ fn work(arguments: Arguments) -> Exit {
         Command::Check(arguments) => check::run(&mut shell, &arguments),
         Command::Run(arguments) => run::run(&mut shell, &arguments),
         Command::Test(arguments) => test::run(&mut shell, &arguments),
+        Command::Verify(arguments) => verify::run(&mut shell, &arguments),
         Command::Replay(arguments) => replay::run(&mut shell, &arguments),
         Command::Report(arguments) => report::run(&mut shell, &arguments),
         Command::Chart(arguments) => chart::run(&mut shell, &arguments),

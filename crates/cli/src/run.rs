@@ -130,7 +130,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     Ok(exit)
 }
 
-fn no_main(shell: &mut Shell, loaded: &Loaded) -> Result<Exit, Failure> {
+pub fn no_main(shell: &mut Shell, loaded: &Loaded) -> Result<Exit, Failure> {
     let file = loaded.model.root;
     let span = syntax::Span { file, start: 0, end: 0 };
     let fault = syntax::Diagnostic::error("no-main-rule", span, "the model has no main rule to run")

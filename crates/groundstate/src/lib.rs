@@ -4,6 +4,7 @@
 //! faults as [`syntax::Diagnostic`]s, run-time ones included. Shells build on this crate and, below it, on types
 //! only; it must not know files, terminals or wire formats.
 
+mod counterexample;
 mod diagnose;
 mod fingerprint;
 mod test;
@@ -16,10 +17,11 @@ use program::{Expression, Program, Rule, RuleId};
 use syntax::ast::{AstNode, TermFile};
 use syntax::{Diagnostic, Severity, SourceFile, Sources, Span};
 
+pub use counterexample::{counterexample_run, counterexample_scenario};
 pub use diagnose::{diagnose_failure, diagnose_fault, diagnose_violation};
 pub use fingerprint::fingerprint;
 pub use test::{SeededChoices, Suite, Tested, own_files};
-pub use {scenario, simulate};
+pub use {scenario, simulate, verify};
 
 /// A model that is ready to run.
 #[derive(Debug, Clone)]

@@ -69,6 +69,8 @@ pub(crate) struct Core {
     pub shared: bool,
     /// Sparse locations at the last compaction.
     pub compacted: usize,
+    /// By choose rule, as far as it is known: its alternatives are asked for before its guards are evaluated.
+    pub asked_first: Vec<Option<bool>>,
 }
 
 /// The choices made in a step, so that one begun anew makes the same.

@@ -369,13 +369,13 @@ impl<'a> Executor<'a> {
     ) -> Outcome<()> {
         let program = self.program;
         let binders = program.binder_list(binders);
-        if self.core.exploring {
+        if self.core.exploring && self.asks_first(id, binders, condition) {
             return self.perform_alternative(id, binders, condition, body, if_none);
         }
         let span = program.rule_span(id);
         let start = self.core.frames.len();
         let listed = self.draw_numbers(binders, condition, span)?;
-        let _ = self.for_each_binding(&listed, &mut |this| {
+        let gathered = self.for_each_binding(&listed, &mut |this| {
             let fits = match condition {
                 Some(condition) => this.holds(condition)?,
                 None => true,
@@ -388,7 +388,10 @@ impl<'a> Executor<'a> {
                 this.check_size((this.core.frames.len() - start) as u64, span)?;
             }
             Ok(ControlFlow::Continue(()))
-        })?;
+        });
+        if let Err(fault) = gathered {
+            return if self.core.exploring { self.endless_choice(fault, span) } else { Err(fault) };
+        }
         let candidates = (self.core.frames.len() - start) / binders.len().max(1);
         if let Some(coverage) = &mut self.core.coverage {
             coverage.went(id, candidates.min(2));

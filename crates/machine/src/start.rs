@@ -50,6 +50,7 @@ impl Core {
             unset: false,
             shared: program.functions.iter().any(|function| function.kind == FunctionKind::Shared),
             compacted: 0,
+            asked_first: Vec::new(),
         };
         core.reset_carriers(program);
         Executor { program, core: &mut core, environment: &mut Closed, limits }.fill_contents();

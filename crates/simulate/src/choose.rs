@@ -55,6 +55,15 @@ pub enum Choices {
         /// What the first, second, … choice of a step is drawn by; grows with the step that makes the most.
         keys: Vec<u64>,
     },
+    /// As somebody has decided: by step, the values of the variables of each choice, in the order of the step.
+    Decided {
+        /// By step, from 0, which is the initial state.
+        steps: Vec<Vec<Vec<Value>>>,
+        /// The step being made.
+        step: u64,
+        /// How many choices the step has made so far.
+        made: usize,
+    },
     /// As a trace has it: how many candidates there were and which was taken, in the order of the step.
     Recorded(Played),
 }
@@ -65,8 +74,13 @@ impl Choices {
         Choices::Random { seed, step: 0, made: 0, keys: Vec::new() }
     }
 
+    /// Choices by the values of their variables, by step from 0.
+    pub fn decided(steps: Vec<Vec<Vec<Value>>>) -> Self {
+        Choices::Decided { steps, step: 0, made: 0 }
+    }
+
     pub(crate) fn begin(&mut self, now: u64) {
-        if let Choices::Random { step, made, .. } = self {
+        if let Choices::Random { step, made, .. } | Choices::Decided { step, made, .. } = self {
             *step = now;
             *made = 0;
         }
@@ -82,6 +96,7 @@ impl Choices {
                 key.write(&draw.variable.to_le_bytes());
                 draw_basic(draw.basic, bounds, &mut SplitMix::stream(*seed, *step, key.finish()))
             }
+            Choices::Decided { .. } => Ok(draw.number(0)),
             Choices::Recorded(recorded) => {
                 let recorded = recorded.borrow();
                 let value = recorded.front().and_then(|choice| choice.values.get(draw.variable));
@@ -99,6 +114,14 @@ impl Choices {
                 let mut stream = SplitMix::stream(*seed, *step, key);
                 *made += 1;
                 Ok(stream.below(choice.candidates() as u64) as usize)
+            }
+            Choices::Decided { steps, step, made } => {
+                let wanted = steps.get(*step as usize).and_then(|choices| choices.get(*made));
+                *made += 1;
+                let Some(wanted) = wanted else { return Err("nothing is decided for this choice".to_string()) };
+                let mut all = 0..choice.candidates();
+                all.find(|index| choice.candidate(*index) == wanted)
+                    .ok_or_else(|| "what is decided for this choice is not among its candidates".to_string())
             }
             Choices::Recorded(recorded) => match recorded.borrow_mut().pop_front() {
                 Some(PlayedChoice { of, index, .. }) if of == choice.candidates() => Ok(index),

@@ -8,6 +8,7 @@
 mod choose;
 mod clock;
 mod constants;
+mod decided;
 mod draw;
 mod inputs;
 mod invariants;
@@ -22,6 +23,7 @@ mod trace;
 pub use choose::{ChoiceMade, Choices};
 pub use clock::{Clock, StepClock};
 pub use constants::Constants;
+pub use decided::Decided;
 pub use draw::{Bounds, Carriers};
 pub use inputs::{Ask, Inputs, Signal, Source};
 pub use machine::Passed;

@@ -12,6 +12,7 @@ use machine::{Fault, Limits};
 use program::{Expression, FunctionId, Program, PropertyKind};
 use syntax::Span;
 
+use crate::assumed::assumed_bounds;
 use crate::coverage::unreachable_rules;
 use crate::engine::{Ended, run_engine};
 use crate::runs::{OfRuns, Question, Why, decide};
@@ -137,6 +138,8 @@ pub struct Report {
     pub progress: Progress,
     /// Why the search ended early, if it did.
     pub stop: Option<Stop>,
+    /// Every state that can be reached was met.
+    pub complete: bool,
     /// How many words a state has, and how many bits of them are used.
     pub width: (usize, usize),
     /// Rules that run in no step, though the rule around them or its caller does; only where every state was met.
@@ -188,6 +191,8 @@ pub fn verify_fair(
         let outcome = match target {
             None => of_runs.remove(subject).unwrap_or(Outcome::Unknown(vec![Reason::Temporal])),
             Some(target) => match ended.found.remove(target) {
+                // With other inputs the state might not rest.
+                Some(_) if *target == Target::Rest && !options.bounds.is_empty() => Outcome::Unknown(reasons.clone()),
                 Some(trace) => Outcome::Violated(Box::new(trace)),
                 None => {
                     let mut reasons = reasons.clone();
@@ -204,8 +209,9 @@ pub fn verify_fair(
     });
     let verdicts = verdicts.collect();
     let unreachable = if reasons.is_empty() { unreachable_rules(program, &ended.executed) } else { Vec::new() };
+    let complete = ended.stop.is_none() && ended.unbounded.is_empty() && options.bounds.is_empty();
     let Ended { progress, stop, width, engine, .. } = ended;
-    Ok(Report { verdicts, progress, stop, width, unreachable, runs, engine })
+    Ok(Report { verdicts, progress, stop, complete, width, unreachable, runs, engine })
 }
 
 /// The outcomes of temporal properties, and why those are unknown that are. A limit that ended the search is none for them
@@ -274,8 +280,9 @@ struct Questions {
 
 impl Questions {
     fn of(program: &Program, options: &Options) -> Questions {
-        let mut settings =
-            Settings { limits: options.limits, bounds: Arc::new(options.bounds.clone()), ..Settings::default() };
+        let mut bounds = assumed_bounds(program);
+        bounds.extend(options.bounds.iter().map(|(function, values)| (*function, values.clone())));
+        let mut settings = Settings { limits: options.limits, bounds: Arc::new(bounds), ..Settings::default() };
         settings.forgetful = options.forgetful;
         let mut plan = Plan {
             settings,

@@ -3,6 +3,7 @@
 //! In: a program, and bounds of the search. Out: verdicts with traces. The meaning of a step is the machine's alone; this
 //! crate decides which steps are made and what is kept of them. It must not know files, clocks or wire formats.
 
+mod assumed;
 mod check;
 mod coverage;
 mod engine;

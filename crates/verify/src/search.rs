@@ -64,7 +64,7 @@ pub struct Progress {
     pub transitions: u64,
     /// States that are still to be expanded.
     pub queue: u64,
-    /// The distance of the states that are being expanded.
+    /// The greatest distance of a state from an initial one.
     pub depth: u64,
     /// Bytes that states take.
     pub bytes: u64,
@@ -284,7 +284,7 @@ fn decide(
         states: sum(|report| report.states),
         transitions: sum(|report| report.transitions),
         queue: left + fresh,
-        depth,
+        depth: if fresh > 0 { depth } else { depth.saturating_sub(1) },
         bytes: sum(|report| report.bytes),
     };
     let go_on = watch(progress);

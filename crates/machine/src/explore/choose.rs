@@ -5,7 +5,7 @@
 
 use std::ops::ControlFlow;
 
-use program::{Binder, FunctionId, Program, RuleId, Term, TermId};
+use program::{Binder, Expression, FunctionId, Program, RuleId, Term, TermId};
 use syntax::Span;
 
 use crate::execute::{Executor, Outcome};
@@ -68,6 +68,25 @@ impl Executor<'_> {
         }
     }
 
+    /// Whether the alternatives of a choose rule can be asked for before its guards are evaluated: neither these nor the
+    /// ranges ask for anything themselves. A guard over an input may let all candidates fail for one of its values and
+    /// none for another.
+    pub fn asks_first(&mut self, id: RuleId, binders: &[Binder], condition: Option<TermId>) -> bool {
+        let known = &mut self.core.asked_first;
+        if known.is_empty() {
+            known.resize(self.program.rules.len(), None);
+        }
+        let program = self.program;
+        *known[id.0 as usize].get_or_insert_with(|| {
+            let ranges = binders.iter().map(|binder| binder.range);
+            let asks_nothing = |term: TermId| {
+                let (parameters, names) = (Vec::new(), Vec::new());
+                program.reads(&Expression { parameters, frame: 0, names, body: term }).is_some()
+            };
+            ranges.chain(condition).all(asks_nothing)
+        })
+    }
+
     /// Runs a choose rule with the alternative that is due.
     pub fn perform_alternative(
         &mut self,
@@ -123,7 +142,7 @@ impl Executor<'_> {
 
     /// Candidates that cannot be listed are no fault of the step here: they are what cannot be explored.
     #[cold]
-    fn endless_choice(&mut self, fault: Box<crate::Fault>, span: Span) -> Outcome<()> {
+    pub fn endless_choice(&mut self, fault: Box<crate::Fault>, span: Span) -> Outcome<()> {
         if let FaultKind::NotEnumerable { .. } = fault.kind
             && let Some(branches) = self.environment.branches()
         {

@@ -121,7 +121,7 @@ impl Condition {
 }
 
 /// Whether a domain has the same elements in all states.
-fn is_fixed(program: &Program, domain: program::DomainId) -> bool {
+pub(crate) fn is_fixed(program: &Program, domain: program::DomainId) -> bool {
     match &program.domain(domain).kind {
         DomainKind::Basic(_) | DomainKind::Enum { .. } => true,
         DomainKind::Abstract { dynamic, .. } => !dynamic,

@@ -14,7 +14,7 @@ use program::{Builtin, DomainId, DomainKind, FunctionId, FunctionKind, Program, 
 use crate::execute::Core;
 use crate::explore::branches::{NOWHERE, REST};
 use crate::explore::choose::is_kept;
-use crate::explore::conditions::initial_value;
+use crate::explore::conditions::{initial_value, is_fixed};
 use crate::explore::interner::{Rest, View};
 use crate::layout::Layout;
 use crate::location::Location;
@@ -25,6 +25,8 @@ use crate::value::Value;
 const FIELDS_OF_A_FUNCTION: usize = 1 << 12;
 /// LIMIT: a domain with more elements counts as infinite.
 const CODES: usize = 1 << 12;
+/// A function with more locations does not have all its initial values from the start, see [`crate::machine::Machine::start`].
+const EAGER: usize = 1 << 20;
 /// LIMIT: the fields of a state have at most so many bits; what would not fit belongs to the rest.
 const BITS: usize = 1 << 14;
 
@@ -121,7 +123,7 @@ impl Encoding {
             rest: None,
             constant_rest: Arc::default(),
             words: 1,
-            lazy: lazy(program),
+            lazy: lazy(program, machine),
             grows: program.domains.iter().any(|domain| match &domain.kind {
                 DomainKind::Abstract { dynamic, .. } | DomainKind::Concrete { dynamic, .. } => *dynamic,
                 _ => false,
@@ -433,14 +435,23 @@ fn assigned_undef(program: &Program) -> Vec<bool> {
     assigned
 }
 
-/// By function: its initial value depends on its arguments alone.
-fn lazy(program: &Program) -> Vec<bool> {
+/// By function: its initial values depend on its arguments alone, and some of them are not there from the start.
+fn lazy(program: &Program, machine: &mut Machine) -> Vec<bool> {
     let fixed = crate::memo::fixed_functions(program);
     let mut lazy = vec![false; program.functions.len()];
     for initial in &program.initials {
         let body = initial.value.body;
         let chooses = matches!(program.term(body), Term::Builtin { builtin: Builtin::ChooseOne, .. });
-        lazy[initial.function.0 as usize] = !chooses && crate::memo::is_fixed_term(program, body, &fixed);
+        let mut locations = 1usize;
+        for parameter in &program.function(initial.function).parameters {
+            let count = match is_fixed(program, *parameter) {
+                true => machine.elements(*parameter).map_or(usize::MAX, |elements| elements.len()),
+                false => usize::MAX,
+            };
+            locations = locations.saturating_mul(count);
+        }
+        lazy[initial.function.0 as usize] =
+            locations > EAGER && !chooses && crate::memo::is_fixed_term(program, body, &fixed);
     }
     lazy
 }

@@ -36,7 +36,7 @@ enum Node {
     Field { word: u32, shift: u8, bits: u8, base: u32 },
     /// Children by code, in a table.
     Wide { word: u32, shift: u8, bits: u8, index: u32 },
-    /// Every child is walked.
+    /// Every child is walked; dead where all of them are.
     Ask { base: u32, of: u32 },
     /// Every child is walked; where all are dead, the one after them.
     Guarded { base: u32, of: u32 },
@@ -145,10 +145,11 @@ impl Tree {
                     link = self.wide.get(&(index, code)).copied().unwrap_or(0);
                 }
                 Node::Ask { base, of } => {
+                    let mut alive = false;
                     for child in &self.links[base as usize..(base + of) as usize] {
-                        self.walk_from(*child, words, visit)?;
+                        alive |= self.walk_from(*child, words, visit)?;
                     }
-                    return Ok(true);
+                    return Ok(alive);
                 }
                 Node::Guarded { base, of } => {
                     let mut alive = false;

@@ -1,0 +1,57 @@
+//! `--bound`: which values an input is tried with.
+
+use groundstate::simulate::read_value;
+use machine::Value;
+use machine::explore::Bounds;
+use program::{FunctionId, FunctionKind, Program};
+
+use crate::failure::Failure;
+
+/// LIMIT: values of one bound.
+const VALUES: i64 = 1 << 20;
+
+/// Reads bounds.
+pub fn read(program: &Program, texts: &[String]) -> Result<Bounds, Failure> {
+    let mut bounds = Bounds::new();
+    for text in texts {
+        let wrong = |reason: String| {
+            Failure::usage_with_help(format!("--bound {text}: {reason}"), "write it as level=0..10 or colour=RED,GREEN")
+        };
+        let (name, values) = text.split_once('=').ok_or_else(|| wrong("there is no `=`".to_string()))?;
+        let inputs = inputs(program, name.trim());
+        if inputs.is_empty() {
+            return Err(wrong(format!("`{}` is no monitored or shared function", name.trim())));
+        }
+        for function in inputs {
+            bounds.insert(function, values_of(program, function, values).map_err(wrong)?);
+        }
+    }
+    Ok(bounds)
+}
+
+fn inputs(program: &Program, name: &str) -> Vec<FunctionId> {
+    let all = program.functions.iter().enumerate();
+    all.filter(|(_, f)| f.name == name && matches!(f.kind, FunctionKind::Monitored | FunctionKind::Shared))
+        .map(|(index, _)| FunctionId(index as u32))
+        .collect()
+}
+
+fn values_of(program: &Program, function: FunctionId, text: &str) -> Result<Vec<Value>, String> {
+    let number = |text: &str| text.trim().parse::<i64>().map_err(|_| format!("`{}` is no whole number", text.trim()));
+    if let Some((low, high)) = text.split_once("..") {
+        let (low, high) = (number(low)?, number(high)?);
+        if high < low {
+            return Err(format!("there is no number from {low} to {high}"));
+        }
+        if high.saturating_sub(low) >= VALUES {
+            return Err(format!("these are more than {VALUES} values"));
+        }
+        return Ok((low..=high).map(Value::Integer).collect());
+    }
+    let domain = program.function(function).codomain;
+    let mut values: Vec<Value> =
+        text.split(',').map(|text| read_value(program, domain, text)).collect::<Result<_, _>>()?;
+    values.sort_unstable();
+    values.dedup();
+    Ok(values)
+}

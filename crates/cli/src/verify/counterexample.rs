@@ -1,0 +1,129 @@
+//! Counterexamples as files: scenarios that fail where they end, and traces to replay.
+
+use std::io::Write;
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+
+use groundstate::simulate::{End, Header, Invariants};
+use groundstate::verify::{Outcome, Report, Subject, Trace};
+use program::Program;
+use syntax::Sources;
+
+use crate::failure::Failure;
+use crate::files::Unfinished;
+use crate::shell::Shell;
+use crate::tracefile::TraceFile;
+use crate::verify::tell::id;
+use crate::wire::Wire;
+
+/// Writes the first counterexample to a file, or all of them into a folder.
+pub fn write(
+    shell: &mut Shell,
+    path: &Path,
+    model: &Path,
+    program: &Arc<Program>,
+    sources: &Sources,
+    report: &Report,
+) -> Result<(), Failure> {
+    let violated = report.verdicts.iter().filter_map(|verdict| match &verdict.outcome {
+        Outcome::Violated(trace) => Some((verdict.subject, trace.as_ref())),
+        _ => None,
+    });
+    let writer = Writer { model, program, sources };
+    let mut written: Vec<PathBuf> = Vec::new();
+    let kind = path.extension().and_then(|extension| extension.to_str());
+    for (subject, trace) in violated {
+        let name = match subject {
+            Subject::Property(index) => file_name(&program.properties[index].name),
+            subject => id(subject).unwrap_or_default().to_string(),
+        };
+        match kind {
+            Some("avalla") => {
+                writer.scenario(shell, path, trace, subject, &name)?;
+                written.push(path.to_path_buf());
+                break;
+            }
+            Some("trace") => {
+                writer.trace(shell, path, trace, subject)?;
+                written.push(path.to_path_buf());
+                break;
+            }
+            _ => {
+                std::fs::create_dir_all(path).map_err(|error| Failure::of_file("write", path, error))?;
+                let (scenario, file) = (path.join(format!("{name}.avalla")), path.join(format!("{name}.trace")));
+                writer.scenario(shell, &scenario, trace, subject, &name)?;
+                writer.trace(shell, &file, trace, subject)?;
+                written.extend([scenario, file]);
+            }
+        }
+    }
+    if shell.talks() {
+        for path in written {
+            writeln!(shell.out(), "wrote {}", path.display())?;
+        }
+    }
+    Ok(())
+}
+
+struct Writer<'a> {
+    model: &'a Path,
+    program: &'a Arc<Program>,
+    sources: &'a Sources,
+}
+
+impl Writer<'_> {
+    fn scenario(
+        &self,
+        _shell: &Shell,
+        path: &Path,
+        trace: &Trace,
+        subject: Subject,
+        name: &str,
+    ) -> Result<(), Failure> {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let model = relative(self.model, folder);
+        let name = name.replace('-', "_");
+        let text = groundstate::counterexample_scenario(self.program, trace, subject, &name, &model);
+        let mut file = Unfinished::create(path)?;
+        file.write_all(text.as_bytes()).map_err(|error| Failure::of_file("write", path, error))?;
+        file.finish()
+    }
+
+    fn trace(&self, shell: &Shell, path: &Path, trace: &Trace, subject: Subject) -> Result<(), Failure> {
+        let stops = matches!(subject, Subject::Property(_));
+        let header = Header {
+            model: self.program.name.clone(),
+            path: self.model.display().to_string(),
+            source: groundstate::fingerprint(self.sources),
+            steps: Some(trace.steps.len() as u64),
+            invariants: if stops { Invariants::Report } else { Invariants::Ignore },
+            ..Header::default()
+        };
+        let limits = shell.global.limits.machine();
+        let mut run = groundstate::counterexample_run(self.program, limits, trace, &header);
+        let mut file = TraceFile::create(path, false)?;
+        file.write(&Wire::header(&header))?;
+        let wire = Wire { program: self.program, sources: self.sources };
+        while let Some(record) = run.advance() {
+            file.write(&wire.record(&record, run.steps()))?;
+            debug_assert!(!matches!(record, groundstate::simulate::Record::End(End::Interrupted)));
+        }
+        file.finish()
+    }
+}
+
+/// A property's name as that of a file.
+fn file_name(name: &str) -> String {
+    name.chars().map(|c| if c.is_alphanumeric() || c == '_' { c } else { '_' }).collect()
+}
+
+/// The path of a file as seen from a folder, as a scenario writes it.
+fn relative(file: &Path, folder: &Path) -> String {
+    let whole = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+    let (file, folder) = (whole(file), whole(folder));
+    let (to, from): (Vec<Component>, Vec<Component>) = (file.components().collect(), folder.components().collect());
+    let shared = to.iter().zip(&from).take_while(|(a, b)| a == b).count();
+    let up = from[shared..].iter().map(|_| "..".to_string());
+    let down = to[shared..].iter().map(|part| part.as_os_str().to_string_lossy().into_owned());
+    up.chain(down).collect::<Vec<_>>().join("/")
+}

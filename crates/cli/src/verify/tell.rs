@@ -1,0 +1,363 @@
+//! Verdicts and counterexamples, for people and as JSON.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+
+use groundstate::verify::runs::Why;
+use groundstate::verify::{Outcome, Reason, Report, Stop, Subject, Trace, Verdict};
+use machine::explore::{ChoiceTaken, Told, Unbounded, UnboundedKind};
+use machine::{Location, Show, Value};
+use program::{Program, PropertyKind};
+use serde::Serialize;
+use syntax::{Diagnostic, Sources, Span};
+
+use crate::check::plural;
+use crate::failure::Failure;
+use crate::shell::Shell;
+use crate::wire::Place;
+
+/// Tells what verification came to.
+pub struct Teller<'a> {
+    pub program: &'a Program,
+    pub sources: &'a Sources,
+    /// The search was stopped because its time was up.
+    pub timed_out: bool,
+}
+
+/// `{"type":"verdict",…}`
+#[derive(Debug, Serialize)]
+struct VerdictLine {
+    r#type: &'static str,
+    check: String,
+    kind: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    at: Option<Place>,
+    verdict: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    states: Option<u64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    reasons: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    trace: Option<Vec<StepLine>>,
+    /// The step from which the trace goes on again and again.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    again_from: Option<usize>,
+}
+
+#[derive(Debug, Serialize)]
+struct StepLine {
+    step: usize,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    values: Vec<(String, String)>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    inputs: Vec<(String, String)>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    choices: Vec<String>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    changes: Vec<ChangeLine>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fault: Option<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct ChangeLine {
+    location: String,
+    from: String,
+    to: String,
+    by: String,
+}
+
+/// `{"type":"explored",…}`
+#[derive(Debug, Serialize)]
+struct ExploredLine {
+    r#type: &'static str,
+    complete: bool,
+    states: u64,
+    transitions: u64,
+    depth: u64,
+    bytes: u64,
+    bits: usize,
+}
+
+impl Teller<'_> {
+    /// Tells everything.
+    pub fn report(&self, shell: &mut Shell, report: &Report) -> Result<(), Failure> {
+        for span in &report.unreachable {
+            let diagnostic = Diagnostic::warning("unreachable-rule", *span, "no reachable state runs this rule")
+                .because("never runs")
+                .with_help("if it should run, its guard or what leads to it is wrong; else remove it");
+            shell.diagnostic(self.sources, &diagnostic)?;
+        }
+        for verdict in &report.verdicts {
+            if shell.json() {
+                shell.object(&self.line(verdict, report))?;
+            } else if shell.talks() || !matches!(verdict.outcome, Outcome::Holds) {
+                self.verdict(shell, verdict, report)?;
+            }
+        }
+        let progress = &report.progress;
+        if shell.json() {
+            return shell.object(&ExploredLine {
+                r#type: "explored",
+                complete: report.complete,
+                states: progress.states,
+                transitions: progress.transitions,
+                depth: progress.depth,
+                bytes: progress.bytes,
+                bits: report.width.1,
+            });
+        }
+        if shell.talks() {
+            let whole = if report.complete { "all" } else { "not all" };
+            let states = plural(progress.states as usize, "state");
+            let transitions = plural(progress.transitions as usize, "transition");
+            let depth = progress.depth;
+            writeln!(shell.out(), "{states} ({whole} that can be reached), {transitions}, depth {depth}")?;
+        }
+        Ok(())
+    }
+
+    fn verdict(&self, shell: &mut Shell, verdict: &Verdict, report: &Report) -> Result<(), Failure> {
+        let name = self.name(verdict.subject);
+        match &verdict.outcome {
+            Outcome::Holds => writeln!(shell.out(), "holds     {name}")?,
+            Outcome::Unknown(reasons) => {
+                let reasons = self.reasons(verdict.subject, reasons, report);
+                writeln!(shell.out(), "unknown   {name}: {}", reasons.join("; "))?;
+            }
+            Outcome::Violated(trace) => {
+                let steps = plural(trace.steps.len(), "step");
+                writeln!(shell.out(), "violated  {name}, after {steps}")?;
+                self.trace(shell, trace, verdict.subject)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn trace(&self, shell: &mut Shell, trace: &Trace, subject: Subject) -> Result<(), Failure> {
+        let binders = groundstate::choice_variables(self.program);
+        writeln!(shell.out(), "  state 0")?;
+        for (location, value) in &trace.start.inputs {
+            writeln!(shell.out(), "    in {}", self.value(location, value))?;
+        }
+        for (location, value) in &trace.values {
+            writeln!(shell.out(), "    {}", self.value(location, value))?;
+        }
+        for (index, step) in trace.steps.iter().enumerate() {
+            let made = if step.fault.is_some() { ", not made" } else { "" };
+            writeln!(shell.out(), "  step {}{made}", index + 1)?;
+            for (location, value) in &step.inputs {
+                writeln!(shell.out(), "    in {}", self.value(location, value))?;
+            }
+            for choice in &step.choices {
+                writeln!(shell.out(), "    choose {}", self.choice(choice, &binders))?;
+            }
+            for change in &step.changes {
+                let (location, by) = (change.location.show(self.program), self.place(change.span));
+                let (before, after) = (change.before.show(self.program), change.after.show(self.program));
+                writeln!(shell.out(), "    {location}: {before} -> {after}  ({by})")?;
+            }
+            if step.fault.is_none() && step.changes.is_empty() {
+                writeln!(shell.out(), "    no change")?;
+            }
+        }
+        if let Some(turn) = trace.turn {
+            writeln!(shell.out(), "  and again from step {}, for ever", turn + 1)?;
+        }
+        if let Some(fault) = trace.steps.last().and_then(|step| step.fault.as_deref()) {
+            return shell.diagnostic(self.sources, &groundstate::diagnose_fault(fault, self.program));
+        }
+        if let Subject::Property(index) = subject {
+            let property = &self.program.properties[index];
+            let message = format!("{} does not hold", property.name);
+            let (id, reason) = match property.kind {
+                PropertyKind::Ctl | PropertyKind::Ltl => ("property-violated", "not true of this run".to_string()),
+                _ => ("invariant-violated", format!("not true after {}", plural(trace.steps.len(), "step"))),
+            };
+            let diagnostic = Diagnostic::error(id, property.span, message).because(reason);
+            return shell.diagnostic(self.sources, &diagnostic);
+        }
+        Ok(())
+    }
+
+    fn line(&self, verdict: &Verdict, report: &Report) -> VerdictLine {
+        let (kind, span) = match verdict.subject {
+            Subject::Property(index) => ("property", Some(self.program.properties[index].span)),
+            _ => ("builtin", None),
+        };
+        let mut line = VerdictLine {
+            r#type: "verdict",
+            check: id(verdict.subject).map_or_else(|| self.name(verdict.subject), str::to_string),
+            kind,
+            at: span.map(|span| Place::new(self.sources, span)),
+            verdict: "holds",
+            states: None,
+            reasons: Vec::new(),
+            trace: None,
+            again_from: None,
+        };
+        match &verdict.outcome {
+            Outcome::Holds => line.states = Some(report.progress.states),
+            Outcome::Unknown(reasons) => {
+                line.verdict = "unknown";
+                line.reasons = self.reasons(verdict.subject, reasons, report);
+            }
+            Outcome::Violated(trace) => {
+                line.verdict = "violated";
+                line.trace = Some(self.steps(trace));
+                line.again_from = trace.turn.map(|turn| turn + 1);
+            }
+        }
+        line
+    }
+
+    fn steps(&self, trace: &Trace) -> Vec<StepLine> {
+        let binders = groundstate::choice_variables(self.program);
+        let pairs = |values: &[(Location, Value)]| -> Vec<(String, String)> {
+            let show = |(location, value): &(Location, Value)| {
+                (location.show(self.program).to_string(), value.show(self.program).to_string())
+            };
+            values.iter().map(show).collect()
+        };
+        let line = |step: usize, told: &Told, values: &[(Location, Value)]| StepLine {
+            step,
+            values: pairs(values),
+            inputs: pairs(&told.inputs),
+            choices: told.choices.iter().map(|choice| self.choice(choice, &binders)).collect(),
+            changes: told
+                .changes
+                .iter()
+                .map(|change| ChangeLine {
+                    location: change.location.show(self.program).to_string(),
+                    from: change.before.show(self.program).to_string(),
+                    to: change.after.show(self.program).to_string(),
+                    by: self.place(change.span),
+                })
+                .collect(),
+            fault: told.fault.as_ref().map(|fault| fault.show(self.program).to_string()),
+        };
+        let first = line(0, &trace.start, &trace.values);
+        let steps = trace.steps.iter().enumerate().map(|(index, told)| line(index + 1, told, &[]));
+        std::iter::once(first).chain(steps).collect()
+    }
+
+    fn name(&self, subject: Subject) -> String {
+        match subject {
+            Subject::Consistent => "no inconsistent update".to_string(),
+            Subject::InDomain => "no update outside its domain".to_string(),
+            Subject::Defined => "every guard and operation is defined".to_string(),
+            Subject::NoDeadlock => "no deadlock".to_string(),
+            Subject::Property(index) => self.program.properties[index].name.clone(),
+        }
+    }
+
+    fn reasons(&self, subject: Subject, reasons: &[Reason], report: &Report) -> Vec<String> {
+        let why = match subject {
+            Subject::Property(index) => report.runs.get(&index),
+            _ => None,
+        };
+        let temporal = |reason: &Reason| match (reason, why) {
+            (Reason::Temporal, Some(why)) => self.why(why),
+            (reason, _) => self.reason(reason),
+        };
+        reasons.iter().map(temporal).collect()
+    }
+
+    /// Why a temporal formula is not decided.
+    fn why(&self, why: &Why) -> String {
+        match why {
+            Why::Unexplored(Some(stop)) => self.reason(&Reason::Stopped(*stop)),
+            Why::Unexplored(None) => "some alternatives cannot be gone through".to_string(),
+            Why::NoTruth => "a part of it is neither true nor false in some state".to_string(),
+            Why::NoFairRun => "no run is fair".to_string(),
+            Why::NoScheduler => "the main rule does not choose who moves".to_string(),
+            Why::TooLarge(what, most) => format!("more than {most} {what}"),
+            Why::Asked => self.reason(&Reason::Stopped(Stop::Asked)),
+            Why::Unread => "its formula is at fault".to_string(),
+        }
+    }
+
+    fn reason(&self, reason: &Reason) -> String {
+        match reason {
+            Reason::Stopped(Stop::States) => "the limit of states is reached".to_string(),
+            Reason::Stopped(Stop::Depth) => "the limit of depth is reached".to_string(),
+            Reason::Stopped(Stop::Memory) => "the limit of memory is reached".to_string(),
+            Reason::Stopped(Stop::Found) => "another check is violated".to_string(),
+            Reason::Stopped(Stop::Asked) if self.timed_out => "the time is up".to_string(),
+            Reason::Stopped(Stop::Asked) => "interrupted".to_string(),
+            Reason::Unbounded(unbounded) => self.unbounded(unbounded).message,
+            Reason::Bounded(function) => {
+                format!("{} is tried with some of its values only", self.program.function(*function).name)
+            }
+            Reason::Assumption(property) => {
+                format!("the assumption {} has no value in some state", self.program.properties[*property].name)
+            }
+            Reason::Undecided => "it has no value in some state".to_string(),
+            Reason::Temporal => "temporal formulas are not decided".to_string(),
+        }
+    }
+
+    /// What cannot be gone through, with its place.
+    pub fn unbounded(&self, unbounded: &Unbounded) -> Diagnostic {
+        let place = self.place(unbounded.span);
+        match unbounded.kind {
+            UnboundedKind::Input(function) => {
+                let declared = self.program.function(function);
+                let domain = &self.program.domain(declared.codomain).name;
+                let message = format!("the values of {} cannot be gone through ({place})", declared.name);
+                Diagnostic::error("no-bound", unbounded.span, message)
+                    .because(format!("{domain} is infinite, or its elements are not known"))
+                    .with_help(format!("bound it: `--bound {}=0..10`, or an INVAR in the model", declared.name))
+            }
+            UnboundedKind::Choice => Diagnostic::error(
+                "no-bound",
+                unbounded.span,
+                format!("the candidates of a choice are infinite ({place})"),
+            )
+            .because("chooses among infinitely many")
+            .with_help("choose from a finite domain or set"),
+            UnboundedKind::Clock => Diagnostic::error("no-bound", unbounded.span, "the model reads the clock")
+                .because("the clock has infinitely many readings")
+                .with_help("let a monitored function tell the time, and bound it"),
+            UnboundedKind::Limit => {
+                Diagnostic::error("limit-reached", unbounded.span, format!("a step reaches a limit ({place})"))
+                    .because("reached here")
+                    .with_help("if the model is right, raise the limit: `groundstate verify --help`")
+            }
+        }
+    }
+
+    fn value(&self, location: &Location, value: &Value) -> String {
+        format!("{} = {}", location.show(self.program), value.show(self.program))
+    }
+
+    fn choice(&self, choice: &ChoiceTaken, binders: &BTreeMap<Span, Vec<String>>) -> String {
+        let values: Vec<String> = choice.values.iter().map(|value| value.show(self.program).to_string()).collect();
+        match binders.get(&choice.span) {
+            Some(names) if names.len() == values.len() => {
+                let pairs: Vec<String> =
+                    names.iter().zip(&values).map(|(name, value)| format!("{name} = {value}")).collect();
+                pairs.join(", ")
+            }
+            _ => values.join(", "),
+        }
+    }
+
+    fn place(&self, span: Span) -> String {
+        let file = self.sources.file(span.file);
+        let start = file.line_column(span.start);
+        let name = file.name.rsplit(['/', '\\']).next().unwrap_or(&file.name);
+        format!("{name}:{}:{}", start.line, start.column)
+    }
+}
+
+/// The word that names a check that nobody asks for.
+pub fn id(subject: Subject) -> Option<&'static str> {
+    Some(match subject {
+        Subject::Consistent => "consistent",
+        Subject::InDomain => "in-domain",
+        Subject::Defined => "defined",
+        Subject::NoDeadlock => "no-deadlock",
+        Subject::Property(_) => return None,
+    })
+}

@@ -1,0 +1,107 @@
+//! A counterexample as something that can be run: a run of the simulator, and the text of a scenario.
+//!
+//! In: the trace of a violated check. Out: a [`Run`] that takes its inputs and choices from it, whose records are a trace
+//! to replay; an Avalla text that makes the same steps and fails where the trace ends. Both go through the ordinary
+//! machine, so that they judge the search.
+
+use std::fmt::Write;
+use std::sync::Arc;
+
+use machine::{Limits, Location, Show, Value};
+use program::{Program, Rule, RuleId};
+use simulate::{Decided, Header, Inputs, Options, Run};
+use verify::{Subject, Trace};
+
+/// The run of a counterexample. The header says how many steps it makes and what is done about invariants.
+pub fn counterexample_run(program: &Arc<Program>, limits: Limits, trace: &Trace, header: &Header) -> Run {
+    let decided = |told: &machine::explore::Told| Decided {
+        inputs: told.inputs.clone(),
+        choices: told.choices.iter().map(|choice| choice.values.clone()).collect(),
+    };
+    let steps = std::iter::once(&trace.start).chain(&trace.steps).map(decided).collect();
+    let options = Options { steps: header.steps, invariants: header.invariants, ..Options::default() };
+    Run::new(Arc::clone(program), limits, Inputs::decided(steps), options)
+}
+
+/// The scenario of a counterexample; `model` is the model's path as the scenario is to load it.
+pub fn counterexample_scenario(program: &Program, trace: &Trace, subject: Subject, name: &str, model: &str) -> String {
+    let mut text = format!("scenario {name}\nload \"{model}\"\n");
+    let mut given: Vec<(Location, Value)> = Vec::new();
+    set(&mut text, program, &mut given, &trace.start.inputs);
+    let last = trace.steps.len();
+    for (index, step) in trace.steps.iter().enumerate() {
+        let _ = write!(text, "\n// step {}\n", index + 1);
+        set(&mut text, program, &mut given, &step.inputs);
+        for choice in &step.choices {
+            pick(&mut text, program, choice);
+        }
+        text.push_str("step\n");
+        if index + 1 == last && step.fault.is_some() {
+            return text;
+        }
+    }
+    if let Some(turn) = trace.turn {
+        let _ = write!(
+            text,
+            "\n// and again from step {}, for ever; only a run without end violates the property\n",
+            turn + 1
+        );
+    }
+    if subject == Subject::NoDeadlock {
+        rest(&mut text, program, trace);
+    }
+    text
+}
+
+/// Sets inputs that are not what they were.
+fn set(text: &mut String, program: &Program, given: &mut Vec<(Location, Value)>, inputs: &[(Location, Value)]) {
+    for (location, value) in inputs {
+        match given.iter_mut().find(|(former, _)| former == location) {
+            Some((_, former)) if former == value => continue,
+            Some((_, former)) => former.clone_from(value),
+            None => given.push((location.clone(), value.clone())),
+        }
+        let _ = writeln!(text, "set {} := {};", location.show(program), value.show(program));
+    }
+}
+
+fn pick(text: &mut String, program: &Program, choice: &machine::explore::ChoiceTaken) {
+    for procedure in &program.procedures {
+        let mut open: Vec<RuleId> = vec![procedure.body];
+        while let Some(id) = open.pop() {
+            program.each_child_of_rule(id, &mut |child| open.push(child));
+            let Rule::Choose { binders, .. } = program.rule(id) else { continue };
+            if program.rule_span(id) != choice.span {
+                continue;
+            }
+            for (binder, value) in program.binder_list(*binders).iter().zip(&choice.values) {
+                let variable = &procedure.names[binder.slot.0 as usize];
+                let _ = writeln!(text, "pick {variable} in {} := {};", procedure.name, value.show(program));
+            }
+            return;
+        }
+    }
+    let values: Vec<String> = choice.values.iter().map(|value| value.show(program).to_string()).collect();
+    let _ = writeln!(text, "// a term chooses {} here, which no scenario can say", values.join(", "));
+}
+
+/// No step changes the last state: the check that the next one does fails.
+fn rest(text: &mut String, program: &Program, trace: &Trace) {
+    let mut state: Vec<(Location, Value)> = trace.values.clone();
+    for change in trace.steps.iter().flat_map(|step| &step.changes) {
+        match state.iter_mut().find(|(location, _)| *location == change.location) {
+            Some((_, value)) => value.clone_from(&change.after),
+            None => state.push((change.location.clone(), change.after.clone())),
+        }
+    }
+    let same: Vec<String> = state
+        .iter()
+        .filter(|(location, _)| program.function(location.function).kind != program::FunctionKind::Monitored)
+        .map(|(location, value)| match value {
+            Value::Undef => format!("isUndef({})", location.show(program)),
+            value => format!("{} = {}", location.show(program), value.show(program)),
+        })
+        .collect();
+    let same = same.join("\n\tand ");
+    let _ = write!(text, "\n// no step changes this state\ncheck {same};\nstep\ncheck not ({same});\n");
+}

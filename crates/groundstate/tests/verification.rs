@@ -1,0 +1,123 @@
+//! The examples of spec/verification.md have the verdicts that stand below them; the faults that only verification finds
+//! have pages whose examples show them; counterexamples fail as scenarios where they end.
+
+#![allow(clippy::disallowed_methods, reason = "the pages are files")]
+
+use std::sync::Arc;
+
+use groundstate::scenario::{FirstCandidate, Options as Scenario};
+use groundstate::verify::{Options, Outcome, Reason, Report, Subject, verify};
+use groundstate::{Suite, counterexample_scenario};
+use program::Program;
+use syntax::SourceFile;
+
+/// The one model of an example.
+struct OneModel(String);
+
+impl model::Loader for OneModel {
+    fn load(&mut self, _importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        if path == file(&self.0) {
+            Ok(SourceFile::new(path, self.0.as_str()))
+        } else {
+            Err(format!("there is no file {path}"))
+        }
+    }
+}
+
+/// The name of a model's file.
+fn file(model: &str) -> String {
+    format!("{}.asm", model.split_whitespace().nth(1).expect("it begins with `asm` and its name"))
+}
+
+fn page(name: &str) -> String {
+    let path = format!("{}/../../spec/{name}.md", env!("CARGO_MANIFEST_DIR"));
+    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+/// The blocks of a page that begin so.
+fn blocks<'p>(page: &'p str, info: &str) -> Vec<&'p str> {
+    let opening = format!("```{info}\n");
+    page.split(opening.as_str()).skip(1).map(|rest| rest.split_once("```").expect("the block ends").0).collect()
+}
+
+fn check(text: &str, workers: usize) -> (Arc<Program>, Report) {
+    let mut loader = OneModel(text.to_string());
+    let loaded = groundstate::load(SourceFile::new(file(text), text), &mut loader);
+    let program = Arc::new(loaded.unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics)).program);
+    let report = verify(&program, &Options { workers, ..Options::default() }, &mut |_| true);
+    (program, report.unwrap_or_else(|trouble| panic!("{trouble:?}")))
+}
+
+fn name(program: &Program, subject: Subject) -> String {
+    match subject {
+        Subject::Consistent => "consistent".to_string(),
+        Subject::InDomain => "in-domain".to_string(),
+        Subject::Defined => "defined".to_string(),
+        Subject::NoDeadlock => "no-deadlock".to_string(),
+        Subject::Property(index) => program.properties[index].name.clone(),
+    }
+}
+
+fn verdicts(program: &Program, report: &Report) -> String {
+    let lines = report.verdicts.iter().map(|verdict| {
+        let name = name(program, verdict.subject);
+        match &verdict.outcome {
+            Outcome::Holds => format!("holds {name}\n"),
+            Outcome::Violated(trace) => format!("violated {name} {}\n", trace.steps.len()),
+            Outcome::Unknown(_) => format!("unknown {name}\n"),
+        }
+    });
+    lines.chain([format!("states {}\n", report.progress.states)]).collect()
+}
+
+#[test]
+fn the_examples_have_the_verdicts_that_the_page_says() {
+    let page = page("verification");
+    let (models, expected) = (blocks(&page, "asmetal verify"), blocks(&page, "verdicts"));
+    assert_eq!(models.len(), expected.len());
+    for (model, expected) in models.iter().zip(expected) {
+        for workers in [1, 2] {
+            let (program, report) = check(model, workers);
+            assert_eq!(verdicts(&program, &report), expected, "{model}");
+        }
+    }
+}
+
+#[test]
+fn counterexamples_fail_as_scenarios_where_they_end() {
+    let page = page("verification");
+    let mut failed = 0;
+    for model in blocks(&page, "asmetal verify") {
+        let (program, report) = check(model, 1);
+        for verdict in &report.verdicts {
+            let Outcome::Violated(trace) = &verdict.outcome else { continue };
+            let text = counterexample_scenario(&program, trace, verdict.subject, "example", &file(model));
+            let mut loader = OneModel(model.to_string());
+            let source = SourceFile::new("example.avalla", text.clone());
+            let tested = Suite::new().test(source, &mut loader, Scenario::default(), &mut FirstCandidate);
+            let found = tested.verdict.unwrap_or_else(|| panic!("{:#?}\n{text}", tested.diagnostics));
+            let made = trace.steps.iter().filter(|step| step.fault.is_none()).count() as u64;
+            // A deadlock shows in one more step, which changes nothing.
+            let more = u64::from(verdict.subject == Subject::NoDeadlock);
+            assert!(!found.failures().is_empty(), "{text}");
+            assert_eq!(found.steps, made + more, "{text}");
+            failed += 1;
+        }
+    }
+    assert_eq!(failed, 2);
+}
+
+#[test]
+fn the_pages_of_faults_show_them() {
+    let unreachable = page("faults/unreachable-rule");
+    let (_, report) = check(blocks(&unreachable, "asmetal verify")[0], 1);
+    assert_eq!(report.unreachable.len(), 1);
+    let no_bound = page("faults/no-bound");
+    let (_, report) = check(blocks(&no_bound, "asmetal verify")[0], 1);
+    let Outcome::Unknown(reasons) = &report.verdicts[0].outcome else { panic!("{:?}", report.verdicts[0]) };
+    assert!(matches!(reasons[..], [Reason::Unbounded(_)]));
+    let violated = page("faults/property-violated");
+    let (_, report) = check(blocks(&violated, "asmetal verify")[0], 1);
+    let Outcome::Violated(trace) = &report.verdicts[4].outcome else { panic!("{:?}", report.verdicts[4]) };
+    assert_eq!((trace.steps.len(), trace.turn), (2, Some(0)));
+}

@@ -1,0 +1,131 @@
+//! Bounds of inputs that the model's assumptions give: `INVAR level >= 0 and level <= 10`.
+//!
+//! In: the INVARs of a program. Out: for each input over an infinite domain whose least and greatest value they fix, the
+//! values between. The INVARs themselves still hold; a bound only says which inputs need not be tried. LIMIT: comparisons
+//! with written numbers, joined by `and`, below `forall` over the whole domain of an argument.
+
+use std::collections::BTreeMap;
+
+use machine::Value;
+use machine::explore::Bounds;
+use model::Basic;
+use program::{
+    Builtin, DomainKind, FunctionId, FunctionKind, Literal, Program, PropertyKind, Quantifier, Slot, Term, TermId,
+};
+
+/// LIMIT: a bound of more values is none.
+const VALUES: i64 = 1 << 16;
+
+/// See the module.
+pub fn assumed_bounds(program: &Program) -> Bounds {
+    let mut found: BTreeMap<FunctionId, (Option<i64>, Option<i64>)> = BTreeMap::new();
+    for property in program.properties.iter().filter(|property| property.kind == PropertyKind::Invar) {
+        collect(program, property.formula.body, &[], &mut found);
+    }
+    let mut bounds = Bounds::new();
+    for (function, (low, high)) in found {
+        let declared = program.function(function);
+        let natural = match &program.domain(declared.codomain).kind {
+            DomainKind::Basic(Basic::Natural) => true,
+            DomainKind::Basic(Basic::Integer) => false,
+            _ => continue,
+        };
+        let low = if natural { Some(low.unwrap_or(0).max(0)) } else { low };
+        if let (Some(low), Some(high)) = (low, high)
+            && high.saturating_sub(low) < VALUES
+        {
+            bounds.insert(function, (low..=high).map(Value::Integer).collect());
+        }
+    }
+    bounds
+}
+
+/// Adds the bounds that a formula gives; `whole` are the variables that take every value of a domain.
+fn collect(
+    program: &Program,
+    term: TermId,
+    whole: &[(Slot, program::DomainId)],
+    found: &mut BTreeMap<FunctionId, (Option<i64>, Option<i64>)>,
+) {
+    match program.term(term) {
+        Term::Builtin { builtin: Builtin::And, arguments } => {
+            program.term_list(*arguments).iter().for_each(|conjunct| collect(program, *conjunct, whole, found));
+        }
+        Term::Quantified { quantifier: Quantifier::Forall, binders, condition: Some(body) } => {
+            let mut whole = whole.to_vec();
+            for binder in program.binder_list(*binders) {
+                if let Term::Domain(domain) = program.term(binder.range) {
+                    whole.push((binder.slot, *domain));
+                }
+            }
+            collect(program, *body, &whole, found);
+        }
+        Term::Builtin { builtin, arguments } => {
+            let [left, right] = program.term_list(*arguments) else { return };
+            let (input, number, builtin) = match (input(program, *left, whole), input(program, *right, whole)) {
+                (Some(input), None) => (input, number(program, *right), *builtin),
+                (None, Some(input)) => (input, number(program, *left), turned(*builtin)),
+                _ => return,
+            };
+            let Some(number) = number else { return };
+            let (low, high) = match builtin {
+                Builtin::Ge => (Some(number), None),
+                Builtin::Gt => (number.checked_add(1), None),
+                Builtin::Le => (None, Some(number)),
+                Builtin::Lt => (None, number.checked_sub(1)),
+                Builtin::Eq => (Some(number), Some(number)),
+                _ => return,
+            };
+            let bound = found.entry(input).or_default();
+            bound.0 = bound.0.max(low);
+            bound.1 = match (bound.1, high) {
+                (Some(former), Some(high)) => Some(former.min(high)),
+                (former, high) => former.or(high),
+            };
+        }
+        _ => {}
+    }
+}
+
+/// The input that a term reads, at all of its arguments at once.
+fn input(program: &Program, term: TermId, whole: &[(Slot, program::DomainId)]) -> Option<FunctionId> {
+    let Term::Read { function, arguments } = program.term(term) else { return None };
+    let declared = program.function(*function);
+    let covers = |(term, parameter): (&TermId, &program::DomainId)| match program.term(*term) {
+        Term::Slot(slot) => whole.contains(&(*slot, *parameter)),
+        _ => false,
+    };
+    let arguments = program.term_list(*arguments);
+    // `f($x,$x)` speaks of some arguments only.
+    let slots: Vec<&Term> = arguments.iter().map(|term| program.term(*term)).collect();
+    if (1..slots.len()).any(|index| slots[..index].contains(&slots[index])) {
+        return None;
+    }
+    let all = declared.kind == FunctionKind::Monitored && arguments.iter().zip(&declared.parameters).all(covers);
+    all.then_some(*function)
+}
+
+fn number(program: &Program, term: TermId) -> Option<i64> {
+    match program.term(term) {
+        Term::Constant(index) => match program.constants[*index as usize] {
+            Literal::Integer(number) => Some(number),
+            _ => None,
+        },
+        Term::Builtin { builtin: Builtin::IntNeg, arguments } => match program.term_list(*arguments) {
+            [operand] => number(program, *operand)?.checked_neg(),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// `a < b` as said of b.
+fn turned(builtin: Builtin) -> Builtin {
+    match builtin {
+        Builtin::Ge => Builtin::Le,
+        Builtin::Gt => Builtin::Lt,
+        Builtin::Le => Builtin::Ge,
+        Builtin::Lt => Builtin::Gt,
+        other => other,
+    }
+}

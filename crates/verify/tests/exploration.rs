@@ -1,0 +1,299 @@
+//! On random models: what an explorer says of a state is what the machine does in it, whether it is remembered or not.
+//!
+//! A second exploration, straight and slow, goes beside it: states are copied, alternatives are those that a machine asks an
+//! ordinary environment for. `GROUNDSTATE_CASES` sets how many models (a few seconds' worth if absent), `GROUNDSTATE_SEED`
+//! the first seed.
+
+#![allow(clippy::disallowed_methods, reason = "a test reads the environment")]
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::sync::Arc;
+
+use machine::Show;
+use machine::explore::{Bounds, Explorer, Interner, Settings, Trouble, Widening};
+use machine::{
+    Choice, Draw, Environment, Fault, FaultKind, Limits, Location, LocationRef, Machine, Snapshot, TimeUnit, Value,
+};
+use program::{DomainId, DomainKind, FunctionId, FunctionKind, Program};
+use syntax::{Severity, SourceFile};
+
+/// States of one model that are compared.
+const STATES: usize = 60;
+/// Alternatives of one state that are compared.
+const PATHS: usize = 3_000;
+
+struct NoFiles;
+
+impl model::Loader for NoFiles {
+    fn load(&mut self, _importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        Err(format!("no file {path}"))
+    }
+}
+
+/// An odometer over what a machine asks for.
+#[derive(Default)]
+struct Odometer {
+    picks: Vec<(usize, usize)>,
+    at: usize,
+    endless: bool,
+    inputs: BTreeMap<FunctionId, Vec<Value>>,
+}
+
+impl Odometer {
+    fn ask(&mut self, of: usize) -> usize {
+        if self.at == self.picks.len() {
+            self.picks.push((0, of));
+        }
+        self.at += 1;
+        self.picks[self.at - 1].0
+    }
+
+    fn next(&mut self) -> bool {
+        self.at = 0;
+        while let Some((taken, of)) = self.picks.pop() {
+            if taken + 1 < of {
+                self.picks.push((taken + 1, of));
+                return true;
+            }
+        }
+        false
+    }
+
+    fn end<T>(&mut self) -> Result<T, String> {
+        self.endless = true;
+        Err(String::new())
+    }
+}
+
+impl Environment for Odometer {
+    fn monitored(&mut self, _: &Program, location: LocationRef<'_>, _: DomainId) -> Result<Value, String> {
+        match self.inputs.get(&location.function).cloned() {
+            Some(values) if !values.is_empty() => Ok(values[self.ask(values.len())].clone()),
+            _ => self.end(),
+        }
+    }
+
+    fn choose(&mut self, _: &Program, choice: &Choice<'_>) -> Result<usize, String> {
+        Ok(self.ask(choice.candidates()))
+    }
+
+    fn number(&mut self, _: &Program, _: &Draw) -> Result<Value, String> {
+        self.end()
+    }
+
+    fn time(&mut self, _: TimeUnit) -> Result<i64, String> {
+        self.end()
+    }
+}
+
+type Key = (Vec<(Location, Value)>, Vec<Vec<Value>>);
+
+/// Whether there are elements that are not there from the start.
+fn grows(program: &Program, domain: DomainId) -> bool {
+    match &program.domain(domain).kind {
+        DomainKind::Basic(basic) => *basic != model::Basic::Boolean,
+        DomainKind::Enum { .. } => false,
+        DomainKind::Abstract { dynamic, .. } => *dynamic,
+        DomainKind::Concrete { dynamic, base, .. } => {
+            *dynamic || matches!(program.domain(*base).kind, DomainKind::Abstract { dynamic: true, .. })
+        }
+        DomainKind::Prod(parts) => parts.iter().any(|part| grows(program, *part)),
+        _ => true,
+    }
+}
+
+/// A state by its values. Locations whose initial value may not have been needed yet say nothing.
+fn key(program: &Program, values: Vec<(Location, Value)>, machine: Option<&mut Machine>) -> Key {
+    let initialised: BTreeSet<FunctionId> = program.initials.iter().map(|initial| initial.function).collect();
+    let keep = |location: &Location| {
+        let function = program.function(location.function);
+        let finite = function.parameters.iter().all(|domain| !grows(program, *domain));
+        matches!(function.kind, FunctionKind::Controlled | FunctionKind::Out | FunctionKind::Shared)
+            && Some(location.function) != program.self_function
+            && (finite || !initialised.contains(&location.function))
+    };
+    let values = values.into_iter().filter(|(location, _)| keep(location)).collect();
+    let grown = machine.map(|machine| {
+        let domains = program.domains.iter().enumerate().filter(|(_, domain)| match &domain.kind {
+            DomainKind::Abstract { dynamic, .. } | DomainKind::Concrete { dynamic, .. } => *dynamic,
+            _ => false,
+        });
+        domains.map(|(index, _)| machine.elements(DomainId(index as u32)).unwrap_or_default()).collect()
+    });
+    (values, grown.unwrap_or_default())
+}
+
+/// What the inputs can be in the machine's state.
+fn inputs(program: &Program, machine: &mut Machine, bounds: &Bounds) -> BTreeMap<FunctionId, Vec<Value>> {
+    let mut inputs = bounds.clone();
+    for (index, function) in program.functions.iter().enumerate() {
+        let id = FunctionId(index as u32);
+        if matches!(function.kind, FunctionKind::Monitored | FunctionKind::Shared) && !inputs.contains_key(&id) {
+            inputs.insert(id, machine.elements(function.codomain).unwrap_or_default());
+        }
+    }
+    inputs
+}
+
+/// Two numbers for each input that is a number.
+fn bounds(program: &Program) -> Bounds {
+    let is_number = |domain: DomainId| {
+        matches!(program.domain(domain).kind, DomainKind::Basic(model::Basic::Integer | model::Basic::Natural))
+    };
+    let all = program.functions.iter().enumerate();
+    all.filter(|(_, f)| matches!(f.kind, FunctionKind::Monitored | FunctionKind::Shared) && is_number(f.codomain))
+        .map(|(index, _)| (FunctionId(index as u32), vec![Value::Integer(0), Value::Integer(1)]))
+        .collect()
+}
+
+fn explorers(program: &Arc<Program>, bounds: &Bounds, widening: &Widening) -> Result<[Explorer; 2], Trouble> {
+    let interner = Arc::new(Interner::default());
+    let settings = Settings { limits: limits(), bounds: Arc::new(bounds.clone()), ..Settings::default() };
+    let slow = Settings { forgetful: true, ..settings.clone() };
+    Ok([Explorer::new(program, settings, widening, &interner)?, Explorer::new(program, slow, widening, &interner)?])
+}
+
+fn limits() -> Limits {
+    Limits { iterations: 200, call_depth: 100, collection: 100, updates: 2_000, locations: 2_000 }
+}
+
+#[derive(Debug, Default)]
+struct Total {
+    models: usize,
+    states: usize,
+    moves: usize,
+}
+
+/// The successors of the machine's state, itself left out; none where they cannot all be had.
+fn straight(
+    program: &Program,
+    machine: &mut Machine,
+    bounds: &Bounds,
+) -> Option<Result<BTreeMap<Key, Snapshot>, Box<Fault>>> {
+    let here = machine.snapshot();
+    let own = {
+        let values = machine.locations();
+        key(program, values, Some(machine))
+    };
+    let mut odometer = Odometer { inputs: inputs(program, machine, bounds), ..Odometer::default() };
+    let mut successors = BTreeMap::new();
+    for _ in 0..PATHS {
+        machine.restore(&here);
+        match machine.step(&mut odometer) {
+            _ if odometer.endless => return None,
+            Err(Fault { kind: FaultKind::Limit { .. } | FaultKind::NotEnumerable { .. }, .. }) => return None,
+            Err(fault) => return Some(Err(Box::new(fault))),
+            Ok(_) => {
+                machine.forget_inputs();
+                let there = {
+                    let values = machine.locations();
+                    key(program, values, Some(machine))
+                };
+                if there != own {
+                    successors.insert(there, machine.snapshot());
+                }
+            }
+        }
+        if !odometer.next() {
+            return Some(Ok(successors));
+        }
+    }
+    None
+}
+
+/// Two states are the same, or else it is said where they differ.
+fn same(program: &Program, ours: &[(Location, Value)], theirs: &[(Location, Value)]) {
+    let show = |of: &[(Location, Value)], other: &[(Location, Value)]| -> Vec<String> {
+        let own = of.iter().filter(|pair| !other.contains(pair));
+        own.map(|(location, value)| format!("{} = {}", location.show(program), value.show(program))).collect()
+    };
+    assert_eq!(show(ours, theirs), show(theirs, ours), "locations of the explorer and of the machine");
+}
+
+/// Compares the first states of a model.
+fn compare(program: &Arc<Program>, widening: &mut Widening, total: &mut Total) -> Result<(), Trouble> {
+    let bounds = bounds(program);
+    let [mut quick, mut slow] = explorers(program, &bounds, widening)?;
+    let mut machine = Machine::new(Arc::clone(program), limits());
+    if quick.initial().len() > 1 {
+        return Ok(());
+    }
+    let mut odometer = Odometer { inputs: inputs(program, &mut machine, &bounds), ..Odometer::default() };
+    if machine.start(&mut odometer).is_err() {
+        return Ok(());
+    }
+    machine.forget_inputs();
+    let first = quick.initial()[0].0.clone();
+    let mut seen = BTreeSet::from([first.clone()]);
+    let mut queue = VecDeque::from([(first, machine.snapshot())]);
+    while let Some((state, snapshot)) = queue.pop_front() {
+        machine.restore(&snapshot);
+        let values = machine.locations();
+        same(program, &key(program, quick.values(&state), None).0, &key(program, values, None).0);
+        let (mut out, mut again) = (Vec::new(), Vec::new());
+        let narrow = Trouble::TooNarrow;
+        let expansion = quick.expand(&state, &mut out).map_err(narrow)?;
+        assert_eq!(slow.expand(&state, &mut again).map_err(narrow)?, expansion, "remembered or made");
+        assert_eq!(out, again, "remembered or made");
+        // Once more, now that all of it is remembered.
+        again.clear();
+        assert_eq!(quick.expand(&state, &mut again).map_err(narrow)?, expansion, "made and remembered");
+        assert_eq!(out, again, "made and remembered");
+        total.states += 1;
+        if expansion.moved > 200 {
+            return Ok(());
+        }
+        let Some(straight) = straight(program, &mut machine, &bounds) else { continue };
+        if expansion.unbounded > 0 {
+            continue;
+        }
+        let faulty = expansion.faults != [0; 3];
+        assert_eq!(straight.is_err(), faulty, "{straight:?}");
+        let Ok(straight) = straight else { continue };
+        let mut keys = BTreeMap::new();
+        for next in out.chunks_exact(quick.words()) {
+            keys.insert(key(program, quick.values(next), None).0, Box::<[u64]>::from(next));
+        }
+        let own = key(program, quick.values(&state), None).0;
+        let expected: BTreeSet<_> = straight.keys().map(|(values, _)| values).filter(|key| **key != own).collect();
+        let found: BTreeSet<_> = keys.keys().filter(|key| **key != own).collect();
+        assert_eq!(found, expected, "successors");
+        total.moves += expected.len();
+        for ((values, _), snapshot) in straight {
+            let Some(next) = keys.get(&values).cloned() else { continue };
+            if seen.len() < STATES && seen.insert(next.clone()) {
+                queue.push_back((next, snapshot));
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn explorers_do_what_the_machine_does() {
+    let number =
+        |name: &str, otherwise: u64| std::env::var(name).ok().and_then(|n| n.parse().ok()).unwrap_or(otherwise);
+    let (cases, seed) = (number("GROUNDSTATE_CASES", 300), number("GROUNDSTATE_SEED", 1));
+    let mut total = Total::default();
+    for seed in seed..seed + cases {
+        let text = oracle::generate::model(seed, 1).to_string();
+        let checked = model::check(SourceFile::new("Model.asm", text.clone()), &mut NoFiles);
+        if checked.diagnostics.iter().any(|found| found.severity == Severity::Error) {
+            continue;
+        }
+        let Ok(program) = program::lower(&checked.model) else { continue };
+        let program = Arc::new(program);
+        let attempt = std::panic::AssertUnwindSafe(|| {
+            let mut widening = Widening::default();
+            while let Err(Trouble::TooNarrow(more)) = compare(&program, &mut widening, &mut total) {
+                widening.merge(&more);
+            }
+        });
+        if let Err(panic) = std::panic::catch_unwind(attempt) {
+            let reason = panic.downcast_ref::<String>().map_or("", String::as_str);
+            panic!("seed {seed}: {reason}\n{text}");
+        }
+        total.models += 1;
+    }
+    assert!(total.models > cases as usize / 3 && total.moves > total.models, "{total:?}");
+}
