@@ -3,6 +3,8 @@
 
 CARGO ?= cargo
 GROUNDSTATE := target/release/groundstate
+# Tests run it with its assertions, which is built anyway.
+TESTED := target/debug/groundstate
 MODELS := library/patterns library/runtime examples
 
 .PHONY: help demo test lint unit scenarios cpp fuzz bench bench-cpp corpus update clean
@@ -15,17 +17,17 @@ demo: $(GROUNDSTATE) ## check the library, run the complete controller for a sec
 
 test: lint unit scenarios cpp fuzz ## everything that must hold before a change lands
 
-lint: $(GROUNDSTATE)
+lint: $(TESTED)
 	$(CARGO) fmt --all --check
-	$(GROUNDSTATE) fmt --check library examples bench/models
+	$(TESTED) fmt --check library examples bench/models
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
 
 unit:
 	$(CARGO) test --workspace --locked
 
-scenarios: $(GROUNDSTATE)
-	$(GROUNDSTATE) check $(MODELS)
-	$(GROUNDSTATE) test $(MODELS)
+scenarios: $(TESTED)
+	$(TESTED) check $(MODELS)
+	$(TESTED) test $(MODELS)
 
 cpp: ## the C++ runtime: its tests as they are and under the sanitizers
 	sh cpp/run.sh
@@ -53,4 +55,6 @@ clean: ## remove what was built
 # Cargo knows best what is up to date.
 $(GROUNDSTATE): FORCE
 	$(CARGO) build --release --locked --package cli
+$(TESTED): FORCE
+	$(CARGO) build --locked --package cli
 FORCE:
