@@ -7,7 +7,7 @@ GROUNDSTATE := target/release/groundstate
 TESTED := target/debug/groundstate
 MODELS := library/patterns library/runtime examples
 
-.PHONY: help demo test lint unit scenarios cpp fuzz bench bench-cpp corpus update clean
+.PHONY: help demo test lint unit scenarios verify cpp fuzz bench bench-cpp corpus update clean
 
 help: ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*##/\t/' | expand -t 12
@@ -26,8 +26,12 @@ unit:
 	$(CARGO) test --workspace --locked
 
 scenarios: $(TESTED)
-	$(TESTED) check $(MODELS)
+	$(TESTED) check $(MODELS) library/verification
 	$(TESTED) test $(MODELS)
+	sh library/verification/verify.sh $(TESTED) expected.txt
+
+verify: $(GROUNDSTATE) ## the pattern library's properties in every state, and its seeded faults found: a minute
+	sh library/verification/verify.sh $(GROUNDSTATE) expected.txt expected-long.txt
 
 cpp: ## the C++ runtime: its tests as they are and under the sanitizers
 	sh cpp/run.sh

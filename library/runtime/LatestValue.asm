@@ -12,6 +12,8 @@ asm LatestValue
 
 import ../std/StandardLibrary
 
+export *
+
 signature:
 	enum domain Side = {PRODUCER | CONSUMER}
 	enum domain Place = {FILLING | EXCHANGING | STORING | LOOKING | READING}

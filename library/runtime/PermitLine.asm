@@ -11,6 +11,8 @@ asm PermitLine
 
 import ../std/StandardLibrary
 
+export *
+
 signature:
 	enum domain User = {ANNA | BERT | CARL}
 	enum domain Place = {OUTSIDE | COUNTING | LOOKING | DOZING | ASLEEP | LEAVING | INSIDE | CALLING | WAKING}
