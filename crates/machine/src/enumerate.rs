@@ -157,18 +157,21 @@ impl<'a> Executor<'a> {
 fn product(columns: &[Arc<Vec<Value>>]) -> Vec<Value> {
     let mut rows = vec![Vec::with_capacity(columns.len())];
     for column in columns {
-        rows = rows
-            .into_iter()
-            .flat_map(|row: Vec<Value>| {
-                column.iter().map(move |value| {
-                    let mut longer = row.clone();
-                    longer.push(value.clone());
-                    longer
-                })
-            })
-            .collect();
+        rows = extended(rows, column);
     }
     rows.into_iter().map(Value::tuple).collect()
+}
+
+/// Each row with each value of one more column, the last column fastest.
+pub(crate) fn extended<T: Clone>(rows: Vec<Vec<T>>, column: &[T]) -> Vec<Vec<T>> {
+    let longer = |row: Vec<T>| {
+        column.iter().map(move |value| {
+            let mut longer = row.clone();
+            longer.push(value.clone());
+            longer
+        })
+    };
+    rows.into_iter().flat_map(longer).collect()
 }
 
 fn subsets(elements: &[Value]) -> Vec<Value> {

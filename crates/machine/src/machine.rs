@@ -107,9 +107,10 @@ impl Machine {
     /// # Errors
     /// An initial value that cannot be evaluated.
     pub fn start(&mut self, environment: &mut dyn Environment) -> Result<(), Fault> {
-        let (coverage, exploring) = (self.core.coverage.take(), self.core.exploring);
+        let (coverage, exploring, unset) = (self.core.coverage.take(), self.core.exploring, self.core.unset);
         self.core = Core::new(&self.program, self.limits);
-        (self.core.coverage, self.core.exploring) = (coverage, exploring);
+        // A state from before may still be gone back to, with what was set to undef in it.
+        (self.core.coverage, self.core.exploring, self.core.unset) = (coverage, exploring, unset);
         self.steps = 0;
         self.settled = false;
         self.execute(environment, |executor, _| executor.start())
@@ -178,9 +179,9 @@ impl Machine {
         outcome
     }
 
-    /// Makes steps of the main rule one after the other, until as many are made as are `wanted` in all, a domain
-    /// has grown, or there was nothing to update. After each the environment is told ([`Environment::step_made`]); else nobody looks at the states
-    /// between them, which makes these steps the fastest.
+    /// Makes steps of the main rule one after the other, until as many are made as are `wanted` in all, a domain has
+    /// grown, or there was nothing to update. After each the environment is told ([`Environment::step_made`]); else
+    /// nobody looks at the states between them, which makes these steps the fastest.
     ///
     /// # Errors
     /// A fault leaves the state as it was after the steps that were counted.
@@ -392,11 +393,7 @@ impl Machine {
     /// # Errors
     /// What evaluation meets; the state stays as it is.
     pub fn evaluate(&mut self, expression: &Expression, environment: &mut dyn Environment) -> Result<Value, Fault> {
-        self.core.iterations = 0;
-        self.execute(environment, |executor, program| {
-            let span = program.term_span(expression.body);
-            executor.in_frame(0, expression.frame, span, |this| this.evaluate(expression.body))
-        })
+        self.evaluate_with(expression.body, expression.frame, &[], environment)
     }
 
     /// Evaluates a term in a frame of so many slots, some of which have values.

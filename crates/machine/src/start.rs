@@ -10,6 +10,7 @@ use std::sync::Arc;
 use program::{DomainId, DomainKind, FunctionId, FunctionKind, Initial, Program};
 use syntax::Span;
 
+use crate::enumerate::extended;
 use crate::environment::Closed;
 use crate::evaluate::constant;
 use crate::execute::{Core, Executor, Outcome};
@@ -203,16 +204,7 @@ impl<'a> Executor<'a> {
             if tuples.len() as u64 * elements.len() as u64 > EAGER_LIMIT {
                 return None;
             }
-            tuples = tuples
-                .into_iter()
-                .flat_map(|tuple: Vec<Value>| {
-                    elements.iter().map(move |value| {
-                        let mut longer = tuple.clone();
-                        longer.push(value.clone());
-                        longer
-                    })
-                })
-                .collect();
+            tuples = extended(tuples, &elements);
         }
         Some(tuples)
     }

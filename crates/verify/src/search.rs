@@ -7,6 +7,7 @@
 //! any number of workers.
 
 use std::collections::BTreeSet;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::{Arc, Barrier, Mutex, PoisonError};
 
 use machine::explore::{Expansion, Explorer, Interner, Settings, Trouble, Truth, Unbounded, Widening};
@@ -158,6 +159,8 @@ struct Report {
     full: bool,
     narrow: bool,
     found: bool,
+    /// The worker has panicked.
+    broken: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -167,6 +170,17 @@ enum Decision {
     /// The next level begins.
     Level,
     Stop(Option<Stop>),
+}
+
+/// Attempts a search again and again, each time with room for what did not fit the time before.
+pub(crate) fn widened<T>(mut attempt: impl FnMut(&Widening) -> Result<T, Trouble>) -> Result<T, Trouble> {
+    let mut widening = Widening::default();
+    loop {
+        match attempt(&widening) {
+            Err(Trouble::TooNarrow(more)) => widening.merge(&more),
+            outcome => return outcome,
+        }
+    }
 }
 
 impl Search {
@@ -179,13 +193,7 @@ impl Search {
         plan: &Plan,
         watch: &mut dyn FnMut(&Progress) -> bool,
     ) -> Result<Search, Trouble> {
-        let mut widening = Widening::default();
-        loop {
-            match Search::attempt(program, plan, &widening, watch) {
-                Err(Trouble::TooNarrow(more)) => widening.merge(&more),
-                outcome => return outcome,
-            }
-        }
+        widened(|widening| Search::attempt(program, plan, widening, watch))
     }
 
     fn attempt(
@@ -288,7 +296,7 @@ fn decide(
         bytes: sum(|report| report.bytes),
     };
     let go_on = watch(progress);
-    if any(|report| report.narrow) || left + fresh == 0 {
+    if any(|report| report.narrow || report.broken) || left + fresh == 0 {
         return Decision::Stop(None);
     }
     if any(|report| report.full) || progress.bytes > plan.max_bytes {
@@ -342,23 +350,40 @@ impl Shard {
     ) -> Option<Stop> {
         let mut sent = vec![Vec::new(); mail.len()];
         loop {
-            self.expand_round(explorer, plan, &mut sent);
-            for (to, successors) in sent.iter_mut().enumerate() {
-                lock(&mail[to][index]).append(successors);
-            }
+            let mut panic = None;
+            // Who panics still meets the others at the barriers, so that all end; then the panic goes on.
+            let mut guard = |body: &mut dyn FnMut()| {
+                panic = panic.take().or(catch_unwind(AssertUnwindSafe(body)).err());
+            };
+            guard(&mut || {
+                self.expand_round(explorer, plan, &mut sent);
+                for (to, successors) in sent.iter_mut().enumerate() {
+                    lock(&mail[to][index]).append(successors);
+                }
+            });
             barrier.wait();
-            for received in &mail[index] {
-                self.take_in(explorer, plan, &mut lock(received));
-            }
-            lock(board).reports[index] = self.report();
+            guard(&mut || {
+                for received in &mail[index] {
+                    self.take_in(explorer, plan, &mut lock(received));
+                }
+            });
+            let broken = panic.is_some();
+            lock(board).reports[index] = Report { broken, ..self.report() };
             barrier.wait();
             if index == 0 {
-                let mut board = lock(board);
+                let reports = lock(board).reports.clone();
                 // The depth of the states that come in, once the initial ones are there.
                 let depth = self.levels.len() as u64;
-                board.decision = leader(&board.reports, depth);
+                let decided = catch_unwind(AssertUnwindSafe(|| leader(&reports, depth)));
+                lock(board).decision = decided.unwrap_or_else(|payload| {
+                    panic = Some(payload);
+                    Decision::Stop(None)
+                });
             }
             barrier.wait();
+            if let Some(panic) = panic {
+                resume_unwind(panic);
+            }
             let decision = lock(board).decision;
             match decision {
                 Decision::Round => {}
@@ -383,6 +408,7 @@ impl Shard {
             full: self.table.is_full(),
             narrow: !self.widening.is_empty(),
             found: !self.found.is_empty(),
+            broken: false,
         }
     }
 

@@ -90,6 +90,24 @@ fn philosophers_have_three_to_the_n_states_but_one_and_one_deadlock() {
 }
 
 #[test]
+fn a_panic_ends_all_workers() {
+    let program = program("Swing");
+    for workers in [1, 2, 3] {
+        let options = Options { workers, ..Options::default() };
+        let mut seen = 0;
+        let searched = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
+            let mut watch = |_: &_| {
+                seen += 1;
+                assert!(seen < 3, "enough");
+                true
+            };
+            verify(&program, &options, &mut watch).is_ok()
+        }));
+        assert!(searched.is_err(), "{workers} workers go on after a panic");
+    }
+}
+
+#[test]
 fn what_is_remembered_changes_nothing() {
     let program = program("ChainXS");
     let reports = [(1, false), (1, true), (3, false)].map(|(workers, forgetful)| {

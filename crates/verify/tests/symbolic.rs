@@ -5,8 +5,11 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use program::Program;
-use syntax::SourceFile;
+use machine::explore::Bounds;
+use machine::{Limits, Value};
+use model::Basic;
+use program::{DomainKind, FunctionId, FunctionKind, Program};
+use syntax::{Severity, SourceFile};
 use verify::{Engine, Options, Outcome, Report, Subject, verify};
 
 struct Disk;
@@ -53,6 +56,15 @@ fn verdicts(report: &Report) -> Vec<(Subject, String)> {
         Outcome::Unknown(reasons) => format!("unknown {reasons:?}"),
     };
     report.verdicts.iter().map(|verdict| (verdict.subject, word(&verdict.outcome))).collect()
+}
+
+/// The values that inputs over infinite domains are given.
+fn bounds(program: &Program) -> Bounds {
+    let infinite = |domain| matches!(program.domain(domain).kind, DomainKind::Basic(Basic::Integer | Basic::Natural));
+    let inputs = program.functions.iter().zip(0..).filter(|(function, _)| {
+        matches!(function.kind, FunctionKind::Monitored | FunctionKind::Shared) && infinite(function.codomain)
+    });
+    inputs.map(|(_, index)| (FunctionId(index), vec![Value::Integer(0), Value::Integer(1)])).collect()
 }
 
 #[track_caller]
@@ -142,4 +154,41 @@ fn values_without_a_bound_of_their_own() {
         main rule r_main = choose $d in {1, 2} with x + $d < 64 do par x := x + $d if x mod 8 = 0 then word := [x] endif endpar
         default init s: function x = 0 function word = [0]",
     ));
+}
+
+/// `GROUNDSTATE_CASES` sets how many models, `GROUNDSTATE_SEED` the first seed.
+#[test]
+fn random_models() {
+    const STATES: u64 = 400;
+    let number =
+        |name: &str, otherwise: u64| std::env::var(name).ok().and_then(|n| n.parse().ok()).unwrap_or(otherwise);
+    let (cases, first) = (number("GROUNDSTATE_CASES", 300), number("GROUNDSTATE_SEED", 1));
+    let (mut compared, mut several) = (0, 0);
+    for seed in first..first + cases {
+        let text = oracle::generate::model(seed, 1).to_string();
+        let checked = model::check(SourceFile::new("Model.asm", text.clone()), &mut Disk);
+        if checked.diagnostics.iter().any(|found| found.severity == Severity::Error) {
+            continue;
+        }
+        let Ok(program) = program::lower(&checked.model) else { continue };
+        let program = Arc::new(program);
+        let limits = Limits { iterations: 200, call_depth: 50, collection: 2000, ..Limits::default() };
+        let options = Options { limits, bounds: bounds(&program), max_bytes: 4 << 20, ..Options::default() };
+        let few = Options { engine: Engine::Explicit, max_states: STATES, ..options.clone() };
+        let Ok(explicit) = verify(&program, &few, &mut |progress| progress.transitions < 20_000) else { continue };
+        if explicit.stop.is_some() {
+            continue;
+        }
+        let sets = Options { engine: Engine::Symbolic, ..options };
+        let symbolic = verify(&program, &sets, &mut |_| true).expect("it has begun before");
+        if symbolic.stop.is_some() {
+            continue;
+        }
+        assert_eq!(verdicts(&symbolic), verdicts(&explicit), "seed {seed}\n{text}");
+        assert_eq!(symbolic.progress.states, explicit.progress.states, "seed {seed}\n{text}");
+        assert_eq!(symbolic.unreachable, explicit.unreachable, "seed {seed}\n{text}");
+        compared += 1;
+        several += u64::from(symbolic.progress.states > 2);
+    }
+    assert!(compared > cases / 10 && several > cases / 30, "{compared} models, {several} with several states");
 }

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use program::{Builtin, DomainKind, Expression, Program, Quantifier, Slot, Term, TermId};
 
+use crate::enumerate::extended;
 use crate::environment::Closed;
 use crate::explore::tree::{End, Tree};
 use crate::machine::Machine;
@@ -97,16 +98,8 @@ impl Condition {
                 if let Some(elements) = elements.filter(|elements| self.parts.len() + count(elements) <= PARTS) {
                     let mut all = vec![bindings.to_vec()];
                     for (binder, elements) in binders.iter().zip(&elements) {
-                        all = all
-                            .into_iter()
-                            .flat_map(|former: Vec<(Slot, Value)>| {
-                                elements.iter().map(move |value| {
-                                    let mut longer = former.clone();
-                                    longer.push((binder.slot, value.clone()));
-                                    longer
-                                })
-                            })
-                            .collect();
+                        let column: Vec<_> = elements.iter().map(|value| (binder.slot, value.clone())).collect();
+                        all = extended(all, &column);
                     }
                     for bindings in all {
                         self.take_apart(program, machine, frame, *body, bindings.into());

@@ -11,6 +11,7 @@ use std::sync::Arc;
 
 use program::{Builtin, DomainId, DomainKind, FunctionId, FunctionKind, Program, Rule, Term};
 
+use crate::enumerate::extended;
 use crate::execute::Core;
 use crate::explore::branches::{NOWHERE, REST};
 use crate::explore::choose::is_kept;
@@ -401,16 +402,7 @@ fn declared_locations(program: &Program, machine: &mut Machine, function: Functi
         if tuples.len() * elements.len() > FIELDS_OF_A_FUNCTION {
             return None;
         }
-        tuples = tuples
-            .into_iter()
-            .flat_map(|tuple: Vec<Value>| {
-                elements.iter().map(move |value| {
-                    let mut longer = tuple.clone();
-                    longer.push(value.clone());
-                    longer
-                })
-            })
-            .collect();
+        tuples = extended(tuples, &elements);
     }
     let dense = machine.core.store.layouts.get(function.0 as usize)?;
     let inside = |index: &u32| match dense {

@@ -499,15 +499,7 @@ impl Explorer {
             self.load(state);
             let Part { bindings, term, frame, .. } = &self.conditions[condition].parts[part];
             let (bindings, term, frame) = (Arc::clone(bindings), *term, *frame);
-            self.machine.core.iterations = 0;
-            let outcome = self.machine.execute(&mut self.branches, |executor, program| {
-                executor.in_frame(0, frame, program.term_span(term), |this| {
-                    for (slot, value) in bindings.iter() {
-                        this.bind(*slot, value.clone());
-                    }
-                    this.evaluate(term)
-                })
-            });
+            let outcome = self.machine.evaluate_with(term, frame, &bindings, &mut self.branches);
             let truth = match outcome {
                 Ok(Value::Boolean(true)) => Truth::True,
                 Ok(Value::Boolean(false)) => Truth::False,

@@ -15,7 +15,7 @@ use machine::explore::{
 use program::Program;
 use rustc_hash::FxHashSet;
 
-use crate::search::{Found, Plan, Progress, Stop, Target};
+use crate::search::{Found, Plan, Progress, Stop, Target, widened};
 use crate::symbolic::bdd::{Diagrams, Full, Set};
 use crate::symbolic::order::force;
 use crate::trace::{Trace, tell};
@@ -88,13 +88,7 @@ impl Reach {
         plan: &Plan,
         watch: &mut dyn FnMut(&Progress) -> bool,
     ) -> Result<Reach, Trouble> {
-        let mut widening = Widening::default();
-        loop {
-            match Reach::attempt(program, plan, &widening, watch) {
-                Err(Trouble::TooNarrow(more)) => widening.merge(&more),
-                outcome => return outcome,
-            }
-        }
+        widened(|widening| Reach::attempt(program, plan, widening, watch))
     }
 
     fn attempt(
