@@ -33,7 +33,7 @@ scenarios: $(TESTED)
 verify: $(GROUNDSTATE) ## the pattern library's properties in every state, and its seeded faults found: a minute
 	sh library/verification/verify.sh $(GROUNDSTATE) expected.txt expected-long.txt
 
-cpp: ## the C++ runtime: its tests as they are and under the sanitizers
+cpp: ## the C++ runtime and the cameras: their tests as they are and under the sanitizers
 	sh cpp/run.sh
 
 fuzz: ## the fuzz targets, for a short time
@@ -42,9 +42,10 @@ fuzz: ## the fuzz targets, for a short time
 bench: ## steps per second and peak memory; with CORPUS=path also of the public models with a reference
 	$(CARGO) xtask bench $(if $(CORPUS),--corpus $(CORPUS))
 
-bench-cpp: ## what it costs to hand data over in C++
+bench-cpp: ## what it costs to hand data over in C++, and to draw a simulated frame
 	sh cpp/run.sh plain
 	target/cpp/plain/bench/hand_over
+	target/cpp/plain/adapters/simulated/tests/simulated_frame
 
 corpus: ## make corpus CORPUS=path: compare with recorded results of the public corpus, and count charts
 	$(CARGO) xtask corpus $(CORPUS)
