@@ -166,10 +166,14 @@ class Value {
     [[nodiscard]] static Value set(Values elements);
     /// The bag of these elements.
     [[nodiscard]] static Value bag(Values elements);
-    /// The bag of elements that are sorted and distinct already, none 0 times.
-    [[nodiscard]] static Value counted(Counts counts);
     /// The map of these entries; of equal keys the last counts.
     [[nodiscard]] static Value map(Entries entries);
+
+    // The same of what is sorted and distinct already, no count 0.
+
+    [[nodiscard]] static Value sorted_set(Values elements) { return compound(Kind::set, std::move(elements)); }
+    [[nodiscard]] static Value sorted_bag(Counts counts) { return compound(Kind::bag, std::move(counts)); }
+    [[nodiscard]] static Value sorted_map(Entries entries) { return compound(Kind::map, std::move(entries)); }
 
     [[nodiscard]] Kind kind() const noexcept { return kind_; }
     [[nodiscard]] bool is_undef() const noexcept { return kind_ == Kind::undef; }
@@ -253,10 +257,8 @@ static_assert(sizeof(Value) == 16);
 inline Value Value::set(Values elements) {
     std::sort(elements.begin(), elements.end());
     elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
-    return compound(Kind::set, std::move(elements));
+    return sorted_set(std::move(elements));
 }
-
-inline Value Value::counted(Counts counts) { return compound(Kind::bag, std::move(counts)); }
 
 inline Value Value::bag(Values elements) {
     std::sort(elements.begin(), elements.end());
@@ -268,7 +270,7 @@ inline Value Value::bag(Values elements) {
             ++counts.back().second;
         }
     }
-    return counted(std::move(counts));
+    return sorted_bag(std::move(counts));
 }
 
 inline Value Value::map(Entries entries) {
@@ -280,7 +282,7 @@ inline Value Value::map(Entries entries) {
         if (!distinct.empty() && distinct.back().first == entry.first) distinct.pop_back();
         distinct.push_back(std::move(entry));
     }
-    return compound(Kind::map, std::move(distinct));
+    return sorted_map(std::move(distinct));
 }
 
 inline void Value::free() noexcept {
