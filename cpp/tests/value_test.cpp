@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <thread>
 #include <unordered_set>
 
 #include "groundstate/machine/fault.hpp"
@@ -122,6 +123,19 @@ TEST(Value, SharesWhatIsCompound) {
     set = integer(3);
     EXPECT_EQ(set.as_integer(), 3);
     EXPECT_EQ(taken.items().size(), 2u);
+}
+
+TEST(Value, IsSharedByThreads) {
+    const Value whole = Value::set({Value::string("a text that is longer than what stands in a string itself"), integer(1)});
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i) {
+        threads.emplace_back([copy = whole] {
+            Value mine = copy;
+            for (int round = 0; round < 1'000; ++round) mine = Value::seq({mine.is(Kind::set) ? mine : copy, integer(round)});
+            EXPECT_EQ(mine.items()[0], copy);
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
 }
 
 TEST(Fault, IsCaughtWithItsPlaces) {
