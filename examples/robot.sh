@@ -1,0 +1,13 @@
+#!/bin/sh
+# Builds the applications' programs and what robots need beside the runtime, and tests them. Usage: examples/robot.sh.
+# What is missing is installed; ViSP is there for a test alone, as the judge of the servo law.
+set -eu
+cd "$(dirname "$0")"
+
+sh ../cpp/install.sh cmake ninja-build libgtest-dev libeigen3-dev liborocos-kdl-dev \
+    libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libvisp-vs-dev
+
+build=../target/cpp/robot
+cmake -S . -B "$build" -G Ninja >/dev/null
+cmake --build "$build" -- --quiet
+ctest --test-dir "$build" --output-on-failure

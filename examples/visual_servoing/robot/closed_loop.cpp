@@ -1,0 +1,103 @@
+#include "closed_loop.hpp"
+
+#include <groundstate/simulated/camera.hpp>
+
+namespace visual_servoing {
+
+using namespace groundstate;
+
+namespace {
+
+// From a place, looking at the middle of the target; unturned the image's right is the target's x, straight from above.
+Eigen::Isometry3d looking(const Eigen::Vector3d& from, double turn) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    const Eigen::Quaterniond aim = Eigen::Quaterniond::FromTwoVectors(-Eigen::Vector3d::UnitZ(), -from);
+    pose.linear() = aim.toRotationMatrix() * Eigen::AngleAxisd{M_PI, Eigen::Vector3d::UnitX()}.toRotationMatrix() *
+                    Eigen::AngleAxisd{turn, Eigen::Vector3d::UnitZ()}.toRotationMatrix();
+    pose.translation() = from;
+    return pose;
+}
+
+simulated::Faults faults(const LoopSettings& settings) {
+    const Disturbances& wrong = settings.disturbances;
+    simulated::Faults result{.seed = settings.seed};
+    result.noise = wrong.noise ? 5 : 0;
+    result.lost = wrong.dropped ? 0.1 : 0;
+    result.slow = wrong.slow ? 0.2 : 0;
+    result.slow_ns = wrong.slow ? 15'000'000 : 0;
+    result.occluded = wrong.occlusion ? 0.01 : 0;
+    result.occluded_frames = 6;
+    result.unplug_after = static_cast<std::uint64_t>(wrong.unplugged_s * 100);
+    return result;
+}
+
+template <Clock C>
+Loop run(const LoopSettings& settings, C& clock) {
+    Loop loop;
+    loop.origin_ns = clock.now_ns();
+    loop.cell = std::make_unique<Cell>(example_cell(settings.seed));
+    Cell& cell = *loop.cell;
+    const Now now = [&clock] { return clock.now_ns(); };
+    loop.goals = settings.goals.empty() ? example_goals() : settings.goals;
+    const auto periods = [&](std::int64_t period_ns) { return static_cast<std::size_t>(settings.span_ns / period_ns + 10); };
+
+    auto camera = simulated::Camera<C>::open(
+        clock, cell.scene(), [&cell](std::int64_t at_ns) { return simulated_pose(cell.camera(at_ns)); },
+        {.faults = faults(settings)});
+    GoalSender sender{now, cell, loop.goals};
+    ImageGrabber grabber{[&](FrameView into, Watchdog& watchdog) { return camera->grab(into, watchdog); }};
+    ServoingSettings servoing;
+    servoing.lens = cell.settings().lens;
+    loop.servoing = std::make_unique<ServoingByImages>(now, servoing, periods(10'000'000));
+    loop.robot = std::make_unique<ArmController>(now, kinematics::example_arm(), RobotSettings{}, periods(5'000'000));
+    loop.motor = std::make_unique<JointDrives>(
+        now, [&cell](std::int64_t at_ns, const Joints& velocity) { cell.drive(at_ns, velocity); }, MotorSettings{},
+        periods(1'000'000));
+    JointEncoders encoders{now, [&cell](std::int64_t at_ns) { return cell.measured(at_ns); }};
+
+    auto system = std::make_unique<ControllerSystem<C>>(
+        clock, Hooks{sender, grabber, *loop.servoing, *loop.robot, *loop.motor, encoders});
+    system->run(settings.span_ns);
+
+    loop.frames = camera->account();
+    system->each([&](const auto& task) {
+        const Statistics& known = task.statistics();
+        loop.tasks.push_back({.name = task.thread().name(),
+                              .cycles = known.cycles.value(),
+                              .deadlines_missed = known.deadlines_missed.value(),
+                              .worst_lateness_ns = known.worst_lateness_ns.value(),
+                              .worst_duration_ns = known.worst_duration_ns.value()});
+    });
+    const std::int64_t end_ns = loop.origin_ns + settings.span_ns;
+    const Eigen::Isometry3d goal = cell.settings().target.pose * loop.goals.back().camera;
+    const Eigen::Isometry3d apart = goal.inverse() * cell.camera(end_ns);
+    loop.position_error = apart.translation().norm();
+    loop.turn_error = Eigen::AngleAxisd{apart.linear()}.angle();
+    if (!loop.servoing->sights().empty()) {
+        loop.feature_error = loop.servoing->sights().back().command.error;
+    }
+    if (!loop.robot->motions().empty()) {
+        loop.holding = loop.robot->motions().back().holding;
+    }
+    if (!loop.motor->drives().empty()) {
+        loop.fastest = loop.motor->drives().back().fastest;
+    }
+    return loop;
+}
+
+}  // namespace
+
+std::vector<Goal> example_goals() {
+    return {{0, looking({0, 0, 0.40}, 0)}, {5'000'000'000, looking({0.08, -0.06, 0.33}, 0.5)}};
+}
+
+Loop run(const LoopSettings& settings) {
+    if (settings.is_real) {
+        MonotonicClock clock;
+        return run(settings, clock);
+    }
+    VirtualClock clock{ControllerSystem<VirtualClock>::threads};
+    return run(settings, clock);
+}
+
+}  // namespace visual_servoing

@@ -1,0 +1,68 @@
+// The controller and the cell in one loop, for so long, in virtual or real time.
+//
+// In: time, seed, disturbances. Out: everything that was recorded, and how near camera and features came to the last goal.
+// INVARIANT: in virtual time a run depends on the settings alone; two runs have the same recordings, bit by bit.
+#pragma once
+
+#include <string>
+
+#include "hooks.hpp"
+
+namespace visual_servoing {
+
+/// What goes wrong in a run. All is off at first.
+struct Disturbances {
+    bool noise = false;      ///< of the image: 5 of 255 steps
+    bool dropped = false;    ///< every tenth image is lost
+    bool slow = false;       ///< every fifth image arrives 15 ms late
+    bool occlusion = false;  ///< every hundredth image something covers a disc, for 6 images
+    double unplugged_s = 0;  ///< when the camera is gone for good; 0: never
+};
+
+struct LoopSettings {
+    std::int64_t span_ns = 10'000'000'000;
+    bool is_real = false;
+    std::uint64_t seed = 1;
+    Disturbances disturbances{};
+    std::vector<Goal> goals{};  ///< those of the example, if empty
+};
+
+/// Straight above the target; then nearer, aside and turned.
+std::vector<Goal> example_goals();
+
+/// What is known of a task's cycles.
+struct TaskAccount {
+    std::string name;
+    std::int64_t cycles = 0;
+    std::int64_t deadlines_missed = 0;
+    std::int64_t worst_lateness_ns = 0;
+    std::int64_t worst_duration_ns = 0;
+};
+
+/// What a run left behind.
+struct Loop {
+    std::unique_ptr<Cell> cell;
+    std::unique_ptr<ServoingByImages> servoing;
+    std::unique_ptr<ArmController> robot;
+    std::unique_ptr<JointDrives> motor;
+    std::vector<Goal> goals{};
+    std::vector<TaskAccount> tasks{};
+    groundstate::FrameAccount frames{};
+    std::int64_t origin_ns = 0;
+
+    double feature_error = 0;   ///< of the last image, |e| in the image plane at distance 1
+    double position_error = 0;  ///< m, of the camera at the end
+    double turn_error = 0;      ///< rad
+    bool holding = false;       ///< at the end, for want of set-points
+    double fastest = 0;         ///< rad/s, what the fastest joint was commanded at the end
+
+    /// The last goal is reached: features to 0.005, the camera to 5 mm and half a degree.
+    bool converged() const noexcept {
+        return feature_error < 5e-3 && position_error < 5e-3 && turn_error < 0.5 * M_PI / 180 && !holding;
+    }
+};
+
+/// Blocks: as long as the run takes. Allocates.
+Loop run(const LoopSettings& settings);
+
+}  // namespace visual_servoing

@@ -1,0 +1,187 @@
+// What the components of the controller do: one class each, implementing the hooks of ControllerSystem.chart.
+//
+// Each keeps what it did in a recording of its own, in memory reserved before; nobody reads it before the run has ended.
+// No hook throws, allocates (but the whole-image search) or waits.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include <groundstate/frame_source.hpp>
+#include <groundstate/kinematics/joint_velocities.hpp>
+#include <groundstate/vision/disc_tracker.hpp>
+
+#include "cell.hpp"
+#include "controller_system.hpp"
+
+namespace visual_servoing {
+
+/// The instant, by the clock of the run.
+using Now = std::function<std::int64_t()>;
+
+/// When a target is sent, and from where the camera is to see it: a pose in the frame of the target.
+struct Goal {
+    std::int64_t at_ns = 0;
+    Eigen::Isometry3d camera = Eigen::Isometry3d::Identity();
+};
+
+/// Sends the targets when their time has come.
+class GoalSender final : public Operator {
+  public:
+    GoalSender(Now now, const Cell& cell, std::vector<Goal> goals);
+    bool plan(const Cycle& cycle, const In& in, Out& out) override;
+
+  private:
+    Now now_;
+    std::vector<Goal> goals_;
+    std::vector<Targets> targets_{};
+    std::size_t next_ = 0;
+    std::int64_t origin_ns_ = -1;
+};
+
+/// Fetches images from any source.
+class ImageGrabber final : public Camera {
+  public:
+    using Grab = std::function<groundstate::Grab(groundstate::FrameView, groundstate::Watchdog&)>;
+    explicit ImageGrabber(Grab grab) : grab_{std::move(grab)} {}
+    bool grab(const Cycle& cycle, const In& in, Out& out) override;
+
+    std::int64_t without_image() const noexcept { return without_image_; }
+
+  private:
+    Grab grab_;
+    std::int64_t without_image_ = 0;
+};
+
+struct ServoingSettings {
+    groundstate::servo::Intrinsics lens{};
+    groundstate::servo::ServoSettings law{.gain = {3.0, 0.9, 12.0}};
+    groundstate::vision::TrackerSettings tracker{.discs = {.dark = false}};
+    std::size_t images_kept = 6;  ///< for looking at afterwards
+    std::int64_t keep_every_ns = 1'900'000'000;
+};
+
+/// What one image gave.
+struct Sight {
+    std::int64_t at_ns = 0;
+    std::int64_t captured_ns = 0;
+    std::int64_t target = 0;  ///< its number; 0: none yet
+    groundstate::vision::Tracked tracked{};
+    groundstate::servo::Command command{};
+};
+
+/// An image that was kept.
+struct Kept {
+    std::int64_t captured_ns = 0;
+    std::int64_t target = 0;  ///< 0: nothing was kept
+    groundstate::vision::Tracked tracked{};
+    std::unique_ptr<groundstate::Frame<640, 480>> frame = std::make_unique<groundstate::Frame<640, 480>>();
+};
+
+/// Follows the discs and says how the camera has to move.
+class ServoingByImages final : public VisualServoing {
+  public:
+    ServoingByImages(Now now, const ServoingSettings& settings, std::size_t sights);
+    bool set_point(const Cycle& cycle, const In& in, Out& out) override;
+
+    const std::vector<Sight>& sights() const noexcept { return sights_; }
+    const std::vector<Kept>& kept() const noexcept { return kept_; }
+    const groundstate::servo::View& desired() const noexcept { return desired_; }
+    long searches() const noexcept { return tracker_.searches(); }
+
+  private:
+    void keep(const CameraToVs& image);
+
+    Now now_;
+    ServoingSettings settings_;
+    groundstate::vision::DiscTracker tracker_;
+    groundstate::servo::View desired_{};
+    std::int64_t target_ = 0;
+    std::vector<Sight> sights_{};
+    std::vector<Kept> kept_{};
+    std::size_t keeping_ = 0;
+};
+
+struct RobotSettings {
+    std::int64_t most_age_ns = 100'000'000;  ///< of the image behind a twist; then the camera is brought to rest
+    double most_acceleration = 1.0;          ///< of the camera, m/s^2
+    double most_turning = 4.0;               ///< rad/s^2
+    double most_lag = 0.1;                   ///< rad between set-point and joint, before the set-point waits for it
+};
+
+struct Motion {
+    std::int64_t at_ns = 0;
+    std::int64_t captured_ns = -1;  ///< of the image behind it; -1: none
+    Vector6 measured{};
+    Vector6 position{};
+    Vector6 velocity{};
+    double shortened = 1;
+    unsigned held = 0;
+    bool holding = true;
+};
+
+/// Turns the camera's twist into positions and velocities of the joints.
+class ArmController final : public Robot {
+  public:
+    ArmController(Now now, const groundstate::kinematics::ArmModel& arm, const RobotSettings& settings, std::size_t motions);
+    bool control(const Cycle& cycle, const In& in, Out& out) override;
+
+    const std::vector<Motion>& motions() const noexcept { return motions_; }
+
+  private:
+    Now now_;
+    groundstate::kinematics::Arm arm_;
+    RobotSettings settings_;
+    groundstate::servo::Twist twist_ = groundstate::servo::Twist::Zero();
+    Joints set_point_ = Joints::Zero();
+    std::int64_t last_ns_ = 0;
+    bool started_ = false;
+    std::vector<Motion> motions_{};
+};
+
+struct MotorSettings {
+    double stiffness = 20;                  ///< 1/s: velocity for each radian of deviation
+    std::int64_t most_age_ns = 25'000'000;  ///< of a set-point, and of a measurement; then the joints are brought to rest
+    double braking = 8;                     ///< rad/s^2
+    double most_velocity = 3;               ///< rad/s
+};
+
+struct Drive {
+    std::int64_t at_ns = 0;
+    std::int64_t captured_ns = -1;  ///< of the image behind the velocity; -1: none
+    double fastest = 0;            ///< rad/s, of the joints
+    bool holding = true;
+};
+
+/// Drives the joints along the set-points, and to rest if these are too old.
+class JointDrives final : public Motor {
+  public:
+    using Command = std::function<void(std::int64_t now_ns, const Joints& velocity)>;
+    JointDrives(Now now, Command command, const MotorSettings& settings, std::size_t drives);
+    bool drive(const Cycle& cycle, const In& in, Out& out) override;
+
+    const std::vector<Drive>& drives() const noexcept { return drives_; }
+
+  private:
+    Now now_;
+    Command command_;
+    MotorSettings settings_;
+    Joints velocity_ = Joints::Zero();
+    std::int64_t last_ns_ = 0;
+    std::vector<Drive> drives_{};
+};
+
+/// Reads the encoders.
+class JointEncoders final : public Encoder {
+  public:
+    using Read = std::function<Joints(std::int64_t now_ns)>;
+    JointEncoders(Now now, Read read) : now_{std::move(now)}, read_{std::move(read)} {}
+    bool acquire(const Cycle& cycle, const In& in, Out& out) override;
+
+  private:
+    Now now_;
+    Read read_;
+};
+
+}  // namespace visual_servoing
