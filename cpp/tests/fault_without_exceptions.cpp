@@ -24,6 +24,12 @@ bool lands() {
         inner = attempt([] { fail(FaultKind::inconsistent_update, 1, 2); });
         (void)divide(1, 0);
     });
+    int written = 0;
+    const Fault later = attempt([&] {
+        written = 1;
+        fail(FaultKind::limit, 3);
+    });
+    if (later.kind != FaultKind::limit || written != 1) return false;
     return inner == Fault{FaultKind::inconsistent_update, 1, 2} && outer.kind == FaultKind::division_by_zero;
 }
 

@@ -97,10 +97,12 @@ template <typename Action>
 
 namespace detail {
 
-/// Where a fault lands, and which one it was.
+/// Where a fault lands, and which one it was; volatile, as what changes before a jump is lost otherwise.
 struct Landing {
     std::jmp_buf place;
-    Fault fault;
+    volatile FaultKind kind;
+    volatile Site site;
+    volatile Site other;
 };
 
 /// The innermost `attempt` under way.
@@ -115,7 +117,9 @@ inline thread_local Landing* landing = nullptr;
 /// Ends the step; outside of every `attempt` it ends the program. Blocks: no. Allocates: no.
 [[noreturn]] inline void fail(FaultKind kind, Site site, Site other) {
     if (detail::landing == nullptr) std::abort();
-    detail::landing->fault = {kind, site, other};
+    detail::landing->kind = kind;
+    detail::landing->site = site;
+    detail::landing->other = other;
     std::longjmp(detail::landing->place, 1);
 }
 
@@ -125,10 +129,11 @@ template <typename Action>
     detail::Landing here{};
     detail::Landing* const outer = detail::landing;
     detail::landing = &here;
-    // Nothing that is read after the jump changes between the two returns of setjmp but `here`, through the pointer.
     if (setjmp(here.place) == 0) action();
+    // Compilers hold that what a call writes that never returns cannot be read: here it can, by all callers of this.
+    asm volatile("" : : "r"(&action) : "memory");
     detail::landing = outer;
-    return here.fault;
+    return {here.kind, here.site, here.other};
 }
 
 #endif
