@@ -1,3 +1,4 @@
+// The only file that includes ViSP; compiled as C++17.
 #include "visp_law.hpp"
 
 #include <visp3/visual_features/vpFeaturePoint.h>

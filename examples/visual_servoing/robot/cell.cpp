@@ -1,3 +1,4 @@
+// The cell's time, kinematics and views.
 #include "cell.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Builds controller and cell, runs them, and measures what they came to.
 #include "closed_loop.hpp"
 
 #include <groundstate/simulated/camera.hpp>
@@ -38,7 +39,7 @@ Loop run(const LoopSettings& settings, C& clock) {
     loop.cell = std::make_unique<Cell>(example_cell(settings.seed));
     Cell& cell = *loop.cell;
     const Now now = [&clock] { return clock.now_ns(); };
-    loop.goals = settings.goals.empty() ? example_goals() : settings.goals;
+    loop.goals = settings.goals.empty() ? example_goals(settings.span_ns / 2) : settings.goals;
     const auto periods = [&](std::int64_t period_ns) { return static_cast<std::size_t>(settings.span_ns / period_ns + 10); };
 
     auto camera = simulated::Camera<C>::open(
@@ -87,8 +88,8 @@ Loop run(const LoopSettings& settings, C& clock) {
 
 }  // namespace
 
-std::vector<Goal> example_goals() {
-    return {{0, looking({0, 0, 0.40}, 0)}, {5'000'000'000, looking({0.08, -0.06, 0.33}, 0.5)}};
+std::vector<Goal> example_goals(std::int64_t second_ns) {
+    return {{0, looking({0, 0, 0.40}, 0)}, {second_ns, looking({0.08, -0.06, 0.33}, 0.5)}};
 }
 
 Loop run(const LoopSettings& settings) {

@@ -24,11 +24,11 @@ struct LoopSettings {
     bool is_real = false;
     std::uint64_t seed = 1;
     Disturbances disturbances{};
-    std::vector<Goal> goals{};  ///< those of the example, if empty
+    std::vector<Goal> goals{};  ///< if empty the example's, the second one after half of the time
 };
 
-/// Straight above the target; then nearer, aside and turned.
-std::vector<Goal> example_goals();
+/// Straight above the target; then nearer, from aside and turned.
+std::vector<Goal> example_goals(std::int64_t second_ns);
 
 /// What is known of a task's cycles.
 struct TaskAccount {

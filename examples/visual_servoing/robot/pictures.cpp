@@ -1,3 +1,4 @@
+// Pictures with OpenCV.
 #include "pictures.hpp"
 
 #include <opencv2/imgcodecs.hpp>

@@ -1,3 +1,4 @@
+// The JSON of a run: settings, a column for each quantity, results.
 #include "run_file.hpp"
 
 #include <charconv>
