@@ -5,7 +5,8 @@ set -eu
 cd "$(dirname "$0")"
 
 sh install.sh cmake ninja-build libgtest-dev \
-    libopencv-core-dev libopencv-imgproc-dev
+    libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev \
+    libdc1394-dev visp-images-data
 
 for preset in ${*:-plain thread address}; do
     cmake --preset "$preset" >/dev/null

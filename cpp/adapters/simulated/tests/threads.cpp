@@ -45,7 +45,7 @@ bool stress(const char* name) {
             }
         }
     }};
-    constexpr long enough = 200;
+    constexpr long enough = 100;
     long torn = 0;
     Watchdog watchdog{10'000'000};
     for (long looked_at = 0; looked_at < enough;) {
