@@ -1,4 +1,4 @@
-//! Developer commands: `cargo xtask corpus | bench | fuzz | tidy`.
+//! Developer commands: `cargo xtask corpus | bench | fuzz | letters | tidy`.
 //!
 //! In: the command line, from anywhere inside the repository. Out: what the command prints, and exit code 0 (good),
 //! 1 (something is at fault) or 2 (usage, or the world). This is a shell: files, clocks and processes are its trade,
@@ -9,6 +9,7 @@ mod arguments;
 mod bench;
 mod corpus;
 mod fuzz;
+mod letters;
 mod repository;
 mod tidy;
 
@@ -34,6 +35,7 @@ usage: cargo xtask COMMAND
                                                steps per second, start-up time, memory
   fuzz [--seconds N] [--only WORD] [--reproduce FILE]
                                                fuzz targets, each for some seconds
+  letters                                      write the letter cases of the C++ runtime anew, as Rust has them
   tidy                                         the house rules";
 
 fn main() -> ExitCode {
@@ -47,6 +49,7 @@ fn main() -> ExitCode {
         "corpus" => corpus::run(&words),
         "bench" => bench::run(&words),
         "fuzz" => fuzz::run(&words),
+        "letters" => letters::run(&words),
         "tidy" => tidy::run(&words),
         corpus::WORKER => corpus::work(&words),
         _ => Err(format!("there is no command `{command}`\n{USAGE}")),

@@ -1,4 +1,5 @@
 // The capitals and small letters of Unicode: data of letter_case.hpp, as the standard library of Rust has them.
+// `cargo xtask letters` writes the tables.
 //
 // A run is the letters first, first + step … last, each with the same distance to its other case; an expansion is a
 // letter whose other case is several. Cased and case-ignorable are the properties that a final sigma depends on.
