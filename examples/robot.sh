@@ -5,7 +5,8 @@ set -eu
 cd "$(dirname "$0")"
 
 sh ../cpp/install.sh cmake ninja-build libgtest-dev libeigen3-dev liborocos-kdl-dev \
-    libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libvisp-vs-dev
+    libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev \
+    libvisp-vs-dev visp-images-data
 
 build=../target/cpp/robot
 cmake -S . -B "$build" -G Ninja >/dev/null

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -28,19 +29,73 @@ double aspect(const cv::Moments& moments) {
 }  // namespace
 
 struct DiscDetector::Buffers {
-    cv::Mat binary, labels, statistics, centroids, weights;
+    cv::Mat binary, labels, statistics, centroids, weights, alone;
+    std::vector<cv::Point> open{};
     cv::Mat table{1, 256, CV_8UC1, cv::Scalar{0}};
     std::vector<Disc> found{};
     bool levelled = false;
+    double background = 0;  // grey levels of the last search
+    double disc = 0;
 
-    // From the grey levels of both sides of the threshold to weights 0..255.
-    void level(double background, double disc) {
-        for (int grey = 0; grey < 256; ++grey) {
-            const double share = (grey - background) / (disc - background);
-            const double weight = (share - noise_share) / (1 - noise_share);
-            table.at<std::uint8_t>(grey) = static_cast<std::uint8_t>(std::lround(std::clamp(weight, 0.0, 1.0) * 255));
+    // From grey levels to weights 0..255. The background's level is that of the region, of what is not nearer to the
+    // disc's: light falls unevenly on real things.
+    void weigh(const cv::Mat& grey, cv::Mat& into) {
+        const double between = (background + disc) / 2;
+        const bool dark = disc < background;
+        long sum = 0;
+        long count = 0;
+        for (int v = 0; v < grey.rows; ++v) {
+            const std::uint8_t* row = grey.ptr<std::uint8_t>(v);
+            for (int u = 0; u < grey.cols; ++u) {
+                if ((row[u] > between) == dark) {
+                    sum += row[u];
+                    ++count;
+                }
+            }
         }
-        levelled = true;
+        const double around = count > 0 ? static_cast<double>(sum) / static_cast<double>(count) : background;
+        for (int level = 0; level < 256; ++level) {
+            const double weight = ((level - around) / (disc - around) - noise_share) / (1 - noise_share);
+            table.at<std::uint8_t>(level) = static_cast<std::uint8_t>(std::lround(std::clamp(weight, 0.0, 1.0) * 255));
+        }
+        cv::LUT(grey, table, into);
+    }
+
+    // Moves what is connected to the heavy pixel nearest to the place from `from` to `to`, which is empty: on a real
+    // background something else may be within reach. Nothing if all is light.
+    void isolate(cv::Mat& from, cv::Mat& to, double x, double y) {
+        double nearest = INFINITY;
+        cv::Point seed;
+        for (int v = 0; v < from.rows; ++v) {
+            const std::uint8_t* row = from.ptr<std::uint8_t>(v);
+            for (int u = 0; u < from.cols; ++u) {
+                const double square = (u - x) * (u - x) + (v - y) * (v - y);
+                if (row[u] > 127 && square < nearest) {
+                    nearest = square;
+                    seed = {u, v};
+                }
+            }
+        }
+        open.clear();
+        const auto take = [&](int u, int v) {
+            std::uint8_t& weight = from.at<std::uint8_t>(v, u);
+            if (weight != 0) {
+                to.at<std::uint8_t>(v, u) = std::exchange(weight, std::uint8_t{0});
+                open.push_back({u, v});
+            }
+        };
+        if (nearest < INFINITY) {
+            take(seed.x, seed.y);
+        }
+        while (!open.empty()) {
+            const cv::Point at = open.back();
+            open.pop_back();
+            for (int v = std::max(at.y - 1, 0); v <= std::min(at.y + 1, from.rows - 1); ++v) {
+                for (int u = std::max(at.x - 1, 0); u <= std::min(at.x + 1, from.cols - 1); ++u) {
+                    take(u, v);
+                }
+            }
+        }
     }
 };
 
@@ -49,6 +104,8 @@ DiscDetector::DiscDetector(int width, int height, const DiscSettings& settings)
     buffers_->binary.create(height, width, CV_8UC1);
     buffers_->labels.create(height, width, CV_32SC1);
     buffers_->weights.create(height, width, CV_8UC1);
+    buffers_->alone.create(height, width, CV_8UC1);
+    buffers_->open.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     buffers_->found.reserve(most_found);
 }
 
@@ -96,7 +153,9 @@ const std::vector<Disc>& DiscDetector::search(ConstFrameView image) {
     if (std::abs(disc - around) < 1) {
         return b.found;
     }
-    b.level(around, disc);
+    b.background = around;
+    b.disc = disc;
+    b.levelled = true;
 
     for (const Candidate& candidate : candidates) {
         const int* s = b.statistics.ptr<int>(candidate.label);
@@ -127,8 +186,11 @@ std::optional<Disc> DiscDetector::near(ConstFrameView image, servo::Pixel place,
     if (region.width < 3 || region.height < 3) {
         return std::nullopt;
     }
-    cv::Mat weights = b.weights(cv::Rect{0, 0, region.width, region.height});
-    cv::LUT(matrix(image)(region), b.table, weights);
+    cv::Mat all = b.weights(cv::Rect{0, 0, region.width, region.height});
+    b.weigh(matrix(image)(region), all);
+    cv::Mat weights = b.alone(cv::Rect{0, 0, region.width, region.height});
+    weights.setTo(0);
+    b.isolate(all, weights, place.u - region.x, place.v - region.y);
 
     // What touches the region's border is not seen whole.
     const auto border = [&](const cv::Mat& strip) { return cv::norm(strip, cv::NORM_L1); };

@@ -104,6 +104,37 @@ TEST(DiscDetector, WhatIsNoDiscIsNotFound) {
     EXPECT_FALSE(detector.near(picture.view(), {60, 60}, 5));
 }
 
+TEST(DiscDetector, WhatIsBesideADiscDoesNotMatter) {
+    Picture picture;
+    picture.discs(square({320, 240}, 80), 14);
+    DiscDetector detector{width, height, bright.discs};
+    ASSERT_EQ(detector.search(picture.view()).size(), 4u);
+    const Pixel place{240, 160};
+    cv::rectangle(picture.grey, {210, 130, 60, 12}, cv::Scalar{250}, cv::FILLED);  // an edge within reach
+    picture.disc({262, 182}, 4);                                                   // and a spot
+    const auto disc = detector.near(picture.view(), {238, 163}, 26);
+    ASSERT_TRUE(disc);
+    EXPECT_LT(apart(disc->centre, place), 0.1);
+    cv::rectangle(picture.grey, {236, 140, 8, 20}, cv::Scalar{250}, cv::FILLED);  // that grows together with it
+    EXPECT_FALSE(detector.near(picture.view(), {238, 163}, 26));
+}
+
+TEST(DiscDetector, LightMayFallUnevenly) {
+    Picture picture;
+    const Pixels places = square({320, 240}, 80);
+    for (int u = 0; u < width; ++u) {
+        picture.grey.col(u) = u / 5;  // from 0 to 127
+    }
+    picture.discs(places, 14);
+    DiscDetector detector{width, height, {.dark = false, .level = 180}};
+    ASSERT_EQ(detector.search(picture.view()).size(), 4u);
+    for (const Pixel& place : places) {
+        const auto disc = detector.near(picture.view(), {place.u + 3, place.v - 2}, 26);
+        ASSERT_TRUE(disc);
+        EXPECT_LT(apart(disc->centre, place), 0.1);
+    }
+}
+
 TEST(DiscDetector, AnEmptyImageHasNone) {
     Picture picture;
     DiscDetector detector{width, height, bright.discs};

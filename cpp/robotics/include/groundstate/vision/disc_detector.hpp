@@ -47,8 +47,8 @@ class DiscDetector {
     const std::vector<Disc>& search(ConstFrameView image);
     static constexpr std::size_t most_found = 16;
 
-    /// The disc whose centre is near a place, if it lies whole within `reach` pixels around it and is the only thing
-    /// there. Nothing before the first search. Allocates: no. Worst case: in proportion to the square of the reach.
+    /// The disc nearest to a place, if it lies whole within `reach` pixels around it; what does not touch it may be there,
+    /// too. Nothing before the first search. Allocates: no. Worst case: in proportion to the square of the reach.
     std::optional<Disc> near(ConstFrameView image, servo::Pixel place, double reach);
 
   private:
