@@ -35,33 +35,35 @@ class Capture::State {
         if (into.shape != shape_ || into.stride_bytes < into.shape.row_bytes()) {
             return ledger_.tell({.outcome = Outcome::other_shape});
         }
-        if (over_) {
-            return ledger_.tell({.outcome = end()});
+        if (!over_ && live_ && !await(watchdog)) {
+            watchdog.skip();
+            return ledger_.tell({.outcome = Outcome::timeout});
         }
-        try {
-            if (live_ && !await(watchdog)) {
-                watchdog.skip();
-                return ledger_.tell({.outcome = Outcome::timeout});
+        over_ = over_ || !dequeue();
+        if (over_) {
+            return ledger_.tell({.outcome = live_ ? Outcome::disconnected : Outcome::end_of_stream});
+        }
+        Outcome outcome = retrieve(into);
+        // From the oldest on, as long as the age of a frame tells that the driver must hold a newer one. OpenCV gives
+        // the next one only when this one is retrieved.
+        for (int frames = 1; stale_ && frames < most_held && poll(0); ++frames) {
+            over_ = !dequeue();
+            if (over_) {
+                break;  // what was retrieved is good; the next grab says that the camera is gone
             }
-            over_ = !(live_ ? dequeue_newest() : dequeue());
-        } catch (const std::exception&) {
-            over_ = true;
+            outcome = retrieve(into);
         }
-        if (over_) {
-            return ledger_.tell({.outcome = end()});
-        }
-        return ledger_.tell({retrieve(into), sequence_, stamp_ns_});
+        return ledger_.tell({outcome, sequence_, stamp_ns_});
     }
 
     const FrameShape& shape() const noexcept { return shape_; }
     FrameAccount account() const noexcept { return ledger_.account(); }
 
   private:
-    Outcome end() const noexcept { return live_ ? Outcome::disconnected : Outcome::end_of_stream; }
     cv::VideoCapture& capture() noexcept { return captures_.front(); }
 
     // False if the budget ended before there was anything to dequeue, be it the end.
-    bool await(Watchdog& watchdog) {
+    bool await(Watchdog& watchdog) noexcept {
         const std::int64_t start_ns = clock_.now_ns();
         const std::int64_t until_ns = later_ns(start_ns, watchdog.left_ns());
         std::int64_t now_ns = start_ns;
@@ -77,41 +79,39 @@ class Capture::State {
         return ready;
     }
 
-    // OpenCV waits without a bound if it is told 0. Throws if the camera reports an error.
-    bool poll(std::int64_t span_ns) {
+    // There is something to dequeue, be it the end. OpenCV waits without a bound if it is told 0, and throws if the
+    // camera reports an error.
+    bool poll(std::int64_t span_ns) noexcept try {
         return cv::VideoCapture::waitAny(captures_, ready_, std::max<std::int64_t>(span_ns, 1));
+    } catch (const std::exception&) {
+        return true;
     }
 
-    bool dequeue() {
+    // False if there will be no more.
+    bool dequeue() noexcept try {
         if (!capture().grab()) {
             return false;
         }
-        ++sequence_;
-        stamp_ns_ = static_cast<std::int64_t>(sequence_ - 1) * period_ns_;
-        return true;
-    }
-
-    // What the driver holds, from the oldest on, as long as the age of a frame tells that there must be a newer one.
-    bool dequeue_newest() {
-        for (int frames = 0; frames < most_held; ++frames) {
-            if (frames > 0 && !poll(0)) {
-                return true;
-            }
-            if (!capture().grab()) {
-                return false;
-            }
-            const std::int64_t now_ns = clock_.now_ns();
-            const std::int64_t taken_ns = std::llround(capture().get(cv::CAP_PROP_POS_MSEC) * 1e6);
-            // A driver that does not stamp by the monotonic clock says nothing about the age.
-            const std::int64_t age_ns = now_ns - taken_ns;
-            const bool stamped = taken_ns > 0 && age_ns >= 0 && age_ns < 10 * second_ns;
-            sequence_ = numbers_.next(stamped ? taken_ns : now_ns);
-            stamp_ns_ = numbers_.stamp_ns();
-            if (!stamped || period_ns_ == 0 || age_ns < 2 * period_ns_) {
-                return true;
-            }
+        if (live_) {
+            number();
+        } else {
+            ++sequence_;
+            stamp_ns_ = static_cast<std::int64_t>(sequence_ - 1) * period_ns_;
         }
         return true;
+    } catch (const std::exception&) {
+        return false;
+    }
+
+    // By the driver's stamp; one that is not of the monotonic clock is not believed, and says nothing about the age.
+    void number() {
+        const std::int64_t now_ns = clock_.now_ns();
+        const std::int64_t taken_ns = std::llround(capture().get(cv::CAP_PROP_POS_MSEC) * 1e6);
+        const std::int64_t age_ns = now_ns - taken_ns;
+        const bool stamped = taken_ns > 0 && age_ns >= 0 && age_ns < 10 * second_ns;
+        sequence_ = numbers_.next(stamped ? taken_ns : now_ns);
+        stamp_ns_ = numbers_.stamp_ns();
+        stale_ = stamped && period_ns_ > 0 && age_ns > 2 * period_ns_;
     }
 
     Outcome retrieve(const FrameView& into) noexcept try {
@@ -132,7 +132,7 @@ class Capture::State {
         return Outcome::damaged;
     }
 
-    // LIMIT: frames that are looked through for the newest one; a driver holds 4 for OpenCV.
+    // LIMIT: frames of one grab that are looked through for the newest one; a driver holds 4 for OpenCV.
     static constexpr int most_held = 8;
 
     std::vector<cv::VideoCapture> captures_{};  // as `waitAny` will have it: one
@@ -147,6 +147,7 @@ class Capture::State {
     int arrives_as_ = CV_8UC3;
     std::uint64_t sequence_ = 0;
     std::int64_t stamp_ns_ = 0;
+    bool stale_ = false;  // there should be a newer frame than the one dequeued last
     bool over_ = false;
 };
 
@@ -176,6 +177,11 @@ Opened<Capture> Capture::device(int index, const Device& settings) {
     const int height = number_of(capture, cv::CAP_PROP_FRAME_HEIGHT);
     if (width != shape.width || height != shape.height) {
         return other_size(path, width, height, shape);
+    }
+    // OpenCV starts the stream with the first frame, and waits for that one without a bound of ours: so here, once.
+    // Many a camera's first frame is spoilt anyhow.
+    if (!capture.grab()) {
+        return OpenFailure{OpenError::driver, path + ": the camera sends nothing"};
     }
     const std::int64_t period_ns = period_ns_of(capture.get(cv::CAP_PROP_FPS));
     return std::unique_ptr<Capture>{

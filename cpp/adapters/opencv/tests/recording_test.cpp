@@ -154,10 +154,12 @@ TEST_F(Recording, WhatCannotBeOpenedIsToldAndWhy) {
 
     const std::string small = written("small.png", picture(1, {80, 60}));
     expect_failure(ImageSequence::open({small}, {.shape = colour}).failure(), OpenError::other_shape, "80 x 60");
-    expect_failure(Capture::file(video(3, {320, 240}), {.shape = colour}).failure(), OpenError::other_shape, "320 x 240");
+    expect_failure(Capture::file(video(3, {320, 240}), {.shape = colour}).failure(), OpenError::other_shape,
+                   "320 x 240");
 
     expect_failure(ImageSequence::open({}, {.shape = colour}).failure(), OpenError::refused, "needs");
-    expect_failure(ImageSequence::open({small}, {.shape = colour, .period_ns = 0}).failure(), OpenError::refused, "period");
+    expect_failure(ImageSequence::open({small}, {.shape = colour, .period_ns = 0}).failure(), OpenError::refused,
+                   "period");
 }
 
 TEST(Numbered, NamesFilesAsPrintfDoes) {

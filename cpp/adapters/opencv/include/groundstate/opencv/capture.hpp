@@ -27,8 +27,8 @@ struct Video {
 /// A FrameSource of a cv::VideoCapture.
 class Capture {
   public:
-    /// Opens /dev/video<index>.
-    /// Who: the owner. Blocks: as the driver does, some 100 ms. Allocates: yes.
+    /// Opens /dev/video<index> and starts it; the frame that this takes is not delivered.
+    /// Who: the owner. Blocks: as the driver does, some 100 ms; 10 s if the camera sends nothing. Allocates: yes.
     /// Errors: not_found, not_granted, busy, other_shape, driver.
     static Opened<Capture> device(int index, const Device& settings = {});
 
@@ -45,8 +45,8 @@ class Capture {
     FrameShape shape() const noexcept;
 
     /// Who: the one that grabs. Blocks: a camera ≤ budget, in whole milliseconds; a file as long as the disk takes.
-    /// Allocates: within OpenCV and its decoders. Worst case: one frame decoded into the caller's memory; with another
-    /// format than the driver's, decoded and then converted into it.
+    /// Allocates: within OpenCV and its decoders. Worst case: one frame decoded into the caller's memory, in another
+    /// format than the driver's then converted; of a camera whose task is late as many as its driver holds.
     /// LIMIT: a frame that the decoder mends is not known to be damaged.
     Grab grab(FrameView into, Watchdog& watchdog) noexcept;
 
