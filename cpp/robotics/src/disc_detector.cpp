@@ -7,6 +7,9 @@
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#if __has_include(<opencv2/geometry.hpp>)
+#include <opencv2/geometry.hpp>  // where OpenCV 5 has the moments
+#endif
 
 namespace groundstate::vision {
 
