@@ -30,7 +30,7 @@ scenarios: $(TESTED)
 	$(TESTED) test $(MODELS)
 	sh library/verification/verify.sh $(TESTED) expected.txt
 
-verify: $(GROUNDSTATE) ## the pattern library's properties in every state, and its seeded faults found: a minute
+verify: $(GROUNDSTATE) ## the pattern library's properties in every state, its seeded faults found, the reference systems counted: minutes, 4 GB
 	sh library/verification/verify.sh $(GROUNDSTATE) expected.txt expected-long.txt
 
 cpp: ## the C++ runtime and the cameras: their tests as they are and under the sanitizers

@@ -21,6 +21,7 @@ mod explain;
 mod failure;
 mod files;
 mod fmt;
+mod generate_tests;
 mod inputs;
 mod interrupt;
 mod junit;
@@ -31,6 +32,7 @@ mod progress;
 mod render;
 mod replay;
 mod report;
+mod review;
 mod run;
 mod shell;
 mod solver;
@@ -71,6 +73,10 @@ enum Command {
     Test(test::Arguments),
     /// Explore every state of a model: what always holds, what is violated and how, what is not known
     Verify(Box<verify::Arguments>),
+    /// Look for what is odd about a model: rules that never run, values never taken, cases forgotten
+    Review(review::Arguments),
+    /// Write scenarios that reach the rules, branches, updates, conditions and transitions of a model
+    GenerateTests(generate_tests::Arguments),
     /// Run a recorded trace again and compare
     Replay(replay::Arguments),
     /// Run a model and write the run as a page: timeline, deadlines, waiting, coverage
@@ -119,6 +125,8 @@ fn work(arguments: Arguments) -> Exit {
         Command::Run(arguments) => run::run(&mut shell, &arguments),
         Command::Test(arguments) => test::run(&mut shell, &arguments),
         Command::Verify(arguments) => verify::run(&mut shell, &arguments),
+        Command::Review(arguments) => review::run(&mut shell, &arguments),
+        Command::GenerateTests(arguments) => generate_tests::run(&mut shell, &arguments),
         Command::Replay(arguments) => replay::run(&mut shell, &arguments),
         Command::Report(arguments) => report::run(&mut shell, &arguments),
         Command::Chart(arguments) => chart::run(&mut shell, &arguments),

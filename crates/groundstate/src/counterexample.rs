@@ -8,9 +8,11 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use machine::{Limits, Location, Show, Value};
-use program::{Program, Rule, RuleId};
+use program::Program;
 use simulate::{Decided, Header, Inputs, Options, Run};
 use verify::{Subject, Trace};
+
+use crate::avalla::{pick, set};
 
 /// The run of a counterexample. The header says how many steps it makes and what is done about invariants.
 pub fn counterexample_run(program: &Arc<Program>, limits: Limits, trace: &Trace, header: &Header) -> Run {
@@ -51,38 +53,6 @@ pub fn counterexample_scenario(program: &Program, trace: &Trace, subject: Subjec
         rest(&mut text, program, trace);
     }
     text
-}
-
-/// Sets inputs that are not what they were.
-fn set(text: &mut String, program: &Program, given: &mut Vec<(Location, Value)>, inputs: &[(Location, Value)]) {
-    for (location, value) in inputs {
-        match given.iter_mut().find(|(former, _)| former == location) {
-            Some((_, former)) if former == value => continue,
-            Some((_, former)) => former.clone_from(value),
-            None => given.push((location.clone(), value.clone())),
-        }
-        let _ = writeln!(text, "set {} := {};", location.show(program), value.show(program));
-    }
-}
-
-fn pick(text: &mut String, program: &Program, choice: &machine::explore::ChoiceTaken) {
-    for procedure in &program.procedures {
-        let mut open: Vec<RuleId> = vec![procedure.body];
-        while let Some(id) = open.pop() {
-            program.each_child_of_rule(id, &mut |child| open.push(child));
-            let Rule::Choose { binders, .. } = program.rule(id) else { continue };
-            if program.rule_span(id) != choice.span {
-                continue;
-            }
-            for (binder, value) in program.binder_list(*binders).iter().zip(&choice.values) {
-                let variable = &procedure.names[binder.slot.0 as usize];
-                let _ = writeln!(text, "pick {variable} in {} := {};", procedure.name, value.show(program));
-            }
-            return;
-        }
-    }
-    let values: Vec<String> = choice.values.iter().map(|value| value.show(program).to_string()).collect();
-    let _ = writeln!(text, "// a term chooses {} here, which no scenario can say", values.join(", "));
 }
 
 /// No step changes the last state: the check that the next one does fails.

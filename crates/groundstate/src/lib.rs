@@ -4,10 +4,13 @@
 //! faults as [`syntax::Diagnostic`]s, run-time ones included. Shells build on this crate and, below it, on types
 //! only; it must not know files, terminals or wire formats.
 
+mod avalla;
 mod counterexample;
 mod diagnose;
+mod diagnose_review;
 mod fingerprint;
 mod test;
+pub mod test_generation;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -19,6 +22,7 @@ use syntax::{Diagnostic, Severity, SourceFile, Sources, Span};
 
 pub use counterexample::{counterexample_run, counterexample_scenario};
 pub use diagnose::{diagnose_failure, diagnose_fault, diagnose_violation};
+pub use diagnose_review::{REVIEW_IDS, diagnose_finding};
 pub use fingerprint::fingerprint;
 pub use test::{SeededChoices, Suite, Tested, own_files};
 pub use {scenario, simulate, verify};

@@ -142,6 +142,9 @@ impl<'a> Executor<'a> {
         }
         let start = self.gather(arguments)?;
         let arguments: Vec<Value> = self.core.frames.drain(start..).collect();
+        if self.core.observations.is_some() {
+            self.core.note_read(function, &arguments);
+        }
         self.read(function, &arguments, self.program.term_span(id))
     }
 
@@ -247,16 +250,8 @@ impl<'a> Executor<'a> {
     fn evaluate_builtin(&mut self, builtin: Builtin, arguments: &'a [TermId], id: TermId) -> Outcome<Value> {
         use Value::{Boolean, Integer};
         match (builtin, arguments) {
-            (Builtin::And | Builtin::Or, [left, right]) => {
-                let deciding = Boolean(builtin == Builtin::Or);
-                let left = self.evaluate(*left)?;
-                if left == deciding {
-                    return Ok(left);
-                }
-                let right = self.evaluate(*right)?;
-                Ok(if right == deciding || !left.is_undef() { right } else { left })
-            }
-            (Builtin::Implies, [premise, conclusion]) => self.evaluate_implication(*premise, *conclusion),
+            (Builtin::And | Builtin::Or, [left, right]) => self.and_or(builtin, *left, *right, Self::evaluate),
+            (Builtin::Implies, [premise, conclusion]) => self.implication(*premise, *conclusion, Self::evaluate),
             (Builtin::Pre, [term]) => self.evaluate_before(*term),
             (_, [left, right]) => {
                 let left = self.evaluate(*left)?;
@@ -296,13 +291,37 @@ impl<'a> Executor<'a> {
         }
     }
 
+    /// Kleene's `and` and `or`; `evaluate` says what an operand comes to.
+    #[inline]
+    pub fn and_or(
+        &mut self,
+        builtin: Builtin,
+        left: TermId,
+        right: TermId,
+        evaluate: impl Fn(&mut Self, TermId) -> Outcome<Value>,
+    ) -> Outcome<Value> {
+        let deciding = Value::Boolean(builtin == Builtin::Or);
+        let left = evaluate(self, left)?;
+        if left == deciding {
+            return Ok(left);
+        }
+        let right = evaluate(self, right)?;
+        Ok(if right == deciding || !left.is_undef() { right } else { left })
+    }
+
     /// Kleene's implication: `false` implies anything, anything implies `true`.
-    fn evaluate_implication(&mut self, premise: TermId, conclusion: TermId) -> Outcome<Value> {
-        let premise = self.evaluate(premise)?;
+    #[inline]
+    pub fn implication(
+        &mut self,
+        premise: TermId,
+        conclusion: TermId,
+        evaluate: impl Fn(&mut Self, TermId) -> Outcome<Value>,
+    ) -> Outcome<Value> {
+        let premise = evaluate(self, premise)?;
         if premise == Value::Boolean(false) {
             return Ok(Value::Boolean(true));
         }
-        let conclusion = self.evaluate(conclusion)?;
+        let conclusion = evaluate(self, conclusion)?;
         Ok(match (premise, conclusion) {
             (_, Value::Boolean(true)) => Value::Boolean(true),
             (Value::Boolean(true), conclusion) => conclusion,

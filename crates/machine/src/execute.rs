@@ -13,6 +13,7 @@ use crate::limits::Limits;
 use crate::location::LocationRef;
 use crate::membership::Membership;
 use crate::memo::Memo;
+use crate::observe::Observations;
 use crate::store::Store;
 use crate::update::Updates;
 use crate::value::Value;
@@ -52,6 +53,8 @@ pub(crate) struct Core {
     pub codomains: Vec<Membership>,
     /// Counts, where wanted.
     pub coverage: Option<Box<Coverage>>,
+    /// What is seen of the steps, where somebody watches.
+    pub observations: Option<Box<Observations>>,
     /// The initial values of functions: index into the program's initials, by function.
     pub initials: Vec<Option<u32>>,
     /// The initial state, where initial values that are evaluated later may read it.

@@ -17,6 +17,7 @@ use crate::environment::{Choice, Draw};
 use crate::execute::{Executor, Outcome};
 use crate::fault::{ClashSide, FaultKind};
 use crate::location::Location;
+use crate::observe::Observation;
 use crate::print::Show;
 use crate::update::Clash;
 use crate::value::Value;
@@ -25,9 +26,7 @@ impl<'a> Executor<'a> {
     /// Runs a rule.
     pub fn perform(&mut self, id: RuleId) -> Outcome<()> {
         let program = self.program;
-        if let Some(coverage) = &mut self.core.coverage {
-            coverage.ran(id);
-        }
+        self.core.ran(id);
         match program.rule(id) {
             Rule::Skip => Ok(()),
             Rule::Update { function, arguments, value } => {
@@ -62,7 +61,7 @@ impl<'a> Executor<'a> {
                 let rules = program.rule_list(*rules);
                 let guards = program.term_list(*guards);
                 for (guard, rule) in guards.iter().zip(rules) {
-                    if self.holds(*guard)? {
+                    if self.decide(*guard)? {
                         return self.take(id, Some(*rule));
                     }
                 }
@@ -102,13 +101,13 @@ impl<'a> Executor<'a> {
                 Ok(())
             }),
             Rule::While { condition, body } => self.sequence(id, |this| {
-                while this.holds(*condition)? && this.perform_part(*body)? {
+                while this.decide(*condition)? && this.perform_part(*body)? {
                     this.count_iteration(program.rule_span(id))?;
                 }
                 Ok(())
             }),
             Rule::RecursiveWhile { condition, body } => self.sequence(id, |this| {
-                while this.holds(*condition)? {
+                while this.decide(*condition)? {
                     this.perform_part(*body)?;
                     this.count_iteration(program.rule_span(id))?;
                 }
@@ -123,15 +122,18 @@ impl<'a> Executor<'a> {
 
     /// Runs the branch of an if or switch that is taken, if any.
     fn take(&mut self, id: RuleId, branch: Option<RuleId>) -> Outcome<()> {
-        if let Some(coverage) = &mut self.core.coverage {
-            coverage.went(id, usize::from(branch.is_some()));
-        }
+        self.core.went(id, usize::from(branch.is_some()));
         branch.map_or(Ok(()), |branch| self.perform(branch))
     }
 
     /// Adds the update `function(arguments) := value`.
     fn update(&mut self, function: FunctionId, arguments: TermList, value: Value, id: RuleId) -> Outcome<()> {
         let start = self.gather(arguments)?;
+        if self.core.observations.is_some() {
+            // Whether the update is trivial depends on what stands there.
+            let found = self.core.store.find(function, &self.core.frames[start..]);
+            self.note_look(function, found);
+        }
         if self.core.initials[function.0 as usize].is_some() {
             let found = self.core.store.find(function, &self.core.frames[start..]);
             if self.core.exploring {
@@ -151,8 +153,11 @@ impl<'a> Executor<'a> {
         let core = &mut *self.core;
         let index = core.store.number(function, &core.frames[start..]);
         core.frames.truncate(start);
-        if let Some(coverage) = &mut core.coverage {
-            coverage.went(id, usize::from(core.store.values[index as usize] != value));
+        if core.coverage.is_some() {
+            core.went(id, usize::from(core.store.values[index as usize] != value));
+        }
+        if core.observations.is_some() {
+            core.note_update(function, index, &value);
         }
         if core.updates.len() as u64 >= self.limits.updates || core.store.len() as u64 > self.limits.locations {
             return self.limit_of_updates(id);
@@ -173,7 +178,7 @@ impl<'a> Executor<'a> {
 
     /// Turns a clash into a fault that names both rules.
     #[inline]
-    fn consistent<T>(&self, outcome: Result<T, Box<Clash>>) -> Outcome<T> {
+    fn consistent<T>(&mut self, outcome: Result<T, Box<Clash>>) -> Outcome<T> {
         match outcome {
             Ok(value) => Ok(value),
             Err(clash) => self.inconsistent(*clash),
@@ -181,7 +186,8 @@ impl<'a> Executor<'a> {
     }
 
     #[cold]
-    fn inconsistent<T>(&self, clash: Clash) -> Outcome<T> {
+    fn inconsistent<T>(&mut self, clash: Clash) -> Outcome<T> {
+        self.core.note(Observation::Clashed(clash.first.1, clash.second.1));
         let side = |(value, rule): (Value, RuleId)| ClashSide { value, span: self.program.rule_span(rule) };
         let location = self.core.store.location(clash.location);
         let span = self.program.rule_span(clash.second.1);
@@ -344,7 +350,7 @@ impl<'a> Executor<'a> {
         let mut count = 0usize;
         let _ = self.for_each_binding(program.binder_list(binders), &mut |this| {
             let taken = match condition {
-                Some(condition) => this.holds(condition)?,
+                Some(condition) => this.decide(condition)?,
                 None => true,
             };
             if taken {
@@ -353,9 +359,7 @@ impl<'a> Executor<'a> {
             }
             Ok(ControlFlow::Continue(()))
         })?;
-        if let Some(coverage) = &mut self.core.coverage {
-            coverage.went(id, count.min(2));
-        }
+        self.core.went(id, count.min(2));
         Ok(())
     }
 
@@ -393,9 +397,7 @@ impl<'a> Executor<'a> {
             return if self.core.exploring { self.endless_choice(fault, span) } else { Err(fault) };
         }
         let candidates = (self.core.frames.len() - start) / binders.len().max(1);
-        if let Some(coverage) = &mut self.core.coverage {
-            coverage.went(id, candidates.min(2));
-        }
+        self.core.went(id, candidates.min(2));
         if candidates == 0 {
             if let Err(reason) = self.environment.no_candidate(program, span) {
                 return self.fault(span, FaultKind::Environment { reason });

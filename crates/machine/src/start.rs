@@ -43,6 +43,7 @@ impl Core {
             contents: vec![None; program.domains.len()],
             codomains: Vec::new(),
             coverage: None,
+            observations: None,
             initials: vec![None; program.functions.len()],
             origin: None,
             plain: vec![false; program.functions.len()],

@@ -157,6 +157,16 @@ pub enum NoStart {
     Unbounded(Unbounded),
 }
 
+impl From<Trouble> for NoStart {
+    fn from(trouble: Trouble) -> NoStart {
+        match trouble {
+            Trouble::Fault(fault) => NoStart::Fault(fault),
+            Trouble::Unbounded(unbounded) => NoStart::Unbounded(unbounded),
+            Trouble::TooNarrow(_) => unreachable!("the search widens its states"),
+        }
+    }
+}
+
 /// Checks a program; `watch` is told how far the search is and says whether it goes on.
 ///
 /// # Errors
@@ -180,11 +190,7 @@ pub fn verify_fair(
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Report, NoStart> {
     let questions = Questions::of(program, options);
-    let mut ended = run_engine(program, &questions.plan, options.engine, watch).map_err(|trouble| match trouble {
-        Trouble::Fault(fault) => NoStart::Fault(fault),
-        Trouble::Unbounded(unbounded) => NoStart::Unbounded(unbounded),
-        Trouble::TooNarrow(_) => unreachable!("the search widens its states"),
-    })?;
+    let mut ended = run_engine(program, &questions.plan, options.engine, watch)?;
     let reasons = reasons(&ended, &questions, options);
     let (mut of_runs, runs) = of_runs(program, &questions, options, agents, &reasons, watch);
     let verdicts = questions.subjects.iter().map(|(subject, target)| {
@@ -254,6 +260,11 @@ fn of_runs(
         (Subject::Property(index), outcome)
     });
     (outcomes.collect(), unknown)
+}
+
+/// What a search is asked for by the properties of a program.
+pub(crate) fn plan_of(program: &Program, options: &Options) -> Plan {
+    Questions::of(program, options).plan
 }
 
 /// Why a check that found nothing is still not known to hold.

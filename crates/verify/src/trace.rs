@@ -4,6 +4,8 @@
 //! level by level: of the states of the level before that lead to the state, the least in canonical order is taken, and of
 //! its steps the first. So a trace does not depend on the number of workers, and a state costs no link to its parent.
 
+use std::ops::ControlFlow;
+
 use machine::explore::{Explorer, FaultClass, Outcome, Path, Told};
 use machine::{Location, Value};
 
@@ -78,23 +80,36 @@ impl Search {
 /// The first alternative of a state that is as wanted.
 fn first_path(explorer: &mut Explorer, state: &[u64], wanted: &mut dyn FnMut(&Path) -> bool) -> Option<Path> {
     let mut first = None;
-    let _ = explorer.paths(state, &mut |path| {
-        if first.is_none() && wanted(&path) {
+    let _ = explorer.paths_until(state, &mut |path| {
+        if wanted(&path) {
             first = Some(path);
+            return ControlFlow::Break(());
         }
+        ControlFlow::Continue(())
     });
     first
 }
 
-pub(crate) fn tell(explorer: &mut Explorer, chain: &[Box<[u64]>], found: &Found) -> Trace {
+/// The answers of the first alternative that leads from one state to another.
+pub(crate) fn picks_between(explorer: &mut Explorer, from: &[u64], to: &[u64]) -> Vec<u32> {
+    let mut leads = |path: &Path| matches!(&path.outcome, Outcome::Next(next) if **next == *to);
+    first_path(explorer, from, &mut leads).expect("the step was made before").picks
+}
+
+/// The steps from an initial state along a chain of states.
+pub(crate) fn tell_way(explorer: &mut Explorer, chain: &[Box<[u64]>]) -> Trace {
     let start = explorer.initial().iter().find(|(state, _)| *state == chain[0]);
     let start = start.map(|(_, told)| told.clone()).unwrap_or_default();
     let mut trace = Trace { start, values: explorer.values(&chain[0]), steps: Vec::new(), turn: None, branch: false };
     for pair in chain.windows(2) {
-        let mut leads = |path: &Path| matches!(&path.outcome, Outcome::Next(next) if *next == pair[1]);
-        let path = first_path(explorer, &pair[0], &mut leads).expect("the step was made before");
-        trace.steps.push(explorer.tell(&pair[0], &path.picks));
+        let picks = picks_between(explorer, &pair[0], &pair[1]);
+        trace.steps.push(explorer.tell(&pair[0], &picks));
     }
+    trace
+}
+
+pub(crate) fn tell(explorer: &mut Explorer, chain: &[Box<[u64]>], found: &Found) -> Trace {
+    let mut trace = tell_way(explorer, chain);
     let last = &chain[chain.len() - 1];
     let path = match found.target {
         Target::Fault(class) => first_path(

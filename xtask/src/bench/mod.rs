@@ -5,11 +5,13 @@
 //! clock; wrong results of a twin are a fault. bench/README.md says how each figure is made.
 
 mod charts;
+mod child;
 mod command;
 mod memory;
 mod models;
 mod process;
 mod twins;
+mod verify;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -33,8 +35,11 @@ pub struct Effort {
 /// # Errors
 /// Usage; the binary cannot be built; a model cannot be run.
 pub fn run(words: &[String]) -> Result<Outcome, Failure> {
-    let arguments =
-        Arguments::read(words, &["--windows", "--window-ms", "--runs", "--corpus", "--only"], &["--quick"])?;
+    let arguments = Arguments::read(
+        words,
+        &["--windows", "--window-ms", "--runs", "--corpus", "--only", "--peer", "--tlc"],
+        &["--quick", "--large"],
+    )?;
     let quick = arguments.flag("--quick");
     let effort = Effort {
         windows: arguments.number("--windows", if quick { 3 } else { 7 })?,
@@ -48,11 +53,17 @@ pub fn run(words: &[String]) -> Result<Outcome, Failure> {
     process::whole(&binary, effort, only)?;
     charts::drawn(&binary, effort, only)?;
     memory::peaks(&binary, if quick { 10_000 } else { 1_000_000 }, only)?;
+    let peers = verify::Peers {
+        models: arguments.option("--peer").map(PathBuf::from),
+        tlc: arguments.option("--tlc").map(PathBuf::from),
+        large: arguments.flag("--large"),
+    };
+    let explored = verify::explored(&binary, &peers, only)?;
     let twins = twins::compare(effort, only)?;
     if let Some(corpus) = arguments.option("--corpus") {
         models::reference(&binary, effort, Path::new(corpus), only)?;
     }
-    Ok(twins)
+    Ok(if explored == Outcome::Good { twins } else { explored })
 }
 
 /// Builds the command as users have it.

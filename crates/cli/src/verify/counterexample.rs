@@ -118,7 +118,7 @@ fn file_name(name: &str) -> String {
 }
 
 /// The path of a file as seen from a folder, as a scenario writes it.
-fn relative(file: &Path, folder: &Path) -> String {
+pub fn relative(file: &Path, folder: &Path) -> String {
     let whole = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
     let (file, folder) = (whole(file), whole(folder));
     let (to, from): (Vec<Component>, Vec<Component>) = (file.components().collect(), folder.components().collect());

@@ -3,6 +3,7 @@
 //! Exit codes: 0 all hold, 1 something is violated, 3 nothing is violated but something is not known.
 
 mod bound;
+mod bounded;
 mod counterexample;
 mod tell;
 mod watch;
@@ -11,16 +12,17 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
+use groundstate::own_files;
 use groundstate::verify::temporal::fairness::AgentFairness;
 use groundstate::verify::{NoStart, Options, Outcome, Report, verify_fair};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::interrupt;
 use crate::load::load;
 use crate::shell::Shell;
-use tell::Teller;
-use watch::Watch;
+pub use bounded::Bounded;
+pub use counterexample::relative;
+pub use tell::{StepLine, Teller};
 
 /// Arguments of `verify`.
 #[derive(Debug, Args)]
@@ -36,9 +38,6 @@ pub struct Arguments {
     /// Stop at the first violation
     #[arg(long)]
     first: bool,
-    /// The values that an input is tried with, as NAME=LOW..HIGH or NAME=VALUE,VALUE; may be repeated
-    #[arg(long = "bound", value_name = "BOUND")]
-    bounds: Vec<String>,
     /// States in which this term holds may rest
     #[arg(long, value_name = "TERM")]
     terminal: Option<String>,
@@ -46,21 +45,14 @@ pub struct Arguments {
     /// strong if it can move again and again
     #[arg(long, value_enum, value_name = "HOW")]
     fair: Option<Fair>,
+    /// Tell of unreachable rules in imported files, too
+    #[arg(long)]
+    imports: bool,
     /// Write counterexamples: a scenario (FILE.avalla), a trace (FILE.trace), or both for each violation into a folder
     #[arg(long, value_name = "PATH")]
     counterexample: Option<PathBuf>,
-    /// The most states
-    #[arg(long, value_name = "N", value_parser = crate::limits::count)]
-    max_states: Option<u64>,
-    /// The most steps from an initial state
-    #[arg(long, value_name = "N", value_parser = crate::limits::count)]
-    depth: Option<u64>,
-    /// The most memory for states, in MiB
-    #[arg(long, value_name = "MIB", default_value_t = 8192)]
-    max_memory: u64,
-    /// The most time, in seconds
-    #[arg(long, value_name = "SECONDS", value_parser = crate::limits::count)]
-    time: Option<u64>,
+    #[command(flatten)]
+    bounded: Bounded,
     /// Make every step by the machine, remember none: slower, to compare
     #[arg(long, hide = true)]
     forgetful: bool,
@@ -117,21 +109,17 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         },
     };
     let program = Arc::new(loaded.program);
+    let (root, users) = (loaded.model.root, own_files(&loaded.sources));
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    let (options, mut watch) = arguments.bounded.options(shell, &program)?;
     let options = Options {
-        limits: shell.global.limits.machine(),
         engine: arguments.engine.chosen(),
         workers: arguments.workers.map_or(processors, |workers| workers as usize),
         first: arguments.first,
-        max_states: arguments.max_states.unwrap_or(u64::MAX),
-        max_depth: arguments.depth.unwrap_or(u64::MAX),
-        max_bytes: arguments.max_memory.saturating_mul(1 << 20),
-        bounds: bound::read(&program, &arguments.bounds)?,
         terminal,
         forgetful: arguments.forgetful,
+        ..options
     };
-    interrupt::listen();
-    let mut watch = Watch::new(arguments.time, shell.global.quiet || shell.json());
     let agents = arguments.fair.map(|fair| match fair {
         Fair::Weak => AgentFairness::Weak,
         Fair::Strong => AgentFairness::Strong,
@@ -139,23 +127,31 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let outcome = verify_fair(&program, &options, agents, &mut |progress| watch.at(progress));
     let timed_out = watch.done();
     let teller = Teller { program: &program, sources: &loaded.sources, timed_out };
-    let report = match outcome {
+    let mut report = match outcome {
         Ok(report) => report,
-        Err(NoStart::Fault(fault)) => {
-            shell.diagnostic(&loaded.sources, &groundstate::diagnose_fault(&fault, &program))?;
-            return Ok(Exit::Model);
-        }
-        Err(NoStart::Unbounded(unbounded)) => {
-            shell.diagnostic(&loaded.sources, &teller.unbounded(&unbounded))?;
-            return Ok(Exit::Unknown);
-        }
+        Err(trouble) => return no_start(shell, &teller, trouble),
     };
+    report.unreachable.retain(|span| span.file == root || (arguments.imports && users(span.file)));
     teller.report(shell, &report)?;
     if let Some(path) = &arguments.counterexample {
         let model = &arguments.model;
         counterexample::write(shell, path, model, &program, &loaded.sources, &report)?;
     }
     Ok(exit(&report))
+}
+
+/// Tells why there is no initial state.
+pub fn no_start(shell: &mut Shell, teller: &Teller<'_>, trouble: NoStart) -> Result<Exit, Failure> {
+    match trouble {
+        NoStart::Fault(fault) => {
+            shell.diagnostic(teller.sources, &groundstate::diagnose_fault(&fault, teller.program))?;
+            Ok(Exit::Model)
+        }
+        NoStart::Unbounded(unbounded) => {
+            shell.diagnostic(teller.sources, &teller.unbounded(&unbounded))?;
+            Ok(Exit::Unknown)
+        }
+    }
 }
 
 fn exit(report: &Report) -> Exit {

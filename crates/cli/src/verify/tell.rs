@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io::Write;
 
 use groundstate::verify::runs::Why;
-use groundstate::verify::{Outcome, Reason, Report, Stop, Subject, Trace, Verdict};
+use groundstate::verify::{Outcome, Progress, Reason, Report, Stop, Subject, Trace, Verdict};
 use machine::explore::{ChoiceTaken, Told, Unbounded, UnboundedKind};
 use machine::{Location, Show, Value};
 use program::{Program, PropertyKind};
@@ -45,7 +45,7 @@ struct VerdictLine {
 }
 
 #[derive(Debug, Serialize)]
-struct StepLine {
+pub struct StepLine {
     step: usize,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     values: Vec<(String, String)>,
@@ -76,7 +76,8 @@ struct ExploredLine {
     transitions: u64,
     depth: u64,
     bytes: u64,
-    bits: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bits: Option<usize>,
 }
 
 impl Teller<'_> {
@@ -95,20 +96,30 @@ impl Teller<'_> {
                 self.verdict(shell, verdict, report)?;
             }
         }
-        let progress = &report.progress;
+        self.explored(shell, &report.progress, report.complete, Some(report.width.1))
+    }
+
+    /// Tells how far a search came.
+    pub fn explored(
+        &self,
+        shell: &mut Shell,
+        progress: &Progress,
+        complete: bool,
+        bits: Option<usize>,
+    ) -> Result<(), Failure> {
         if shell.json() {
             return shell.object(&ExploredLine {
                 r#type: "explored",
-                complete: report.complete,
+                complete,
                 states: progress.states,
                 transitions: progress.transitions,
                 depth: progress.depth,
                 bytes: progress.bytes,
-                bits: report.width.1,
+                bits,
             });
         }
         if shell.talks() {
-            let whole = if report.complete { "all" } else { "not all" };
+            let whole = if complete { "all" } else { "not all" };
             let states = plural(progress.states as usize, "state");
             let transitions = plural(progress.transitions as usize, "transition");
             let depth = progress.depth;
@@ -134,7 +145,8 @@ impl Teller<'_> {
         Ok(())
     }
 
-    fn trace(&self, shell: &mut Shell, trace: &Trace, subject: Subject) -> Result<(), Failure> {
+    /// Tells a run, step by step.
+    pub fn run(&self, shell: &mut Shell, trace: &Trace) -> Result<(), Failure> {
         let binders = groundstate::choice_variables(self.program);
         writeln!(shell.out(), "  state 0")?;
         for (location, value) in &trace.start.inputs {
@@ -164,6 +176,11 @@ impl Teller<'_> {
         if let Some(turn) = trace.turn {
             writeln!(shell.out(), "  and again from step {}, for ever", turn + 1)?;
         }
+        Ok(())
+    }
+
+    fn trace(&self, shell: &mut Shell, trace: &Trace, subject: Subject) -> Result<(), Failure> {
+        self.run(shell, trace)?;
         if let Some(fault) = trace.steps.last().and_then(|step| step.fault.as_deref()) {
             return shell.diagnostic(self.sources, &groundstate::diagnose_fault(fault, self.program));
         }
@@ -211,7 +228,8 @@ impl Teller<'_> {
         line
     }
 
-    fn steps(&self, trace: &Trace) -> Vec<StepLine> {
+    /// A run, as it is written as JSON.
+    pub fn steps(&self, trace: &Trace) -> Vec<StepLine> {
         let binders = groundstate::choice_variables(self.program);
         let pairs = |values: &[(Location, Value)]| -> Vec<(String, String)> {
             let show = |(location, value): &(Location, Value)| {
@@ -277,7 +295,8 @@ impl Teller<'_> {
         }
     }
 
-    fn reason(&self, reason: &Reason) -> String {
+    /// Why something is not known.
+    pub fn reason(&self, reason: &Reason) -> String {
         match reason {
             Reason::Stopped(Stop::States) => "the limit of states is reached".to_string(),
             Reason::Stopped(Stop::Depth) => "the limit of depth is reached".to_string(),

@@ -107,7 +107,10 @@ impl Executor<'_> {
         if let Err(fault) = counted {
             return self.endless_choice(fault, span);
         }
-        let none = |this: &mut Self| if_none.map_or(Ok(()), |rule| this.perform(rule));
+        let none = |this: &mut Self| {
+            this.core.went(id, 0);
+            if_none.map_or(Ok(()), |rule| this.perform(rule))
+        };
         if bindings == 0 {
             return none(self);
         }
@@ -137,6 +140,7 @@ impl Executor<'_> {
         if let Some(branches) = self.environment.branches() {
             branches.chosen.push(ChoiceTaken { span, values });
         }
+        self.core.went(id, 1);
         self.perform(body)
     }
 

@@ -99,7 +99,7 @@ pub(crate) struct Encoding {
     others: Vec<u32>,
     pub rest: Option<u32>,
     /// The rest of all states, while it has no field.
-    constant_rest: Arc<Rest>,
+    pub constant_rest: Arc<Rest>,
     pub words: usize,
     /// By function: its initial values depend on its arguments alone and are evaluated when first read.
     lazy: Vec<bool>,

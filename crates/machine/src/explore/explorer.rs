@@ -11,20 +11,22 @@ use std::sync::Arc;
 
 use hashbrown::HashMap;
 use program::{Expression, Program};
-use rustc_hash::FxBuildHasher;
+use rustc_hash::{FxBuildHasher, FxHashSet};
 
 use crate::coverage::Coverage;
 use crate::explore::branches::{Bounds, Branches, REST, Unbounded, UnboundedKind};
 use crate::explore::conditions::{Condition, Part, Truth};
 use crate::explore::encoding::{Encoding, TooNarrow, Widening};
 use crate::explore::interner::{Interner, View};
-use crate::explore::paths::{Outcome, Path, Told};
+use crate::explore::paths::Told;
 use crate::explore::sets::Overwrite;
+use crate::explore::sighted::Sighting;
 use crate::explore::tree::{DEAD, End, Tree};
 use crate::fault::{Fault, FaultKind};
 use crate::limits::Limits;
 use crate::location::Location;
 use crate::machine::{EngineChoice, Machine};
+use crate::observe::Observation;
 use crate::value::Value;
 
 /// What an explorer is made with.
@@ -41,6 +43,8 @@ pub struct Settings {
     pub step_conditions: Vec<(Expression, bool)>,
     /// Nothing is remembered.
     pub forgetful: bool,
+    /// What happens within steps is told: see [`Explorer::sightings`].
+    pub observed: bool,
 }
 
 /// Why there is no explorer.
@@ -113,21 +117,21 @@ pub(super) enum Kind {
 }
 
 /// What became of one alternative.
-struct Attempt {
-    kind: Kind,
-    fault: Option<Box<Fault>>,
-    failed: Vec<u32>,
-    overwrites: Vec<Overwrite>,
+pub(super) struct Attempt {
+    pub kind: Kind,
+    pub fault: Option<Box<Fault>>,
+    pub failed: Vec<u32>,
+    pub overwrites: Vec<Overwrite>,
 }
 
 /// See the module.
 #[derive(Debug)]
 pub struct Explorer {
-    program: Arc<Program>,
-    machine: Machine,
-    branches: Branches,
+    pub(super) program: Arc<Program>,
+    pub(super) machine: Machine,
+    pub(super) branches: Branches,
     pub(super) encoding: Encoding,
-    view: View,
+    pub(super) view: View,
     settings: Settings,
     pub(super) steps: Tree,
     pub(super) effects: Vec<Effect>,
@@ -141,6 +145,9 @@ pub struct Explorer {
     initial: Vec<(Box<[u64]>, Told)>,
     /// What could not be gone through.
     unbounded: BTreeSet<Unbounded>,
+    pub(super) sightings: Vec<Sighting>,
+    /// What was seen in steps that are faults.
+    pub(super) in_faults: FxHashSet<Observation>,
 }
 
 impl Explorer {
@@ -194,7 +201,8 @@ impl Explorer {
         branches.rest = encoding.rest;
         let conditions =
             settings.conditions.iter().map(|formula| Condition::new(program, &mut machine, formula)).collect();
-        Ok(Explorer {
+        let observed = settings.observed;
+        let mut explorer = Explorer {
             program: Arc::clone(program),
             machine,
             branches,
@@ -211,7 +219,13 @@ impl Explorer {
             is_loaded: false,
             initial,
             unbounded: BTreeSet::new(),
-        })
+            sightings: Vec::new(),
+            in_faults: FxHashSet::default(),
+        };
+        if observed {
+            explorer.watch();
+        }
+        Ok(explorer)
     }
 
     /// How many words a state has.
@@ -314,7 +328,7 @@ impl Explorer {
     }
 
     /// Puts the machine into a state.
-    fn load(&mut self, state: &[u64]) {
+    pub(super) fn load(&mut self, state: &[u64]) {
         self.machine.discard();
         // Evaluation may have put initial values into locations that have no field.
         let touched = self.encoding.rest_may_change(&self.machine.core);
@@ -327,10 +341,12 @@ impl Explorer {
     }
 
     /// Makes the step with the alternatives that are due and takes it back; none where they are dead.
-    fn attempt(&mut self, state: &[u64]) -> Result<Option<Attempt>, Widening> {
+    pub(super) fn attempt(&mut self, state: &[u64]) -> Result<Option<Attempt>, Widening> {
         self.load(state);
         let mut attempt = Attempt { kind: Kind::Next, fault: None, failed: Vec::new(), overwrites: Vec::new() };
+        self.begin_watching();
         let mut outcome = self.machine.prepare(&mut self.branches);
+        self.end_watching();
         if outcome.is_ok() {
             outcome = self.check_step(&mut attempt);
         }
@@ -357,6 +373,7 @@ impl Explorer {
             }
         }
         self.machine.discard();
+        self.sight(attempt.kind);
         Ok(Some(attempt))
     }
 
@@ -413,33 +430,6 @@ impl Explorer {
             .map(|(word, clear)| Overwrite { word: word as u32, clear: *clear, set: next[word] & clear })
             .collect();
         Ok(())
-    }
-
-    /// Each alternative of a state, in order.
-    ///
-    /// # Errors
-    /// A successor does not fit.
-    pub fn paths(&mut self, state: &[u64], visit: &mut dyn FnMut(Path)) -> Result<(), Widening> {
-        self.branches.first();
-        loop {
-            if let Some(attempt) = self.attempt(state)? {
-                let picks = self.branches.answers().iter().map(|asked| asked.taken).collect();
-                let outcome = match (attempt.kind, attempt.fault, self.branches.unbounded) {
-                    (Kind::Next, ..) => {
-                        let mut next: Box<[u64]> = state.into();
-                        apply(&attempt.overwrites, &mut next);
-                        Outcome::Next(next)
-                    }
-                    (_, _, Some(unbounded)) => Outcome::Unbounded(unbounded),
-                    (_, Some(fault), _) => Outcome::Fault(fault),
-                    _ => Outcome::Excluded,
-                };
-                visit(Path { picks, outcome, failed: attempt.failed });
-            }
-            if !self.branches.next() {
-                return Ok(());
-            }
-        }
     }
 
     /// Tells of the step that these answers lead to.
@@ -571,7 +561,7 @@ impl Expansion {
 }
 
 #[inline]
-fn apply(overwrites: &[Overwrite], words: &mut [u64]) {
+pub(super) fn apply(overwrites: &[Overwrite], words: &mut [u64]) {
     for Overwrite { word, clear, set } in overwrites {
         let word = &mut words[*word as usize];
         *word = *word & !clear | set;

@@ -13,6 +13,7 @@ mod explorer;
 mod interner;
 mod paths;
 mod sets;
+mod sighted;
 mod tree;
 
 pub(crate) use branches::Branches;
@@ -23,3 +24,4 @@ pub use explorer::{Expansion, Explorer, FaultClass, Settings, Trouble};
 pub use interner::Interner;
 pub use paths::{Outcome, Path, Told};
 pub use sets::{Alternative, AlternativeKind, Bits, Judged, Overwrite, SetTrouble, StateSets, Visit};
+pub use sighted::{Met, Sighting};

@@ -2,7 +2,11 @@
 //!
 //! In: a packed state. Out: what each alternative was and came to. Nothing here is remembered.
 
+use std::ops::ControlFlow;
+
 use crate::explore::branches::{ChoiceTaken, Unbounded};
+use crate::explore::encoding::Widening;
+use crate::explore::explorer::{Explorer, Kind, apply};
 use crate::fault::Fault;
 use crate::location::Location;
 use crate::machine::Change;
@@ -43,4 +47,50 @@ pub struct Told {
     pub changes: Vec<Change>,
     /// Why it could not be made.
     pub fault: Option<Box<Fault>>,
+}
+
+impl Explorer {
+    /// Each alternative of a state, in order.
+    ///
+    /// # Errors
+    /// A successor does not fit.
+    pub fn paths(&mut self, state: &[u64], visit: &mut dyn FnMut(Path)) -> Result<(), Widening> {
+        self.paths_until(state, &mut |path| {
+            visit(path);
+            ControlFlow::Continue(())
+        })
+    }
+
+    /// The same until a visit breaks off.
+    ///
+    /// # Errors
+    /// A successor does not fit.
+    pub fn paths_until(
+        &mut self,
+        state: &[u64],
+        visit: &mut dyn FnMut(Path) -> ControlFlow<()>,
+    ) -> Result<(), Widening> {
+        self.branches.first();
+        loop {
+            if let Some(attempt) = self.attempt(state)? {
+                let picks = self.branches.answers().iter().map(|asked| asked.taken).collect();
+                let outcome = match (attempt.kind, attempt.fault, self.branches.unbounded) {
+                    (Kind::Next, ..) => {
+                        let mut next: Box<[u64]> = state.into();
+                        apply(&attempt.overwrites, &mut next);
+                        Outcome::Next(next)
+                    }
+                    (_, _, Some(unbounded)) => Outcome::Unbounded(unbounded),
+                    (_, Some(fault), _) => Outcome::Fault(fault),
+                    _ => Outcome::Excluded,
+                };
+                if visit(Path { picks, outcome, failed: attempt.failed }).is_break() {
+                    return Ok(());
+                }
+            }
+            if !self.branches.next() {
+                return Ok(());
+            }
+        }
+    }
 }

@@ -1,0 +1,242 @@
+//! `groundstate generate-tests MODEL -o FOLDER`: scenarios that reach what there is to reach in a model.
+//!
+//! Each scenario is run before it is kept: one that does not pass, because no scenario can say a choice that its run makes,
+//! is left out and told. Exit codes: 0 written, 3 written but the search did not end, so that goals may be missing.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use chart::{Origin, Target};
+use clap::Args;
+use groundstate::scenario::{FirstCandidate, Options as Scenario};
+use groundstate::test_generation::{Goal, GoalKind, Method, Subject, Tests, Turn, generate_tests};
+use groundstate::{Loaded, SeededChoices, Suite, own_files};
+use model::DomainKind;
+use serde::Serialize;
+use syntax::FileId;
+
+use crate::check::plural;
+use crate::coverage;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::files::{Disk, read_source, write_text};
+use crate::load::load;
+use crate::shell::Shell;
+use crate::verify::{Bounded, Teller, no_start, relative};
+use crate::wire::Place;
+
+/// Arguments of `generate-tests`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The model
+    model: PathBuf,
+    /// The folder that the scenarios are written to
+    #[arg(long, short, value_name = "FOLDER")]
+    output: PathBuf,
+    /// Also reach what stands in imported files
+    #[arg(long)]
+    imports: bool,
+    /// Walk at random this many times, instead of searching for what can be reached
+    #[arg(long, value_name = "N", value_parser = crate::limits::count)]
+    random: Option<u64>,
+    /// The steps of a walk at random
+    #[arg(long, value_name = "N", default_value_t = 50, requires = "random")]
+    steps: usize,
+    /// The seed of walks at random
+    #[arg(long, value_name = "N", default_value_t = 0, requires = "random")]
+    seed: u64,
+    #[command(flatten)]
+    bounded: Bounded,
+}
+
+/// `{"type":"goal",…}`
+#[derive(Debug, Serialize)]
+struct GoalLine<'a> {
+    r#type: &'static str,
+    kind: &'static str,
+    what: String,
+    of: &'a str,
+    at: Place,
+    outcome: &'static str,
+}
+
+/// `{"type":"generated",…}`
+#[derive(Debug, Serialize)]
+struct GeneratedLine {
+    r#type: &'static str,
+    path: String,
+    steps: usize,
+}
+
+/// Runs the command.
+pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    let loaded = match load(shell, &arguments.model)? {
+        Ok(loaded) => loaded,
+        Err(exit) => return Ok(exit),
+    };
+    if loaded.program.main.is_none() {
+        return crate::run::no_main(shell, &loaded);
+    }
+    let folder = &arguments.output;
+    std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
+    let turns = turns(&loaded);
+    let program = Arc::new(loaded.program.clone());
+    let (options, mut watch) = arguments.bounded.options(shell, &program)?;
+    let (root, users) = (loaded.model.root, own_files(&loaded.sources));
+    let own = |file: FileId| file == root || (arguments.imports && users(file));
+    let path = relative(&arguments.model, folder);
+    let subject = Subject { model: &loaded.model, program: &program, turns: &turns, path: &path };
+    let method = match arguments.random {
+        Some(walks) => Method::Random(walks, arguments.steps, arguments.seed),
+        None => Method::Search,
+    };
+    let generated = generate_tests(subject, &options, method, &own, &mut |progress| watch.at(progress));
+    let timed_out = watch.done();
+    let teller = Teller { program: &program, sources: &loaded.sources, timed_out };
+    let tests = match generated {
+        Ok(tests) => tests,
+        Err(trouble) => return no_start(shell, &teller, trouble),
+    };
+    let mut suite = Suite::new();
+    let left_out = write(shell, folder, &tests, &mut suite)?;
+    told(shell, &teller, &tests)?;
+    for (model, sources, items) in suite.coverage() {
+        coverage::report(shell, model, sources, &items)?;
+    }
+    for name in &left_out {
+        shell.note(&format!("{name} is left out: it needs a choice that no scenario can pick"))?;
+    }
+    let ended = tests.progress.is_none() || tests.reasons.is_empty();
+    Ok(if ended { Exit::Good } else { Exit::Unknown })
+}
+
+/// Writes the scenarios that pass; gives the names of the others.
+fn write(shell: &mut Shell, folder: &Path, tests: &Tests, suite: &mut Suite) -> Result<Vec<String>, Failure> {
+    let limits = shell.global.limits.machine();
+    let mut left_out = Vec::new();
+    for scenario in &tests.scenarios {
+        let path = folder.join(format!("{}.avalla", scenario.name));
+        write_text(&path, &scenario.text)?;
+        if !passes(&path, shell, limits, suite)? {
+            std::fs::remove_file(&path).map_err(|error| Failure::of_file("write", &path, error))?;
+            left_out.push(scenario.name.clone());
+            continue;
+        }
+        if shell.json() {
+            let path = path.display().to_string();
+            shell.object(&GeneratedLine { r#type: "generated", path, steps: scenario.steps })?;
+        } else if shell.talks() {
+            writeln!(shell.out(), "wrote {}: {}", path.display(), plural(scenario.steps, "step"))?;
+        }
+    }
+    Ok(left_out)
+}
+
+/// Whether a scenario passes whatever is chosen where it picks nothing.
+fn passes(path: &Path, shell: &Shell, limits: machine::Limits, suite: &mut Suite) -> Result<bool, Failure> {
+    let limit = shell.global.limits.max_file_size;
+    let mut disk = Disk { limit };
+    let mut run = |suite: &mut Suite, coverage: bool, seed: Option<u64>| -> Result<bool, Failure> {
+        let source = read_source(path, limit)?;
+        let options = Scenario { limits, coverage, ..Scenario::default() };
+        let tested = match seed {
+            None => suite.test(source, &mut disk, options, &mut FirstCandidate),
+            Some(seed) => suite.test(source, &mut disk, options, &mut SeededChoices::new(seed)),
+        };
+        Ok(tested.verdict.is_some_and(|verdict| verdict.passed()))
+    };
+    for seed in [None, Some(1), Some(2)] {
+        if !run(suite, false, seed)? {
+            return Ok(false);
+        }
+    }
+    // As `groundstate test --coverage` will run it.
+    run(suite, true, Some(0))
+}
+
+/// Tells what is reached and what is not.
+fn told(shell: &mut Shell, teller: &Teller<'_>, tests: &Tests) -> Result<(), Failure> {
+    let mut kinds: BTreeMap<&'static str, (usize, usize)> = BTreeMap::new();
+    for goal in &tests.goals {
+        let entry = kinds.entry(kind(goal.kind).0).or_default();
+        entry.0 += usize::from(goal.reached);
+        entry.1 += 1;
+    }
+    let complete = tests.reasons.is_empty();
+    let outcome = |goal: &Goal| match (goal.reached, complete) {
+        (true, _) => "reached",
+        (false, true) => "unreachable",
+        (false, false) => "unknown",
+    };
+    if shell.json() {
+        for goal in &tests.goals {
+            let (kind, what) = kind(goal.kind);
+            let (of, at) = (goal.rule.as_str(), Place::new(teller.sources, goal.span));
+            let (what, outcome) = (what.to_string(), outcome(goal));
+            shell.object(&GoalLine { r#type: "goal", kind, what, of, at, outcome })?;
+        }
+    } else if shell.talks() {
+        writeln!(shell.out(), "\ngoals")?;
+        for (kind, (reached, all)) in kinds {
+            writeln!(shell.out(), "  {kind:<12} {reached:>4} of {all}")?;
+        }
+        for goal in tests.goals.iter().filter(|goal| !goal.reached) {
+            let at = teller.sources.position(goal.span);
+            let (kind, what) = kind(goal.kind);
+            let what = if what.is_empty() { kind } else { what };
+            writeln!(shell.out(), "  {:<11} {at}: {what} of {}", outcome(goal), goal.rule)?;
+        }
+        if tests.progress.is_some() && !complete {
+            let reasons: Vec<String> = tests.reasons.iter().map(|reason| teller.reason(reason)).collect();
+            writeln!(shell.out(), "  unknown because: {}", reasons.join("; "))?;
+        }
+    }
+    match &tests.progress {
+        Some(progress) => teller.explored(shell, progress, complete, None),
+        None => Ok(()),
+    }
+}
+
+/// The words for a kind of goal, and for which of its kind it is.
+fn kind(kind: GoalKind) -> (&'static str, &'static str) {
+    match kind {
+        GoalKind::Rule => ("rules", "the whole"),
+        GoalKind::Branch(what) => ("branches", what),
+        GoalKind::Update => ("updates", "update"),
+        GoalKind::Forall(what) => ("foralls", what),
+        GoalKind::Condition => ("conditions", "deciding condition"),
+        GoalKind::Transition => ("transitions", "transition"),
+    }
+}
+
+/// The transitions from a control state to another of the charts that the model's rules are.
+fn turns(loaded: &Loaded) -> Vec<Turn> {
+    let model = &loaded.model;
+    let literal = |name: &str| {
+        model.domains.iter().find_map(|(id, domain)| match &domain.kind {
+            DomainKind::Enum { literals } => {
+                literals.iter().position(|literal| literal == name).map(|index| (id, index as u32))
+            }
+            _ => None,
+        })
+    };
+    let found = chart::extract(model, None, None).chart;
+    let mut turns: Vec<Turn> = Vec::new();
+    for machine in &found.machines {
+        let rule = machine.rule.as_ref().map_or(&machine.name, |rule| &rule.name);
+        let Some(rule) = model.rules.iter().find(|known| known.name == *rule) else { continue };
+        for transition in chart::transitions(&found, machine) {
+            let (Origin::State(from), Target::State(to)) = (transition.origin, transition.target) else { continue };
+            let state = |id| machine.shape(id).link.as_ref().map(|link| link.name.clone());
+            let (Some(from), Some(to)) = (state(from), state(to)) else { continue };
+            let (Some((domain, first)), Some((other, second))) = (literal(&from), literal(&to)) else { continue };
+            let name = format!("{}, {from} to {to}", rule.name);
+            if domain == other && !turns.iter().any(|turn| turn.name == name) && first != second {
+                turns.push(Turn { name, span: rule.span, domain, literals: (first, second) });
+            }
+        }
+    }
+    turns
+}

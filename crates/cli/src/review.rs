@@ -1,0 +1,168 @@
+//! `groundstate review MODEL`: what is odd about a model whatever it is a model of, by the seven meta-properties.
+//!
+//! Exit codes: 0 all hold, 1 one is violated, 3 none is violated but one is not known.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use clap::Args;
+use groundstate::own_files;
+use groundstate::verify::review::{Finding, Meta, Outcome, Review, review};
+use serde::Serialize;
+use syntax::FileId;
+
+use crate::check::plural;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::load::load;
+use crate::shell::Shell;
+use crate::verify::{Bounded, StepLine, Teller, no_start};
+use crate::wire::Fault;
+
+/// Arguments of `review`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The model
+    model: PathBuf,
+    /// Only these meta-properties, such as mp1,mp3
+    #[arg(long, value_name = "MP", value_delimiter = ',', value_parser = meta)]
+    only: Vec<Meta>,
+    /// Also what stands in imported files
+    #[arg(long)]
+    imports: bool,
+    /// Show the run that leads to each finding, where there is one
+    #[arg(long)]
+    runs: bool,
+    #[command(flatten)]
+    bounded: Bounded,
+}
+
+fn meta(text: &str) -> Result<Meta, String> {
+    let number = text.trim().to_lowercase().strip_prefix("mp").and_then(|number| number.parse::<usize>().ok());
+    let meta = number.and_then(|number| Meta::ALL.into_iter().find(|meta| meta.number() == number));
+    meta.ok_or_else(|| "write mp1 to mp7".to_string())
+}
+
+/// `{"type":"finding",…}`
+#[derive(Debug, Serialize)]
+struct FindingLine<'a> {
+    r#type: &'static str,
+    meta: String,
+    finding: Fault<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    witness: Option<Vec<StepLine>>,
+}
+
+/// `{"type":"meta-property",…}`
+#[derive(Debug, Serialize)]
+struct MetaLine {
+    r#type: &'static str,
+    meta: String,
+    outcome: &'static str,
+    findings: usize,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    reasons: Vec<String>,
+}
+
+/// Runs the command.
+pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    let loaded = match load(shell, &arguments.model)? {
+        Ok(loaded) => loaded,
+        Err(exit) => return Ok(exit),
+    };
+    if loaded.program.main.is_none() {
+        return crate::run::no_main(shell, &loaded);
+    }
+    let program = Arc::new(loaded.program);
+    let (options, mut watch) = arguments.bounded.options(shell, &program)?;
+    let root = loaded.model.root;
+    let users = own_files(&loaded.sources);
+    let own = |file: FileId| file == root || (arguments.imports && users(file));
+    let metas = if arguments.only.is_empty() { Meta::ALL.to_vec() } else { arguments.only.clone() };
+    let outcome = review(&loaded.model, &program, &options, &metas, &own, &mut |progress| watch.at(progress));
+    let timed_out = watch.done();
+    let teller = Teller { program: &program, sources: &loaded.sources, timed_out };
+    let review = match outcome {
+        Ok(review) => review,
+        Err(trouble) => return no_start(shell, &teller, trouble),
+    };
+    for finding in &review.findings {
+        tell(shell, &teller, &review, finding, arguments.runs)?;
+    }
+    summary(shell, &teller, &review)?;
+    Ok(exit(&review))
+}
+
+fn tell(shell: &mut Shell, teller: &Teller<'_>, review: &Review, finding: &Finding, runs: bool) -> Result<(), Failure> {
+    let diagnostic = groundstate::diagnose_finding(finding, review, teller.program);
+    if shell.json() {
+        return shell.object(&FindingLine {
+            r#type: "finding",
+            meta: format!("MP{}", finding.meta.number()),
+            finding: Fault::new(teller.sources, &diagnostic),
+            witness: finding.witness.as_deref().map(|trace| teller.steps(trace)),
+        });
+    }
+    shell.details(teller.sources, &[diagnostic])?;
+    if let (Some(trace), true) = (&finding.witness, shell.talks()) {
+        if runs {
+            teller.run(shell, trace)?;
+        } else {
+            writeln!(shell.out(), "  in step {} of a run that --runs shows", trace.steps.len())?;
+        }
+        writeln!(shell.out())?;
+    }
+    Ok(())
+}
+
+fn summary(shell: &mut Shell, teller: &Teller<'_>, review: &Review) -> Result<(), Failure> {
+    for (meta, outcome) in &review.outcomes {
+        let findings = review.findings.iter().filter(|finding| finding.meta == *meta).count();
+        let reasons = match outcome {
+            Outcome::Unknown => review.reasons.iter().map(|reason| teller.reason(reason)).collect(),
+            _ => Vec::new(),
+        };
+        let word = match outcome {
+            Outcome::Holds => "holds",
+            Outcome::Violated => "violated",
+            Outcome::Unknown => "unknown",
+        };
+        let number = format!("MP{}", meta.number());
+        if shell.json() {
+            shell.object(&MetaLine { r#type: "meta-property", meta: number, outcome: word, findings, reasons })?;
+        } else if shell.talks() {
+            let says = says(*meta);
+            let more = match outcome {
+                Outcome::Holds => String::new(),
+                Outcome::Violated => format!(": {}", plural(findings, "finding")),
+                Outcome::Unknown => format!(": {}", reasons.join("; ")),
+            };
+            writeln!(shell.out(), "{number} {word:<9} {says}{more}")?;
+        }
+    }
+    teller.explored(shell, &review.progress, review.reasons.is_empty(), None)
+}
+
+fn says(meta: Meta) -> &'static str {
+    match meta {
+        Meta::Consistent => "no inconsistent update is ever performed",
+        Meta::Complete => "every conditional rule is complete",
+        Meta::Fires => "every rule can eventually fire",
+        Meta::NotTrivial => "no assignment is always trivial",
+        Meta::ElementUsed => "every domain element is the value of some location",
+        Meta::ValueTaken => "every controlled function can take any value of its codomain",
+        Meta::LocationUsed => "every controlled location is updated and every location is read",
+    }
+}
+
+fn exit(review: &Review) -> Exit {
+    let any = |wanted| review.outcomes.iter().any(|(_, outcome)| *outcome == wanted);
+    if any(Outcome::Violated) {
+        Exit::Model
+    } else if any(Outcome::Unknown) {
+        Exit::Unknown
+    } else {
+        Exit::Good
+    }
+}

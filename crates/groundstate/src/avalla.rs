@@ -1,0 +1,66 @@
+//! Runs as Avalla: the inputs that are set and the choices that are picked for the steps of a trace.
+//!
+//! In: what a step was given. Out: lines of a scenario. What no scenario can say is left out, with a comment where it is a
+//! choice. Counterexamples and generated tests are written with it.
+
+use std::fmt::Write;
+
+use machine::explore::ChoiceTaken;
+use machine::{Location, Show, Value};
+use program::{Program, Rule, RuleId};
+
+/// Sets inputs that are not what they were.
+pub(crate) fn set(
+    text: &mut String,
+    program: &Program,
+    given: &mut Vec<(Location, Value)>,
+    inputs: &[(Location, Value)],
+) {
+    for (location, value) in inputs {
+        match given.iter_mut().find(|(former, _)| former == location) {
+            Some((_, former)) if former == value => continue,
+            Some((_, former)) => former.clone_from(value),
+            None => given.push((location.clone(), value.clone())),
+        }
+        let _ = writeln!(text, "set {} := {};", location.show(program), value.show(program));
+    }
+}
+
+/// Picks what was chosen.
+pub(crate) fn pick(text: &mut String, program: &Program, choice: &ChoiceTaken) {
+    for procedure in &program.procedures {
+        let mut open: Vec<RuleId> = vec![procedure.body];
+        while let Some(id) = open.pop() {
+            program.each_child_of_rule(id, &mut |child| open.push(child));
+            let Rule::Choose { binders, .. } = program.rule(id) else { continue };
+            if program.rule_span(id) != choice.span {
+                continue;
+            }
+            for (binder, value) in program.binder_list(*binders).iter().zip(&choice.values) {
+                let variable = &procedure.names[binder.slot.0 as usize];
+                let _ = writeln!(text, "pick {variable} in {} := {};", procedure.name, value.show(program));
+            }
+            return;
+        }
+    }
+    let values: Vec<String> = choice.values.iter().map(|value| value.show(program).to_string()).collect();
+    let _ = writeln!(text, "// a term chooses {} here, which no scenario can say", values.join(", "));
+}
+
+/// Whether a value can be written as a term: it holds no element without a name, and no rule.
+pub(crate) fn is_written(program: &Program, value: &Value) -> bool {
+    match value {
+        Value::Element(domain, index) => match &program.domain(*domain).kind {
+            program::DomainKind::Abstract { elements, .. } => (*index as usize) < elements.len(),
+            _ => false,
+        },
+        Value::Rule(_) => false,
+        Value::Tuple(items) => items.iter().all(|item| is_written(program, item)),
+        Value::Seq(items) | Value::Set(items) => items.iter().all(|item| is_written(program, item)),
+        Value::Bag(items) => items.keys().all(|item| is_written(program, item)),
+        Value::Map(entries) => {
+            entries.iter().all(|(key, value)| is_written(program, key) && is_written(program, value))
+        }
+        _ => true,
+    }
+}

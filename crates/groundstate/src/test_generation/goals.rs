@@ -1,0 +1,161 @@
+//! What tests are to reach: everything that the coverage of scenarios counts, conditions that decide, transitions.
+//!
+//! In: a model, what was seen to happen. Out: [`Goal`]s. A goal has [`Need`]s: a condition that is to decide needs two
+//! decisions, everything else one event. A rule is one, by its place in the text, however often it stands in the program.
+
+use std::collections::BTreeSet;
+
+use machine::{Observation, Truths};
+use model::{Model, RuleKind, RuleNode};
+use program::{DomainId, Program};
+use syntax::{FileId, Span};
+use verify::survey::{Sighting, guards};
+
+/// What kind of thing is to be reached.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum GoalKind {
+    /// A declared rule runs.
+    Rule,
+    /// A branch of an if, switch or choose is taken, or none.
+    Branch(&'static str),
+    /// An update changes something.
+    Update,
+    /// A forall runs with no, one, many elements.
+    Forall(&'static str),
+    /// A condition decides its guard by itself.
+    Condition,
+    /// A transition of a chart is taken.
+    Transition,
+}
+
+/// Something to be reached.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Goal {
+    /// What kind it is.
+    pub kind: GoalKind,
+    /// The declared rule that it is in, or the transition's control states.
+    pub rule: String,
+    /// Where.
+    pub span: Span,
+    /// What has to happen, all of it.
+    pub(super) needs: Vec<Need>,
+    /// It can be.
+    pub reached: bool,
+}
+
+/// An event that a step may show.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Need {
+    Ran(Span),
+    Went(Span, u8),
+    Decided(Span, Truths),
+    Turned(DomainId, u32, u32),
+}
+
+/// A transition of a chart: an update puts one literal of an enum domain in the place of another. LIMIT: transitions with the
+/// same control states are not told apart.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Turn {
+    /// As it is told.
+    pub name: String,
+    /// Where it is told.
+    pub span: Span,
+    /// The domain of the control states.
+    pub domain: DomainId,
+    /// The numbers of the literals.
+    pub literals: (u32, u32),
+}
+
+/// The needs that an event meets.
+pub(super) fn needs_met(program: &Program, observation: Observation) -> impl Iterator<Item = Need> {
+    let need = match observation {
+        Observation::Ran(rule) => Some(Need::Ran(program.rule_span(rule))),
+        Observation::Went(rule, outcome) => Some(Need::Went(program.rule_span(rule), outcome)),
+        Observation::Decided(guard, truths) => Some(Need::Decided(program.term_span(guard), truths)),
+        Observation::Turned(domain, from, to) => Some(Need::Turned(domain, from, to)),
+        Observation::Read(..) | Observation::Wrote(..) | Observation::Clashed(..) => None,
+    };
+    need.into_iter()
+}
+
+/// All goals of the files that `own` accepts, in the order of the text; those that something seen reaches are marked.
+pub(super) fn goals(
+    model: &Model,
+    program: &Program,
+    turns: &[Turn],
+    own: &dyn Fn(FileId) -> bool,
+    sightings: &[Sighting],
+) -> Vec<Goal> {
+    let mut goals = Vec::new();
+    for rule in model.rules.iter().filter(|rule| own(rule.span.file)) {
+        goals.push(goal(GoalKind::Rule, &rule.name, rule.span, vec![Need::Ran(rule.body.span)]));
+        rule.body.walk(&mut |node| of_node(&mut goals, &rule.name, node));
+    }
+    let seen: BTreeSet<Need> = sightings
+        .iter()
+        .filter(|sighting| sighting.made)
+        .flat_map(|sighting| needs_met(program, sighting.observation))
+        .collect();
+    for goal in &mut goals {
+        goal.reached = goal.needs.iter().all(|need| seen.contains(need));
+    }
+    for guard in guards(program, sightings).into_iter().filter(|guard| own(guard.span.file)) {
+        for (span, pair) in guard.conditions {
+            let rule = model.rules.iter().find(|rule| covers(rule.body.span, span));
+            let name = rule.map_or(String::new(), |rule| rule.name.clone());
+            let reached = pair.is_some();
+            let needs = pair.iter().flatten().flat_map(|sighting| needs_met(program, sighting.observation)).collect();
+            goals.push(Goal { kind: GoalKind::Condition, rule: name, span, needs, reached });
+        }
+    }
+    for turn in turns {
+        let (from, to) = turn.literals;
+        let need = Need::Turned(turn.domain, from, to);
+        let reached = seen.contains(&need);
+        let (rule, span) = (turn.name.clone(), turn.span);
+        goals.push(Goal { kind: GoalKind::Transition, rule, span, needs: vec![need], reached });
+    }
+    goals.sort_by_key(|goal| (goal.span, goal.kind));
+    goals
+}
+
+fn covers(outer: Span, inner: Span) -> bool {
+    outer.file == inner.file && outer.start <= inner.start && inner.end <= outer.end
+}
+
+fn goal(kind: GoalKind, rule: &str, span: Span, needs: Vec<Need>) -> Goal {
+    Goal { kind, rule: rule.to_string(), span, needs, reached: false }
+}
+
+fn of_node(goals: &mut Vec<Goal>, rule: &str, node: &RuleNode) {
+    let mut branch = |what, span, need| goals.push(goal(GoalKind::Branch(what), rule, span, vec![need]));
+    let none = Need::Went(node.span, 0);
+    match &node.kind {
+        RuleKind::Update { .. } => goals.push(goal(GoalKind::Update, rule, node.span, vec![Need::Went(node.span, 1)])),
+        RuleKind::If { branches, otherwise } => {
+            branches.iter().for_each(|(_, child)| branch("then", child.span, Need::Ran(child.span)));
+            match otherwise {
+                Some(child) => branch("else", child.span, Need::Ran(child.span)),
+                None => branch("no branch", node.span, none),
+            }
+        }
+        RuleKind::Switch { cases, otherwise, .. } => {
+            cases.iter().for_each(|(_, child)| branch("case", child.span, Need::Ran(child.span)));
+            match otherwise {
+                Some(child) => branch("otherwise", child.span, Need::Ran(child.span)),
+                None => branch("no case", node.span, none),
+            }
+        }
+        RuleKind::Choose { body, .. } => {
+            branch("chosen", body.span, Need::Ran(body.span));
+            branch("nothing to choose", node.span, none);
+        }
+        RuleKind::Forall { .. } => {
+            for (outcome, what) in ["no element", "one element", "many elements"].into_iter().enumerate() {
+                let needs = vec![Need::Went(node.span, outcome as u8)];
+                goals.push(goal(GoalKind::Forall(what), rule, node.span, needs));
+            }
+        }
+        _ => {}
+    }
+}

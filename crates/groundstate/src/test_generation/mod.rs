@@ -1,0 +1,130 @@
+//! Tests made from a model: scenarios that reach its rules, branches, updates, conditions and transitions.
+//!
+//! In: a loaded model and how to look for what can be reached. Out: [`Generated`] scenarios as texts, and each [`Goal`] with
+//! whether they reach it. INVARIANT: a goal counts as reached only by steps that can be made, in states in which every
+//! invariant holds, so that the scenarios pass.
+
+mod cover;
+mod goals;
+mod write;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use model::Model;
+use program::Program;
+use simulate::SplitMix;
+use syntax::FileId;
+use verify::survey::{Sighting, Walk, Wanderer, survey};
+use verify::{NoStart, Options, Progress, Reason};
+
+use cover::{Candidate, cover};
+use goals::{Need, goals, needs_met};
+
+pub use goals::{Goal, GoalKind, Turn};
+
+/// How what can be reached is looked for.
+#[derive(Debug, Clone, Copy)]
+pub enum Method {
+    /// All states, nearest first.
+    Search,
+    /// This many walks of so many steps, from a seed.
+    Random(u64, usize, u64),
+}
+
+/// A scenario.
+#[derive(Debug, Clone)]
+pub struct Generated {
+    /// Its name.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+    /// How many steps it makes.
+    pub steps: usize,
+}
+
+/// Tests of a model.
+#[derive(Debug, Clone)]
+pub struct Tests {
+    /// The scenarios.
+    pub scenarios: Vec<Generated>,
+    /// What there is to reach, in the order of the text.
+    pub goals: Vec<Goal>,
+    /// How far the search came; none for walks at random.
+    pub progress: Option<Progress>,
+    /// Why a goal that is not reached may still be reachable; empty where every state was met.
+    pub reasons: Vec<Reason>,
+}
+
+/// What tests are made of.
+#[derive(Debug, Clone, Copy)]
+pub struct Subject<'a> {
+    /// The model.
+    pub model: &'a Model,
+    /// The same to run.
+    pub program: &'a Arc<Program>,
+    /// The transitions of its charts.
+    pub turns: &'a [Turn],
+    /// The path of the model as a scenario is to load it.
+    pub path: &'a str,
+}
+
+/// Makes tests for the parts of a model that stand in files that `own` accepts.
+///
+/// # Errors
+/// There is no initial state.
+pub fn generate_tests(
+    subject: Subject<'_>,
+    options: &Options,
+    method: Method,
+    own: &dyn Fn(FileId) -> bool,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Tests, NoStart> {
+    let Subject { model, program, turns, .. } = subject;
+    let (candidates, goals, progress, reasons) = match method {
+        Method::Search => {
+            let mut survey = survey(program, options, true, watch)?;
+            let goals = goals(model, program, turns, own, &survey.sightings);
+            let mut first: BTreeMap<&Need, &Sighting> = BTreeMap::new();
+            let needs: Vec<(Need, Sighting)> = survey
+                .sightings
+                .iter()
+                .filter(|sighting| sighting.made)
+                .flat_map(|sighting| needs_met(program, sighting.observation).map(|need| (need, sighting.clone())))
+                .collect();
+            let wanted: BTreeSet<&Need> =
+                goals.iter().filter(|goal| goal.reached).flat_map(|goal| &goal.needs).collect();
+            for (need, sighting) in needs.iter().filter(|(need, _)| wanted.contains(need)) {
+                first.entry(need).or_insert(sighting);
+            }
+            // One sighting may be the first of several needs; a walk to it is made once.
+            let mut walked: Vec<&Sighting> = Vec::new();
+            for sighting in first.into_values() {
+                if !walked.iter().any(|other| other.same_step(sighting)) {
+                    walked.push(sighting);
+                }
+            }
+            let walks: Vec<Walk> = walked.into_iter().map(|sighting| survey.walk(sighting)).collect();
+            (walks, goals, Some(survey.progress), survey.reasons)
+        }
+        Method::Random(walks, steps, seed) => {
+            let mut wanderer = Wanderer::new(program, options, true)?;
+            let mut random = SplitMix::new(seed);
+            let mut draw = |of: usize| random.below(of as u64) as usize;
+            let walks: Vec<Walk> = (0..walks).map(|_| wanderer.walk(steps, &mut draw)).collect();
+            let seen = walks.iter().flat_map(|walk| walk.happens.iter().flatten()).copied();
+            let sightings: Vec<Sighting> = seen.map(Sighting::at_random).collect();
+            let goals = goals(model, program, turns, own, &sightings);
+            (walks, goals, None, vec![Reason::Stopped(verify::Stop::Asked)])
+        }
+    };
+    let wanted: BTreeSet<Need> =
+        goals.iter().filter(|goal| goal.reached).flat_map(|goal| goal.needs.iter().copied()).collect();
+    let candidates = candidates.into_iter().map(|walk| Candidate::new(program, walk, &wanted)).collect();
+    let chosen = cover(candidates);
+    let scenarios = chosen.iter().enumerate().map(|(index, candidate)| {
+        let met = |goal: &&Goal| goal.reached && goal.needs.iter().any(|need| candidate.meets(need));
+        write::scenario(&subject, index + 1, candidate.trace(), goals.iter().filter(met).count())
+    });
+    Ok(Tests { scenarios: scenarios.collect(), goals, progress, reasons })
+}

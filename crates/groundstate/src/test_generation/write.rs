@@ -1,0 +1,52 @@
+//! A generated test as text: inputs and choices before each step, what it changes as checks after it.
+
+use std::fmt::Write;
+
+use machine::{Change, Location, Show, Value};
+use program::{FunctionKind, Program};
+use verify::Trace;
+
+use crate::avalla::{is_written, pick, set};
+use crate::test_generation::{Generated, Subject};
+
+/// The scenario of a trace.
+pub(super) fn scenario(subject: &Subject<'_>, number: usize, trace: &Trace, goals: usize) -> Generated {
+    let program: &Program = subject.program;
+    let name = format!("{}_{number}", program.name);
+    let mut text = format!("// reaches {goals} goals\nscenario {name}\nload \"{}\"\n", subject.path);
+    let mut given: Vec<(Location, Value)> = Vec::new();
+    let mut state = trace.values.clone();
+    set(&mut text, program, &mut given, &trace.start.inputs);
+    for (index, step) in trace.steps.iter().enumerate() {
+        let _ = write!(text, "\n// step {}\n", index + 1);
+        set(&mut text, program, &mut given, &step.inputs);
+        step.choices.iter().for_each(|choice| pick(&mut text, program, choice));
+        text.push_str("step\n");
+        for Change { location, after, .. } in &step.changes {
+            check(&mut text, program, location, after);
+            match state.iter_mut().find(|(known, _)| known == location) {
+                Some((_, value)) => value.clone_from(after),
+                None => state.push((location.clone(), after.clone())),
+            }
+        }
+        // That nothing changes is something to check, too.
+        if step.changes.is_empty() {
+            state.iter().for_each(|(location, value)| check(&mut text, program, location, value));
+        }
+    }
+    Generated { name, text, steps: trace.steps.len() }
+}
+
+/// Checks the value that a location has now, as far as a term can say it.
+fn check(text: &mut String, program: &Program, location: &Location, value: &Value) {
+    let function = program.function(location.function);
+    let said = is_written(program, value) && location.arguments.iter().all(|argument| is_written(program, argument));
+    if !said || function.library || !matches!(function.kind, FunctionKind::Controlled | FunctionKind::Out) {
+        return;
+    }
+    let location = location.show(program);
+    let _ = match value {
+        Value::Undef => writeln!(text, "check isUndef({location});"),
+        value => writeln!(text, "check {location} = {};", value.show(program)),
+    };
+}

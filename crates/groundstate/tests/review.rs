@@ -1,0 +1,85 @@
+//! The examples of spec/review.md have the findings that stand below them, and the faults that only reviews find have pages
+//! whose examples show them.
+
+#![allow(clippy::disallowed_methods, reason = "the pages are files")]
+
+use std::fmt::Write;
+use std::sync::Arc;
+
+use groundstate::verify::Options;
+use groundstate::verify::review::{Meta, Outcome, review};
+use groundstate::{REVIEW_IDS, diagnose_finding};
+use syntax::SourceFile;
+
+struct NoFiles;
+
+impl model::Loader for NoFiles {
+    fn load(&mut self, _importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        Err(format!("no file {path}"))
+    }
+}
+
+fn page(name: &str) -> String {
+    let path = format!("{}/../../spec/{name}.md", env!("CARGO_MANIFEST_DIR"));
+    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+fn blocks<'p>(page: &'p str, info: &str) -> Vec<&'p str> {
+    let opening = format!("```{info}\n");
+    page.split(opening.as_str()).skip(1).map(|rest| rest.split_once("```").expect("the block ends").0).collect()
+}
+
+/// The findings of a model: the outcome of each meta-property, and line and kind of each finding.
+fn findings(text: &str) -> String {
+    let name = text.split_whitespace().nth(1).expect("it begins with `asm` and its name");
+    let loaded = groundstate::load(SourceFile::new(format!("{name}.asm"), text), &mut NoFiles);
+    let loaded = loaded.unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics));
+    let (root, program) = (loaded.model.root, Arc::new(loaded.program));
+    let review = review(&loaded.model, &program, &Options::default(), &Meta::ALL, &|file| file == root, &mut |_| true);
+    let review = review.unwrap_or_else(|trouble| panic!("{trouble:?}"));
+    let mut told = String::new();
+    for (meta, outcome) in &review.outcomes {
+        let word = match outcome {
+            Outcome::Holds => "holds",
+            Outcome::Violated => "violated",
+            Outcome::Unknown => "unknown",
+        };
+        let _ = writeln!(told, "MP{} {word}", meta.number());
+        for finding in review.findings.iter().filter(|finding| finding.meta == *meta) {
+            let diagnostic = diagnose_finding(finding, &review, &program);
+            let line = loaded.sources.file(root).line_column(finding.span.start).line;
+            let _ = writeln!(told, "  {line} {}", diagnostic.id);
+            // What happens is shown by a run that ends with the step.
+            let happens = matches!(meta, Meta::Consistent | Meta::Complete);
+            assert_eq!(finding.witness.is_some(), happens, "{told}");
+        }
+    }
+    let _ = writeln!(told, "states {}", review.progress.states);
+    told
+}
+
+#[test]
+fn the_examples_have_the_findings_that_the_page_says() {
+    let page = page("review");
+    let (models, expected) = (blocks(&page, "asmetal review"), blocks(&page, "findings"));
+    assert_eq!(models.len(), expected.len());
+    for (model, expected) in models.iter().zip(expected) {
+        assert_eq!(findings(model), expected, "{model}");
+    }
+}
+
+#[test]
+fn the_pages_of_findings_show_them() {
+    for id in REVIEW_IDS {
+        let page = page(&format!("faults/{id}"));
+        let found = findings(blocks(&page, "asmetal review")[0]);
+        assert!(found.lines().any(|line| line.ends_with(id)), "{id}: {found}");
+    }
+}
+
+#[test]
+fn a_clash_is_found_with_a_run_that_ends_in_it() {
+    let page = page("faults/inconsistent-update");
+    let model = blocks(&page, "asmetal run")[0];
+    assert!(findings(model).starts_with("MP1 violated\n"), "{}", findings(model));
+}

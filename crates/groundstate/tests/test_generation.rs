@@ -1,0 +1,140 @@
+//! Generated scenarios pass, and together they cover what is said to be reached: the goals and the coverage of scenarios are
+//! counted by different code, and must agree goal by goal.
+
+#![allow(clippy::disallowed_methods, reason = "the examples are files")]
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use groundstate::scenario::{FirstCandidate, Items, Options as Scenario};
+use groundstate::test_generation::{GoalKind, Method, Subject, Tests, generate_tests};
+use groundstate::verify::Options;
+use groundstate::{Loaded, Suite};
+use syntax::{SourceFile, Span};
+
+struct Disk;
+
+fn read(path: &Path) -> Result<SourceFile, String> {
+    let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    Ok(SourceFile::new(path.display().to_string(), text))
+}
+
+impl model::Loader for Disk {
+    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        let path = Path::new(&importer.name).parent().unwrap_or(Path::new("")).join(path);
+        read(&path).or_else(|_| read(&path.with_extension("asm")))
+    }
+}
+
+fn example(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../{name}.asm"))
+}
+
+fn load(path: &Path) -> Loaded {
+    groundstate::load(read(path).expect("it is there"), &mut Disk).unwrap_or_else(|f| panic!("{:#?}", f.diagnostics))
+}
+
+fn generate(path: &Path, method: Method, options: &Options) -> Tests {
+    let loaded = load(path);
+    let (root, program) = (loaded.model.root, Arc::new(loaded.program));
+    let name = path.file_name().expect("a file").to_string_lossy().into_owned();
+    let subject = Subject { model: &loaded.model, program: &program, turns: &[], path: &name };
+    generate_tests(subject, options, method, &|file| file == root, &mut |_| true).expect("there is an initial state")
+}
+
+/// Runs the scenarios beside the model: all pass; gives what they cover.
+fn run(path: &Path, tests: &Tests) -> Items {
+    let mut suite = Suite::new();
+    for scenario in &tests.scenarios {
+        let source = SourceFile::new(path.with_file_name("x.avalla").display().to_string(), scenario.text.as_str());
+        let options = Scenario { coverage: true, ..Scenario::default() };
+        let tested = suite.test(source, &mut Disk, options, &mut FirstCandidate);
+        let verdict = tested.verdict.unwrap_or_else(|| panic!("{:#?}\n{}", tested.diagnostics, scenario.text));
+        assert!(verdict.passed(), "{:#?}\n{}", verdict.failures(), scenario.text);
+        assert_eq!(verdict.steps, scenario.steps as u64);
+        assert!(verdict.checks.0 > 0, "{}", scenario.text);
+    }
+    let (_, sources, items) = suite.coverage().next().expect("some scenario ran");
+    let root = sources.iter().next().expect("the model").0;
+    let mut items = items;
+    items.rules.retain(|item| item.span.file == root);
+    items.branches.retain(|item| item.span.file == root);
+    items.updates.retain(|item| item.span.file == root);
+    items.foralls.retain(|item| item.span.file == root);
+    items
+}
+
+type Covered = BTreeSet<(String, Span)>;
+
+/// What the scenarios cover, in the words of goals.
+fn covered(items: &Items) -> Covered {
+    let single = items.rules.iter().chain(&items.branches).chain(&items.updates).filter(|item| item.covered);
+    let mut all: Covered = single.map(|item| (item.what.to_string(), item.span)).collect();
+    for forall in &items.foralls {
+        let words = ["no element", "one element", "many elements"];
+        all.extend(words.iter().zip(forall.seen).filter(|(_, seen)| *seen).map(|(w, _)| (w.to_string(), forall.span)));
+    }
+    all
+}
+
+/// What is said to be reached, of what the coverage of scenarios counts.
+fn stated(tests: &Tests) -> Covered {
+    let reached = tests.goals.iter().filter(|goal| goal.reached);
+    let words = reached.filter_map(|goal| {
+        let what = match goal.kind {
+            GoalKind::Rule => "rule",
+            GoalKind::Branch(what) | GoalKind::Forall(what) => what,
+            GoalKind::Update => "update",
+            GoalKind::Condition | GoalKind::Transition => return None,
+        };
+        Some((what.to_string(), goal.span))
+    });
+    words.collect()
+}
+
+const MODELS: &[&str] =
+    &["examples/mutual_exclusion/Peterson", "examples/philosophers/Philosophers", "bench/models/verify/Swing"];
+
+#[test]
+fn the_scenarios_cover_what_is_said() {
+    for name in MODELS {
+        let path = example(name);
+        let options = Options { max_states: 3_000, ..Options::default() };
+        let tests = generate(&path, Method::Search, &options);
+        let items = run(&path, &tests);
+        assert_eq!(covered(&items), stated(&tests), "{name}");
+        assert!(tests.goals.iter().any(|goal| goal.reached), "{name}");
+    }
+}
+
+#[test]
+fn walks_at_random_cover_what_is_said_and_are_the_same_again() {
+    for name in MODELS {
+        let path = example(name);
+        let walk = |seed| generate(&path, Method::Random(20, 30, seed), &Options::default());
+        let tests = walk(3);
+        assert_eq!(covered(&run(&path, &tests)), stated(&tests), "{name}");
+        let texts = |tests: &Tests| tests.scenarios.iter().map(|one| one.text.clone()).collect::<Vec<_>>();
+        assert_eq!(texts(&tests), texts(&walk(3)), "{name}");
+    }
+}
+
+#[test]
+fn no_scenario_is_superfluous() {
+    for name in MODELS {
+        let path = example(name);
+        let options = Options { max_states: 3_000, ..Options::default() };
+        let tests = generate(&path, Method::Search, &options);
+        for left_out in 0..tests.scenarios.len() {
+            let mut fewer = tests.clone();
+            let one = fewer.scenarios.remove(left_out);
+            // Conditions and transitions are no part of this coverage; a scenario may be there for them.
+            let conditions = tests.goals.iter().any(|goal| goal.kind == GoalKind::Condition);
+            if fewer.scenarios.is_empty() || conditions {
+                continue;
+            }
+            assert_ne!(covered(&run(&path, &fewer)), stated(&tests), "{name}: {}", one.text);
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! What happens in the steps of an explorer for the first time, and which values its states have.
+//!
+//! In: the steps that its machine makes, states. Out: [`Sighting`]s with the answers that lead to them, [`Met`] values by
+//! location. Steps that are remembered are those of some step that the machine made, so they show nothing new. An
+//! alternative that is dead or that an assumption leaves out does not count.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use rustc_hash::FxHashSet;
+
+use crate::explore::encoding::Encoding;
+use crate::explore::explorer::{Explorer, Kind};
+use crate::location::Location;
+use crate::observe::{Observation, Observations};
+use crate::value::Value;
+
+/// Something that happened for the first time.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Sighting {
+    /// What.
+    pub observation: Observation,
+    /// The answers that lead to the step.
+    pub picks: Vec<u32>,
+    /// The step can be made; it is no fault.
+    pub made: bool,
+}
+
+/// By field of the packed states, the codes met.
+#[derive(Debug, Clone, Default)]
+pub struct Met {
+    codes: Vec<FxHashSet<u32>>,
+    last: Vec<u64>,
+}
+
+impl Explorer {
+    /// Notes what the step at hand showed.
+    pub(super) fn sight(&mut self, kind: Kind) {
+        let Some(observations) = &mut self.machine.core.observations else { return };
+        if observations.step.is_empty() {
+            return;
+        }
+        let seen = std::mem::take(&mut observations.step);
+        let made = kind == Kind::Next;
+        if kind == Kind::Excluded || kind == Kind::Unbounded {
+            return;
+        }
+        let picks: Vec<u32> = self.branches.answers().iter().map(|asked| asked.taken).collect();
+        for observation in seen {
+            let known = if made { &mut observations.known } else { &mut self.in_faults };
+            if known.insert(observation) {
+                self.sightings.push(Sighting { observation, picks: picks.clone(), made });
+            }
+        }
+    }
+
+    /// What has happened for the first time since this was last asked.
+    pub fn sightings(&mut self) -> Vec<Sighting> {
+        std::mem::take(&mut self.sightings)
+    }
+
+    /// All that happens in one step.
+    pub fn observe(&mut self, state: &[u64], picks: &[u32]) -> Vec<Observation> {
+        let former = self.machine.core.observations.replace(Box::default());
+        self.load(state);
+        self.branches.follow(picks);
+        self.begin_watching();
+        let _ = self.machine.prepare(&mut self.branches);
+        self.machine.discard();
+        let observations = std::mem::replace(&mut self.machine.core.observations, former);
+        observations.map(|observations| observations.step).unwrap_or_default()
+    }
+
+    /// The location of a number that an observation names.
+    pub fn location(&self, index: u32) -> Location {
+        self.machine.core.store.location(index)
+    }
+
+    /// The elements of a domain, as far as they are the same in all states and no more than `most`.
+    pub fn elements(&mut self, domain: program::DomainId, most: usize) -> Option<Vec<Value>> {
+        let fixed = crate::explore::conditions::is_fixed(&self.program, domain);
+        let elements = if fixed { self.machine.elements(domain).ok()? } else { return None };
+        (elements.len() <= most).then_some(elements)
+    }
+
+    /// Notes the values that a state has.
+    pub fn meet(&self, state: &[u64], met: &mut Met) {
+        let fields = &self.encoding.fields;
+        if met.codes.is_empty() {
+            met.codes = vec![FxHashSet::default(); fields.len()];
+            met.last = state.iter().map(|word| !word).collect();
+        }
+        for (field, codes) in fields.iter().zip(&mut met.codes) {
+            let word = field.word as usize;
+            if (met.last[word] ^ state[word]) & field.mask() != 0 || field.bits == 0 {
+                codes.insert(field.code(state));
+            }
+        }
+        met.last.copy_from_slice(state);
+    }
+
+    /// The values met, by location.
+    pub fn values_met(&mut self, met: &Met) -> BTreeMap<Location, BTreeSet<Value>> {
+        let mut values: BTreeMap<Location, BTreeSet<Value>> = BTreeMap::new();
+        let Explorer { encoding, machine, view, .. } = self;
+        for (index, codes) in met.codes.iter().enumerate() {
+            let field = encoding.fields[index];
+            let mut codes: Vec<u32> = codes.iter().copied().collect();
+            codes.sort_unstable();
+            for code in codes {
+                if encoding.rest == Some(index as u32) {
+                    for (location, value) in &view.rest(code).locations {
+                        values.entry(location.clone()).or_default().insert(value.clone());
+                    }
+                    continue;
+                }
+                let mut words = vec![0; encoding.words];
+                Encoding::put(field, code, &mut words);
+                let value = encoding.value(field, &words, view);
+                values.entry(machine.core.store.location(field.location)).or_default().insert(value);
+            }
+        }
+        if encoding.rest.is_none() {
+            for (location, value) in &encoding.constant_rest.locations {
+                values.entry(location.clone()).or_default().insert(value.clone());
+            }
+        }
+        values
+    }
+
+    pub(super) fn begin_watching(&mut self) {
+        if let Some(observations) = &mut self.machine.core.observations {
+            observations.step.clear();
+            observations.on = true;
+        }
+    }
+
+    pub(super) fn end_watching(&mut self) {
+        if let Some(observations) = &mut self.machine.core.observations {
+            observations.on = false;
+        }
+    }
+
+    pub(super) fn watch(&mut self) {
+        self.machine.core.observations = Some(Box::new(Observations::default()));
+    }
+}

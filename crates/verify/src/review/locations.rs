@@ -1,0 +1,96 @@
+//! MP7: controlled locations that no rule updates, and locations that no rule reads.
+//!
+//! Properties do not count as readers: what they alone speak of has no influence on a run. What is written for others to
+//! read (`out`) need not be read. Functions with few locations are told location by location, others as a whole.
+
+use std::collections::BTreeSet;
+
+use machine::{Location, Observation, Value};
+use model::FunctionKind;
+use program::FunctionId;
+
+use crate::review::{Matter, Meta, Reviewer};
+
+/// LIMIT: a function with more locations is looked at as a whole.
+const LOCATIONS: usize = 1 << 12;
+
+/// What was done with the locations of one function.
+#[derive(Default)]
+struct Touched {
+    any: bool,
+    locations: BTreeSet<Location>,
+}
+
+impl Touched {
+    fn add(&mut self, location: Option<Location>) {
+        self.any = true;
+        self.locations.extend(location);
+    }
+}
+
+impl Reviewer<'_> {
+    pub(super) fn locations(&mut self) {
+        let count = self.program.functions.len();
+        let (mut read, mut written): (Vec<Touched>, Vec<Touched>) =
+            (0..count).map(|_| (Touched::default(), Touched::default())).unzip();
+        for sighting in &self.survey.sightings {
+            let location = |index: Option<u32>| index.map(|index| self.survey.location(index));
+            match sighting.observation {
+                Observation::Read(function, index) => read[function.0 as usize].add(location(index)),
+                Observation::Wrote(function, index) if sighting.made => {
+                    written[function.0 as usize].add(location(index))
+                }
+                _ => {}
+            }
+        }
+        for index in 0..count {
+            let (id, function) = (FunctionId(index as u32), &self.program.functions[index]);
+            if function.library || function.element.is_some() || !self.is_own(function.span) {
+                continue;
+            }
+            use FunctionKind::{Controlled, Monitored, Out, Shared};
+            let (span, kind) = (function.span, function.kind);
+            let all = self.all_locations(id);
+            if matches!(kind, Controlled | Out)
+                && let Some(never) = never(&all, &written[index])
+            {
+                self.find(Meta::LocationUsed, Matter::NeverUpdated(id, never), span);
+            }
+            if matches!(kind, Controlled | Monitored | Shared)
+                && let Some(never) = never(&all, &read[index])
+            {
+                self.find(Meta::LocationUsed, Matter::NeverRead(id, never), span);
+            }
+        }
+    }
+
+    /// The locations of a function, if they are few.
+    fn all_locations(&mut self, function: FunctionId) -> Vec<Location> {
+        let mut tuples: Vec<Vec<Value>> = vec![Vec::new()];
+        for parameter in &self.program.function(function).parameters {
+            let Some(elements) = self.survey.elements(*parameter, LOCATIONS) else { return Vec::new() };
+            if tuples.len() * elements.len() > LOCATIONS {
+                return Vec::new();
+            }
+            let longer = |tuple: &Vec<Value>| {
+                let tuple = tuple.clone();
+                elements.clone().into_iter().map(move |element| tuple.iter().cloned().chain([element]).collect())
+            };
+            tuples = tuples.iter().flat_map(longer).collect();
+        }
+        tuples.into_iter().map(|arguments| Location { function, arguments }).collect()
+    }
+}
+
+/// Those that were not touched; none if there is no such. An empty list stands for all.
+fn never(all: &[Location], touched: &Touched) -> Option<Vec<Location>> {
+    if !touched.any {
+        return Some(Vec::new());
+    }
+    // Locations without a lasting number are not told apart.
+    if touched.locations.is_empty() {
+        return None;
+    }
+    let never: Vec<Location> = all.iter().filter(|location| !touched.locations.contains(location)).cloned().collect();
+    (!never.is_empty()).then_some(never)
+}

@@ -1,0 +1,175 @@
+//! Review: the seven meta-properties that a good model has, whatever it is a model of.
+//!
+//! P. Arcaini, A. Gargantini, E. Riccobene, *Automatic Review of Abstract State Machines by Meta-Property Verification*,
+//! NFM 2010. In: a model, its program, bounds. Out: a [`Review`]: findings with their places, those that some run shows with
+//! the shortest one. INVARIANT: that something never happens is said only where every state was met; else it is unknown.
+
+mod locations;
+mod rules;
+mod values;
+
+use std::sync::Arc;
+
+use machine::{Location, Value};
+use model::Model;
+use program::{DomainId, FunctionId, Program};
+use syntax::{FileId, Span};
+
+use crate::check::{NoStart, Options, Reason};
+use crate::search::Progress;
+use crate::survey::{Survey, survey};
+use crate::trace::Trace;
+
+/// A meta-property, by the number that the paper gives it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Meta {
+    /// MP1: no inconsistent update is ever performed.
+    Consistent,
+    /// MP2: every conditional rule is complete.
+    Complete,
+    /// MP3: every rule can eventually fire.
+    Fires,
+    /// MP4: no assignment is always trivial.
+    NotTrivial,
+    /// MP5: for every domain element there is a location that has it as value.
+    ElementUsed,
+    /// MP6: every controlled function can take any value of its codomain.
+    ValueTaken,
+    /// MP7: every controlled location is updated, and every location is read.
+    LocationUsed,
+}
+
+impl Meta {
+    /// All of them, in order.
+    pub const ALL: [Meta; 7] = [
+        Meta::Consistent,
+        Meta::Complete,
+        Meta::Fires,
+        Meta::NotTrivial,
+        Meta::ElementUsed,
+        Meta::ValueTaken,
+        Meta::LocationUsed,
+    ];
+
+    /// Its number, from 1.
+    pub fn number(self) -> usize {
+        self as usize + 1
+    }
+
+    /// It is violated by something that happens; the others by something that never does.
+    fn by_event(self) -> bool {
+        matches!(self, Meta::Consistent | Meta::Complete)
+    }
+}
+
+/// What is found.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Matter {
+    /// Two updates clash; where the other one is.
+    Clash(Span),
+    /// No branch of a conditional rule is taken.
+    NoBranch,
+    /// A rule never runs.
+    NeverRuns,
+    /// A declared rule that nothing calls.
+    NeverCalled(String),
+    /// A rule runs in steps alone that cannot be made.
+    RunsInFaults,
+    /// All updates of a rule leave the value that is there.
+    AlwaysTrivial,
+    /// Elements of a domain that no location ever has.
+    Unused(DomainId, Vec<Value>),
+    /// Values of its codomain that a function never takes.
+    NeverTaken(FunctionId, Vec<Value>),
+    /// Locations that no rule updates; empty: none of the function's is ever.
+    NeverUpdated(FunctionId, Vec<Location>),
+    /// Locations that no rule reads; empty: none of the function's is ever.
+    NeverRead(FunctionId, Vec<Location>),
+}
+
+/// A finding.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Finding {
+    /// The meta-property that it speaks against.
+    pub meta: Meta,
+    /// What is found.
+    pub matter: Matter,
+    /// Where.
+    pub span: Span,
+    /// A shortest run that shows it, of what some run shows.
+    pub witness: Option<Box<Trace>>,
+}
+
+/// What a meta-property comes to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// Of every rule, element and location.
+    Holds,
+    /// Of some not.
+    Violated,
+    /// Not known: not every state was met.
+    Unknown,
+}
+
+/// What a review came to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Review {
+    /// By meta-property that was asked for.
+    pub outcomes: Vec<(Meta, Outcome)>,
+    /// In the order of meta-properties, then of the text. Of a meta-property that is unknown: what has not been seen yet.
+    pub findings: Vec<Finding>,
+    /// How far the search came.
+    pub progress: Progress,
+    /// Why not every state was met; empty where every one was.
+    pub reasons: Vec<Reason>,
+}
+
+/// Reviews the parts of a model that stand in files that `own` accepts.
+///
+/// # Errors
+/// There is no initial state.
+pub fn review(
+    model: &Model,
+    program: &Arc<Program>,
+    options: &Options,
+    metas: &[Meta],
+    own: &dyn Fn(FileId) -> bool,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Review, NoStart> {
+    let survey = survey(program, options, false, watch)?;
+    let mut reviewer = Reviewer { model, program, survey, own, findings: Vec::new() };
+    reviewer.rules();
+    reviewer.values();
+    reviewer.locations();
+    let Reviewer { survey, mut findings, .. } = reviewer;
+    findings.retain(|finding| metas.contains(&finding.meta));
+    findings.sort_by_key(|finding| (finding.meta, finding.span));
+    let outcome = |meta: Meta| {
+        let found = findings.iter().any(|finding| finding.meta == meta);
+        match (found, survey.is_complete()) {
+            (true, complete) if complete || meta.by_event() => Outcome::Violated,
+            (false, complete) if complete || !meta.by_event() => Outcome::Holds,
+            _ => Outcome::Unknown,
+        }
+    };
+    let outcomes = Meta::ALL.iter().filter(|meta| metas.contains(meta)).map(|meta| (*meta, outcome(*meta)));
+    Ok(Review { outcomes: outcomes.collect(), findings, progress: survey.progress, reasons: survey.reasons })
+}
+
+struct Reviewer<'a> {
+    model: &'a Model,
+    program: &'a Program,
+    survey: Survey,
+    own: &'a dyn Fn(FileId) -> bool,
+    findings: Vec<Finding>,
+}
+
+impl Reviewer<'_> {
+    fn find(&mut self, meta: Meta, matter: Matter, span: Span) {
+        self.findings.push(Finding { meta, matter, span, witness: None });
+    }
+
+    fn is_own(&self, span: Span) -> bool {
+        (self.own)(span.file)
+    }
+}

@@ -1,0 +1,131 @@
+//! MP5 and MP6: the elements of domains, and the values that functions take.
+//!
+//! In: the values met. An element is used if some location has it as its value or as a part of it: a dynamic location in some
+//! state, an input that some rule reads, a static function without definition. LIMIT: domains of more elements, and
+//! those that grow, are left aside; derived functions are not looked at.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use machine::{Observation, Value};
+use model::FunctionKind;
+use program::{DomainId, DomainKind, FunctionId, Term};
+
+use crate::review::{Matter, Meta, Reviewer};
+
+/// LIMIT: a domain with more elements is left aside.
+const ELEMENTS: usize = 1 << 12;
+
+impl Reviewer<'_> {
+    pub(super) fn values(&mut self) {
+        let met = self.survey.values();
+        let mut taken: BTreeMap<FunctionId, BTreeSet<Value>> = BTreeMap::new();
+        for (location, values) in met {
+            taken.entry(location.function).or_default().extend(values);
+        }
+        self.elements(&taken);
+        for index in 0..self.program.functions.len() {
+            let (id, function) = (FunctionId(index as u32), &self.program.functions[index]);
+            let written = matches!(function.kind, FunctionKind::Controlled | FunctionKind::Out);
+            if function.library || !written || !self.is_own(function.span) {
+                continue;
+            }
+            let span = function.span;
+            let Some(elements) = self.survey.elements(function.codomain, ELEMENTS) else { continue };
+            let none = BTreeSet::new();
+            let taken = taken.get(&id).unwrap_or(&none);
+            let missing: Vec<Value> = elements.into_iter().filter(|value| !taken.contains(value)).collect();
+            if !missing.is_empty() {
+                self.find(Meta::ValueTaken, Matter::NeverTaken(id, missing), span);
+            }
+        }
+    }
+
+    /// MP5.
+    fn elements(&mut self, taken: &BTreeMap<FunctionId, BTreeSet<Value>>) {
+        let mut used: BTreeSet<Value> = BTreeSet::new();
+        for value in taken.values().flatten() {
+            parts(value, &mut used);
+        }
+        let read: BTreeSet<FunctionId> = self.read_functions();
+        for id in read {
+            let function = self.program.function(id);
+            if function.kind == FunctionKind::Monitored
+                && let Some(elements) = self.survey.elements(function.codomain, ELEMENTS)
+            {
+                used.extend(elements);
+            }
+        }
+        self.constants_of_statics(&mut used);
+        let mut index = 0;
+        while let Some(domain) = self.program.domains.get(index) {
+            let id = DomainId(index as u32);
+            index += 1;
+            let Some(span) = self.model.domains.get(id).span.filter(|span| (self.own)(span.file)) else { continue };
+            let fixed = match &domain.kind {
+                DomainKind::Enum { .. } => true,
+                DomainKind::Abstract { dynamic, .. } | DomainKind::Concrete { dynamic, .. } => !dynamic,
+                _ => false,
+            };
+            if !fixed {
+                continue;
+            }
+            let Some(elements) = self.survey.elements(id, ELEMENTS) else { continue };
+            let missing: Vec<Value> = elements.into_iter().filter(|element| !used.contains(element)).collect();
+            if !missing.is_empty() {
+                self.find(Meta::ElementUsed, Matter::Unused(id, missing), span);
+            }
+        }
+    }
+
+    pub(super) fn read_functions(&self) -> BTreeSet<FunctionId> {
+        let read = self.survey.sightings.iter().filter_map(|sighting| match sighting.observation {
+            Observation::Read(function, _) => Some(function),
+            _ => None,
+        });
+        read.collect()
+    }
+
+    /// The elements and literals that the definitions of static functions name.
+    fn constants_of_statics(&self, used: &mut BTreeSet<Value>) {
+        let statics = self.program.functions.iter().filter(|f| f.kind == FunctionKind::Static && !f.library);
+        let mut open: Vec<_> =
+            statics.filter_map(|f| f.definition.as_ref().map(|definition| definition.body)).collect();
+        while let Some(term) = open.pop() {
+            self.program.each_child_of_term(term, &mut |child| open.push(child));
+            match self.program.term(term) {
+                Term::Constant(index) => match self.program.constants[*index as usize] {
+                    program::Literal::Enum(domain, literal) => {
+                        used.insert(Value::Enum(domain, literal));
+                    }
+                    program::Literal::Integer(number) => {
+                        used.insert(Value::Integer(number));
+                    }
+                    _ => {}
+                },
+                Term::Read { function, .. } => {
+                    let function = self.program.function(*function);
+                    let element = |element| Value::Element(self.program.base_domain(function.codomain), element);
+                    used.extend(function.element.map(element));
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+/// A value and all that is in it.
+fn parts(value: &Value, into: &mut BTreeSet<Value>) {
+    if !into.insert(value.clone()) {
+        return;
+    }
+    match value {
+        Value::Tuple(items) => items.iter().for_each(|item| parts(item, into)),
+        Value::Seq(items) | Value::Set(items) => items.iter().for_each(|item| parts(item, into)),
+        Value::Bag(items) => items.keys().for_each(|item| parts(item, into)),
+        Value::Map(entries) => entries.iter().for_each(|(key, value)| {
+            parts(key, into);
+            parts(value, into);
+        }),
+        _ => {}
+    }
+}

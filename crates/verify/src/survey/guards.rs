@@ -1,0 +1,58 @@
+//! Whether each condition of a guard decides it by itself: modified condition/decision coverage.
+//!
+//! In: the truths with which a guard was decided. Out: by condition two of them that show it. A condition is shown to decide
+//! by two decisions with different outcomes in which it differs, and in which no other condition differs that was evaluated
+//! in both (J. Chilenski, S. Miller, *Applicability of modified condition/decision coverage to software testing*, 1994, for
+//! connectives that do not evaluate all of their operands).
+
+use std::collections::BTreeMap;
+
+use machine::{Observation, Truths, conditions_of};
+use program::{Program, TermId};
+use syntax::Span;
+
+use crate::survey::Sighting;
+
+/// A guard of several conditions.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Guard {
+    /// Where it stands.
+    pub span: Span,
+    /// By condition: where it stands, and two sightings that show that it decides, if there are any.
+    pub conditions: Vec<(Span, Option<[Sighting; 2]>)>,
+}
+
+/// A guard and how it was decided.
+type Decided<'s> = (TermId, Vec<(Truths, &'s Sighting)>);
+
+/// The guards that were decided in some step, in the order of the text.
+pub fn guards(program: &Program, sightings: &[Sighting]) -> Vec<Guard> {
+    let mut decided: BTreeMap<Span, Decided<'_>> = BTreeMap::new();
+    for sighting in sightings.iter().filter(|sighting| sighting.made) {
+        if let Observation::Decided(guard, truths) = sighting.observation {
+            let entry = decided.entry(program.term_span(guard)).or_insert_with(|| (guard, Vec::new()));
+            entry.1.push((truths, sighting));
+        }
+    }
+    let guard = |(span, (guard, truths)): (Span, Decided<'_>)| {
+        let conditions = conditions_of(program, guard);
+        let shown = |(place, condition): (usize, &TermId)| (program.term_span(*condition), pair(&truths, place));
+        Guard { span, conditions: conditions.iter().enumerate().map(shown).collect() }
+    };
+    decided.into_iter().map(guard).collect()
+}
+
+/// The first two decisions that show that a condition decides.
+fn pair(truths: &[(Truths, &Sighting)], condition: usize) -> Option<[Sighting; 2]> {
+    let bit = 1 << condition;
+    for (later, (one, second)) in truths.iter().enumerate() {
+        for (other, first) in &truths[..later] {
+            let both = one.known & other.known;
+            let differ = (one.truth ^ other.truth) & both;
+            if one.outcome != other.outcome && differ == bit {
+                return Some([(*first).clone(), (*second).clone()]);
+            }
+        }
+    }
+    None
+}
