@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace visual_servoing {
+namespace controller_system {
 
 using namespace groundstate;
 using kinematics::joints;
@@ -111,4 +111,4 @@ simulated::Pose simulated_pose(const Eigen::Isometry3d& camera) {
     return pose;
 }
 
-}  // namespace visual_servoing
+}  // namespace controller_system

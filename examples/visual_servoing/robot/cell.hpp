@@ -14,7 +14,7 @@
 #include <groundstate/servo/visual_servo.hpp>
 #include <groundstate/simulated/scene.hpp>
 
-namespace visual_servoing {
+namespace controller_system {
 
 using groundstate::kinematics::Joints;
 
@@ -74,4 +74,4 @@ class Cell {
 /// As the simulated camera has poses.
 groundstate::simulated::Pose simulated_pose(const Eigen::Isometry3d& camera);
 
-}  // namespace visual_servoing
+}  // namespace controller_system

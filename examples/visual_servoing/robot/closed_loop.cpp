@@ -3,7 +3,7 @@
 
 #include <groundstate/simulated/camera.hpp>
 
-namespace visual_servoing {
+namespace controller_system {
 
 using namespace groundstate;
 
@@ -52,7 +52,7 @@ Loop run(const LoopSettings& settings, C& clock) {
     loop.servoing = std::make_unique<ServoingByImages>(now, servoing, periods(10'000'000));
     loop.robot = std::make_unique<ArmController>(now, kinematics::example_arm(), RobotSettings{}, periods(5'000'000));
     loop.motor = std::make_unique<JointDrives>(
-        now, [&cell](std::int64_t at_ns, const Joints& velocity) { cell.drive(at_ns, velocity); }, MotorSettings{},
+        now, [&cell](std::int64_t at_ns, const Joints& velocity) { cell.drive(at_ns, velocity); }, kinematics::FollowerSettings{},
         periods(1'000'000));
     JointEncoders encoders{now, [&cell](std::int64_t at_ns) { return cell.measured(at_ns); }};
 
@@ -101,4 +101,4 @@ Loop run(const LoopSettings& settings) {
     return run(settings, clock);
 }
 
-}  // namespace visual_servoing
+}  // namespace controller_system

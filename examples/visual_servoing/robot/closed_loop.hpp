@@ -8,7 +8,7 @@
 
 #include "hooks.hpp"
 
-namespace visual_servoing {
+namespace controller_system {
 
 /// What goes wrong in a run. All is off at first.
 struct Disturbances {
@@ -65,4 +65,4 @@ struct Loop {
 /// Blocks: as long as the run takes. Allocates.
 Loop run(const LoopSettings& settings);
 
-}  // namespace visual_servoing
+}  // namespace controller_system

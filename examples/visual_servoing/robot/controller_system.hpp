@@ -10,7 +10,7 @@
 
 #include "data.hpp"
 
-namespace visual_servoing {
+namespace controller_system {
 
 using groundstate::Cycle;
 
@@ -248,4 +248,4 @@ class ControllerSystem {
                       [this](const Cycle& c) { measure(c); }, {.rank = 0}};
 };
 
-}  // namespace visual_servoing
+}  // namespace controller_system

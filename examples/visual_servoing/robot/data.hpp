@@ -11,7 +11,7 @@
 #include <groundstate/frame.hpp>
 #include <groundstate/servo/visual_servo.hpp>
 
-namespace visual_servoing {
+namespace controller_system {
 
 using Vector6 = std::array<double, 6>;
 
@@ -76,4 +76,4 @@ inline bool valid(const RobotToVs& datum) noexcept { return finite(datum.positio
 inline bool valid(const EncoderToRobot& datum) noexcept { return finite(datum.position); }
 inline bool valid(const EncoderToMotor& datum) noexcept { return finite(datum.position); }
 
-}  // namespace visual_servoing
+}  // namespace controller_system

@@ -9,13 +9,14 @@
 #include <vector>
 
 #include <groundstate/frame_source.hpp>
-#include <groundstate/kinematics/joint_velocities.hpp>
+#include <groundstate/kinematics/camera_motion.hpp>
+#include <groundstate/kinematics/follower.hpp>
 #include <groundstate/vision/disc_tracker.hpp>
 
 #include "cell.hpp"
 #include "controller_system.hpp"
 
-namespace visual_servoing {
+namespace controller_system {
 
 /// The instant, by the clock of the run.
 using Now = std::function<std::int64_t()>;
@@ -105,9 +106,7 @@ class ServoingByImages final : public VisualServoing {
 
 struct RobotSettings {
     std::int64_t most_age_ns = 100'000'000;  ///< of the image behind a twist; then the camera is brought to rest
-    double most_acceleration = 1.0;          ///< of the camera, m/s^2
-    double most_turning = 4.0;               ///< rad/s^2
-    double most_lag = 0.1;                   ///< rad between set-point and joint, before the set-point waits for it
+    groundstate::kinematics::CameraMotionSettings motion{};
 };
 
 struct Motion {
@@ -131,20 +130,10 @@ class ArmController final : public Robot {
 
   private:
     Now now_;
-    groundstate::kinematics::Arm arm_;
+    groundstate::kinematics::CameraMotion motion_;
     RobotSettings settings_;
-    groundstate::servo::Twist twist_ = groundstate::servo::Twist::Zero();
-    Joints set_point_ = Joints::Zero();
-    std::int64_t last_ns_ = 0;
-    bool started_ = false;
+    std::int64_t last_ns_ = -1;
     std::vector<Motion> motions_{};
-};
-
-struct MotorSettings {
-    double stiffness = 20;                  ///< 1/s: velocity for each radian of deviation
-    std::int64_t most_age_ns = 25'000'000;  ///< of a set-point, and of a measurement; then the joints are brought to rest
-    double braking = 8;                     ///< rad/s^2
-    double most_velocity = 3;               ///< rad/s
 };
 
 struct Drive {
@@ -158,7 +147,7 @@ struct Drive {
 class JointDrives final : public Motor {
   public:
     using Command = std::function<void(std::int64_t now_ns, const Joints& velocity)>;
-    JointDrives(Now now, Command command, const MotorSettings& settings, std::size_t drives);
+    JointDrives(Now now, Command command, const groundstate::kinematics::FollowerSettings& settings, std::size_t drives);
     bool drive(const Cycle& cycle, const In& in, Out& out) override;
 
     const std::vector<Drive>& drives() const noexcept { return drives_; }
@@ -166,9 +155,7 @@ class JointDrives final : public Motor {
   private:
     Now now_;
     Command command_;
-    MotorSettings settings_;
-    Joints velocity_ = Joints::Zero();
-    std::int64_t last_ns_ = 0;
+    groundstate::kinematics::Follower<6> follower_;
     std::vector<Drive> drives_{};
 };
 
@@ -184,4 +171,4 @@ class JointEncoders final : public Encoder {
     Read read_;
 };
 
-}  // namespace visual_servoing
+}  // namespace controller_system

@@ -9,7 +9,7 @@
 #include "pictures.hpp"
 #include "run_file.hpp"
 
-using namespace visual_servoing;
+using namespace controller_system;
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-namespace visual_servoing {
+namespace controller_system {
 
 using namespace groundstate;
 
@@ -72,4 +72,4 @@ std::size_t write_pictures(const std::string& folder, const Loop& loop) {
     return written;
 }
 
-}  // namespace visual_servoing
+}  // namespace controller_system

@@ -6,9 +6,9 @@
 
 #include "closed_loop.hpp"
 
-namespace visual_servoing {
+namespace controller_system {
 
 /// Writes FOLDER/view-1.png and so on. How many were written; fewer than were kept if the folder does not take them.
 std::size_t write_pictures(const std::string& folder, const Loop& loop);
 
-}  // namespace visual_servoing
+}  // namespace controller_system

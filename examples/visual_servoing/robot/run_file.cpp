@@ -4,7 +4,7 @@
 #include <charconv>
 #include <string_view>
 
-namespace visual_servoing {
+namespace controller_system {
 
 using namespace groundstate;
 
@@ -202,4 +202,4 @@ bool write_run(std::FILE* file, const LoopSettings& settings, const Loop& loop) 
     return std::fflush(file) == 0 && std::ferror(file) == 0;
 }
 
-}  // namespace visual_servoing
+}  // namespace controller_system

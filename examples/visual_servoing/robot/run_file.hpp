@@ -6,9 +6,9 @@
 
 #include "closed_loop.hpp"
 
-namespace visual_servoing {
+namespace controller_system {
 
 /// Writes everything that was recorded. False if the file did not take it: errno says why.
 bool write_run(std::FILE* file, const LoopSettings& settings, const Loop& loop);
 
-}  // namespace visual_servoing
+}  // namespace controller_system

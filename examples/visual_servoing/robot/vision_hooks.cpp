@@ -1,7 +1,7 @@
 // Operator, camera and visual servoing.
 #include "hooks.hpp"
 
-namespace visual_servoing {
+namespace controller_system {
 
 using namespace groundstate;
 
@@ -100,4 +100,4 @@ bool ServoingByImages::set_point(const Cycle&, const In& in, Out& out) {
     return ready;
 }
 
-}  // namespace visual_servoing
+}  // namespace controller_system

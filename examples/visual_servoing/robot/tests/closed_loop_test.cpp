@@ -6,7 +6,7 @@
 
 #include "closed_loop.hpp"
 
-namespace visual_servoing {
+namespace controller_system {
 namespace {
 
 constexpr std::int64_t ms = 1'000'000;
@@ -175,4 +175,4 @@ TEST(Data, WhatIsNotANumberIsNotHandedOver) {
 }
 
 }  // namespace
-}  // namespace visual_servoing
+}  // namespace controller_system
