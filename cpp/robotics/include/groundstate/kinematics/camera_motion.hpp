@@ -43,6 +43,7 @@ class CameraMotion {
     }
 
     const Joints& position() const noexcept { return position_; }
+    const Joints& velocity() const noexcept { return moved_.velocity; }
     const Twist& twist() const noexcept { return twist_; }
     Arm& arm() noexcept { return arm_; }
 
