@@ -72,18 +72,21 @@ struct GeneratedLine {
 
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
-    let loaded = match load(shell, &arguments.model)? {
+    let mut loaded = match load(shell, &arguments.model)? {
         Ok(loaded) => loaded,
         Err(exit) => return Ok(exit),
     };
     if loaded.program.main.is_none() {
         return crate::run::no_main(shell, &loaded);
     }
+    let Some(beside) = arguments.bounded.beside(shell, &mut loaded.sources, &arguments.model)? else {
+        return Ok(Exit::World);
+    };
     let folder = &arguments.output;
     std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
     let turns = turns(&loaded);
     let program = Arc::new(loaded.program.clone());
-    let (options, mut watch) = arguments.bounded.options(shell, &program)?;
+    let (options, mut watch) = arguments.bounded.options(shell, &program, &beside)?;
     let (root, users) = (loaded.model.root, own_files(&loaded.sources));
     let own = |file: FileId| file == root || (arguments.imports && users(file));
     let path = relative(&arguments.model, folder);

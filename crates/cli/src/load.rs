@@ -1,14 +1,17 @@
 //! What most commands begin with: a model from a path, its faults shown.
 
+use std::io::Read;
 use std::path::Path;
 
 use groundstate::Loaded;
+use syntax::SourceFile;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::files::decode;
 use crate::shell::Shell;
 
-/// Loads a model; where it has errors they are shown and there is none. Warnings are `check`'s business.
+/// Loads a model, from standard input if the path is `-`; where it has errors they are shown and there is none. Warnings are `check`'s business.
 pub fn load(shell: &mut Shell, path: &Path) -> Result<Result<Loaded, Exit>, Failure> {
     match path.extension().and_then(|extension| extension.to_str()) {
         Some("avalla") => return Err(another(path, "scenario", "`groundstate test` runs scenarios")),
@@ -16,7 +19,7 @@ pub fn load(shell: &mut Shell, path: &Path) -> Result<Result<Loaded, Exit>, Fail
         _ => {}
     }
     let mut disk = shell.disk();
-    let root = disk.root(path)?;
+    let root = if path == Path::new("-") { from_stdin(disk.limit)? } else { disk.root(path)? };
     match groundstate::load(root, &mut disk) {
         Ok(loaded) => Ok(Ok(loaded)),
         Err(faulty) => {
@@ -27,6 +30,15 @@ pub fn load(shell: &mut Shell, path: &Path) -> Result<Result<Loaded, Exit>, Fail
             Ok(Err(Exit::Model))
         }
     }
+}
+
+/// The model on standard input; what it imports is looked for from the working folder.
+fn from_stdin(limit: u64) -> Result<SourceFile, Failure> {
+    let path = Path::new("<stdin>");
+    let mut bytes = Vec::new();
+    let read = std::io::stdin().lock().take(limit.saturating_add(1)).read_to_end(&mut bytes);
+    read.map_err(|error| Failure::of_file("read", path, error))?;
+    decode(path, bytes, limit)
 }
 
 /// A file of another kind than the command takes.

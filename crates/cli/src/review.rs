@@ -67,15 +67,18 @@ struct MetaLine {
 
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
-    let loaded = match load(shell, &arguments.model)? {
+    let mut loaded = match load(shell, &arguments.model)? {
         Ok(loaded) => loaded,
         Err(exit) => return Ok(exit),
     };
     if loaded.program.main.is_none() {
         return crate::run::no_main(shell, &loaded);
     }
+    let Some(beside) = arguments.bounded.beside(shell, &mut loaded.sources, &arguments.model)? else {
+        return Ok(Exit::World);
+    };
     let program = Arc::new(loaded.program);
-    let (options, mut watch) = arguments.bounded.options(shell, &program)?;
+    let (options, mut watch) = arguments.bounded.options(shell, &program, &beside)?;
     let root = loaded.model.root;
     let users = own_files(&loaded.sources);
     let own = |file: FileId| file == root || (arguments.imports && users(file));

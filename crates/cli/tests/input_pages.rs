@@ -1,4 +1,4 @@
-//! Each kind of fault of a file beside the model (inputs, a report specification) has a page in spec/faults/, and the page's example yields it.
+//! Each kind of fault of a file beside the model (inputs, a report specification, what is to be verified) has a page in spec/faults/, and the page's example yields it.
 
 #![allow(clippy::disallowed_methods, reason = "the pages are files, and so is what is given to the command")]
 
@@ -13,11 +13,13 @@ fn block<'p>(page: &'p str, info: &str) -> &'p str {
 fn every_fault_has_a_page_that_shows_it() {
     let inputs = &["run", "Lamp.asm", "--input", "file.yaml"][..];
     let specification = &["report", "Lamp.asm", "--spec", "file.yaml", "--steps", "1"][..];
+    let verification = &["verify", "Lamp.asm", "--spec", "file.yaml"][..];
     let kinds = [
         ("bad-input-file", inputs),
         ("bad-input-value", inputs),
         ("unknown-input", inputs),
         ("bad-report-specification", specification),
+        ("bad-verification-file", verification),
     ];
     for (id, arguments) in kinds {
         let path = format!("{}/../../spec/faults/{id}.md", env!("CARGO_MANIFEST_DIR"));

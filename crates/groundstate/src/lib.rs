@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use model::{Checked, Loader, Model, PropertyKind};
-use program::{Expression, Program, Rule, RuleId};
+use program::{Expression, Program, Property, Rule, RuleId};
 use syntax::ast::{AstNode, TermFile};
 use syntax::{Diagnostic, Severity, SourceFile, Sources, Span};
 
@@ -88,6 +88,22 @@ pub fn load(root: SourceFile, loader: &mut dyn Loader) -> Result<Loaded, Box<Fau
 }
 
 impl Loaded {
+    /// Adds a property as if it stood in the model; `name` is what its text is shown under.
+    ///
+    /// # Errors
+    /// The faults of the text.
+    pub fn property(&mut self, kind: PropertyKind, name: &str, text: &str) -> Result<(), Vec<Diagnostic>> {
+        let formula = self.condition(name, text)?;
+        let span = self.program.term_span(formula.body);
+        let reads_monitored = self.program.reads_monitored(&formula);
+        let name = text.trim().to_string();
+        self.program.properties.push(Property { kind, name, formula, conclusion: None, reads_monitored, span });
+        if matches!(kind, PropertyKind::Ctl | PropertyKind::Ltl) {
+            verify::temporal::read::read(&Arc::new(self.program.clone()))?;
+        }
+        Ok(())
+    }
+
     /// Adds a condition over the model, such as that of `--until`; `name` is what its text is shown under.
     ///
     /// # Errors

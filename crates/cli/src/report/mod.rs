@@ -6,7 +6,7 @@
 
 mod charts;
 mod evidence;
-mod node;
+pub mod node;
 mod specification;
 mod watch;
 
@@ -126,17 +126,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let mut progress = Progress::new(Some(arguments.steps), shell.global.quiet);
     while let Some(record) = run.advance() {
         story.note(&record, &run, &program, &sources);
-        match record {
-            Record::Initial { .. } => {
-                watch.look(run.machine_mut(), &mut builder);
-                builder.begin();
-            }
-            Record::Step(_) => {
-                watch.look(run.machine_mut(), &mut builder);
-                builder.step();
-            }
-            _ => {}
-        }
+        look(&record, &mut run, &mut watch, &mut builder);
         progress.at(run.steps());
         if interrupt::asked() {
             run.stop(End::Interrupted);
@@ -152,6 +142,56 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let troubled = if report.troubles().is_empty() { Exit::Good } else { Exit::Model };
     Ok(story.exit.max(scenarios).max(troubled))
 }
+
+/// The page of a run that is told beside, as the specification beside the model says; none where there is none.
+pub fn page_of(
+    shell: &mut Shell,
+    loaded: &mut Loaded,
+    model: &Path,
+    run: RunOf<'_>,
+) -> Result<Option<String>, Failure> {
+    let path = model.with_extension("report.yaml");
+    if !path.exists() {
+        return Ok(None);
+    }
+    let Some((mut builder, mut watch)) = prepare(shell, loaded, &path)? else { return Ok(None) };
+    let program = Arc::new(loaded.program.clone());
+    let mut run = run(&program);
+    let mut story = Story { invariants: invariants(&program, &loaded.sources), stopped: None, exit: Exit::Good };
+    while let Some(record) = run.advance() {
+        story.note(&record, &run, &program, &loaded.sources);
+        look(&record, &mut run, &mut watch, &mut builder);
+    }
+    let mut report = builder.finish(&program.name);
+    report.invariants = story.invariants;
+    report.stopped = story.stopped;
+    let fact = |label: &str, value: String| Fact { label: label.to_string(), value };
+    report.facts = vec![
+        fact("Model", model.display().to_string()),
+        fact("Run", "a counterexample of `groundstate verify`".to_string()),
+        fact("Fingerprint of all texts", groundstate::fingerprint(&loaded.sources)),
+        fact("Groundstate", env!("CARGO_PKG_VERSION").to_string()),
+    ];
+    Ok(Some(::report::render_html(&report)))
+}
+
+/// Shows a record of a run.
+fn look(record: &Record, run: &mut Run, watch: &mut Watch, builder: &mut ReportBuilder) {
+    match record {
+        Record::Initial { .. } => {
+            watch.look(run.machine_mut(), builder);
+            builder.begin();
+        }
+        Record::Step(_) => {
+            watch.look(run.machine_mut(), builder);
+            builder.step();
+        }
+        _ => {}
+    }
+}
+
+/// Makes a run of a program.
+pub type RunOf<'a> = &'a dyn Fn(&Arc<Program>) -> Run;
 
 /// The specification read, its terms checked; none where it has faults, which are then shown.
 fn prepare(shell: &mut Shell, loaded: &mut Loaded, path: &Path) -> Result<Option<(ReportBuilder, Watch)>, Failure> {

@@ -1,12 +1,16 @@
 //! The options that bound a search: how far it goes, and with which inputs.
 
+use std::path::{Path, PathBuf};
+
 use clap::Args;
 use groundstate::verify::Options;
 use program::Program;
+use syntax::Sources;
 
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::shell::Shell;
+use crate::verify::beside::{Beside, beside};
 use crate::verify::bound;
 use crate::verify::watch::Watch;
 
@@ -16,6 +20,9 @@ pub struct Bounded {
     /// The values that an input is tried with, as NAME=LOW..HIGH or NAME=VALUE,VALUE; may be repeated
     #[arg(long = "bound", value_name = "BOUND")]
     pub bounds: Vec<String>,
+    /// What is to be verified, and with which inputs; MODEL.verify.yaml beside the model unless given
+    #[arg(long, value_name = "FILE")]
+    pub spec: Option<PathBuf>,
     /// The most states
     #[arg(long, value_name = "N", value_parser = crate::limits::count)]
     pub max_states: Option<u64>,
@@ -31,14 +38,21 @@ pub struct Bounded {
 }
 
 impl Bounded {
+    /// What stands in the file beside a model; none after a fault.
+    pub fn beside(&self, shell: &mut Shell, sources: &mut Sources, model: &Path) -> Result<Option<Beside>, Failure> {
+        beside(shell, sources, self.spec.as_deref(), model)
+    }
+
     /// The options of a search, and who watches it.
-    pub fn options(&self, shell: &Shell, program: &Program) -> Result<(Options, Watch), Failure> {
+    pub fn options(&self, shell: &Shell, program: &Program, beside: &Beside) -> Result<(Options, Watch), Failure> {
+        let mut bounds = bound::read(program, &beside.bounds)?;
+        bounds.extend(bound::read(program, &self.bounds)?);
         let options = Options {
             limits: shell.global.limits.machine(),
             max_states: self.max_states.unwrap_or(u64::MAX),
             max_depth: self.depth.unwrap_or(u64::MAX),
             max_bytes: self.max_memory.saturating_mul(1 << 20),
-            bounds: bound::read(program, &self.bounds)?,
+            bounds,
             ..Options::default()
         };
         interrupt::listen();

@@ -1,16 +1,19 @@
-//! Counterexamples as files: scenarios that fail where they end, and traces to replay.
+//! Counterexamples as files: scenarios that fail where they end, traces to replay, and pages that show the run where a report
+//! specification stands beside the model.
 
 use std::io::Write;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
+use groundstate::Loaded;
 use groundstate::simulate::{End, Header, Invariants};
 use groundstate::verify::{Outcome, Report, Subject, Trace};
-use program::Program;
+use program::{Program, PropertyKind};
 use syntax::Sources;
 
 use crate::failure::Failure;
-use crate::files::Unfinished;
+use crate::files::{Unfinished, write_text};
+use crate::report::page_of;
 use crate::shell::Shell;
 use crate::tracefile::TraceFile;
 use crate::verify::tell::id;
@@ -20,16 +23,17 @@ use crate::wire::Wire;
 pub fn write(
     shell: &mut Shell,
     path: &Path,
-    model: &Path,
+    (model, fingerprint): (&Path, &str),
     program: &Arc<Program>,
-    sources: &Sources,
+    loaded: &mut Loaded,
     report: &Report,
 ) -> Result<(), Failure> {
     let violated = report.verdicts.iter().filter_map(|verdict| match &verdict.outcome {
         Outcome::Violated(trace) => Some((verdict.subject, trace.as_ref())),
         _ => None,
     });
-    let writer = Writer { model, program, sources };
+    let sources = loaded.sources.clone();
+    let writer = Writer { model, fingerprint, program, sources: &sources, properties: loaded.model.properties.len() };
     let mut written: Vec<PathBuf> = Vec::new();
     let kind = path.extension().and_then(|extension| extension.to_str());
     for (subject, trace) in violated {
@@ -54,6 +58,14 @@ pub fn write(
                 writer.scenario(shell, &scenario, trace, subject, &name)?;
                 writer.trace(shell, &file, trace, subject)?;
                 written.extend([scenario, file]);
+                let limits = shell.global.limits.machine();
+                let header = writer.header(trace, subject);
+                let run = |program: &Arc<Program>| groundstate::counterexample_run(program, limits, trace, &header);
+                if let Some(page) = page_of(shell, loaded, model, &run)? {
+                    let file = path.join(format!("{name}.html"));
+                    write_text(&file, &page)?;
+                    written.push(file);
+                }
             }
         }
     }
@@ -67,8 +79,11 @@ pub fn write(
 
 struct Writer<'a> {
     model: &'a Path,
+    fingerprint: &'a str,
     program: &'a Arc<Program>,
     sources: &'a Sources,
+    /// How many properties are the model's own.
+    properties: usize,
 }
 
 impl Writer<'_> {
@@ -84,21 +99,42 @@ impl Writer<'_> {
         let model = relative(self.model, folder);
         let name = name.replace('-', "_");
         let text = groundstate::counterexample_scenario(self.program, trace, subject, &name, &model);
+        let text = match subject {
+            Subject::Property(index) if index >= self.properties => self.with_invariant(&text, index),
+            _ => text,
+        };
         let mut file = Unfinished::create(path)?;
         file.write_all(text.as_bytes()).map_err(|error| Failure::of_file("write", path, error))?;
         file.finish()
     }
 
-    fn trace(&self, shell: &Shell, path: &Path, trace: &Trace, subject: Subject) -> Result<(), Failure> {
-        let stops = matches!(subject, Subject::Property(_));
-        let header = Header {
+    /// The scenario with an invariant that the model does not have.
+    fn with_invariant(&self, text: &str, index: usize) -> String {
+        let property = &self.program.properties[index];
+        match (property.kind, text.match_indices('\n').nth(1)) {
+            (PropertyKind::Invariant, Some((end, _))) => {
+                let (head, rest) = text.split_at(end + 1);
+                format!("{head}\ninvariant inv_asked: {};\n{rest}", property.name)
+            }
+            _ => text.to_string(),
+        }
+    }
+
+    fn header(&self, trace: &Trace, subject: Subject) -> Header {
+        // What was asked for besides is unknown to whoever replays the trace.
+        let stops = matches!(subject, Subject::Property(index) if index < self.properties);
+        Header {
             model: self.program.name.clone(),
             path: self.model.display().to_string(),
-            source: groundstate::fingerprint(self.sources),
+            source: self.fingerprint.to_string(),
             steps: Some(trace.steps.len() as u64),
             invariants: if stops { Invariants::Report } else { Invariants::Ignore },
             ..Header::default()
-        };
+        }
+    }
+
+    fn trace(&self, shell: &Shell, path: &Path, trace: &Trace, subject: Subject) -> Result<(), Failure> {
+        let header = self.header(trace, subject);
         let limits = shell.global.limits.machine();
         let mut run = groundstate::counterexample_run(self.program, limits, trace, &header);
         let mut file = TraceFile::create(path, false)?;

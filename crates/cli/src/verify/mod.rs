@@ -2,6 +2,7 @@
 //!
 //! Exit codes: 0 all hold, 1 something is violated, 3 nothing is violated but something is not known.
 
+mod beside;
 mod bound;
 mod bounded;
 mod counterexample;
@@ -15,6 +16,8 @@ use clap::Args;
 use groundstate::own_files;
 use groundstate::verify::temporal::fairness::AgentFairness;
 use groundstate::verify::{NoStart, Options, Outcome, Report, verify_fair};
+
+use program::PropertyKind;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -35,6 +38,15 @@ pub struct Arguments {
     /// How many workers search; as many as there are processors if not said
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=256))]
     workers: Option<u64>,
+    /// Another invariant; may be repeated
+    #[arg(long = "invariant", value_name = "TERM")]
+    invariants: Vec<String>,
+    /// Another formula over the CTL library, which the model imports; may be repeated
+    #[arg(long, value_name = "FORMULA")]
+    ctl: Vec<String>,
+    /// Another formula over the LTL library, which the model imports; may be repeated
+    #[arg(long, value_name = "FORMULA")]
+    ltl: Vec<String>,
     /// Stop at the first violation
     #[arg(long)]
     first: bool,
@@ -89,6 +101,9 @@ enum Fair {
     Strong,
 }
 
+/// What properties of the command line are shown under.
+const OPTIONS: [&str; 3] = ["--invariant", "--ctl", "--ltl"];
+
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let mut loaded = match load(shell, &arguments.model)? {
@@ -98,7 +113,30 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     if loaded.program.main.is_none() {
         return crate::run::no_main(shell, &loaded);
     }
-    let terminal = match &arguments.terminal {
+    // Of the model's texts alone, before those of options are added.
+    let fingerprint = groundstate::fingerprint(&loaded.sources);
+    let bounded = &arguments.bounded;
+    if arguments.engine == Engine::Bdd && (arguments.first || bounded.max_states.is_some() || bounded.depth.is_some()) {
+        return Err(Failure::usage_with_help(
+            "sets of states know no --first, --max-states or --depth",
+            "bound them by --max-memory and --time, or leave out --engine bdd",
+        ));
+    }
+    if arguments.counterexample.is_some() && arguments.model.as_os_str() == "-" {
+        return Err(Failure::usage("no scenario can load standard input: write the model to a file"));
+    }
+    let Some(beside) = bounded.beside(shell, &mut loaded.sources, &arguments.model)? else { return Ok(Exit::World) };
+    let said = [&arguments.invariants, &arguments.ctl, &arguments.ltl];
+    let kinds = [PropertyKind::Invariant, PropertyKind::Ctl, PropertyKind::Ltl];
+    for (((kind, option), said), beside) in kinds.into_iter().zip(OPTIONS).zip(said).zip(&beside.properties) {
+        for text in beside.iter().chain(said) {
+            if let Err(faults) = loaded.property(kind, option, text) {
+                shell.diagnostics(&loaded.sources, &faults)?;
+                return Ok(Exit::World);
+            }
+        }
+    }
+    let terminal = match arguments.terminal.as_ref().or(beside.terminal.as_ref()) {
         None => None,
         Some(text) => match loaded.condition("--terminal", text) {
             Ok(term) => Some(term),
@@ -108,10 +146,11 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
             }
         },
     };
-    let program = Arc::new(loaded.program);
-    let (root, users) = (loaded.model.root, own_files(&loaded.sources));
+    let program = Arc::new(loaded.program.clone());
+    let sources = loaded.sources.clone();
+    let (root, users) = (loaded.model.root, own_files(&sources));
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
-    let (options, mut watch) = arguments.bounded.options(shell, &program)?;
+    let (options, mut watch) = bounded.options(shell, &program, &beside)?;
     let options = Options {
         engine: arguments.engine.chosen(),
         workers: arguments.workers.map_or(processors, |workers| workers as usize),
@@ -120,7 +159,14 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         forgetful: arguments.forgetful,
         ..options
     };
-    let agents = arguments.fair.map(|fair| match fair {
+    let fair = match (arguments.fair, beside.fair.as_deref()) {
+        (None, Some(text)) => {
+            let fair = <Fair as clap::ValueEnum>::from_str(text, false);
+            Some(fair.map_err(|_| Failure::usage(format!("`fair: {text}` is neither weak nor strong")))?)
+        }
+        (fair, _) => fair,
+    };
+    let agents = fair.map(|fair| match fair {
         Fair::Weak => AgentFairness::Weak,
         Fair::Strong => AgentFairness::Strong,
     });
@@ -134,8 +180,8 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     report.unreachable.retain(|span| span.file == root || (arguments.imports && users(span.file)));
     teller.report(shell, &report)?;
     if let Some(path) = &arguments.counterexample {
-        let model = &arguments.model;
-        counterexample::write(shell, path, model, &program, &loaded.sources, &report)?;
+        let model = (arguments.model.as_path(), fingerprint.as_str());
+        counterexample::write(shell, path, model, &program, &mut loaded, &report)?;
     }
     Ok(exit(&report))
 }

@@ -286,7 +286,12 @@ impl Teller<'_> {
         match why {
             Why::Unexplored(Some(stop)) => self.reason(&Reason::Stopped(*stop)),
             Why::Unexplored(None) => "some alternatives cannot be gone through".to_string(),
-            Why::NoTruth => "a part of it is neither true nor false in some state".to_string(),
+            Why::NoTruth(span, values) => {
+                let values: Vec<String> = values.iter().map(|(location, value)| self.value(location, value)).collect();
+                let text: Vec<&str> = self.sources.text(*span).split_whitespace().collect();
+                let (part, place) = (text.join(" "), self.place(*span));
+                format!("`{part}` ({place}) is neither true nor false in the state {}", values.join(", "))
+            }
             Why::NoFairRun => "no run is fair".to_string(),
             Why::NoScheduler => "the main rule does not choose who moves".to_string(),
             Why::TooLarge(what, most) => format!("more than {most} {what}"),
@@ -301,7 +306,7 @@ impl Teller<'_> {
             Reason::Stopped(Stop::States) => "the limit of states is reached".to_string(),
             Reason::Stopped(Stop::Depth) => "the limit of depth is reached".to_string(),
             Reason::Stopped(Stop::Memory) => "the limit of memory is reached".to_string(),
-            Reason::Stopped(Stop::Found) => "another check is violated".to_string(),
+            Reason::Stopped(Stop::Found) => "the search ended at the first violation (--first)".to_string(),
             Reason::Stopped(Stop::Asked) if self.timed_out => "the time is up".to_string(),
             Reason::Stopped(Stop::Asked) => "interrupted".to_string(),
             Reason::Unbounded(unbounded) => self.unbounded(unbounded).message,

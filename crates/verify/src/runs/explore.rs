@@ -63,8 +63,8 @@ pub struct Explored {
     letters: Vec<Vec<u32>>,
     /// By label: what was chosen.
     pub choices: Vec<Vec<Value>>,
-    /// Propositions that are neither true nor false in some state.
-    pub undecided: Vec<bool>,
+    /// By proposition: a state in which it is neither true nor false, if there is one.
+    pub undecided: Vec<Option<u32>>,
     /// Why it is not complete, if a limit is the reason.
     pub stop: Option<Stop>,
     /// The first of the conditions on steps that are propositions.
@@ -111,7 +111,7 @@ struct Exploration<'s> {
     letter: BTreeMap<Vec<u32>, u32>,
     choices: Vec<Vec<Value>>,
     choice: BTreeMap<Vec<Value>, u32>,
-    undecided: Vec<bool>,
+    undecided: Vec<Option<u32>>,
     first_step: u32,
     stop: Option<Stop>,
 }
@@ -136,7 +136,7 @@ impl<'s> Exploration<'s> {
             letter: BTreeMap::new(),
             choices: Vec::new(),
             choice: BTreeMap::new(),
-            undecided: vec![false; source.propositions.len()],
+            undecided: vec![None; source.propositions.len()],
             first_step: steps.min().unwrap_or(u32::MAX),
             stop: None,
         }
@@ -267,7 +267,10 @@ impl<'s> Exploration<'s> {
         for (proposition, place) in self.source.propositions.iter().enumerate() {
             if let Place::Step(condition) = place {
                 let fails = |condition: usize| failed.contains(&(condition as u32));
-                self.undecided[proposition] |= fails(*condition) == fails(*condition + 1);
+                if fails(*condition) == fails(*condition + 1) {
+                    // The state being explored is the next whose rows end.
+                    self.undecided[proposition].get_or_insert(self.ends.len() as u32);
+                }
             }
         }
         self.letter.insert(failed.clone(), next);
@@ -327,7 +330,7 @@ impl<'s> Exploration<'s> {
                         Truth::True => true,
                         Truth::False => false,
                         Truth::Undef | Truth::Fault | Truth::Unknown => {
-                            self.undecided[number] = true;
+                            self.undecided[number].get_or_insert(index as u32);
                             false
                         }
                     },

@@ -12,7 +12,9 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use machine::explore::{Outcome as Came, Path, Settings, Told, Trouble};
+use machine::{Location, Value};
 use program::Program;
+use syntax::Span;
 
 use crate::graph::{Bits, Label};
 use crate::search::{Progress, Stop};
@@ -58,12 +60,12 @@ pub enum OfRuns {
 }
 
 /// Why it is not known whether a property of runs holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Why {
     /// States were left unexplored, by a limit or because alternatives cannot be gone through.
     Unexplored(Option<Stop>),
-    /// A proposition of it is neither true nor false in some state.
-    NoTruth,
+    /// A proposition of it is neither true nor false in some state: where it stands, and the values of that state.
+    NoTruth(Span, Vec<(Location, Value)>),
     /// No run is fair.
     NoFairRun,
     /// The main rule does not choose who moves, so that no choice of it could be fair.
@@ -85,10 +87,10 @@ pub fn decide(
     question: &Question,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Vec<(usize, OfRuns)>, Trouble> {
-    let all = |why| {
+    let all = |why: Why| {
         let temporal = |kind| matches!(kind, program::PropertyKind::Ctl | program::PropertyKind::Ltl);
         let formulas = program.properties.iter().enumerate().filter(|(_, property)| temporal(property.kind));
-        formulas.map(|(index, _)| (index, OfRuns::Unknown(why))).collect()
+        formulas.map(|(index, _)| (index, OfRuns::Unknown(why.clone()))).collect()
     };
     if question.agents.is_some() && scheduler(program).is_none() {
         return Ok(all(Why::NoScheduler));
@@ -105,7 +107,8 @@ pub fn decide(
     let mut stop = || !watch(&progress);
     let mut budget = Budget::new(Limits::default(), &mut stop);
     let verdicts = verdicts(&explored, &fairness, &properties, &mut budget);
-    Ok(verdicts.into_iter().map(|(index, verdict)| (index, told(verdict, &mut explored))).collect())
+    let spans: Vec<Span> = properties.propositions.iter().map(|proposition| proposition.span(program)).collect();
+    Ok(verdicts.into_iter().map(|(index, verdict)| (index, told(verdict, &mut explored, &spans))).collect())
 }
 
 fn verdicts(
@@ -113,17 +116,19 @@ fn verdicts(
     fairness: &Fairness,
     properties: &Properties,
     budget: &mut Budget<'_>,
-) -> Vec<(usize, Result<Verdict, Why>)> {
+) -> Vec<(usize, Result<Verdict, usize>)> {
     let checker = Checker::new(&explored.graph, fairness, budget);
     let assumed = properties.justice.iter().chain(properties.compassion.iter().flat_map(|(p, q)| [p, q]));
-    let assumed_undecided = assumed.into_iter().any(|number| explored.undecided[*number]);
+    let assumed_undecided = assumed.into_iter().find(|number| explored.undecided[**number].is_some());
     let decide = |formula: Formula| {
         let speaks_of = match formula {
             Formula::Ltl(formula) => propositions(&properties.ltl, formula),
             Formula::Ctl(formula) => propositions_of_ctl(&properties.ctl, formula),
         };
-        if assumed_undecided || speaks_of.iter().any(|number| explored.undecided[*number as usize]) {
-            return Err(Why::NoTruth);
+        let undecided =
+            speaks_of.iter().map(|number| *number as usize).find(|number| explored.undecided[*number].is_some());
+        if let Some(number) = assumed_undecided.copied().or(undecided) {
+            return Err(number);
         }
         let checker = match &checker {
             Ok(checker) => checker,
@@ -138,9 +143,13 @@ fn verdicts(
     properties.formulas.iter().map(|(index, formula)| (*index, decide(*formula))).collect()
 }
 
-fn told(verdict: Result<Verdict, Why>, explored: &mut Explored) -> OfRuns {
+fn told(verdict: Result<Verdict, usize>, explored: &mut Explored, propositions: &[Span]) -> OfRuns {
     match verdict {
-        Err(why) => OfRuns::Unknown(why),
+        Err(number) => {
+            let state = explored.undecided[number].map(|state| explored.states[state as usize].clone());
+            let values = state.map(|state| explored.explorer.values(&state)).unwrap_or_default();
+            OfRuns::Unknown(Why::NoTruth(propositions[number], values))
+        }
         Ok(Verdict::Holds { vacuous: false }) => OfRuns::Holds,
         Ok(Verdict::Holds { vacuous: true }) => OfRuns::Unknown(Why::NoFairRun),
         Ok(Verdict::Violated { run, whole }) => {

@@ -1,0 +1,93 @@
+//! `MODEL.verify.yaml`: what is to be verified of a model, and with which inputs, in a file beside it.
+//!
+//! In: the file, if it is there. Out: a [`Beside`]. What the command line says of an input or of `terminal` and `fair` counts
+//! before it; properties are added to those of the model.
+
+use std::path::{Path, PathBuf};
+
+use syntax::{Diagnostic, SourceFile, Sources, Span};
+
+use crate::failure::Failure;
+use crate::files::read_text;
+use crate::report::node::{Key, Node, Shape, read};
+use crate::shell::Shell;
+
+/// What the file says.
+#[derive(Debug, Default)]
+pub struct Beside {
+    /// As `--bound` takes them.
+    pub bounds: Vec<String>,
+    pub terminal: Option<String>,
+    pub fair: Option<String>,
+    /// Invariants, CTL and LTL formulas.
+    pub properties: [Vec<String>; 3],
+}
+
+/// Where the file of a model is.
+pub fn path_of(model: &Path) -> PathBuf {
+    model.with_extension("verify.yaml")
+}
+
+/// Reads the file named, or the one beside the model if there is one; none after a fault, which is shown.
+pub fn beside(
+    shell: &mut Shell,
+    sources: &mut Sources,
+    named: Option<&Path>,
+    model: &Path,
+) -> Result<Option<Beside>, Failure> {
+    let path = named.map_or_else(|| path_of(model), Path::to_path_buf);
+    let text = match read_text(&path, shell.global.limits.max_file_size) {
+        Err(Failure::Missing(_)) if named.is_none() => return Ok(Some(Beside::default())),
+        read => read?,
+    };
+    let file = sources.add(SourceFile::new(path.display().to_string(), text.as_str()));
+    match read(file, &text).and_then(|root| understood(&root)) {
+        Ok(beside) => Ok(Some(beside)),
+        Err(mut fault) => {
+            fault.id = "bad-verification-file";
+            shell.diagnostic(sources, &fault)?;
+            Ok(None)
+        }
+    }
+}
+
+fn fault(span: Span, message: impl Into<String>) -> Box<Diagnostic> {
+    Box::new(Diagnostic::error("bad-verification-file", span, message.into()))
+}
+
+fn understood(root: &Node) -> Result<Beside, Box<Diagnostic>> {
+    let mut beside = Beside::default();
+    let entries = match &root.shape {
+        Shape::Map(entries) => entries,
+        Shape::Text(text) if text.is_empty() => return Ok(beside),
+        _ => return Err(fault(root.span, "a mapping is expected: bounds, terminal, fair, invariants, ctl, ltl")),
+    };
+    for (Key { text: key, span }, node) in entries {
+        match key.as_str() {
+            "bounds" => {
+                let Shape::Map(inputs) = &node.shape else {
+                    return Err(fault(node.span, "a mapping of inputs to values is expected"));
+                };
+                for (input, values) in inputs {
+                    beside.bounds.push(format!("{}={}", input.text, texts(values)?.join(",")));
+                }
+            }
+            "terminal" => beside.terminal = Some(texts(node)?.join(" ")),
+            "fair" => beside.fair = Some(texts(node)?.join(" ")),
+            "invariants" => beside.properties[0] = texts(node)?,
+            "ctl" => beside.properties[1] = texts(node)?,
+            "ltl" => beside.properties[2] = texts(node)?,
+            other => return Err(fault(*span, format!("`{other}` says nothing here"))),
+        }
+    }
+    Ok(beside)
+}
+
+/// A text, or a list of texts.
+fn texts(node: &Node) -> Result<Vec<String>, Box<Diagnostic>> {
+    match &node.shape {
+        Shape::Text(text) => Ok(vec![text.clone()]),
+        Shape::List(items) => items.iter().map(|item| texts(item).map(|texts| texts.join(","))).collect(),
+        Shape::Map(_) => Err(fault(node.span, "a text or a list of texts is expected")),
+    }
+}
