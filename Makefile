@@ -7,7 +7,7 @@ GROUNDSTATE := target/release/groundstate
 TESTED := target/debug/groundstate
 MODELS := library/patterns library/runtime examples
 
-.PHONY: help demo test lint unit scenarios verify cpp robot fuzz bench bench-cpp corpus update clean
+.PHONY: help demo test lint unit scenarios verify cpp systems robot fuzz bench bench-cpp corpus update clean
 
 help: ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*##/\t/' | expand -t 12
@@ -15,11 +15,11 @@ help: ## this list
 demo: $(GROUNDSTATE) ## check the library, run the complete controller for a second, test every scenario, write out/report.html
 	@GROUNDSTATE=$(GROUNDSTATE) sh docs/demo.sh
 
-test: lint unit scenarios cpp robot fuzz ## everything that must hold before a change lands
+test: lint unit scenarios cpp systems robot fuzz ## everything that must hold before a change lands
 
 lint: $(TESTED)
 	$(CARGO) fmt --all --check
-	$(TESTED) fmt --check library examples bench/models
+	$(TESTED) fmt --check library examples bench/models cpp/systems
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
 
 unit:
@@ -35,6 +35,9 @@ verify: $(GROUNDSTATE) ## the pattern library's properties in every state, its s
 
 cpp: ## the C++ runtime and the cameras: their tests as they are and under the sanitizers
 	sh cpp/run.sh
+
+systems: $(TESTED) ## programs generated from systems: run, held to their models, with faults put in
+	sh cpp/systems/run.sh $(TESTED)
 
 robot: ## the robots: servo law, vision, kinematics, and the controllers in closed loop
 	sh examples/robot.sh

@@ -1,4 +1,4 @@
-//! Embeds the pages of spec/faults/, so that the installed command needs no other file.
+//! Embeds the pages of spec/faults/ and the headers of the C++ runtime, so that the installed command needs no other file.
 
 #![allow(clippy::disallowed_methods, clippy::disallowed_macros, reason = "a build script works on files")]
 
@@ -7,25 +7,33 @@ use std::path::Path;
 use std::{env, fs};
 
 fn main() {
+    embed("../../spec/faults", ".md", "PAGES", "fault_pages.rs");
+    embed("../../cpp/include/groundstate", ".hpp", "HEADERS", "runtime_headers.rs");
+}
+
+/// A constant of names and texts of the files of a folder that have this ending; those of pages without it.
+fn embed(folder: &str, ending: &str, constant: &str, to: &str) {
     let root = env::var("CARGO_MANIFEST_DIR").expect("cargo sets it");
-    let folder = Path::new(&root).join("../../spec/faults");
+    let folder = Path::new(&root).join(folder);
     println!("cargo::rerun-if-changed={}", folder.display());
-    let mut pages: Vec<(String, String)> = fs::read_dir(&folder)
+    let mut files: Vec<(String, String)> = fs::read_dir(&folder)
         .into_iter()
         .flatten()
         .filter_map(|entry| {
             let path = entry.ok()?.path();
-            let id = path.file_name()?.to_str()?.strip_suffix(".md")?.to_string();
-            Some((id, fs::canonicalize(&path).ok()?.to_str()?.to_string()))
+            let name = path.file_name()?.to_str()?;
+            let id = name.strip_suffix(ending)?;
+            let name = if ending == ".md" { id } else { name }.to_string();
+            Some((name, fs::canonicalize(&path).ok()?.to_str()?.to_string()))
         })
         .filter(|(id, _)| id != "README")
         .collect();
-    pages.sort();
-    let mut code = String::from("const PAGES: &[(&str, &str)] = &[\n");
-    for (id, path) in &pages {
+    files.sort();
+    let mut code = format!("const {constant}: &[(&str, &str)] = &[\n");
+    for (id, path) in &files {
         let _ = writeln!(code, "    ({id:?}, include_str!({path:?})),");
     }
     code.push_str("];\n");
     let out = env::var("OUT_DIR").expect("cargo sets it");
-    fs::write(Path::new(&out).join("fault_pages.rs"), code).expect("the build folder can be written");
+    fs::write(Path::new(&out).join(to), code).expect("the build folder can be written");
 }

@@ -26,7 +26,7 @@ class AsynchronousTask {
           available_{std::move(available)},
           step_{std::move(step)},
           trigger_{clock},
-          watchdog_{patience_ns},
+          watchdog_{patience_ns, schedule.grain_ns},
           thread_{clock, std::move(name), schedule} {
         assert(patience_ns > 0);
     }
@@ -58,6 +58,7 @@ class AsynchronousTask {
     const Statistics& statistics() const noexcept { return statistics_; }
     const Watchdog& watchdog() const noexcept { return watchdog_; }
     const TaskThread<C>& thread() const noexcept { return thread_; }
+    TaskThread<C>& thread() noexcept { return thread_; }
 
   private:
     void run() {

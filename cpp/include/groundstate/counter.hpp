@@ -12,6 +12,9 @@ namespace groundstate {
 /// A number with one writer and any number of readers.
 class Counter {
   public:
+    Counter() noexcept = default;
+    explicit Counter(std::int64_t value) noexcept : value_{value} {}
+
     /// Who: the one writer. Blocks: no.
     void add(std::int64_t amount = 1) noexcept { set(value() + amount); }
 

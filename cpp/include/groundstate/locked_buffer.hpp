@@ -17,6 +17,7 @@
 
 #include <array>
 
+#include "observer.hpp"
 #include "semaphore.hpp"
 #include "signal.hpp"
 #include "swinging_buffer.hpp"
@@ -27,14 +28,14 @@ namespace groundstate {
 enum class Master { writer, reader };
 
 /// A swinging buffer of `N` arrays of `T` between one producer and one consumer, of which one is the master.
-template <class T, std::size_t N, Master master, Clock C>
+template <class T, std::size_t N, Master master, Clock C, class Observer = Unobserved>
 class LockedBuffer {
     static_assert(N >= 2, "one array to write, one to read");
 
   public:
     using Datum = T;
 
-    explicit LockedBuffer(C& clock) : clock_{clock}, lock_{clock} {}
+    explicit LockedBuffer(C& clock, Observer observer = {}) : observer_{observer}, clock_{clock}, lock_{clock} {}
 
     LockedBuffer(const LockedBuffer&) = delete;
     LockedBuffer& operator=(const LockedBuffer&) = delete;
@@ -50,11 +51,20 @@ class LockedBuffer {
     /// The signal is raised when there is something new to read. Who: before the tasks start.
     void wakes(Signal<C>& trigger) noexcept { trigger_ = &trigger; }
 
+    /// The array that the next writing is to, to prepare the datum in place before. What is left there without being
+    /// written and published is handed over to nobody.
+    /// Who: the producer, if it is the master: nobody else moves the index. Blocks: no.
+    T& own() noexcept
+        requires(master == Master::writer)
+    {
+        return arrays_[index_write_].datum;
+    }
+
     /// Begins to write. The datum is as it was left there N swaps ago.
     /// Who: the producer. Blocks: a master no; a slave until its watchdog. Allocates: no.
     Writing<LockedBuffer> write(Watchdog& watchdog) noexcept {
         if constexpr (master == Master::reader) {
-            if (!lock_.acquire(producer, watchdog)) {
+            if (!take(Side::producer, watchdog)) {
                 dropped_.add();
                 return {};
             }
@@ -65,28 +75,31 @@ class LockedBuffer {
                 offered_.store(arrays_[index_read_].sequence, std::memory_order_relaxed);
             }
         }
+        observer_.writes(index_write_, static_cast<std::uint64_t>(written_.value()) + 1);
         return {*this, arrays_[index_write_], watchdog};
     }
 
     /// Begins to read. Who: the consumer. Blocks: until its watchdog. Allocates: no.
     /// Worst case without contention: a master two exchanges, a slave one, and one when it ends.
     Reading<LockedBuffer> read(Watchdog& watchdog) noexcept {
-        if (!lock_.acquire(consumer, watchdog)) {
+        if (!take(Side::consumer, watchdog)) {
             missed_.add();
             if constexpr (master == Master::writer) {
                 return {};
             }
         } else if constexpr (master == Master::reader) {
             swap();
-            lock_.release();
+            give_back(Side::consumer);
         }
-        const std::uint64_t number = arrays_[index_read_].sequence;
+        const std::size_t index = observer_.seeded(Fault::stale_read) ? (index_read_ + N - 1) % N : index_read_;
+        const std::uint64_t number = arrays_[index].sequence;
         const bool fresh = number != received_.load(std::memory_order_relaxed);
         if (fresh) {
             received_.store(number, std::memory_order_relaxed);
             read_.add();
         }
-        return {*this, number != 0 ? &arrays_[index_read_] : nullptr, fresh};
+        observer_.reads(index, number, fresh);
+        return {*this, number != 0 ? &arrays_[index] : nullptr, fresh};
     }
 
     /// Reading now would give something new. Who: the consumer. Blocks: no.
@@ -116,6 +129,30 @@ class LockedBuffer {
     static constexpr int producer = 0;
     static constexpr int consumer = 1;
 
+    [[nodiscard]] bool take(Side side, Watchdog& watchdog) noexcept {
+        if (observer_.seeded(Fault::lock_not_taken)) {
+            return true;
+        }
+        observer_.asks(side);
+        Watchdog endless{never_ns / 2};
+        Watchdog& bound = observer_.seeded(Fault::watchdog_ignored) ? endless : watchdog;
+        const bool granted = lock_.acquire(side == Side::producer ? producer : consumer, bound);
+        if (granted) {
+            observer_.enters(side);
+        } else {
+            observer_.gives_up(side);
+        }
+        return granted;
+    }
+
+    void give_back(Side side) noexcept {
+        if (observer_.seeded(Fault::lock_not_taken)) {
+            return;
+        }
+        observer_.releases(side);
+        lock_.release();
+    }
+
     // Ends a writing. Blocks: a master until its watchdog, a slave no. Worst case without contention: two exchanges.
     bool hand_over(std::int64_t stamp_ns, Watchdog& watchdog) noexcept {
         Array<T>& array = arrays_[index_write_];
@@ -124,14 +161,14 @@ class LockedBuffer {
         array.stamp_ns = stamp_ns;
         pending_ = true;
         if constexpr (master == Master::writer) {
-            if (!lock_.acquire(producer, watchdog)) {
+            if (!take(Side::producer, watchdog)) {
                 return false;
             }
             swap();
         }
         // SYNC(offer): relaxed, before the signal: who is woken by it sees it (SYNC(sleeper)).
         offered_.store(array.sequence, std::memory_order_relaxed);
-        lock_.release();
+        give_back(Side::producer);
         if (trigger_ != nullptr) {
             trigger_->raise();
         }
@@ -141,27 +178,32 @@ class LockedBuffer {
     void withdraw() noexcept {
         withdrawn_.add();
         if constexpr (master == Master::reader) {
-            lock_.release();
+            give_back(Side::producer);
         }
     }
 
     void end_read() noexcept {
         if constexpr (master == Master::writer) {
-            lock_.release();
+            give_back(Side::consumer);
         }
     }
 
     // The index section; its caller, the master, is inside the lock.
     void swap() noexcept {
-        if (!std::exchange(pending_, false)) {
-            return;
+        if (!observer_.seeded(Fault::index_not_swapped) && std::exchange(pending_, false)) {
+            move_indexes();
         }
+        observer_.managed();
+    }
+
+    void move_indexes() noexcept {
         if (arrays_[index_read_].sequence != received_.load(std::memory_order_relaxed)) {
             unread_.add();
         }
         index_read_ = index_write_;
         index_write_ = (index_write_ + 1) % N;
         handed_over_.add();
+        observer_.swaps(index_read_, index_write_, arrays_[index_read_].sequence);
     }
 
     // Behind the array read lie those handed over before, up to the one that is written, the next in the ring.
@@ -170,6 +212,7 @@ class LockedBuffer {
         return back + 2 <= N && array.sequence != 0 ? &array.datum : nullptr;
     }
 
+    [[no_unique_address]] Observer observer_;
     C& clock_;
     Semaphore<C> lock_;
     Signal<C>* trigger_ = nullptr;

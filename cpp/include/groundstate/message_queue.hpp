@@ -12,18 +12,20 @@
 #include <type_traits>
 #include <utility>
 
+#include "observer.hpp"
 #include "signal.hpp"
 #include "watchdog.hpp"
 
 namespace groundstate {
 
 /// At most `Capacity` messages between one sender and one receiver.
-template <class T, std::size_t Capacity, Clock C>
+template <class T, std::size_t Capacity, Clock C, class Observer = Unobserved>
 class MessageQueue {
     static_assert(Capacity > 0);
 
   public:
-    explicit MessageQueue(C& clock) noexcept : clock_{clock}, room_{clock} {}
+    explicit MessageQueue(C& clock, Observer observer = {}) noexcept
+        : observer_{observer}, clock_{clock}, room_{clock} {}
 
     MessageQueue(const MessageQueue&) = delete;
     MessageQueue& operator=(const MessageQueue&) = delete;
@@ -34,8 +36,9 @@ class MessageQueue {
     /// Appends a message, or refuses it if the queue is full. Who: the sender. Blocks: no. Allocates: only if assigning
     /// a T does. Worst case: one assignment of a T, and one system call if the receiver waits.
     bool try_send(const T& message) noexcept(std::is_nothrow_copy_assignable_v<T>) {
+        observer_.looks();
         if (full()) {
-            refused_.add();
+            refuse();
             return false;
         }
         append(message);
@@ -45,8 +48,9 @@ class MessageQueue {
     /// Appends a message; waits for room until the watchdog's budget is used up, then refuses it.
     /// Who: the sender. Blocks: at most for the budget. Allocates: only if assigning a T does.
     bool send(const T& message, Watchdog& watchdog) noexcept(std::is_nothrow_copy_assignable_v<T>) {
+        observer_.looks();
         if (full() && !await_room(watchdog)) {
-            refused_.add();
+            refuse();
             watchdog.skip();
             return false;
         }
@@ -58,10 +62,12 @@ class MessageQueue {
     /// system call if the sender waits for room.
     std::optional<T> receive() noexcept(std::is_nothrow_move_constructible_v<T>) {
         if (empty()) {
+            observer_.takes(0);
             return std::nullopt;
         }
         const std::uint64_t taken = taken_.load(std::memory_order_relaxed);
         std::optional<T> message{std::move(slots_[taken % Capacity])};
+        observer_.takes(taken + 1);
         // SYNC(taken): release, after the slot was read; pairs with the acquire in full().
         taken_.store(taken + 1, std::memory_order_release);
         room_.raise();
@@ -86,9 +92,15 @@ class MessageQueue {
     std::int64_t refused() const noexcept { return refused_.value(); }
 
   private:
+    void refuse() noexcept {
+        observer_.refuses();
+        refused_.add();
+    }
+
     void append(const T& message) {
         const std::uint64_t sent = sent_.load(std::memory_order_relaxed);
         slots_[sent % Capacity] = message;
+        observer_.sends(sent + 1);
         // SYNC(sent): release, after the slot was written; pairs with the acquire in empty().
         sent_.store(sent + 1, std::memory_order_release);
         if (trigger_ != nullptr) {
@@ -111,6 +123,7 @@ class MessageQueue {
         return room;
     }
 
+    [[no_unique_address]] Observer observer_;
     C& clock_;
     Signal<C> room_;
     Signal<C>* trigger_ = nullptr;

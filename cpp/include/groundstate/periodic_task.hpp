@@ -21,7 +21,7 @@ struct Period {
     std::int64_t period_ns = 0;
     std::int64_t offset_ns = 0;
     std::int64_t deadline_ns = 0;     ///< from when a cycle is due; 0: the period
-    std::int64_t elaboration_ns = 0;  ///< a cycle's time without any waiting; what is left of the period may be waited
+    std::int64_t elaboration_ns = 0;  ///< a cycle's time without any waiting; what is left until the deadline may be waited
     Late late = Late::catch_up;
 };
 
@@ -34,7 +34,8 @@ class PeriodicTask {
         : clock_{clock},
           period_{period},
           step_{std::move(step)},
-          watchdog_{period.period_ns - period.elaboration_ns},
+          grain_ns_{schedule.grain_ns},
+          watchdog_{allowed_ns() - period.elaboration_ns, schedule.grain_ns},
           thread_{clock, std::move(name), schedule} {
         assert(period.period_ns > 0 && period.elaboration_ns >= 0 && period.offset_ns >= 0);
     }
@@ -61,20 +62,30 @@ class PeriodicTask {
     const Statistics& statistics() const noexcept { return statistics_; }
     const Watchdog& watchdog() const noexcept { return watchdog_; }
     const TaskThread<C>& thread() const noexcept { return thread_; }
+    TaskThread<C>& thread() noexcept { return thread_; }
 
   private:
+    std::int64_t allowed_ns() const noexcept {
+        return period_.deadline_ns > 0 ? period_.deadline_ns : period_.period_ns;
+    }
+
+    std::int64_t now_ns() const noexcept {
+        const std::int64_t now_ns = clock_.now_ns();
+        return now_ns - now_ns % grain_ns_;
+    }
+
     void run(std::int64_t due_ns) {
-        const std::int64_t allowed_ns = period_.deadline_ns > 0 ? period_.deadline_ns : period_.period_ns;
+        const std::int64_t allowed_ns = this->allowed_ns();
         for (std::int64_t number = 0;; ++number) {
             clock_.sleep_until_ns(due_ns);
             if (stop_.load(std::memory_order_relaxed)) {
                 return;
             }
             watchdog_.restart();
-            const std::int64_t begun_ns = clock_.now_ns();
+            const std::int64_t begun_ns = now_ns();
             step_({.number = number, .start_ns = due_ns, .deadline_ns = due_ns + allowed_ns, .watchdog = watchdog_});
-            account(due_ns, begun_ns, clock_.now_ns(), allowed_ns);
-            due_ns = next_ns(due_ns, clock_.now_ns());
+            account(due_ns, begun_ns, now_ns(), allowed_ns);
+            due_ns = next_ns(due_ns, now_ns());
         }
     }
 
@@ -102,6 +113,7 @@ class PeriodicTask {
     C& clock_;
     Period period_;
     Step step_;
+    std::int64_t grain_ns_;
     Watchdog watchdog_;
     Statistics statistics_{};
     std::atomic<bool> stop_{false};

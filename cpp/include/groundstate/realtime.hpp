@@ -7,6 +7,8 @@
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace groundstate {
 
@@ -24,9 +26,14 @@ struct Granted {
     Grant processor = Grant::not_asked;
 };
 
-/// Keeps all memory of the process, present and to come, from being paged out.
+/// Keeps all memory of the process, present and to come, from being paged out. Where so much memory may be locked and no
+/// more, it is refused: what is allocated later, the stack of a thread for one, would be refused instead.
 /// Who: once, at the start. Blocks: while the memory is brought in.
 inline Grant lock_memory() noexcept {
+    rlimit limit{};
+    if (geteuid() != 0 && getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+        return Grant::refused;
+    }
     return mlockall(MCL_CURRENT | MCL_FUTURE) == 0 ? Grant::granted : Grant::refused;
 }
 

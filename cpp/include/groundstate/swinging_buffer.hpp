@@ -107,6 +107,9 @@ class [[nodiscard]] Reading {
     }
 
     explicit operator bool() const noexcept { return array_ != nullptr; }
+    /// There was an access, if only to find that nothing was handed over yet; false: the watchdog ended before the lock
+    /// came.
+    bool attempted() const noexcept { return buffer_ != nullptr; }
     const Datum& operator*() const noexcept { return *operator->(); }
     const Datum* operator->() const noexcept {
         assert(array_ != nullptr && "nothing to read");

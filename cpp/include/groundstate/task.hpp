@@ -32,6 +32,7 @@ using Step = std::function<void(const Cycle&)>;
 struct Schedule {
     Realtime realtime{};
     int rank = 0;
+    std::int64_t grain_ns = 1;  ///< what times are whole multiples of: a tick, where virtual time follows a model's
 };
 
 /// What is known of a task's cycles since its start; each number is whole. One writer, the task.
@@ -88,6 +89,14 @@ class TaskThread {
     void join() noexcept {
         if (thread_.joinable()) {
             thread_.join();
+        }
+    }
+
+    /// Waits no longer for a body that does not end: its thread goes on by itself until the process ends.
+    /// Who: the owner. What the body uses must stay; so this is for a program that is about to end.
+    void abandon() noexcept {
+        if (thread_.joinable()) {
+            thread_.detach();
         }
     }
 

@@ -11,21 +11,23 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
 
+#include "observer.hpp"
 #include "signal.hpp"
 #include "swinging_buffer.hpp"
 
 namespace groundstate {
 
 /// A swinging buffer of `N` arrays of `T` between one producer and one consumer, of which neither waits.
-template <class T, std::size_t N, Clock C>
+template <class T, std::size_t N, Clock C, class Observer = Unobserved>
 class WaitFreeBuffer {
     static_assert(N >= 3 && N <= 128, "one array to write, one to read, and one between them");
 
   public:
     using Datum = T;
 
-    explicit WaitFreeBuffer(C& clock) : clock_{clock} {
+    explicit WaitFreeBuffer(C& clock, Observer observer = {}) : observer_{observer}, clock_{clock} {
         for (std::size_t i = 0; i < kept; ++i) {
             held_[i] = static_cast<Index>(i + 2);
         }
@@ -45,6 +47,10 @@ class WaitFreeBuffer {
     /// The signal is raised when there is something new to read. Who: before the tasks start.
     void wakes(Signal<C>& trigger) noexcept { trigger_ = &trigger; }
 
+    /// The array that the next writing is to, to prepare the datum in place before. What is left there without being
+    /// written and published is handed over to nobody. Who: the producer. Blocks: no.
+    T& own() noexcept { return arrays_[written_array_].datum; }
+
     /// Begins to write, in place; the datum is an earlier one. Always succeeds.
     /// Who: the producer. Blocks: no. Allocates: no. Worst case: a few instructions.
     /// Publishing it: one atomic exchange, one read of the clock, and one system call if the consumer waits.
@@ -60,6 +66,9 @@ class WaitFreeBuffer {
             // one. Release: the array given back was read before this exchange, and is written after the producer's.
             held_[newest_] = between_.exchange(held_[newest_], std::memory_order_acq_rel) & index_mask;
             read_.add();
+        }
+        if constexpr (!std::is_same_v<Observer, Unobserved>) {
+            observer_.loads(read_.value() != 0 ? arrays_[held_[newest_]].sequence : 0, fresh);
         }
         // The array itself is not looked at: it may still be in the cache of the producer's processor.
         return {*this, read_.value() != 0 ? &arrays_[held_[newest_]] : nullptr, fresh};
@@ -100,6 +109,7 @@ class WaitFreeBuffer {
         written_.add();
         array.sequence = static_cast<std::uint64_t>(written_.value());
         array.stamp_ns = stamp_ns;
+        observer_.stores(array.sequence);
         // SYNC(exchange): release: the datum was written before this exchange, and is read after the consumer's.
         // Acquire: what comes back was read before the consumer's exchange, and is written after this one.
         const Index back =
@@ -123,6 +133,7 @@ class WaitFreeBuffer {
         return back < kept && array.sequence != 0 ? &array.datum : nullptr;
     }
 
+    [[no_unique_address]] Observer observer_;
     std::array<Array<T>, N> arrays_{};
 
     // INVARIANT: written_array_, between_ and held_ name each array once.

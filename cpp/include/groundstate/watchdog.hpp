@@ -16,8 +16,10 @@ namespace groundstate {
 class Watchdog {
   public:
     /// The time that one cycle may spend waiting; 0 tries once and never waits.
-    explicit Watchdog(std::int64_t budget_ns) noexcept : budget_ns_{budget_ns} {
-        assert(budget_ns >= 0 && budget_ns < never_ns);
+    /// A wait takes whole grains off the budget, where a grain is a tick of a model that is followed in virtual time.
+    explicit Watchdog(std::int64_t budget_ns, std::int64_t grain_ns = 1) noexcept
+        : budget_ns_{budget_ns}, grain_ns_{grain_ns} {
+        assert(budget_ns >= 0 && budget_ns < never_ns && grain_ns > 0);
     }
 
     /// A new cycle has the whole budget again. Who: the task. Blocks: no.
@@ -28,6 +30,9 @@ class Watchdog {
 
     /// Takes a wait off the budget. Who: the task. Blocks: no.
     void waited(std::int64_t span_ns) noexcept {
+        if (grain_ns_ > 1) {
+            span_ns = (span_ns + grain_ns_ - 1) / grain_ns_ * grain_ns_;
+        }
         waited_ns_ += span_ns;
         total_wait_ns_.add(span_ns);
         longest_wait_ns_.raise_to(waited_ns_);
@@ -45,6 +50,7 @@ class Watchdog {
 
   private:
     std::int64_t budget_ns_;
+    std::int64_t grain_ns_;
     std::int64_t waited_ns_ = 0;
     Counter total_wait_ns_{};
     Counter longest_wait_ns_{};

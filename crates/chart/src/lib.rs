@@ -8,6 +8,7 @@
 pub mod build;
 pub mod draw;
 pub mod export;
+pub mod generate;
 pub mod import;
 
 mod chart;

@@ -77,6 +77,8 @@ impl Timing {
 pub struct Phase {
     /// The name.
     pub name: String,
+    /// What is read, written or elaborated, by the word in the text.
+    pub subject: String,
     /// What it does.
     pub action: Action,
     /// How long it takes, in ticks, without waiting for a lock.

@@ -13,6 +13,7 @@
 mod bench;
 mod chart;
 mod check;
+mod conform;
 mod coverage;
 mod dump;
 mod engine;
@@ -21,6 +22,7 @@ mod explain;
 mod failure;
 mod files;
 mod fmt;
+mod generate;
 mod generate_tests;
 mod inputs;
 mod interrupt;
@@ -83,6 +85,10 @@ enum Command {
     Report(Box<report::Arguments>),
     /// Draw charts, build models from them, compare the two, extract charts from models
     Chart(chart::Arguments),
+    /// Write the program that a model or a chart stands for
+    Generate(generate::Arguments),
+    /// Hold the recorded events of a generated program against its model
+    Conform(conform::Arguments),
     /// Show what a stage hands to the next
     Dump(dump::Arguments),
     /// Explain a kind of fault by its name
@@ -130,6 +136,8 @@ fn work(arguments: Arguments) -> Exit {
         Command::Replay(arguments) => replay::run(&mut shell, &arguments),
         Command::Report(arguments) => report::run(&mut shell, &arguments),
         Command::Chart(arguments) => chart::run(&mut shell, &arguments),
+        Command::Generate(arguments) => generate::run(&mut shell, &arguments),
+        Command::Conform(arguments) => conform::run(&mut shell, &arguments),
         Command::Dump(arguments) => dump::run(&mut shell, &arguments),
         Command::Explain(arguments) => explain::run(&mut shell, &arguments),
         Command::Fmt(arguments) => fmt::run(&mut shell, &arguments),

@@ -8,7 +8,7 @@ mod known;
 mod merge;
 mod module;
 mod rule;
-mod system;
+pub(crate) mod system;
 
 pub use known::{Known, Unknown};
 pub(crate) use module::{call, function_name, rule_name, state_value};

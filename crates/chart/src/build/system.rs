@@ -15,7 +15,7 @@ use crate::fault;
 use crate::system::{Action, ChannelKind, Component, System, Timing};
 
 /// What of a system is not built yet.
-pub(super) fn unbuilt(system: &System) -> Vec<Diagnostic> {
+pub(crate) fn unbuilt(system: &System) -> Vec<Diagnostic> {
     let late = system.components.iter().filter(|component| match component.timing {
         Timing::Synchronous { period, deadline, .. } => period < deadline,
         Timing::Asynchronous { .. } => false,
@@ -159,7 +159,7 @@ fn tasks(system: &System, define: &mut impl FnMut(&str, &str)) {
 }
 
 /// The ticks of a cycle without waiting: a slave's access takes one more than its time, a master's two.
-fn busy(system: &System, component: &Component) -> u64 {
+pub(crate) fn busy(system: &System, component: &Component) -> u64 {
     let index = system.components.iter().position(|known| known.name == component.name);
     let one = |phase: &crate::system::Phase| match phase.action {
         Action::Read(channel) | Action::Write(channel) => match system.channels[channel].kind {

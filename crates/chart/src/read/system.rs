@@ -216,7 +216,13 @@ impl Reader {
                 self.faults.push(fault::duplicate(span, "phase", &name, first.span));
             }
             let time = phase.time().map_or(1, |quantity| self.ticks(&quantity, system.tick_ns));
-            system.components[index].phases.push(Phase { name, action, time, span });
+            system.components[index].phases.push(Phase {
+                name,
+                subject: subject.text().to_string(),
+                action,
+                time,
+                span,
+            });
         }
     }
 

@@ -1,0 +1,313 @@
+// A writer of MCAP files, the container of the robotics field (https://mcap.dev/spec): what Foxglove and Rerun open.
+//
+// Uncompressed chunks with their message indexes, then the summary: schemas, channels, statistics, chunk and metadata
+// indexes, offsets. A file that ends early, the disk being full, holds whole chunks and no summary; readers that go
+// through it from the front find all that was written. Numbers are little endian, as the machines this runs on.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace groundstate {
+
+/// An MCAP file that is being written. One thread; allocates.
+class McapFile {
+    static_assert(std::endian::native == std::endian::little);
+
+  public:
+    using Map = std::vector<std::pair<std::string, std::string>>;
+
+    /// Creates the file. What fails is told by `error`.
+    explicit McapFile(const std::string& path) : file_{open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)} {
+        if (file_ < 0) {
+            error_ = errno;
+        }
+        put(magic);
+        Record header{*this, 0x01};
+        text(header.content, "");
+        text(header.content, "groundstate");
+    }
+
+    /// Whether a file of that path can be opened: 0, or the system's number of what stands against it. No path is fine.
+    static int probe(const std::string& path) noexcept {
+        const int file = path.empty() ? -1 : open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+        const int error = path.empty() || file >= 0 ? 0 : errno;
+        if (file >= 0) {
+            close(file);
+        }
+        return error;
+    }
+
+    McapFile(const McapFile&) = delete;
+    McapFile& operator=(const McapFile&) = delete;
+    ~McapFile() {
+        if (file_ >= 0) {
+            close(file_);
+        }
+    }
+
+    /// The system's number of the first error, or 0. After an error nothing is written any more.
+    int error() const noexcept { return error_; }
+
+    /// A schema; its number.
+    std::uint16_t schema(std::string_view name, std::string_view encoding, std::string_view data) {
+        const auto id = static_cast<std::uint16_t>(schemas_.size() + 1);
+        std::string content;
+        number(content, id);
+        text(content, name);
+        text(content, encoding);
+        text(content, data);
+        record(0x03, content);
+        schemas_.push_back(std::move(content));
+        return id;
+    }
+
+    /// A channel of messages; its number.
+    std::uint16_t channel(std::uint16_t schema, std::string_view topic, std::string_view encoding) {
+        const auto id = static_cast<std::uint16_t>(channels_.size());
+        std::string content;
+        number(content, id);
+        number(content, schema);
+        text(content, topic);
+        text(content, encoding);
+        number(content, std::uint32_t{0});
+        record(0x04, content);
+        channels_.push_back(std::move(content));
+        return id;
+    }
+
+    /// A record of names and values.
+    void metadata(std::string_view name, const Map& values) {
+        flush();
+        std::string content;
+        text(content, name);
+        std::string map;
+        for (const auto& [key, value] : values) {
+            text(map, key);
+            text(map, value);
+        }
+        text(content, map);
+        std::string index;
+        number(index, offset_);
+        number(index, std::uint64_t{content.size() + 9});
+        text(index, name);
+        record(0x0c, content);
+        metadata_.push_back(std::move(index));
+    }
+
+    /// A message. It is in the file after the next `flush`, or when its chunk is full.
+    void message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time_ns, std::string_view data) {
+        if (chunk_.empty()) {
+            first_ns_ = last_ns_ = time_ns;
+        }
+        first_ns_ = std::min(first_ns_, time_ns);
+        last_ns_ = std::max(last_ns_, time_ns);
+        std::string& index = indexes_[channel];
+        number(index, time_ns);
+        number(index, std::uint64_t{chunk_.size()});
+        number(chunk_, std::uint8_t{0x05});
+        number(chunk_, std::uint64_t{22 + data.size()});
+        number(chunk_, channel);
+        number(chunk_, sequence);
+        number(chunk_, time_ns);
+        number(chunk_, time_ns);
+        chunk_ += data;
+        ++counts_[channel];
+        if (chunk_.size() >= chunk_size) {
+            flush();
+        }
+    }
+
+    /// Writes the messages so far as a chunk.
+    void flush() {
+        if (chunk_.empty()) {
+            return;
+        }
+        const std::uint64_t start = offset_;
+        {
+            Record chunk{*this, 0x06};
+            number(chunk.content, first_ns_);
+            number(chunk.content, last_ns_);
+            number(chunk.content, std::uint64_t{chunk_.size()});
+            number(chunk.content, checksum(chunk_));
+            text(chunk.content, "");
+            number(chunk.content, std::uint64_t{chunk_.size()});
+            chunk.content += chunk_;
+        }
+        const std::uint64_t end = offset_;
+        std::string offsets;
+        for (const auto& [channel, index] : indexes_) {
+            number(offsets, channel);
+            number(offsets, offset_);
+            Record record{*this, 0x07};
+            number(record.content, channel);
+            text(record.content, index);
+        }
+        std::string content;
+        number(content, first_ns_);
+        number(content, last_ns_);
+        number(content, start);
+        number(content, end - start);
+        text(content, offsets);
+        number(content, offset_ - end);
+        text(content, "");
+        number(content, std::uint64_t{chunk_.size()});
+        number(content, std::uint64_t{chunk_.size()});
+        chunks_.push_back(std::move(content));
+        begin_ns_ = chunks_.size() == 1 ? first_ns_ : std::min(begin_ns_, first_ns_);
+        end_ns_ = std::max(end_ns_, last_ns_);
+        chunk_.clear();
+        indexes_.clear();
+    }
+
+    /// Writes the summary and the end of the file.
+    void finish() {
+        flush();
+        record(0x0f, std::string(4, '\0'));
+        const std::uint64_t summary = offset_;
+        std::string offsets;
+        group(offsets, 0x03, schemas_);
+        group(offsets, 0x04, channels_);
+        group(offsets, 0x0b, {statistics()});
+        group(offsets, 0x08, chunks_);
+        group(offsets, 0x0d, metadata_);
+        const std::uint64_t offset_start = offset_;
+        put(offsets);
+        {
+            Record footer{*this, 0x02};
+            number(footer.content, summary);
+            number(footer.content, offset_start);
+            number(footer.content, std::uint32_t{0});
+        }
+        put(magic);
+    }
+
+  private:
+    static constexpr std::string_view magic{"\x89MCAP0\r\n", 8};
+    static constexpr std::size_t chunk_size = 256 * 1024;
+
+    // Written when it goes out of scope.
+    struct Record {
+        Record(McapFile& to, std::uint8_t code) : file{to}, opcode{code} {}
+        Record(const Record&) = delete;
+        Record& operator=(const Record&) = delete;
+        ~Record() { file.record(opcode, content); }
+        McapFile& file;
+        std::uint8_t opcode;
+        std::string content{};
+    };
+
+    template <class N>
+    static void number(std::string& to, N value) {
+        to.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+
+    static void text(std::string& to, std::string_view value) {
+        number(to, static_cast<std::uint32_t>(value.size()));
+        to += value;
+    }
+
+    static std::string framed(std::uint8_t opcode, std::string_view content) {
+        std::string head;
+        number(head, opcode);
+        number(head, std::uint64_t{content.size()});
+        return head.append(content);
+    }
+
+    void record(std::uint8_t opcode, std::string_view content) { put(framed(opcode, content)); }
+
+    void group(std::string& offsets, std::uint8_t opcode, const std::vector<std::string>& records) {
+        if (records.empty()) {
+            return;
+        }
+        const std::uint64_t start = offset_;
+        for (const std::string& content : records) {
+            record(opcode, content);
+        }
+        std::string content;
+        number(content, opcode);
+        number(content, start);
+        number(content, offset_ - start);
+        offsets += framed(0x0e, content);
+    }
+
+    std::string statistics() const {
+        std::string counts;
+        std::uint64_t messages = 0;
+        for (const auto& [channel, count] : counts_) {
+            number(counts, channel);
+            number(counts, count);
+            messages += count;
+        }
+        std::string content;
+        number(content, messages);
+        number(content, static_cast<std::uint16_t>(schemas_.size()));
+        number(content, static_cast<std::uint32_t>(channels_.size()));
+        number(content, std::uint32_t{0});
+        number(content, static_cast<std::uint32_t>(metadata_.size()));
+        number(content, static_cast<std::uint32_t>(chunks_.size()));
+        number(content, begin_ns_);
+        number(content, end_ns_);
+        text(content, counts);
+        return content;
+    }
+
+    void put(std::string_view bytes) {
+        while (error_ == 0 && !bytes.empty()) {
+            const ssize_t written = write(file_, bytes.data(), bytes.size());
+            if (written < 0) {
+                error_ = errno == EINTR ? 0 : errno;
+            } else {
+                offset_ += static_cast<std::uint64_t>(written);
+                bytes.remove_prefix(static_cast<std::size_t>(written));
+            }
+        }
+    }
+
+    static std::uint32_t checksum(std::string_view bytes) noexcept {
+        static constexpr auto table = [] {
+            std::array<std::uint32_t, 256> entries{};
+            for (std::uint32_t i = 0; i < 256; ++i) {
+                std::uint32_t entry = i;
+                for (int bit = 0; bit < 8; ++bit) {
+                    entry = (entry >> 1) ^ ((entry & 1) != 0 ? 0xedb88320U : 0U);
+                }
+                entries[i] = entry;
+            }
+            return entries;
+        }();
+        std::uint32_t sum = 0xffffffff;
+        for (const char byte : bytes) {
+            sum = table[(sum ^ static_cast<std::uint8_t>(byte)) & 0xff] ^ (sum >> 8);
+        }
+        return ~sum;
+    }
+
+    int file_;
+    int error_ = 0;
+    std::uint64_t offset_ = 0;
+    std::vector<std::string> schemas_{};
+    std::vector<std::string> channels_{};
+    std::vector<std::string> chunks_{};
+    std::vector<std::string> metadata_{};
+    std::map<std::uint16_t, std::uint64_t> counts_{};
+    std::map<std::uint16_t, std::string> indexes_{};
+    std::string chunk_{};
+    std::uint64_t first_ns_ = 0;
+    std::uint64_t last_ns_ = 0;
+    std::uint64_t begin_ns_ = 0;
+    std::uint64_t end_ns_ = 0;
+};
+
+}  // namespace groundstate

@@ -1,0 +1,139 @@
+// What a generated task carries with it: its log, its pace, its progress; and the observer of its channels.
+//
+// In: actions of the task and of the channels it uses. Out: events in its log, time spent in virtual time, and the
+// instant of the last progress, by which the supervisor knows a task that hangs. Without a log nothing is recorded: what
+// is left is one branch an event.
+#pragma once
+
+#include "event.hpp"
+#include "observer.hpp"
+#include "pace.hpp"
+#include "recorder.hpp"
+
+namespace groundstate {
+
+/// The fault that a test has put in. Compiled in only where GROUNDSTATE_SEEDED_FAULTS is defined.
+#ifdef GROUNDSTATE_SEEDED_FAULTS
+inline Fault seeded_fault = Fault::none;
+inline bool is_seeded(Fault fault) noexcept { return fault == seeded_fault; }
+#else
+constexpr bool is_seeded(Fault) noexcept { return false; }
+#endif
+
+/// A task's own things. Its thread alone uses them, but for the counters.
+template <Clock C>
+class TaskContext {
+  public:
+    TaskContext(C& clock, const Pacing& pacing, std::uint16_t number)
+        : pace{clock, pacing, number}, clock_{clock}, number_{number} {}
+
+    /// Before the tasks start.
+    void record_to(TaskLog* log, std::int64_t origin_ns) noexcept {
+        log_ = log;
+        origin_ns_ = origin_ns;
+    }
+
+    void record(Kind kind, std::uint16_t object, std::uint64_t number = 0, std::size_t array = 0, std::size_t next = 0,
+                bool fresh = false) noexcept {
+        if (log_ != nullptr) {
+            log_->record({.time_ns = clock_.now_ns() - origin_ns_, .number = number, .order = 0, .object = object,
+                          .kind = kind, .array = static_cast<std::uint8_t>(array),
+                          .next = static_cast<std::uint8_t>(next), .fresh = fresh});
+        }
+    }
+
+    /// The task is at work, and has come so far. `at` names the phase.
+    void progress(std::uint16_t at) noexcept {
+        phase_.set(at);
+        progress_ns_.set(clock_.now_ns());
+    }
+    void at_rest() noexcept { progress_ns_.set(never_ns); }
+
+    // Who: everybody.
+    /// The instant of the last progress; `never_ns` while the task rests.
+    std::int64_t progress_ns() const noexcept { return progress_ns_.value(); }
+    std::uint16_t phase() const noexcept { return static_cast<std::uint16_t>(phase_.value()); }
+    std::int64_t cycle() const noexcept { return cycle_.value(); }
+    std::int64_t invalid() const noexcept { return invalid_.value(); }
+
+    std::uint16_t number() const noexcept { return number_; }
+    void count_invalid() noexcept { invalid_.add(); }
+    void begin_cycle(std::int64_t number) noexcept { cycle_.set(number); }
+
+    TaskPace<C> pace;
+
+  private:
+    C& clock_;
+    std::uint16_t number_;
+    TaskLog* log_ = nullptr;
+    std::int64_t origin_ns_ = 0;
+    Counter progress_ns_{never_ns};
+    Counter phase_{};
+    Counter cycle_{};
+    Counter invalid_{};
+};
+
+/// The observer of a channel between two generated tasks.
+template <Clock C>
+class Observation {
+  public:
+    /// `urgent` is the side that goes first when both ask in one step.
+    Observation(std::uint16_t channel, TaskContext<C>& producer, TaskContext<C>& consumer, Side master, Side urgent) noexcept
+        : channel_{channel}, producer_{&producer}, consumer_{&consumer}, master_{master}, urgent_{urgent} {}
+
+    void asks(Side side) noexcept {
+        of(side).pace.ask(side == urgent_);
+        of(side).record(Kind::asks, channel_);
+    }
+    void enters(Side side) noexcept {
+        of(side).pace.enter();
+        of(side).record(Kind::enters, channel_);
+    }
+    void gives_up(Side side) noexcept {
+        of(side).pace.enter();
+        of(side).record(Kind::gives_up, channel_);
+    }
+    void releases(Side side) noexcept {
+        of(side).pace.release();
+        of(side).record(Kind::releases, channel_);
+    }
+    void swaps(std::size_t read, std::size_t write, std::uint64_t number) noexcept {
+        of(master_).record(Kind::swaps, channel_, number, read, write);
+    }
+    void managed() noexcept { of(master_).pace.managed(); }
+    void writes(std::size_t array, std::uint64_t number) noexcept {
+        producer_->record(Kind::writes, channel_, number, array);
+    }
+    void reads(std::size_t array, std::uint64_t number, bool fresh) noexcept {
+        consumer_->record(Kind::reads, channel_, number, array, 0, fresh);
+    }
+    void looks() noexcept { producer_->pace.look(); }
+    void sends(std::uint64_t number) noexcept {
+        producer_->pace.hand_over();
+        producer_->record(Kind::sends, channel_, number);
+    }
+    void refuses() noexcept { producer_->record(Kind::refuses, channel_); }
+    void takes(std::uint64_t number) noexcept {
+        consumer_->pace.take();
+        consumer_->record(Kind::takes, channel_, number);
+    }
+    void stores(std::uint64_t number) noexcept {
+        producer_->pace.hand_over();
+        producer_->record(Kind::stores, channel_, number);
+    }
+    void loads(std::uint64_t number, bool fresh) noexcept {
+        consumer_->record(Kind::loads, channel_, number, 0, 0, fresh);
+    }
+    static bool seeded(Fault fault) noexcept { return is_seeded(fault); }
+
+  private:
+    TaskContext<C>& of(Side side) noexcept { return side == Side::producer ? *producer_ : *consumer_; }
+
+    std::uint16_t channel_;
+    TaskContext<C>* producer_;
+    TaskContext<C>* consumer_;
+    Side master_;
+    Side urgent_;
+};
+
+}  // namespace groundstate

@@ -1,0 +1,186 @@
+// The phases of a generated task, each the work of one pattern machine of library/patterns: read, write, send, receive,
+// store, load, elaborate.
+//
+// A phase records its beginning and end, and spends in virtual time what the model says. Which of two forms a reading or
+// writing has follows from the roles: the master of a buffer, and both sides of a wait-free one, work in the channel's
+// own array; a slave, who holds the lock while it works there, carries the datum over in its phase and elaborates on
+// its own copy, for the pattern's index section must stay short.
+#pragma once
+
+#include <optional>
+
+#include "message_queue.hpp"
+#include "observation.hpp"
+#include "seen.hpp"
+#include "task.hpp"
+
+namespace groundstate {
+
+/// A phase of the plan: its number among the names, and how many ticks it takes.
+struct Phase {
+    std::uint16_t number = 0;
+    std::int64_t ticks = 1;
+};
+
+/// A message as a queue holds it.
+template <class T>
+struct Message {
+    T datum{};
+    std::int64_t stamp_ns = 0;
+};
+
+/// Runs the phases of one task's cycle, in order.
+template <Clock C>
+class Phases {
+  public:
+    Phases(TaskContext<C>& task, const Cycle& cycle) noexcept : task_{task}, cycle_{cycle} {}
+
+    /// The component's own work: what `step` gives says whether there is something to hand over.
+    template <class Step>
+    bool elaborate(Phase phase, Step&& step) {
+        begin(phase);
+        const bool ready = step();
+        task_.progress(phase.number);
+        task_.pace.spend(phase.ticks);
+        end(phase);
+        return ready;
+    }
+
+    /// Reads in place: the master's array, or that of a wait-free buffer.
+    template <class Buffer, class T>
+    void read_in_place(Phase phase, Buffer& buffer, Seen<T>& seen) {
+        begin(phase);
+        {
+            const auto reading = buffer.read(cycle_.watchdog);
+            show(reading, reading ? &*reading : nullptr, seen);
+            task_.pace.spend(phase.ticks);
+        }
+        end(phase);
+    }
+
+    /// Reads a copy, holding the lock. Where the watchdog ends first, the one before stays, no longer fresh.
+    template <class Buffer, class T>
+    void read_copy(Phase phase, Buffer& buffer, T& copy, Seen<T>& seen) {
+        begin(phase);
+        {
+            const auto reading = buffer.read(cycle_.watchdog);
+            if (reading.attempted()) {
+                if (reading && reading.fresh()) {
+                    copy = *reading;
+                }
+                show(reading, reading ? &copy : nullptr, seen);
+                task_.pace.spend(phase.ticks);
+            } else {
+                seen.fresh = false;
+            }
+        }
+        end(phase);
+    }
+
+    /// Hands over what was prepared in `buffer.own()`.
+    template <class Buffer>
+    void write_in_place(Phase phase, Buffer& buffer, std::uint16_t channel, bool ready) {
+        if (!may_write(phase, channel, ready, [&]() -> decltype(auto) { return buffer.own(); })) {
+            return;
+        }
+        begin(phase);
+        {
+            auto writing = buffer.write(cycle_.watchdog);
+            task_.pace.spend(phase.ticks);
+            writing.publish();
+        }
+        end(phase);
+    }
+
+    /// Brings what was prepared in `staged` into the channel's array, holding the lock.
+    template <class Buffer, class T>
+    void write_copy(Phase phase, Buffer& buffer, T& staged, std::uint16_t channel, bool ready) {
+        if (!may_write(phase, channel, ready, [&]() -> const T& { return staged; })) {
+            return;
+        }
+        begin(phase);
+        if (auto writing = buffer.write(cycle_.watchdog)) {
+            move_over(staged, *writing);
+            task_.pace.spend(phase.ticks);
+            writing.publish();
+        }
+        end(phase);
+    }
+
+    /// Sends what was prepared in `staged`; a full queue is waited for within the watchdog.
+    template <class Queue, class T>
+    void send(Phase phase, Queue& queue, Message<T>& staged, std::uint16_t channel, bool ready) {
+        if (!may_write(phase, channel, ready, [&]() -> const T& { return staged.datum; })) {
+            return;
+        }
+        begin(phase);
+        task_.pace.spend(1);
+        staged.stamp_ns = cycle_.start_ns;
+        queue.send(staged, cycle_.watchdog);
+        end(phase);
+    }
+
+    /// Takes the oldest message; where there is none, the one before stays, no longer fresh.
+    template <class Queue, class T>
+    void receive(Phase phase, Queue& queue, std::optional<Message<T>>& last, Seen<T>& seen) {
+        begin(phase);
+        seen.fresh = false;
+        if (auto message = queue.receive()) {
+            last = std::move(message);
+            seen = {&last->datum, true, static_cast<std::uint64_t>(queue.taken()), last->stamp_ns};
+        }
+        task_.pace.spend(phase.ticks);
+        end(phase);
+    }
+
+    /// Publishes what was prepared in `cell.own()` at the end of the phase.
+    template <class Buffer>
+    void store(Phase phase, Buffer& cell, std::uint16_t channel, bool ready) {
+        if (!may_write(phase, channel, ready, [&]() -> decltype(auto) { return cell.own(); })) {
+            return;
+        }
+        begin(phase);
+        task_.pace.spend(phase.ticks);
+        cell.write(cycle_.watchdog).publish();
+        end(phase);
+    }
+
+    /// The cycle of a synchronous task is done: in time or not. `component` is its number among the names.
+    void complete(std::uint16_t component, std::int64_t now_ns) {
+        const bool met = now_ns <= cycle_.deadline_ns;
+        task_.record(met ? Kind::meets : Kind::misses, component, static_cast<std::uint64_t>(cycle_.number));
+    }
+
+  private:
+    template <class Reading, class T>
+    static void show(const Reading& reading, const T* datum, Seen<T>& seen) {
+        if (datum != nullptr) {
+            seen = {datum, reading.fresh(), reading.sequence(), reading.stamp_ns()};
+        }
+    }
+
+    void begin(Phase phase) {
+        task_.progress(phase.number);
+        task_.record(Kind::begins, phase.number, static_cast<std::uint64_t>(cycle_.number));
+    }
+
+    void end(Phase phase) { task_.record(Kind::ends, phase.number, static_cast<std::uint64_t>(cycle_.number)); }
+
+    template <class Staged>
+    bool may_write(Phase phase, std::uint16_t channel, bool ready, Staged&& staged) {
+        if (ready && is_valid(staged())) {
+            return true;
+        }
+        if (ready) {
+            task_.count_invalid();
+            task_.record(Kind::invalid, channel);
+        }
+        task_.record(Kind::passes, phase.number, static_cast<std::uint64_t>(cycle_.number));
+        return false;
+    }
+
+    TaskContext<C>& task_;
+    const Cycle& cycle_;
+};
+
+}  // namespace groundstate

@@ -1,0 +1,181 @@
+// The log of a run: events from the rings of the tasks, written as MCAP by a thread of its own.
+//
+// A topic a task, a message an event, as JSON with a schema, so that every viewer of MCAP files shows them. When the file
+// cannot be written any more, the disk being full, the log ends and the robot goes on: `error` tells why. What a
+// metadata record "end" says (how many events each task had, when the run was stopped) tells a reader whether the log
+// is whole.
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "event.hpp"
+#include "mcap_file.hpp"
+
+namespace groundstate {
+
+/// What a task does whose ring is full: in real time it loses events; in virtual time, which stands still meanwhile, it
+/// waits for the writer.
+enum class WhenFull { lose, wait };
+
+/// The events of one task.
+class TaskLog {
+  public:
+    explicit TaskLog(WhenFull when_full) noexcept : when_full_{when_full} {}
+
+    /// Who: the task. Blocks: no, unless told to wait. Allocates: no. Worst case: one store of 32 bytes into the ring.
+    void record(Event event) noexcept {
+        event.order = order_++;
+        while (!ring_.push(event)) {
+            if (when_full_ == WhenFull::lose) {
+                lost_.add();
+                return;
+            }
+            std::this_thread::yield();
+        }
+    }
+
+    /// Who: everybody. Blocks: no.
+    std::int64_t lost() const noexcept { return lost_.value(); }
+
+  private:
+    friend class Recorder;
+    EventRing ring_{};
+    std::uint32_t order_ = 0;
+    WhenFull when_full_;
+    Counter lost_{};
+};
+
+/// The log of all tasks. Built before the tasks start, finished after they have ended.
+class Recorder {
+  public:
+    /// Opens the file and starts the writer. `names` are those of the objects that events name by their numbers.
+    /// Allocates, starts a thread.
+    Recorder(const std::string& path, const std::vector<std::string>& tasks, std::vector<std::string> names,
+             const McapFile::Map& about, WhenFull when_full)
+        : file_{path}, names_{std::move(names)}, tasks_{tasks} {
+        const std::uint16_t schema = file_.schema("groundstate.Event", "jsonschema", json_schema);
+        file_.metadata("groundstate", about);
+        for (const std::string& task : tasks) {
+            logs_.push_back(std::make_unique<TaskLog>(when_full));
+            channels_.push_back(file_.channel(schema, "/" + task, "json"));
+        }
+        thread_ = std::thread{[this] { run(); }};
+    }
+
+    Recorder(const Recorder&) = delete;
+    Recorder& operator=(const Recorder&) = delete;
+    ~Recorder() { finish({}); }
+
+    /// Who: whoever builds the system.
+    TaskLog& log(std::size_t task) noexcept { return *logs_[task]; }
+
+    /// Writes what is left, and the end of the file. Who: the owner, when no task records any more.
+    void finish(McapFile::Map about) {
+        if (!thread_.joinable()) {
+            return;
+        }
+        stop_.store(true, std::memory_order_release);
+        thread_.join();
+        drain();
+        for (std::size_t i = 0; i < logs_.size(); ++i) {
+            about.emplace_back("events " + tasks_[i], std::to_string(logs_[i]->order_));
+        }
+        about.emplace_back("lost", std::to_string(lost()));
+        file_.metadata("end", about);
+        file_.finish();
+        error_.store(file_.error(), std::memory_order_relaxed);
+    }
+
+    // Who: everybody. Block: no.
+    /// The system's number of what went wrong with the file, or 0.
+    int error() const noexcept { return error_.load(std::memory_order_relaxed); }
+    std::int64_t lost() const noexcept {
+        std::int64_t lost = 0;
+        for (const auto& log : logs_) {
+            lost += log->lost();
+        }
+        return lost;
+    }
+
+  private:
+    static constexpr std::string_view json_schema =
+        R"({"title":"groundstate.Event","type":"object","properties":{)"
+        R"("order":{"type":"integer","description":"number among the task's events; a gap tells of lost ones"},)"
+        R"("kind":{"type":"string"},"object":{"type":"string","description":"phase, channel or task"},)"
+        R"("number":{"type":"integer","description":"of the datum, message or cycle"},)"
+        R"("array":{"type":"integer","description":"the array worked on; of a swap the index read"},)"
+        R"("next":{"type":"integer","description":"of a swap the index written"},)"
+        R"("fresh":{"type":"boolean","description":"the reading brought something new"}}})";
+
+    void run() {
+        using std::chrono::milliseconds;
+        for (int turn = 1; !stop_.load(std::memory_order_acquire); ++turn) {
+            if (!drain()) {
+                std::this_thread::sleep_for(milliseconds{2});
+            }
+            if (turn % 50 == 0) {
+                file_.flush();  // whoever follows the file sees it
+                error_.store(file_.error(), std::memory_order_relaxed);
+            }
+        }
+    }
+
+    bool drain() {
+        bool any = false;
+        for (std::size_t i = 0; i < logs_.size(); ++i) {
+            Event event;
+            while (logs_[i]->ring_.pop(event)) {
+                any = true;
+                if (file_.error() == 0) {
+                    file_.message(channels_[i], event.order, static_cast<std::uint64_t>(event.time_ns), json(event));
+                }
+            }
+        }
+        return any;
+    }
+
+    std::string_view json(const Event& event) {
+        const auto number = static_cast<unsigned long long>(event.number);
+        const std::string_view kind = word(event.kind);
+        int length = std::snprintf(text_.data(), text_.size(), R"({"order":%u,"kind":"%.*s","object":"%s","number":%llu)",
+                                   event.order, static_cast<int>(kind.size()), kind.data(),
+                                   names_[event.object].c_str(), number);
+        const auto more = [&](const char* format, auto value) {
+            const auto at = static_cast<std::size_t>(length);
+            length += std::snprintf(text_.data() + at, text_.size() - at, format, value);
+        };
+        switch (event.kind) {
+            case Kind::swaps:
+                more(R"(,"array":%d)", int{event.array});
+                more(R"(,"next":%d)", int{event.next});
+                break;
+            case Kind::reads:
+                more(R"(,"array":%d)", int{event.array});
+                more(R"(,"fresh":%s)", event.fresh ? "true" : "false");
+                break;
+            case Kind::loads: more(R"(,"fresh":%s)", event.fresh ? "true" : "false"); break;
+            case Kind::writes: more(R"(,"array":%d)", int{event.array}); break;
+            default: break;
+        }
+        more("%s", "}");
+        return {text_.data(), static_cast<std::size_t>(length)};
+    }
+
+    McapFile file_;
+    std::vector<std::string> names_;
+    std::vector<std::string> tasks_;
+    std::vector<std::unique_ptr<TaskLog>> logs_{};
+    std::vector<std::uint16_t> channels_{};
+    std::array<char, 512> text_{};
+    std::atomic<bool> stop_{false};
+    std::atomic<int> error_{0};
+    std::thread thread_{};
+};
+
+}  // namespace groundstate

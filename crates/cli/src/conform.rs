@@ -1,0 +1,157 @@
+//! `groundstate conform MODEL RECORDING`: whether a running program did what its ground model says.
+//!
+//! Exit code 0: it did. 1: the two part; where, and at which rule, is told. 3: not known, the recording having a gap.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use ::conform::untimed::Steps;
+use ::conform::vocabulary::Vocabulary;
+use ::conform::{Malformed, Parted, Recording, Verdict, timed, untimed};
+use clap::Args;
+use groundstate::Loaded;
+use machine::{Closed, Machine};
+use syntax::{Diagnostic, Sources};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::load::load;
+use crate::shell::Shell;
+use crate::wire;
+
+/// Arguments of `conform`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The ground model, made of the library of patterns
+    model: PathBuf,
+    /// The events of a generated program, an MCAP file
+    recording: PathBuf,
+    /// Compare the order of events alone, also where the recording follows the model's ticks
+    #[arg(long)]
+    untimed: bool,
+}
+
+/// Runs the command.
+pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    let path = &arguments.recording;
+    let bytes = std::fs::read(path).map_err(|error| Failure::of_file("read", path, error))?;
+    let recording = Recording::read(&bytes).map_err(|Malformed(reason)| {
+        Failure::usage_with_help(
+            format!("{} cannot be replayed: {reason}", path.display()),
+            "a generated program writes its events with `--log FILE`",
+        )
+    })?;
+    let mut loaded = match load(shell, &arguments.model)? {
+        Ok(loaded) => loaded,
+        Err(exit) => return Ok(exit),
+    };
+    let limits = shell.global.limits.machine();
+    let wrong = |reason: String| Failure::usage(format!("{} cannot be replayed: {reason}", arguments.model.display()));
+    let mut way = "tick by tick";
+    let mut verdict = None;
+    if recording.pace == "modelled" && !arguments.untimed {
+        let program = Arc::new(loaded.program.clone());
+        verdict = Some(timed::check(&program, limits, &recording).map_err(wrong)?);
+        // What the model has no word for is a matter of order alone.
+        let passed = recording.tracks.iter().flat_map(|track| &track.events).any(|event| event.kind == "passes");
+        if passed && matches!(verdict, Some(Verdict::Unknown { .. })) {
+            verdict = None;
+        }
+    }
+    let verdict = match verdict {
+        Some(verdict) => verdict,
+        None => {
+            way = "by the order of events";
+            let mut machine = Machine::new(Arc::new(loaded.program.clone()), limits);
+            machine.start(&mut Closed).map_err(|fault| wrong(fault.show(&loaded.program).to_string()))?;
+            let vocabulary = Vocabulary::new(&loaded.program, &mut machine).map_err(wrong)?;
+            let names: Vec<String> = vocabulary.components.iter().map(|component| component.name.clone()).collect();
+            let Loaded { sources, model, program, .. } = &mut loaded;
+            let steps = match Steps::add(&names, sources, model, program) {
+                Ok(steps) => steps,
+                Err(faults) => {
+                    shell.diagnostics(&loaded.sources, &faults)?;
+                    return Ok(Exit::Model);
+                }
+            };
+            let program = Arc::new(loaded.program.clone());
+            untimed::check(&program, limits, &recording, &steps).map_err(wrong)?
+        }
+    };
+    tell(shell, &loaded.sources, &recording, &verdict, way)
+}
+
+fn tell(
+    shell: &mut Shell,
+    sources: &Sources,
+    recording: &Recording,
+    verdict: &Verdict,
+    way: &str,
+) -> Result<Exit, Failure> {
+    if shell.json() {
+        shell.object(&wire::Conformance::new(sources, verdict, way))?;
+    }
+    match verdict {
+        Verdict::Conforms { events, steps } => {
+            if shell.talks() {
+                writeln!(shell.out(), "conforms {way}: {events} events, {steps} steps of the model")?;
+            }
+            Ok(Exit::Good)
+        }
+        Verdict::Unknown { events, reason } => {
+            if shell.talks() {
+                writeln!(shell.out(), "not known, {way}: {reason}; {events} events agree before")?;
+            }
+            Ok(Exit::Unknown)
+        }
+        Verdict::Parts(parted) => {
+            if !shell.json() {
+                parting(shell, sources, recording, parted, way)?;
+            }
+            Ok(Exit::Model)
+        }
+    }
+}
+
+/// Where the two part, for people: the place, the rule, what came before, the state.
+fn parting(
+    shell: &mut Shell,
+    sources: &Sources,
+    recording: &Recording,
+    parted: &Parted,
+    way: &str,
+) -> Result<(), Failure> {
+    let ms = |ns: i64| format!("{:.4}", ns as f64 / 1e6);
+    let out = shell.out();
+    let at = ms(parted.event.as_ref().map_or(parted.tick * recording.tick_ns, |event| event.time_ns));
+    writeln!(out, "parts {way}, at {at} ms (tick {}), after {} events", parted.tick, parted.agreed)?;
+    let did = match &parted.event {
+        Some(event) => event.words(),
+        None => "nothing more".to_string(),
+    };
+    writeln!(out, "  {} did: {did}", parted.task)?;
+    match parted.claims.iter().map(|claim| claim.event.words()).collect::<Vec<_>>() {
+        claims if claims.is_empty() => writeln!(out, "  the model: nothing")?,
+        claims => writeln!(out, "  the model: {}", claims.join("; "))?,
+    }
+    if let Some(reason) = &parted.reason {
+        writeln!(out, "  {reason}")?;
+    }
+    writeln!(out, "\n  before:")?;
+    for recorded in &parted.before {
+        writeln!(out, "  {:>12} ms  {:<20} {}", ms(recorded.event.time_ns), recorded.task, recorded.event.words())?;
+    }
+    writeln!(out, "\n  the model's state:")?;
+    for (location, value) in &parted.state {
+        writeln!(out, "    {location} = {value}")?;
+    }
+    writeln!(out)?;
+    if let Some(claim) = parted.claims.first() {
+        let message = format!("the model {} here", claim.event.words());
+        let rule =
+            Diagnostic::error("conformance-parts", claim.span, message).because("the program did something else");
+        shell.details(sources, &[rule])?;
+    }
+    Ok(())
+}

@@ -1,0 +1,69 @@
+//! `groundstate generate cpp FILE.chart`: the program of a chart's system, with the runtime's headers beside it.
+
+use std::io::Write;
+use std::path::Path;
+
+use chart::generate::{Form, Generated, generate, ungenerated};
+
+use super::Cpp;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::files::{read_text, write_text};
+use crate::shell::Shell;
+
+include!(concat!(env!("OUT_DIR"), "/runtime_headers.rs"));
+
+/// Runs the command.
+pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
+    let (sources, chart) = match crate::chart::read(shell, &arguments.file)? {
+        Ok(read) => read,
+        Err(exit) => return Ok(exit),
+    };
+    let Some(system) = &chart.system else {
+        return Err(Failure::usage_with_help(
+            format!("{} has no system", arguments.file.display()),
+            "tasks are generated from the components of a system",
+        ));
+    };
+    let faults = ungenerated(system);
+    if !faults.is_empty() {
+        shell.diagnostics(&sources, &faults)?;
+        return Ok(Exit::Model);
+    }
+    let name = arguments.file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let form = Form { wait_free: arguments.wait_free, namespace: arguments.namespace.clone() };
+    let Generated { mut decided, once } = generate(&chart, system, &name, &form);
+    let headers =
+        HEADERS.iter().map(|(name, text)| (format!("generated/include/groundstate/{name}"), text.to_string()));
+    decided.extend(headers);
+    let limit = shell.global.limits.max_file_size;
+    for (path, text) in &decided {
+        let path = arguments.output.join(path);
+        let is_there = matches!(read_text(&path, limit), Ok(there) if there == *text);
+        if !is_there {
+            write(&path, text)?;
+        }
+    }
+    let mut kept = Vec::new();
+    for (path, text) in &once {
+        if arguments.output.join(path).exists() {
+            kept.push(path.as_str());
+        } else {
+            write(&arguments.output.join(path), text)?;
+        }
+    }
+    if shell.talks() {
+        writeln!(shell.out(), "{}", arguments.output.join(&decided[0].0).display())?;
+        if !kept.is_empty() {
+            writeln!(shell.out(), "yours, left as they are: {}", kept.join(", "))?;
+        }
+    }
+    Ok(Exit::Good)
+}
+
+fn write(path: &Path, text: &str) -> Result<(), Failure> {
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
+    }
+    write_text(path, text)
+}
