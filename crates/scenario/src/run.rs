@@ -128,14 +128,19 @@ impl Play<'_> {
     /// and, where there are any, a second time with them.
     fn start(&mut self) -> Going {
         let script = self.script;
-        self.start_machine()?;
-        if let Some(first) = script.groups.first().filter(|first| !first.parts.sets.is_empty()) {
-            let shared = self.sets(&first.parts.sets)?;
+        let Some(first) = script.groups.first().filter(|first| !first.parts.sets.is_empty()) else {
             self.start_machine()?;
-            for (location, value, span) in shared {
-                let set = self.machine.set(&location, value);
-                self.try_to(set, span)?;
-            }
+            self.machine.forget_inputs();
+            return Ok(());
+        };
+        // Initial values may ask for what the sets are to give; whether there is an initial state shows with them.
+        let _ = self.machine.start(&mut self.environment);
+        self.environment.mispick = None;
+        let shared = self.sets(&first.parts.sets)?;
+        self.start_machine()?;
+        for (location, value, span) in shared {
+            let set = self.machine.set(&location, value);
+            self.try_to(set, span)?;
         }
         self.machine.forget_inputs();
         Ok(())
