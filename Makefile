@@ -46,7 +46,7 @@ fuzz: ## the fuzz targets, for a short time
 	sh fuzz/run.sh 15
 
 bench: ## steps per second and peak memory; with CORPUS=path also of the public models with a reference
-	$(CARGO) xtask bench $(if $(CORPUS),--corpus $(CORPUS))
+	$(CARGO) xtask bench $(if $(CORPUS),--corpus $(CORPUS)) $(if $(PEER),--peer $(PEER)) $(if $(TLC),--tlc $(TLC))
 
 bench-cpp: ## what it costs to hand data over in C++, and to draw a simulated frame
 	sh cpp/run.sh plain
