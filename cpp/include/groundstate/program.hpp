@@ -67,7 +67,7 @@ inline void report(const SystemPlan& plan, std::size_t i, const Unit& unit, std:
 
 /// Tells how a run ended, and of each task what is known of its cycles.
 template <class System>
-int tell(const System& system, const Outcome& outcome) {
+int tell(const System& system, const Ending& outcome) {
     const SystemPlan& plan = system.plan();
     std::printf("%-20s %9s %9s %9s %9s %9s %12s %12s\n", "task", "cycles", "met", "missed", "skipped", "invalid",
                 "late_us", "longest_us");
@@ -85,7 +85,7 @@ int tell(const System& system, const Outcome& outcome) {
         return 0;
     }
     std::fprintf(stderr, "%s: task %s %s in cycle %lld, phase %s: %s; the others were stopped safely\n", plan.name,
-                 outcome.task.c_str(), outcome.kind == Outcome::Kind::hung ? "hung" : "failed",
+                 outcome.task.c_str(), outcome.kind == Ending::Kind::hung ? "hung" : "failed",
                  static_cast<long long>(outcome.cycle), outcome.phase.c_str(), outcome.reason.c_str());
     return 1;
 }
@@ -106,9 +106,9 @@ int run_program(int count, char** words, const Hooks& hooks) {
     const auto run = [&](auto& clock) {
         using C = std::remove_reference_t<decltype(clock)>;
         auto system = std::make_unique<System<C>>(clock, hooks, line.options);
-        const Outcome outcome = system->run(line.span_ns);
+        const Ending outcome = system->run(line.span_ns);
         const int status = tell(*system, outcome);
-        if (outcome.kind == Outcome::Kind::hung) {
+        if (outcome.kind == Ending::Kind::hung) {
             // A thread that never ends still uses the system.
             std::fflush(nullptr);
             std::_Exit(status);

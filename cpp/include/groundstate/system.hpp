@@ -1,6 +1,6 @@
 // A system of generated tasks: started together, supervised, stopped safely.
 //
-// In: the plan, and the tasks as units. Out: an Outcome that says whether the run came to its end, or which task failed,
+// In: the plan, and the tasks as units. Out: an Ending that says whether the run came to its end, or which task failed,
 // in which cycle, and why. A hook that throws ends its task alone; the supervisor notices, stops the others, and calls
 // the components' safe_stop() in the order of the plan. A hook that never returns cannot be ended: the task is reported
 // as hung when it makes no progress for so many of its periods, the others are stopped safely, and its thread is left
@@ -58,7 +58,7 @@ struct Options {
 };
 
 /// How a run came to its end.
-struct Outcome {
+struct Ending {
     enum class Kind { ended, faulted, hung } kind = Kind::ended;
     std::string task{};
     std::int64_t cycle = 0;
@@ -123,8 +123,8 @@ class SystemBase {
 
     /// Runs all tasks for so long, or until one fails. Who: the owner, once; in virtual time from a thread that has not
     /// entered the clock, which expects a thread more than there are tasks. Blocks. Allocates.
-    Outcome run(std::int64_t span_ns) {
-        Outcome outcome;
+    Ending run(std::int64_t span_ns) {
+        Ending outcome;
         for (std::size_t i = 0; i < units_.size() && outcome; ++i) {
             try {
                 start_component(i);
@@ -244,14 +244,14 @@ class SystemBase {
     static constexpr std::int64_t check_ns = 10'000'000;
 
     // There may be no thread to be had. In virtual time those that started wait for all, and are left alone.
-    bool start_units(std::int64_t origin_ns, Outcome& outcome) {
+    bool start_units(std::int64_t origin_ns, Ending& outcome) {
         for (std::size_t i = 0; i < units_.size(); ++i) {
             try {
                 units_[i]->start(origin_ns);
             } catch (...) {
                 outcome = failed(i, std::current_exception());
                 outcome.phase = "start";
-                outcome.kind = is_virtual ? Outcome::Kind::hung : Outcome::Kind::faulted;
+                outcome.kind = is_virtual ? Ending::Kind::hung : Ending::Kind::faulted;
                 for (std::size_t j = 0; j < i; ++j) {
                     is_virtual ? units_[j]->abandon() : units_[j]->stop();
                 }
@@ -261,7 +261,7 @@ class SystemBase {
         return true;
     }
 
-    Outcome watch(std::int64_t origin_ns, std::int64_t end_ns) {
+    Ending watch(std::int64_t origin_ns, std::int64_t end_ns) {
         bool told = false;
         for (std::int64_t next_ns = origin_ns;;) {
             next_ns = std::min(next_ns + check_ns, end_ns);
@@ -296,7 +296,7 @@ class SystemBase {
     }
 
     // Those that do not end within the patience are left alone.
-    void end(Outcome& outcome) {
+    void end(Ending& outcome) {
         for (std::size_t i = 0; i < units_.size(); ++i) {
             while (units_[i]->state() == TaskState::running && !hangs(i)) {
                 std::this_thread::sleep_for(std::chrono::milliseconds{1});
@@ -321,8 +321,8 @@ class SystemBase {
         }
     }
 
-    Outcome failed(std::size_t number, std::exception_ptr failure) const {
-        Outcome outcome = at(number, Outcome::Kind::faulted);
+    Ending failed(std::size_t number, std::exception_ptr failure) const {
+        Ending outcome = at(number, Ending::Kind::faulted);
         try {
             std::rethrow_exception(failure);
         } catch (const std::exception& error) {
@@ -333,14 +333,14 @@ class SystemBase {
         return outcome;
     }
 
-    Outcome hung(std::size_t number) const {
-        Outcome outcome = at(number, Outcome::Kind::hung);
+    Ending hung(std::size_t number) const {
+        Ending outcome = at(number, Ending::Kind::hung);
         outcome.reason = "no progress for " + std::to_string((clock_.now_ns() - contexts_[number]->progress_ns()) / 1'000'000) + " ms";
         return outcome;
     }
 
-    Outcome at(std::size_t number, Outcome::Kind kind) const {
-        Outcome outcome;
+    Ending at(std::size_t number, Ending::Kind kind) const {
+        Ending outcome;
         outcome.kind = kind;
         outcome.task = plan_.tasks[number].name;
         outcome.cycle = contexts_[number]->cycle();
@@ -387,13 +387,13 @@ class SystemBase {
         }
     }
 
-    void close_log(Outcome& outcome, std::int64_t stopped_ns) {
+    void close_log(Ending& outcome, std::int64_t stopped_ns) {
         outcome.realtime_refused = realtime_refused_;
         if (recorder_ == nullptr) {
             return;
         }
         McapFile::Map about{{"stopped_ns", std::to_string(stopped_ns)},
-                            {"outcome", outcome ? "ended" : outcome.kind == Outcome::Kind::hung ? "hung" : "faulted"}};
+                            {"outcome", outcome ? "ended" : outcome.kind == Ending::Kind::hung ? "hung" : "faulted"}};
         if (!outcome) {
             about.emplace_back("task", outcome.task);
             about.emplace_back("cycle", std::to_string(outcome.cycle));

@@ -56,19 +56,21 @@ Loop run(const LoopSettings& settings, C& clock) {
         periods(1'000'000));
     JointEncoders encoders{now, [&cell](std::int64_t at_ns) { return cell.measured(at_ns); }};
 
-    auto system = std::make_unique<ControllerSystem<C>>(
-        clock, Hooks{sender, grabber, *loop.servoing, *loop.robot, *loop.motor, encoders});
-    system->run(settings.span_ns);
-
+    auto system = std::make_unique<System<C>>(
+        clock, Hooks{sender, grabber, *loop.servoing, *loop.robot, *loop.motor, encoders}, Options{});
+    const auto ending = system->run(settings.span_ns);
+    if (!ending) {
+        loop.failure = "task " + ending.task + ": " + ending.reason;
+    }
     loop.frames = camera->account();
-    system->each([&](const auto& task) {
-        const Statistics& known = task.statistics();
-        loop.tasks.push_back({.name = task.thread().name(),
+    for (std::size_t i = 0; i < system->plan().tasks.size(); ++i) {
+        const Statistics& known = system->unit(i).statistics();
+        loop.tasks.push_back({.name = system->plan().tasks[i].name,
                               .cycles = known.cycles.value(),
                               .deadlines_missed = known.deadlines_missed.value(),
                               .worst_lateness_ns = known.worst_lateness_ns.value(),
                               .worst_duration_ns = known.worst_duration_ns.value()});
-    });
+    }
     const std::int64_t end_ns = loop.origin_ns + settings.span_ns;
     const Eigen::Isometry3d goal = cell.settings().target.pose * loop.goals.back().camera;
     const Eigen::Isometry3d apart = goal.inverse() * cell.camera(end_ns);
@@ -97,7 +99,7 @@ Loop run(const LoopSettings& settings) {
         MonotonicClock clock;
         return run(settings, clock);
     }
-    VirtualClock clock{ControllerSystem<VirtualClock>::threads};
+    VirtualClock clock{System<VirtualClock>::threads};
     return run(settings, clock);
 }
 

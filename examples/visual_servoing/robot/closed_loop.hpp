@@ -50,6 +50,7 @@ struct Loop {
     groundstate::FrameAccount frames{};
     std::int64_t origin_ns = 0;
 
+    std::string failure{};      ///< which task failed, and why; empty if none did
     double feature_error = 0;   ///< of the last image, |e| in the image plane at distance 1
     double position_error = 0;  ///< m, of the camera at the end
     double turn_error = 0;      ///< rad
@@ -58,7 +59,8 @@ struct Loop {
 
     /// The last goal is reached: features to 0.005, the camera to 5 mm and half a degree.
     bool converged() const noexcept {
-        return feature_error < 5e-3 && position_error < 5e-3 && turn_error < 0.5 * M_PI / 180 && !holding;
+        return feature_error < 5e-3 && position_error < 5e-3 && turn_error < 0.5 * M_PI / 180 && !holding &&
+               failure.empty();
     }
 };
 

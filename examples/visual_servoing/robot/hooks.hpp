@@ -14,7 +14,7 @@
 #include <groundstate/vision/disc_tracker.hpp>
 
 #include "cell.hpp"
-#include "controller_system.hpp"
+#include "generated/controller_system.hpp"
 
 namespace controller_system {
 
