@@ -105,12 +105,14 @@ said "not known, by the order of events: the recording has a gap, or ends early"
 expect 2 "$program" --virtual 0.1 --log "$out/missing/run.mcap"
 
 # No permission for real-time scheduling.
-chmod 755 "$out" "$out/contention" "$program"
 if [ "$(id -u)" = 0 ]; then
-    cp "$program" /tmp/groundstate-contention-$$
+    # Where another user may run it.
+    public=$(mktemp -d)
+    chmod 755 "$public"
+    cp "$program" "$public/program"
     expect 0 setpriv --reuid=65534 --regid=65534 --clear-groups prlimit --rtprio=0 \
-        /tmp/groundstate-contention-$$ --real 0.2 --realtime 20
-    rm -f /tmp/groundstate-contention-$$
+        "$public/program" --real 0.2 --realtime 20
+    rm -r "$public"
 else
     expect 0 prlimit --rtprio=0 "$program" --real 0.2 --realtime 20
 fi
