@@ -9,6 +9,7 @@ use std::{env, fs};
 fn main() {
     embed("../../spec/faults", ".md", "PAGES", "fault_pages.rs");
     embed("../../cpp/include/groundstate", ".hpp", "HEADERS", "runtime_headers.rs");
+    embed("../../cpp/include/groundstate/machine", ".hpp", "MACHINE_HEADERS", "machine_headers.rs");
 }
 
 /// A constant of names and texts of the files of a folder that have this ending; those of pages without it.

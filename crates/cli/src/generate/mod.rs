@@ -1,13 +1,15 @@
 //! `groundstate generate …`: programs made of models and charts. What is made depends on the file's ending.
 
+mod model;
 mod system;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::files::{read_text, write_text};
 use crate::shell::Shell;
 
 /// Arguments of `generate`.
@@ -26,27 +28,60 @@ enum Command {
 /// Arguments of `generate cpp`.
 #[derive(Debug, Args)]
 pub struct Cpp {
-    /// A chart that has a system
+    /// A model, or a chart that has a system
     file: PathBuf,
     /// The folder to write to; files of yours that are there stay as they are
     #[arg(long, short, value_name = "DIR")]
     output: PathBuf,
-    /// Hand buffers over by one atomic exchange, instead of the protocol with a lock
+    /// Of a model: without heap, exceptions, RTTI and threads, for microcontrollers
+    #[arg(long)]
+    bare: bool,
+    /// With --bare: how many locations outside of arrays a function may have, or elements a growing domain
+    #[arg(long, value_name = "NAME=NUMBER", value_parser = capacity, requires = "bare")]
+    capacity: Vec<(String, u32)>,
+    /// Of a chart: hand buffers over by one atomic exchange, instead of the protocol with a lock
     #[arg(long)]
     wait_free: bool,
-    /// The namespace of the classes; made of the system's name if not given
+    /// Of a chart: the namespace of the classes; made of the system's name if not given
     #[arg(long, value_name = "NAME")]
     namespace: Option<String>,
+}
+
+fn capacity(text: &str) -> Result<(String, u32), String> {
+    let (name, number) = text.split_once('=').ok_or("a capacity is written NAME=NUMBER")?;
+    let number = number.parse().map_err(|_| format!("`{number}` is no number"))?;
+    Ok((name.to_string(), number))
 }
 
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let Command::Cpp(arguments) = &arguments.command;
-    match arguments.file.extension().and_then(|extension| extension.to_str()) {
-        Some("chart") => system::run(shell, arguments),
-        _ => Err(Failure::usage_with_help(
-            format!("{} is no chart", arguments.file.display()),
-            "C++ is generated from a chart with a system",
-        )),
+    let chart = match arguments.file.extension().and_then(|extension| extension.to_str()) {
+        Some("chart") => true,
+        Some("asm") => false,
+        _ => {
+            return Err(Failure::usage_with_help(
+                format!("{} is neither a model nor a chart", arguments.file.display()),
+                "C++ is generated from a model, FILE.asm, or from a chart with a system, FILE.chart",
+            ));
+        }
+    };
+    if chart && arguments.bare {
+        return Err(Failure::usage("--bare is for models: a system's tasks are threads"));
     }
+    if !chart && (arguments.wait_free || arguments.namespace.is_some()) {
+        return Err(Failure::usage("--wait-free and --namespace are for charts with a system"));
+    }
+    if chart { system::run(shell, arguments) } else { model::run(shell, arguments) }
+}
+
+/// Writes a file of a generated folder, unless it is there with that text.
+fn write(shell: &Shell, path: &Path, text: &str) -> Result<(), Failure> {
+    if matches!(read_text(path, shell.global.limits.max_file_size), Ok(there) if there == text) {
+        return Ok(());
+    }
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
+    }
+    write_text(path, text)
 }

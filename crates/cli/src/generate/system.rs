@@ -1,14 +1,12 @@
 //! `groundstate generate cpp FILE.chart`: the program of a chart's system, with the runtime's headers beside it.
 
 use std::io::Write;
-use std::path::Path;
 
 use chart::generate::{Form, Generated, generate, ungenerated};
 
-use super::Cpp;
+use super::{Cpp, write};
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::{read_text, write_text};
 use crate::shell::Shell;
 
 include!(concat!(env!("OUT_DIR"), "/runtime_headers.rs"));
@@ -36,20 +34,15 @@ pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
     let headers =
         HEADERS.iter().map(|(name, text)| (format!("generated/include/groundstate/{name}"), text.to_string()));
     decided.extend(headers);
-    let limit = shell.global.limits.max_file_size;
     for (path, text) in &decided {
-        let path = arguments.output.join(path);
-        let is_there = matches!(read_text(&path, limit), Ok(there) if there == *text);
-        if !is_there {
-            write(&path, text)?;
-        }
+        write(shell, &arguments.output.join(path), text)?;
     }
     let mut kept = Vec::new();
     for (path, text) in &once {
         if arguments.output.join(path).exists() {
             kept.push(path.as_str());
         } else {
-            write(&arguments.output.join(path), text)?;
+            write(shell, &arguments.output.join(path), text)?;
         }
     }
     if shell.talks() {
@@ -59,11 +52,4 @@ pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
         }
     }
     Ok(Exit::Good)
-}
-
-fn write(path: &Path, text: &str) -> Result<(), Failure> {
-    if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
-    }
-    write_text(path, text)
 }

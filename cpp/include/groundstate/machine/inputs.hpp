@@ -1,0 +1,110 @@
+// What a step takes from outside: monitored and shared locations, the clock, the depth of calls.
+//
+// Each location is asked for once a step at most, and holds the answer until the next step begins.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "locations.hpp"
+
+namespace groundstate::machine {
+
+/// A unit of the clock.
+enum class TimeUnit : std::uint8_t { nanoseconds, milliseconds, seconds };
+
+/// What the environment answered, and in which step.
+template <class Cell>
+struct Answer {
+    Cell value{};
+    std::uint64_t step = 0;
+
+    friend bool operator==(const Answer&, const Answer&) = default;
+};
+
+/// The locations of a monitored function. See `Locations` for the parameters.
+template <class Cell, class Sparse, class... Dimensions>
+class Inputs {
+  public:
+    /// The answer of the step, asked for by `ask()` unless that was done already.
+    template <class Ask, class... Arguments>
+    Cell read(std::uint64_t step, Site site, Ask&& ask, const Arguments&... arguments) {
+        const std::uint32_t number = answers_.number(site, arguments...);
+        if (answers_.at(number).step != step) {
+            Cell given = ask();
+            answers_.at(number) = Answer<Cell>{std::move(given), step};
+        }
+        return answers_.at(number).value;
+    }
+
+  private:
+    Locations<Answer<Cell>, Sparse, 1, Dimensions...> answers_;
+};
+
+/// The locations of a shared function: asked for as long as nobody gave them a value.
+template <class Cell, class Sparse, std::size_t Capacity, class... Dimensions>
+class SharedLocations {
+  public:
+    /// The value; of one that never had any what `first()` gives: the initial value or the environment's.
+    template <class First, class... Arguments>
+    Cell read(Site site, First&& first, const Arguments&... arguments) {
+        const std::uint32_t number = locations.number(site, arguments...);
+        if (locations.at(number) == Cell{} && !given(number)) {
+            Cell value = first();
+            locations.at(number) = std::move(value);
+            give(number, site);
+        }
+        return locations.at(number);
+    }
+
+    /// An update by a rule.
+    template <class... Arguments>
+    void write(Site site, Cell value, const Arguments&... arguments) {
+        const std::uint32_t number = locations.number(site, arguments...);
+        give(number, site);
+        locations.push(number, std::move(value), site);
+    }
+
+    /// The environment's part, between steps; and the initial state.
+    template <class... Arguments>
+    void set(Site site, Cell value, const Arguments&... arguments) {
+        const std::uint32_t number = locations.number(site, arguments...);
+        locations.at(number) = std::move(value);
+        give(number, site);
+    }
+
+    Locations<Cell, Sparse, Capacity, Dimensions...> locations;
+
+  private:
+    bool given(std::uint32_t number) const { return number < given_.size() && given_[number]; }
+    void give(std::uint32_t number, Site) {
+        if (number >= given_.size()) {
+            given_.resize(number + 1);
+        }
+        given_[number] = true;
+    }
+
+    using All = Locations<Cell, Sparse, Capacity, Dimensions...>;
+    Series<bool, All::Keys::fixed ? All::dense + All::Keys::capacity : 0> given_;
+};
+
+/// A call of a procedure or definition that may call itself.
+class Call {
+  public:
+    Call(std::uint32_t& depth, Site site) : depth_{depth} {
+        if (depth >= most) [[unlikely]] {
+            fail(FaultKind::limit, site, site);
+        }
+        ++depth;
+    }
+    Call(const Call&) = delete;
+    Call& operator=(const Call&) = delete;
+    ~Call() { --depth_; }
+
+  private:
+    // LIMIT: calls inside each other, as the machine has it.
+    static constexpr std::uint32_t most = 10'000;
+    std::uint32_t& depth_;
+};
+
+}  // namespace groundstate::machine

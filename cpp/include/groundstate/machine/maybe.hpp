@@ -1,0 +1,96 @@
+// A scalar that may be undef, and what a guard and an operand ask of it.
+//
+// Only terms that may be undef have this type; what the generator can see to be defined is a plain T. Equality is
+// total, undef equals undef; everything else that meets undef is a fault (spec/language.md).
+#pragma once
+
+#include <compare>
+#include <type_traits>
+
+#include "fault.hpp"
+
+namespace groundstate::machine {
+
+/// The value undef, of any domain.
+struct Undef {};
+inline constexpr Undef undef{};
+
+/// A value of T, or undef. `value` is T{} where it is undef, so that equality and order may compare it blindly.
+template <class T>
+struct Maybe {
+    T value{};
+    bool defined = false;
+
+    constexpr Maybe() = default;
+    constexpr Maybe(T given) : value{given}, defined{true} {}  // NOLINT: every T is one
+    constexpr Maybe(Undef) {}                                   // NOLINT: so is undef
+
+    friend constexpr bool operator==(const Maybe&, const Maybe&) = default;
+};
+
+template <class T>
+constexpr bool is_defined(const Maybe<T>& value) noexcept {
+    return value.defined;
+}
+
+/// What a machine does with a value: an operand.
+template <class T>
+constexpr T need(const Maybe<T>& value, Site site) {
+    if (!value.defined) [[unlikely]] {
+        fail(FaultKind::undefined_operand, site, site);
+    }
+    return value.value;
+}
+
+/// A term that is always a fault.
+template <class T>
+[[noreturn]] T failed(FaultKind kind, Site site) {
+    fail(kind, site, site);
+}
+
+/// The truth of a guard.
+constexpr bool holds(const Maybe<bool>& value, Site site) {
+    if (!value.defined) [[unlikely]] {
+        fail(FaultKind::undefined_guard, site, site);
+    }
+    return value.value;
+}
+constexpr bool holds(bool value, Site) noexcept { return value; }
+
+// Kleene's connectives; the right operand is evaluated only where it matters.
+
+template <class Right>
+constexpr Maybe<bool> conjunction(Maybe<bool> left, Right right) {
+    if (left.defined && !left.value) {
+        return left;
+    }
+    const Maybe<bool> other = right();
+    return (other.defined && !other.value) || left.defined ? other : left;
+}
+
+template <class Right>
+constexpr Maybe<bool> disjunction(Maybe<bool> left, Right right) {
+    if (left.defined && left.value) {
+        return left;
+    }
+    const Maybe<bool> other = right();
+    return (other.defined && other.value) || left.defined ? other : left;
+}
+
+template <class Right>
+constexpr Maybe<bool> implication(Maybe<bool> left, Right right) {
+    if (left.defined && !left.value) {
+        return true;
+    }
+    const Maybe<bool> other = right();
+    if (other.defined && other.value) {
+        return true;
+    }
+    return left.defined ? other : Maybe<bool>{};
+}
+
+constexpr Maybe<bool> negation(Maybe<bool> operand) {
+    return operand.defined ? Maybe<bool>{!operand.value} : operand;
+}
+
+}  // namespace groundstate::machine

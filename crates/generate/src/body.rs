@@ -1,0 +1,402 @@
+//! The bodies of procedures, definitions and initial values, generated until nothing refutes what they assume.
+//!
+//! In: a plan. Out: [`Bodies`], the member functions of the class with their declarations, and all that generating
+//! them asked for: places, tables, needs.
+
+use program::{Expression, FunctionId, FunctionKind, ProcedureId, Program};
+use syntax::Diagnostic;
+
+use crate::generator::{Assumptions, Generator, Options};
+use crate::plan::{FunctionPlan, Plan, Role};
+use crate::text::Text;
+use crate::types::Type;
+use crate::writes::Writes;
+
+/// A member function: how it is declared within the class, and defined.
+#[derive(Debug, Clone)]
+pub(crate) struct Member {
+    pub declaration: String,
+    pub definition: Text,
+}
+
+/// The member functions, in the order of the model.
+#[derive(Debug)]
+pub(crate) struct Bodies<'a> {
+    pub generator: Generator<'a>,
+    pub procedures: Vec<Member>,
+    pub definitions: Vec<Member>,
+    /// `initial_f(arguments)`, by function.
+    pub initials: Vec<(FunctionId, Member)>,
+    /// The statements of `start`.
+    pub start: Text,
+    /// Parts of `run_agent` and `run_value`.
+    pub agents: Text,
+}
+
+/// Generates all bodies.
+pub(crate) fn bodies<'a>(
+    program: &'a Program,
+    plan: &'a Plan,
+    writes: &'a Writes,
+    options: &'a Options,
+    started: &machine::Machine,
+) -> Result<Bodies<'a>, Vec<Diagnostic>> {
+    let mut assumed = Assumptions::all(program);
+    // Nobody but rules of the model writes what is assumed to be never undef.
+    for (index, function) in plan.functions.iter().enumerate() {
+        let fitting = function.role == Role::State
+            && function.initial.is_some()
+            && matches!(program.functions[index].kind, FunctionKind::Controlled | FunctionKind::Out);
+        assumed.total[index] &= fitting;
+    }
+    // Rule values and programs of agents are entered with whatever there is.
+    loop {
+        let mut generator = Generator::new(program, plan, writes, options, assumed.clone());
+        let bodies = once(&mut generator, started);
+        if generator.refuted == assumed {
+            if !generator.refused.is_empty() {
+                return Err(generator.refused);
+            }
+            let (procedures, definitions, initials, start, agents) = bodies;
+            return Ok(Bodies { generator, procedures, definitions, initials, start, agents });
+        }
+        assumed = generator.refuted;
+    }
+}
+
+type Parts = (Vec<Member>, Vec<Member>, Vec<(FunctionId, Member)>, Text, Text);
+
+fn once(generator: &mut Generator<'_>, started: &machine::Machine) -> Parts {
+    let program = generator.program;
+    let mut start = Text::default();
+    start_state(generator, started, &mut start);
+    let mut agents = Text::default();
+    if !program.agents.is_empty() {
+        run_agent(generator, &mut agents);
+    }
+    generator.entered.extend(program.main);
+    let mut procedures = Vec::new();
+    let mut definitions = Vec::new();
+    let mut initials = Vec::new();
+    let mut done_procedures = std::collections::BTreeSet::new();
+    let mut done_functions = std::collections::BTreeSet::new();
+    // What is generated enters more of them.
+    loop {
+        let next_procedure = generator.entered.iter().find(|id| !done_procedures.contains(*id)).copied();
+        if let Some(id) = next_procedure {
+            done_procedures.insert(id);
+            procedures.push((id, procedure(generator, id)));
+            continue;
+        }
+        let next_function = generator.reached.iter().find(|id| !done_functions.contains(*id)).copied();
+        let Some(id) = next_function else { break };
+        done_functions.insert(id);
+        let role = generator.plan.function(id).role;
+        if role == Role::Definition {
+            definitions.push((id, definition(generator, id)));
+        } else if let Some(initial) = generator.plan.function(id).initial
+            && role != Role::Input
+        {
+            initials.push((id, initial_value(generator, id, initial)));
+        }
+    }
+    for id in generator.reached.clone() {
+        let plan = generator.plan.function(id).clone();
+        if matches!(plan.role, Role::Input | Role::Shared) {
+            let names: Vec<String> = (0..plan.dimensions.len()).map(crate::class::argument_name).collect();
+            let asked = format!("environment_.{}({})", plan.name, names.join(", "));
+            let asked = generator.checked(id, asked, "site");
+            generator.asked.insert(id, asked);
+        }
+    }
+    let mut whole = Text::default();
+    start_carriers(generator, &mut whole);
+    start.pour(&mut whole);
+    procedures.sort_by_key(|(id, _)| *id);
+    definitions.sort_by_key(|(id, _)| *id);
+    initials.sort_by_key(|(id, _)| *id);
+    let members = |all: Vec<(ProcedureId, Member)>| all.into_iter().map(|(_, member)| member).collect();
+    let definitions = definitions.into_iter().map(|(_, member)| member).collect();
+    (members(procedures), definitions, initials, whole, agents)
+}
+
+fn procedure(generator: &mut Generator<'_>, id: ProcedureId) -> Member {
+    let program = generator.program;
+    let procedure = program.procedure(id);
+    let assumed = generator.assumed.parameters[id.0 as usize].clone();
+    let parameters = generator.enter(&procedure.parameters, &assumed, procedure.frame, &procedure.names);
+    let name = generator.plan.procedure(id).name.clone();
+    let list = parameters.join(", ");
+    let mut text = Text::default();
+    text.open_marked(procedure.span, format!("void Machine::{name}({}) {{", silenced(&parameters)));
+    if is_recursive(program, id) {
+        let site = generator.sites.number(procedure.span);
+        text.line(format!("const gs::Call call{{calls_, {site}}};"));
+    }
+    generator.rule(procedure.body, &mut text);
+    text.close("}");
+    Member { declaration: format!("void {name}({list});"), definition: text }
+}
+
+/// Parameters that the body may not use.
+fn silenced(parameters: &[String]) -> String {
+    parameters.iter().map(|parameter| format!("[[maybe_unused]] {parameter}")).collect::<Vec<_>>().join(", ")
+}
+
+fn definition(generator: &mut Generator<'_>, id: FunctionId) -> Member {
+    let program = generator.program;
+    let function = program.function(id);
+    let Some(expression) = &function.definition else {
+        return Member { declaration: String::new(), definition: Text::default() };
+    };
+    let plan = generator.plan.function(id).clone();
+    let assumed = generator.assumed.arguments[id.0 as usize].clone();
+    let parameters = generator.enter(&expression.parameters, &assumed, expression.frame, &expression.names);
+    let site = generator.sites.number(program.term_span(expression.body));
+    let code = generator.term(expression.body);
+    let code = generator.cast(code, plan.ty, site);
+    if !code.defined {
+        generator.refuted.result[id.0 as usize] = false;
+    }
+    let defined = generator.assumed.result[id.0 as usize] && plan.ty != Type::Value;
+    let body = generator.convert(code, plan.ty, defined, site);
+    let result = generator.plan.cpp(plan.ty, defined);
+    let mut text = Text::default();
+    text.open_marked(function.span, format!("{result} Machine::{}({}) {{", plan.name, silenced(&parameters)));
+    if reads_itself(program, id) {
+        text.line(format!("const gs::Call call{{calls_, {site}}};"));
+    }
+    text.marked(program.term_span(expression.body), format!("return {};", crate::rule::unwrapped(&body)));
+    text.close("}");
+    Member { declaration: format!("{result} {}({});", plan.name, parameters.join(", ")), definition: text }
+}
+
+/// The initial value of one location, as a function of its arguments.
+fn initial_value(generator: &mut Generator<'_>, id: FunctionId, initial: usize) -> Member {
+    let program = generator.program;
+    let expression: &Expression = &program.initials[initial].value;
+    let plan = generator.plan.function(id).clone();
+    // Whoever reads a location may do so with an argument that is undef.
+    let assumed = vec![!generator.is_lazy(id); expression.parameters.len()];
+    let parameters = generator.enter(&expression.parameters, &assumed, expression.frame, &expression.names);
+    let site = generator.sites.number(program.term_span(expression.body));
+    let code = generator.term(expression.body);
+    let code = generator.cast(code, plan.ty, site);
+    if !code.defined {
+        generator.refuted.total[id.0 as usize] = false;
+    }
+    let defined = generator.assumed.total[id.0 as usize] && plan.ty != Type::Value;
+    let body = generator.convert(code, plan.ty, defined, site);
+    let result = generator.plan.cpp(plan.ty, defined);
+    let mut text = Text::default();
+    let list = silenced(&parameters);
+    text.open_marked(program.initials[initial].span, format!("{result} Machine::initial_{}({list}) {{", plan.name));
+    text.marked(program.term_span(expression.body), format!("return {};", crate::rule::unwrapped(&body)));
+    text.close("}");
+    Member { declaration: format!("{result} initial_{}({});", plan.name, parameters.join(", ")), definition: text }
+}
+
+/// The statements that set the initial state.
+fn start_state(generator: &mut Generator<'_>, started: &machine::Machine, text: &mut Text) {
+    let program = generator.program;
+    let (order, cyclic) = initial_order(program);
+    for index in order {
+        let initial = &program.initials[index];
+        let plan = generator.plan.function(initial.function).clone();
+        if matches!(plan.role, Role::Input | Role::None) {
+            continue;
+        }
+        generator.reached.insert(initial.function);
+        if cyclic.contains(&index) {
+            set_as_computed(generator, initial.function, &plan, started, text);
+        } else {
+            set_initial(generator, index, &plan, text);
+        }
+    }
+}
+
+/// The elements that growing domains have at first.
+fn start_carriers(generator: &Generator<'_>, text: &mut Text) {
+    for domain in &generator.carriers {
+        let plan = generator.plan.domain(*domain);
+        let Some(carrier) = &plan.carrier else { continue };
+        match &generator.program.domain(*domain).kind {
+            program::DomainKind::Abstract { elements, .. } => {
+                text.line(format!("{carrier} = decltype({carrier}){{{}}};", elements.len()));
+            }
+            _ => {
+                text.line(format!("{carrier} = {{}};"));
+                plan.initial.iter().for_each(|element| text.line(format!("{carrier}.add({element}, 0);")));
+            }
+        }
+    }
+}
+
+/// Loops over all arguments, setting each location.
+fn set_initial(generator: &mut Generator<'_>, index: usize, plan: &FunctionPlan, text: &mut Text) {
+    let program = generator.program;
+    let initial = &program.initials[index];
+    let site = generator.sites.number(initial.span);
+    let parameters = &program.function(initial.function).parameters;
+    if plan.role == Role::Agent {
+        text.marked(initial.span, format!("{} = initial_{}();", plan.member, plan.name));
+        return;
+    }
+    let mut names = Vec::new();
+    let mut scope = generator.plan.members.clone();
+    let mut ranges = Vec::new();
+    for parameter in parameters {
+        // Of what cannot be enumerated the initial values are made when they are read.
+        let Some((range, _)) = generator.domain_range(*parameter, initial.span) else { return };
+        ranges.push(range);
+        names.push(scope.take("argument"));
+    }
+    for (range, name) in ranges.iter().zip(&names) {
+        text.open(format!("for (const auto {name} : {range}) {{"));
+    }
+    let list = names.join(", ");
+    let comma = if list.is_empty() { "" } else { ", " };
+    let place = format!("{}.number({site}{comma}{list})", plan.member);
+    if plan.role == Role::Shared {
+        text.marked(initial.span, format!("{}.set({site}, initial_{}({list}){comma}{list});", plan.member, plan.name));
+    } else {
+        text.marked(initial.span, format!("{}.at({place}) = initial_{}({list});", plan.member, plan.name));
+    }
+    ranges.iter().for_each(|_| text.close("}"));
+}
+
+/// Sets each location to the value that the machine computed: of functions whose initial values read each other.
+fn set_as_computed(
+    generator: &mut Generator<'_>,
+    function: FunctionId,
+    plan: &FunctionPlan,
+    started: &machine::Machine,
+    text: &mut Text,
+) {
+    let span = generator.program.function(function).span;
+    let site = generator.sites.number(span);
+    let parameters = generator.program.function(function).parameters.clone();
+    for (location, value) in started.locations() {
+        if location.function != function {
+            continue;
+        }
+        let mut list = vec![site.to_string()];
+        for (argument, domain) in location.arguments.iter().zip(&parameters) {
+            let ty = generator.parameter_type(*domain);
+            list.push(match ty {
+                Type::Integer => format!("std::int64_t{{{}}}", generator.constant(argument, ty)),
+                _ => generator.constant(argument, ty),
+            });
+        }
+        let value = generator.constant(&value, plan.ty);
+        text.line(format!("{}.at({}.number({})) = {value};", plan.member, plan.member, list.join(", ")));
+    }
+}
+
+/// The initial values in an order in which none reads a later one, and those for which there is none.
+fn initial_order(program: &Program) -> (Vec<usize>, std::collections::BTreeSet<usize>) {
+    let mut order = Vec::new();
+    let mut cyclic = std::collections::BTreeSet::new();
+    let mut state = vec![0u8; program.initials.len()];
+    let of: std::collections::BTreeMap<FunctionId, usize> =
+        program.initials.iter().enumerate().map(|(index, initial)| (initial.function, index)).collect();
+    fn visit(
+        program: &Program,
+        of: &std::collections::BTreeMap<FunctionId, usize>,
+        index: usize,
+        state: &mut [u8],
+        order: &mut Vec<usize>,
+        cyclic: &mut std::collections::BTreeSet<usize>,
+    ) {
+        state[index] = 1;
+        for read in program.reads(&program.initials[index].value).unwrap_or_default() {
+            let Some(next) = of.get(&read) else { continue };
+            match state[*next] {
+                0 => visit(program, of, *next, state, order, cyclic),
+                1 => {
+                    cyclic.insert(*next);
+                }
+                _ => {}
+            }
+        }
+        state[index] = 2;
+        order.push(index);
+    }
+    for index in 0..program.initials.len() {
+        if state[index] == 0 && of.get(&program.initials[index].function) == Some(&index) {
+            visit(program, &of, index, &mut state, &mut order, &mut cyclic);
+        }
+    }
+    (order, cyclic)
+}
+
+/// The choice of an agent's program: that of the most specific domain it is in, which comes first.
+fn run_agent(generator: &mut Generator<'_>, text: &mut Text) {
+    let program = generator.program;
+    let agents: Vec<_> = program.agents.iter().map(|agent| (agent.domain, agent.procedure)).collect();
+    for (domain, procedure) in agents {
+        let condition = match (generator.carrier(domain), &program.domain(domain).kind) {
+            (_, program::DomainKind::Abstract { .. }) => "true".to_string(),
+            (Some(carrier), _) => format!("{carrier}.contains(agent.value.element)"),
+            (None, _) => match generator.plan.domain(domain).contents.clone() {
+                Some(contents) => {
+                    let table = generator.contents_table(domain, &contents);
+                    format!("gs::among(agent.value, {table})")
+                }
+                None => continue,
+            },
+        };
+        generator.entered.insert(procedure);
+        text.open(format!("if ({condition}) {{"));
+        text.line(format!("return {};", procedure.0));
+        text.close("}");
+    }
+}
+
+/// Whether a procedure calls itself, directly or through others.
+fn is_recursive(program: &Program, id: ProcedureId) -> bool {
+    let mut entered = vec![false; program.procedures.len()];
+    let mut open = vec![id];
+    while let Some(next) = open.pop() {
+        let mut rules = vec![program.procedure(next).body];
+        while let Some(rule) = rules.pop() {
+            let called = match program.rule(rule) {
+                program::Rule::Call { procedure, .. }
+                | program::Rule::TurboCall { procedure, .. }
+                | program::Rule::Return { procedure, .. } => vec![*procedure],
+                program::Rule::RunValue { .. } | program::Rule::RunAgent { .. } => {
+                    crate::writes::runnable(program).collect()
+                }
+                _ => Vec::new(),
+            };
+            for procedure in called {
+                if procedure == id {
+                    return true;
+                }
+                if !std::mem::replace(&mut entered[procedure.0 as usize], true) {
+                    open.push(procedure);
+                }
+            }
+            program.each_child_of_rule(rule, &mut |child| rules.push(child));
+        }
+    }
+    false
+}
+
+/// Whether a definition reads itself, directly or through others.
+fn reads_itself(program: &Program, id: FunctionId) -> bool {
+    let mut entered = vec![false; program.functions.len()];
+    let mut open: Vec<_> = program.function(id).definition.iter().map(|definition| definition.body).collect();
+    while let Some(term) = open.pop() {
+        if let program::Term::Define { function, .. } = program.term(term) {
+            if *function == id {
+                return true;
+            }
+            if !std::mem::replace(&mut entered[function.0 as usize], true) {
+                open.extend(program.function(*function).definition.as_ref().map(|definition| definition.body));
+            }
+        }
+        program.each_child_of_term(term, &mut |child| open.push(child));
+    }
+    false
+}

@@ -1,0 +1,242 @@
+//! Names of the model as identifiers of C++.
+//!
+//! In: names as the model writes them. Out: identifiers, distinct within their scope, that are no word of C++, no macro
+//! of its library and none that the language keeps for itself.
+
+use std::collections::BTreeSet;
+
+/// The words of C++20 that no name may be, and macros that the standard headers define.
+const RESERVED: &[&str] = &[
+    "alignas",
+    "alignof",
+    "and",
+    "and_eq",
+    "asm",
+    "assert",
+    "auto",
+    "bitand",
+    "bitor",
+    "bool",
+    "break",
+    "case",
+    "catch",
+    "char",
+    "char8_t",
+    "char16_t",
+    "char32_t",
+    "class",
+    "co_await",
+    "co_return",
+    "co_yield",
+    "compl",
+    "concept",
+    "const",
+    "consteval",
+    "constexpr",
+    "constinit",
+    "const_cast",
+    "continue",
+    "decltype",
+    "default",
+    "delete",
+    "do",
+    "double",
+    "dynamic_cast",
+    "else",
+    "enum",
+    "errno",
+    "explicit",
+    "export",
+    "extern",
+    "false",
+    "float",
+    "for",
+    "friend",
+    "goto",
+    "if",
+    "inline",
+    "int",
+    "linux",
+    "long",
+    "main",
+    "mutable",
+    "namespace",
+    "new",
+    "noexcept",
+    "not",
+    "not_eq",
+    "nullptr",
+    "operator",
+    "or",
+    "or_eq",
+    "private",
+    "protected",
+    "public",
+    "register",
+    "reinterpret_cast",
+    "requires",
+    "return",
+    "setjmp",
+    "short",
+    "signed",
+    "sizeof",
+    "static",
+    "static_assert",
+    "static_cast",
+    "stderr",
+    "stdin",
+    "stdout",
+    "std",
+    "struct",
+    "switch",
+    "template",
+    "this",
+    "thread_local",
+    "throw",
+    "true",
+    "try",
+    "typedef",
+    "typeid",
+    "typename",
+    "union",
+    "unix",
+    "unsigned",
+    "using",
+    "virtual",
+    "void",
+    "volatile",
+    "wchar_t",
+    "while",
+    "xor",
+    "xor_eq",
+    // Macros
+    "BUFSIZ",
+    "CHAR_BIT",
+    "DOMAIN",
+    "EOF",
+    "EXIT_FAILURE",
+    "EXIT_SUCCESS",
+    "FILENAME_MAX",
+    "FOPEN_MAX",
+    "HUGE_VAL",
+    "INFINITY",
+    "INT_MAX",
+    "INT_MIN",
+    "NAN",
+    "NULL",
+    "OVERFLOW",
+    "RAND_MAX",
+    "SEEK_CUR",
+    "SEEK_END",
+    "SEEK_SET",
+    "TMP_MAX",
+    "UNDERFLOW",
+    "EDOM",
+    "ERANGE",
+    "EILSEQ",
+    "MAXFLOAT",
+    // What generated code names itself
+    "gs",
+    "groundstate",
+];
+
+/// The identifiers of one scope.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Scope {
+    taken: BTreeSet<String>,
+}
+
+impl Scope {
+    /// An identifier for a name, taken from now on.
+    pub fn take(&mut self, name: &str) -> String {
+        let plain = identifier(name);
+        let mut candidate = plain.clone();
+        let mut number = 1;
+        while !self.taken.insert(candidate.clone()) {
+            number += 1;
+            candidate = format!("{plain}_{number}");
+        }
+        candidate
+    }
+
+    /// Gives an identifier back: its block has ended.
+    pub fn release(&mut self, name: &str) {
+        self.taken.remove(name);
+    }
+
+    /// Keeps an identifier for the generated code.
+    pub fn keep(&mut self, name: &str) {
+        self.taken.insert(name.to_string());
+    }
+}
+
+/// A name as an identifier: other letters become `_`, reserved ones get one at their end.
+pub(crate) fn identifier(name: &str) -> String {
+    let mut out = String::new();
+    for letter in name.trim_start_matches('$').chars() {
+        let fitting = letter.is_ascii_alphanumeric() || letter == '_';
+        // C++ keeps two underscores in a row, anywhere, for itself.
+        let letter = if fitting { letter } else { '_' };
+        if letter != '_' || !out.ends_with('_') {
+            out.push(letter);
+        }
+    }
+    if out.is_empty() || out.starts_with(|first: char| first.is_ascii_digit() || first == '_') {
+        out.insert_str(0, if out.starts_with('_') { "x" } else { "x_" });
+    }
+    // A trailing underscore is for members that hold state.
+    let out = out.trim_end_matches('_').to_string();
+    let upper = |rest: &str| rest.starts_with(|letter: char| letter.is_ascii_uppercase());
+    if RESERVED.contains(&out.as_str()) || (out.starts_with("SIG") && upper(&out[3..])) || out.starts_with("FE_") {
+        return format!("{out}_1");
+    }
+    out
+}
+
+/// A name in `snake_case`, for namespaces and files.
+pub(crate) fn snake(name: &str) -> String {
+    let mut out = String::new();
+    let letters: Vec<char> = name.chars().collect();
+    for (place, letter) in letters.iter().enumerate() {
+        if letter.is_ascii_uppercase() {
+            let after_lower = place > 0 && !letters[place - 1].is_ascii_uppercase() && letters[place - 1] != '_';
+            let before_lower = place > 0 && letters.get(place + 1).is_some_and(char::is_ascii_lowercase);
+            if (after_lower || before_lower) && !out.ends_with('_') {
+                out.push('_');
+            }
+            out.push(letter.to_ascii_lowercase());
+        } else {
+            out.push(*letter);
+        }
+    }
+    identifier(&out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_identifiers_of_cpp() {
+        assert_eq!(identifier("r_Main"), "r_Main");
+        assert_eq!(identifier("$x"), "x");
+        assert_eq!(identifier("class"), "class_1");
+        assert_eq!(identifier("a__b"), "a_b");
+        assert_eq!(identifier("_x"), "x_x");
+        assert_eq!(identifier("SIGINT"), "SIGINT_1");
+    }
+
+    #[test]
+    fn snake_case() {
+        assert_eq!(snake("CoffeeVendingMachine"), "coffee_vending_machine");
+        assert_eq!(snake("CarSystem002main"), "car_system002main");
+        assert_eq!(snake("ABCTest"), "abc_test");
+        assert_eq!(snake("IntAdd"), "int_add");
+    }
+
+    #[test]
+    fn a_scope_has_each_name_once() {
+        let mut scope = Scope::default();
+        assert_eq!([scope.take("x"), scope.take("x"), scope.take("$x")], ["x", "x_2", "x_3"]);
+    }
+}

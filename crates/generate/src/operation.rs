@@ -1,0 +1,284 @@
+//! The library's functions as C++ (spec/standard-library.md).
+//!
+//! On scalars each is an operator or a function of `machine/numbers.hpp`; on dynamic values the function of
+//! `machine/library.hpp` that has the operation's name.
+
+use program::{Builtin, TermId, TermList};
+
+use crate::generator::{Generator, Need};
+use crate::names::snake;
+use crate::types::{Code, Type};
+
+impl Generator<'_> {
+    /// A library function applied to terms.
+    pub fn operation(&mut self, builtin: Builtin, arguments: TermList, id: TermId) -> Code {
+        use Builtin::*;
+        let program = self.program;
+        let site = self.site(id);
+        let terms = program.term_list(arguments).to_vec();
+        match builtin {
+            Pre => return self.before(terms[0], id),
+            Temporal(_) => {
+                return Code::defined(format!("gs::failed<bool>(gs::FaultKind::temporal, {site})"), Type::Boolean);
+            }
+            TimeNanoseconds | TimeMilliseconds | TimeSeconds => {
+                self.needs.insert(Need::Clock);
+                let unit = match builtin {
+                    TimeNanoseconds => "nanoseconds",
+                    TimeMilliseconds => "milliseconds",
+                    _ => "seconds",
+                };
+                return Code::defined(format!("clock(gs::TimeUnit::{unit})"), Type::Integer);
+            }
+            Print => {
+                let evaluated: Vec<String> =
+                    terms.iter().map(|term| format!("(void)({}), ", self.term(*term).text)).collect();
+                return Code::defined(format!("({}std::int64_t{{1}})", evaluated.concat()), Type::Integer);
+            }
+            _ => {}
+        }
+        let codes: Vec<Code> = terms.iter().map(|term| self.term(*term)).collect();
+        if matches!(builtin, And | Or | Implies)
+            && let [left, right] = &codes[..]
+        {
+            return self.connective(builtin, left.clone(), right.clone(), site);
+        }
+        let (statements, codes) = self.hoist(codes, !matches!(builtin, Eq | Neq));
+        let code = self.applied(builtin, codes, &terms, id);
+        within(&statements, code)
+    }
+
+    /// An operation applied to operands whose evaluation has no effect, or one of which alone has.
+    fn applied(&mut self, builtin: Builtin, codes: Vec<Code>, terms: &[TermId], id: TermId) -> Code {
+        let site = self.site(id);
+        if let Some(code) = self.on_scalars(builtin, &codes, site) {
+            return code;
+        }
+        let mut values = Vec::new();
+        for (code, term) in codes.into_iter().zip(terms) {
+            let site = self.site(*term);
+            values.push(self.convert(code, Type::Value, false, site));
+        }
+        self.needs_values(self.program.term_span(id), "a dynamic value");
+        let code = self.on_values(builtin, values, id);
+        self.typed(code, id)
+    }
+
+    fn on_values(&mut self, builtin: Builtin, values: Vec<String>, id: TermId) -> Code {
+        use Builtin::*;
+        let site = self.site(id);
+        let list = values.join(", ");
+        let text = match builtin {
+            ChooseOne => format!("choose_one({list}, {site})"),
+            Program => {
+                self.needs.insert(Need::AgentProgram);
+                format!("agent_program({list})")
+            }
+            ToString | AgentId | GetAgent => {
+                self.needs.insert(Need::Names);
+                format!("gs::{}({list}, names(), {site})", snake(&format!("{builtin:?}")))
+            }
+            Component(index) => format!("gs::component({index}, {list}, {site})"),
+            SetSum | SeqSum | BagSum => {
+                let zero = match self.term_type(id) {
+                    Type::Real => "gs::Value::real(0.0)",
+                    Type::Value => "gs::Value::complex(0.0, 0.0)",
+                    _ => "gs::Value::integer(0)",
+                };
+                format!("gs::{}({list}, {zero}, {site})", snake(&format!("{builtin:?}")))
+            }
+            Xor | Not => format!("gs::{}_({list}, {site})", snake(&format!("{builtin:?}"))),
+            _ => format!("gs::{}({list}, {site})", snake(&format!("{builtin:?}"))),
+        };
+        Code::value(text)
+    }
+
+    /// `pre(t)`: the value of a term in the state before the step.
+    fn before(&mut self, term: TermId, id: TermId) -> Code {
+        let code = self.term(term);
+        let site = self.site(id);
+        let ty = if code.ty == Type::Undef { Type::Value } else { code.ty };
+        let defined = code.defined;
+        let text = self.convert(code, ty, defined, site);
+        let result = self.plan.cpp(ty, defined);
+        Code { text: format!("before([&]() -> {result} {{ return {text}; }})"), ty, defined, pure: false }
+    }
+
+    /// An operation all of whose operands are scalars; none if it is for dynamic values.
+    fn on_scalars(&mut self, builtin: Builtin, codes: &[Code], site: u32) -> Option<Code> {
+        use Builtin::*;
+        let scalar = |code: &Code| !matches!(code.ty, Type::Value | Type::Undef);
+        match (builtin, codes) {
+            (Eq, [left, right]) => {
+                let text = self.equality(left.clone(), right.clone(), site);
+                return Some(Code { text, ty: Type::Boolean, defined: true, pure: left.pure && right.pure });
+            }
+            (Neq, [left, right]) => {
+                let text = format!("!{}", self.equality(left.clone(), right.clone(), site));
+                return Some(Code { text, ty: Type::Boolean, defined: true, pure: left.pure && right.pure });
+            }
+            (IsDef | IsUndef, [operand]) => {
+                let text = match (operand.ty, operand.defined) {
+                    (Type::Undef, _) => (builtin == IsUndef).to_string(),
+                    (_, true) => format!("((void)({}), {})", operand.text, builtin == IsDef),
+                    _ if builtin == IsDef => format!("gs::is_defined({})", operand.text),
+                    _ => format!("!gs::is_defined({})", operand.text),
+                };
+                return Some(Code { text, ty: Type::Boolean, defined: true, pure: operand.pure });
+            }
+            (Not, [operand]) if boolean(operand) => {
+                let operand = self.cast(operand.clone(), Type::Boolean, site);
+                let text = match (operand.ty, operand.defined) {
+                    (Type::Undef, _) => "gs::Maybe<bool>{}".to_string(),
+                    (_, true) => format!("!{}", operand.text),
+                    _ => format!("gs::negation({})", operand.text),
+                };
+                return Some(Code { text, ty: Type::Boolean, ..operand });
+            }
+            _ => {}
+        }
+        if !codes.iter().all(scalar) {
+            return None;
+        }
+        let types: Vec<Type> = codes.iter().map(|code| code.ty).collect();
+        let numbers = types.iter().all(|ty| matches!(ty, Type::Integer | Type::Real));
+        let integers = types.iter().all(|ty| *ty == Type::Integer);
+        let pure = codes.iter().all(|code| code.pure && code.defined);
+        let mut operands =
+            |ty: Type| -> Vec<String> { codes.iter().map(|code| self.convert(code.clone(), ty, true, site)).collect() };
+        let order = match builtin {
+            Lt => Some("<"),
+            Le => Some("<="),
+            Gt => Some(">"),
+            Ge => Some(">="),
+            _ => None,
+        };
+        if let Some(symbol) = order {
+            let ty = match types[..] {
+                [Type::Integer, Type::Integer] => Type::Integer,
+                [Type::Char, Type::Char] => Type::Char,
+                _ if numbers => Type::Real,
+                _ => return None,
+            };
+            let operands = operands(ty);
+            let text = format!("({} {symbol} {})", operands[0], operands[1]);
+            return Some(Code { text, ty: Type::Boolean, defined: true, pure });
+        }
+        let called = |name: &str, operands: Vec<String>, ty: Type| {
+            Some(Code::defined(format!("gs::{name}({}, {site})", operands.join(", ")), ty))
+        };
+        match builtin {
+            Xor | Iff if types.iter().all(|ty| *ty == Type::Boolean) => {
+                let operands = operands(Type::Boolean);
+                let symbol = if builtin == Xor { "!=" } else { "==" };
+                let text = format!("({} {symbol} {})", operands[0], operands[1]);
+                Some(Code { text, ty: Type::Boolean, defined: true, pure })
+            }
+            IntNeg | IntAdd | IntSub | IntMul | IntMod | IntMin | IntMax | IntAbs | IntQuotient | IntPower
+            | IntToNat
+                if integers =>
+            {
+                called(integer_function(builtin)?, operands(Type::Integer), Type::Integer)
+            }
+            NatToInt if integers => {
+                let operand = codes[0].clone();
+                Some(Code {
+                    text: self.convert(operand, Type::Integer, true, site),
+                    ty: Type::Integer,
+                    defined: true,
+                    pure,
+                })
+            }
+            IntDiv if integers => called("divide", operands(Type::Integer), Type::Real),
+            RealNeg | RealAdd | RealSub | RealMul | RealDiv | RealMin | RealMax | RealAbs | RealPower | Sqrt
+                if numbers =>
+            {
+                called(real_function(builtin)?, operands(Type::Real), Type::Real)
+            }
+            Floor | Round | RealToInt | RealToNat if numbers => {
+                let name = match builtin {
+                    Floor => "floor",
+                    Round => "round",
+                    RealToInt => "truncate",
+                    _ => "truncate_natural",
+                };
+                called(name, operands(Type::Real), Type::Integer)
+            }
+            IntToReal | NatToReal if numbers => {
+                let operands = operands(Type::Real);
+                Some(Code { text: operands[0].clone(), ty: Type::Real, defined: true, pure })
+            }
+            _ => None,
+        }
+    }
+
+    /// Kleene's `and`, `or`, `implies`; the right operand is evaluated where it matters.
+    fn connective(&mut self, builtin: Builtin, left: Code, right: Code, site: u32) -> Code {
+        let pure = left.pure && right.pure;
+        if left.defined && right.defined && left.ty == Type::Boolean && right.ty == Type::Boolean {
+            let text = match builtin {
+                Builtin::And => format!("({} && {})", left.text, right.text),
+                Builtin::Or => format!("({} || {})", left.text, right.text),
+                _ => format!("(!{} || {})", left.text, right.text),
+            };
+            return Code { text, ty: Type::Boolean, defined: true, pure };
+        }
+        let name = match builtin {
+            Builtin::And => "conjunction",
+            Builtin::Or => "disjunction",
+            _ => "implication",
+        };
+        let truth = |code: Code, this: &mut Self| {
+            let code = this.cast(code, Type::Boolean, site);
+            if code.ty == Type::Undef { "gs::Maybe<bool>{}".to_string() } else { code.text }
+        };
+        let (left, right) = (truth(left, self), truth(right, self));
+        let text = format!("gs::{name}({left}, [&]() -> gs::Maybe<bool> {{ return {right}; }})");
+        Code { text, ty: Type::Boolean, defined: false, pure }
+    }
+}
+
+/// An expression after statements.
+pub(crate) fn within(statements: &str, code: Code) -> Code {
+    match statements {
+        "" => code,
+        _ => Code { text: format!("[&] {{ {statements}return {}; }}()", code.text), pure: false, ..code },
+    }
+}
+
+fn boolean(code: &Code) -> bool {
+    matches!(code.ty, Type::Boolean | Type::Undef | Type::Value)
+}
+
+fn integer_function(builtin: Builtin) -> Option<&'static str> {
+    Some(match builtin {
+        Builtin::IntNeg => "negate",
+        Builtin::IntAdd => "add",
+        Builtin::IntSub => "subtract",
+        Builtin::IntMul => "multiply",
+        Builtin::IntMod => "remainder",
+        Builtin::IntMin => "minimum",
+        Builtin::IntMax => "maximum",
+        Builtin::IntAbs => "absolute",
+        Builtin::IntQuotient => "quotient",
+        Builtin::IntPower => "power",
+        Builtin::IntToNat => "natural",
+        _ => return None,
+    })
+}
+
+fn real_function(builtin: Builtin) -> Option<&'static str> {
+    Some(match builtin {
+        Builtin::RealNeg => "real_negate",
+        Builtin::RealAdd => "real_add",
+        Builtin::RealSub => "real_subtract",
+        Builtin::RealMul => "real_multiply",
+        Builtin::RealDiv => "real_divide",
+        Builtin::RealMin => "real_minimum",
+        Builtin::RealMax => "real_maximum",
+        Builtin::RealAbs => "real_absolute",
+        Builtin::RealPower => "real_power",
+        Builtin::Sqrt => "square_root",
+        _ => return None,
+    })
+}

@@ -1,0 +1,476 @@
+//! Terms → expressions of C++ (Börger & Stärk 2003, section 2.4.2).
+//!
+//! In: a term and the variables in scope. Out: [`Code`]. What takes statements (bindings, comprehensions, quantifiers)
+//! is a lambda called on the spot, which compilers dissolve. What each library function becomes is in
+//! [`crate::operation`].
+
+use program::{CollectionKind, DomainKind, FunctionId, Literal, Quantifier, Term, TermId, TermList};
+
+use crate::generator::Generator;
+use crate::operation::within;
+use crate::plan::{Role, integer};
+use crate::text::{Text, escaped};
+use crate::types::{Code, Type, type_of};
+
+impl Generator<'_> {
+    /// The type that a term's domain says it has.
+    pub fn term_type(&self, id: TermId) -> Type {
+        type_of(self.program, self.program.term_domain(id))
+    }
+
+    /// A term as an expression.
+    pub fn term(&mut self, id: TermId) -> Code {
+        let program = self.program;
+        let span = program.term_span(id);
+        match program.term(id) {
+            Term::Constant(index) => self.literal(&program.constants[*index as usize], id),
+            Term::Slot(slot) => match self.frame.slots[slot.0 as usize].clone() {
+                Some(variable) => Code { text: variable.name, ty: variable.ty, defined: variable.defined, pure: true },
+                // A variable that no binder on the way here has bound is undef, as in the machine's frames.
+                None => Code { text: "gs::Value{}".into(), ty: Type::Undef, defined: false, pure: true },
+            },
+            Term::Read { function, arguments } => self.read(*function, *arguments, id),
+            Term::Define { function, arguments } => self.definition(*function, *arguments, id),
+            Term::Builtin { builtin, arguments } => self.operation(*builtin, *arguments, id),
+            Term::Domain(domain) => {
+                self.needs_values(span, "the set of a domain's elements");
+                let items = self.domain_values(*domain, span);
+                Code::value(format!("gs::Value::set({items})"))
+            }
+            Term::Tuple(items) => {
+                self.needs_values(span, "a tuple");
+                let items = self.values(*items);
+                Code::value(format!("gs::Value::tuple(gs::Values{{{}}})", items.join(", ")))
+            }
+            Term::Project { tuple, index } => {
+                let tuple = self.value(*tuple);
+                let site = self.site(id);
+                let code = Code::value(format!("gs::project({tuple}, {index}, {site})"));
+                self.typed(code, id)
+            }
+            Term::Collection { kind, elements } => {
+                self.needs_values(span, "a collection");
+                let items = self.values(*elements);
+                Code::value(collection(*kind, &format!("gs::Values{{{}}}", items.join(", "))))
+            }
+            Term::Range { kind, low, high, step } => {
+                self.needs_values(span, "a collection");
+                let (low, high) = (self.value(*low), self.value(*high));
+                let step = step.map_or("gs::Value::integer(1)".to_string(), |step| self.value(step));
+                let site = self.site(id);
+                Code::value(format!("gs::range_by({low}, {high}, {step}, {}, {site})", kind_of(*kind)))
+            }
+            Term::Comprehension { kind, binders, condition, body } => {
+                self.needs_values(span, "a collection");
+                let items = self.fresh("items");
+                let mut text = Text::default();
+                text.open("[&] {");
+                text.line(format!("gs::Values {items};"));
+                let site = self.site(*body);
+                self.ranging(*binders, &mut text, &mut |this, text| {
+                    let guard = condition.map(|condition| this.guard(condition));
+                    if let Some(guard) = &guard {
+                        text.open(format!("if ({guard}) {{"));
+                    }
+                    let body = this.value(*body);
+                    text.line(format!("gs::append_to({items}, {body}, {site});"));
+                    if guard.is_some() {
+                        text.close("}");
+                    }
+                });
+                text.line(format!("return {};", collection(*kind, &format!("std::move({items})"))));
+                text.close("}()");
+                Code::value(text.plain().trim_end())
+            }
+            Term::Quantified { quantifier, binders, condition } => {
+                let mut text = Text::default();
+                text.open("[&] {");
+                let count = self.fresh("count");
+                if *quantifier == Quantifier::ExistsUnique {
+                    text.line(format!("int {count} = 0;"));
+                }
+                self.ranging(*binders, &mut text, &mut |this, text| {
+                    let guard = condition.map_or("true".to_string(), |condition| this.guard(condition));
+                    match quantifier {
+                        Quantifier::Forall => {
+                            text.open(format!("if (!({guard})) {{"));
+                            text.line("return false;");
+                        }
+                        Quantifier::Exists => {
+                            text.open(format!("if ({guard}) {{"));
+                            text.line("return true;");
+                        }
+                        Quantifier::ExistsUnique => {
+                            text.open(format!("if (({guard}) && ++{count} > 1) {{"));
+                            text.line("return false;");
+                        }
+                    }
+                    text.close("}");
+                });
+                text.line(match quantifier {
+                    Quantifier::Forall => "return true;".to_string(),
+                    Quantifier::Exists => "return false;".to_string(),
+                    Quantifier::ExistsUnique => format!("return {count} == 1;"),
+                });
+                text.close("}()");
+                Code::defined(text.plain().trim_end(), Type::Boolean)
+            }
+            Term::If { branches, otherwise } => {
+                let branches = program.term_list(*branches).to_vec();
+                let arms: Vec<(String, TermId)> =
+                    branches.chunks_exact(2).map(|branch| (self.guard(branch[0]), branch[1])).collect();
+                self.cases(arms, *otherwise, id)
+            }
+            Term::Switch { subject, cases, otherwise } => self.switch(*subject, *cases, *otherwise, id),
+            Term::Let { slot, value, body } => {
+                let value = self.term(*value);
+                let variable = self.declare(*slot, value.ty, value.defined);
+                let value = self.convert(value, variable.ty, variable.defined, 0);
+                let body = self.term(*body);
+                let result = self.plan.cpp(body.ty, body.defined);
+                let text = format!(
+                    "[&]() -> {result} {{ [[maybe_unused]] const auto {} = {value}; return {}; }}()",
+                    variable.name, body.text
+                );
+                Code { text, pure: false, ..body }
+            }
+            Term::Rule(procedure) => {
+                self.needs_values(span, "a rule as a value");
+                self.entered.insert(*procedure);
+                Code::value(format!("gs::Value::rule({})", procedure.0)).pure()
+            }
+            Term::Unbound => self.failing("unbound", id),
+            Term::Missing(_) => self.failing("no_definition", id),
+            Term::Coerce(operand) => {
+                let operand = self.term(*operand);
+                let site = self.site(id);
+                match self.term_type(id) {
+                    Type::Real if operand.ty == Type::Integer && operand.defined => {
+                        Code::defined(format!("gs::to_real({})", operand.text), Type::Real)
+                    }
+                    Type::Real if operand.ty == Type::Real => operand,
+                    Type::Real if operand.ty == Type::Integer => {
+                        Code::maybe(format!("gs::to_real({})", operand.text), Type::Real)
+                    }
+                    ty => {
+                        self.needs_values(span, "a Complex");
+                        let to = if ty == Type::Real { "real" } else { "complex" };
+                        let operand = self.convert(operand, Type::Value, false, site);
+                        let code = Code::value(format!("gs::coerce_{to}({operand})"));
+                        self.cast(code, ty, site)
+                    }
+                }
+            }
+        }
+    }
+
+    /// A term as a dynamic value.
+    pub fn value(&mut self, id: TermId) -> String {
+        let code = self.term(id);
+        let site = self.site(id);
+        self.needs_values(self.program.term_span(id), "a dynamic value");
+        self.convert(code, Type::Value, false, site)
+    }
+
+    fn values(&mut self, list: TermList) -> Vec<String> {
+        self.program.term_list(list).to_vec().into_iter().map(|item| self.value(item)).collect()
+    }
+
+    /// A term as the condition of a C++ `if`.
+    pub fn guard(&mut self, id: TermId) -> String {
+        let code = self.term(id);
+        let site = self.site(id);
+        let code = self.cast(code, Type::Boolean, site);
+        match code.ty {
+            // Always undef: always the fault.
+            Type::Undef => format!("gs::holds(gs::Maybe<bool>{{}}, {site})"),
+            _ if code.defined => code.text,
+            _ => format!("gs::holds({}, {site})", code.text),
+        }
+    }
+
+    /// What the machine would do with a dynamic value whose type is known.
+    pub fn typed(&mut self, code: Code, id: TermId) -> Code {
+        let site = self.site(id);
+        match self.term_type(id) {
+            Type::Undef => code,
+            ty => self.cast(code, ty, site),
+        }
+    }
+
+    fn failing(&mut self, kind: &str, id: TermId) -> Code {
+        let site = self.site(id);
+        let ty = match self.term_type(id) {
+            Type::Undef => Type::Value,
+            ty => ty,
+        };
+        let result = self.plan.cpp(ty, true);
+        Code::defined(format!("gs::failed<{result}>(gs::FaultKind::{kind}, {site})"), ty)
+    }
+
+    fn literal(&mut self, literal: &Literal, id: TermId) -> Code {
+        match literal {
+            Literal::Undef => Code { text: "gs::Value{}".into(), ty: Type::Undef, defined: false, pure: true },
+            Literal::Boolean(truth) => Code::defined(truth.to_string(), Type::Boolean).pure(),
+            Literal::Integer(number) => {
+                Code::defined(format!("std::int64_t{{{}}}", integer(*number)), Type::Integer).pure()
+            }
+            Literal::Real(number) => Code::defined(real(*number), Type::Real).pure(),
+            Literal::Char(letter) => Code::defined(format!("char32_t{{{}}}", *letter as u32), Type::Char).pure(),
+            Literal::Enum(domain, index) => {
+                let plan = self.plan.domain(*domain);
+                let text = format!("{}::{}", plan.name, plan.literals[*index as usize]);
+                Code::defined(text, Type::Enum(*domain)).pure()
+            }
+            Literal::Complex(re, im) => {
+                self.needs_values(self.program.term_span(id), "a Complex");
+                Code::value(format!("gs::Value::complex({}, {})", real(*re), real(*im))).pure()
+            }
+            Literal::String(text) => {
+                self.needs_values(self.program.term_span(id), "a string");
+                Code::value(string(text)).pure()
+            }
+        }
+    }
+
+    fn read(&mut self, function: FunctionId, arguments: TermList, id: TermId) -> Code {
+        let plan = self.plan.function(function).clone();
+        let index = function.0 as usize;
+        if let Role::Element(number) = plan.role {
+            let Type::Element(domain) = plan.ty else { return Code::value("gs::Value{}").pure() };
+            let name = &self.plan.domain(domain).name;
+            return Code::defined(format!("{name}{{{number}}}"), plan.ty).pure();
+        }
+        self.reached.insert(function);
+        let site = self.site(id);
+        let codes = self.arguments(function, arguments);
+        let pure = codes.iter().all(|code| code.pure);
+        let (statements, codes) = self.hoist(codes, false);
+        let list = listed(&codes);
+        let code = match plan.role {
+            Role::State | Role::Local => {
+                let total = self.assumed.total[index];
+                let text = if self.is_lazy(function) {
+                    format!("{}({list})", plan.name)
+                } else {
+                    format!("{}.read({list})", plan.member)
+                };
+                let pure = pure && !self.is_lazy(function);
+                Code { text, ty: plan.ty, defined: total && plan.ty != Type::Value, pure }
+            }
+            Role::Agent => Code::maybe(plan.member.clone(), plan.ty).pure(),
+            Role::Input | Role::Shared => {
+                let comma = if list.is_empty() { "" } else { ", " };
+                Code::maybe(format!("{}({list}{comma}{site})", plan.name), plan.ty)
+            }
+            Role::None | Role::Element(_) | Role::Definition => Code::value("gs::Value{}").pure(),
+        };
+        within(&statements, code)
+    }
+
+    /// The arguments that say which location of a function is meant.
+    pub fn arguments(&mut self, function: FunctionId, arguments: TermList) -> Vec<Code> {
+        let program = self.program;
+        let parameters = &program.function(function).parameters;
+        let mut codes = Vec::new();
+        for (argument, domain) in program.term_list(arguments).to_vec().into_iter().zip(parameters) {
+            let ty = self.parameter_type(*domain);
+            let code = self.term(argument);
+            let site = self.site(argument);
+            let code = self.cast(code, ty, site);
+            if !code.defined {
+                self.refuted.inside[function.0 as usize] = false;
+            }
+            codes.push(match code.ty {
+                Type::Undef => Code { text: format!("{}{{}}", self.plan.cpp(ty, false)), ty, ..code },
+                _ => code,
+            });
+        }
+        codes
+    }
+
+    /// Some initial value of the function may be due only when it is read.
+    pub fn is_lazy(&self, function: FunctionId) -> bool {
+        let plan = self.plan.function(function);
+        plan.initial.is_some() && !(plan.is_whole() && self.assumed.inside[function.0 as usize])
+    }
+
+    fn definition(&mut self, function: FunctionId, arguments: TermList, id: TermId) -> Code {
+        let plan = self.plan.function(function).clone();
+        if plan.role != Role::Definition {
+            return self.failing("no_definition", id);
+        }
+        self.reached.insert(function);
+        let parameters = self.program.function(function).parameters.clone();
+        let assumed = self.assumed.arguments[function.0 as usize].clone();
+        let terms = self.program.term_list(arguments).to_vec();
+        let mut codes = Vec::new();
+        for (index, (argument, domain)) in terms.iter().zip(&parameters).enumerate() {
+            let ty = self.parameter_type(*domain);
+            let code = self.term(*argument);
+            let site = self.site(*argument);
+            let code = self.cast(code, ty, site);
+            if !code.defined {
+                self.refuted.arguments[function.0 as usize][index] = false;
+            }
+            codes.push(code);
+        }
+        let (statements, codes) = self.hoist(codes, false);
+        let mut list = Vec::new();
+        for (index, (code, domain)) in codes.into_iter().zip(&parameters).enumerate() {
+            let ty = self.parameter_type(*domain);
+            let site = self.site(terms[index]);
+            list.push(self.convert(code, ty, assumed[index], site));
+        }
+        let defined = self.assumed.result[function.0 as usize] && plan.ty != Type::Value;
+        let code = Code { text: format!("{}({})", plan.name, list.join(", ")), ty: plan.ty, defined, pure: false };
+        let code = within(&statements, code);
+        // What a polymorphic definition gives may be known better where it is used.
+        match self.term_type(id) {
+            Type::Value | Type::Undef => code,
+            ty => {
+                let site = self.site(id);
+                self.cast(code, ty, site)
+            }
+        }
+    }
+
+    /// `guard ? term : …`; undef where no guard holds.
+    fn cases(&mut self, arms: Vec<(String, TermId)>, otherwise: Option<TermId>, id: TermId) -> Code {
+        let mut codes: Vec<(String, Code, u32)> = Vec::new();
+        for (guard, term) in arms {
+            let code = self.term(term);
+            let site = self.site(term);
+            codes.push((guard, code, site));
+        }
+        let undef = Code { text: "gs::Value{}".into(), ty: Type::Undef, defined: false, pure: true };
+        let last = otherwise.map_or(undef, |otherwise| self.term(otherwise));
+        let site = self.site(id);
+        let mut types = codes.iter().map(|(_, code, _)| code.ty).chain([last.ty]).filter(|ty| *ty != Type::Undef);
+        let first = types.next().unwrap_or(Type::Undef);
+        let ty = match first {
+            // All are undef.
+            Type::Undef => return Code { text: "gs::Value{}".into(), ty: Type::Undef, defined: false, pure: false },
+            first if types.all(|ty| ty == first) => first,
+            _ => match self.term_type(id) {
+                Type::Undef => Type::Value,
+                ty => ty,
+            },
+        };
+        let defined = codes.iter().all(|(_, code, _)| code.defined && code.ty == ty) && last.defined && last.ty == ty;
+        let mut text = String::from("(");
+        for (guard, code, site) in codes {
+            text.push_str(&format!("{guard} ? {} : ", self.convert(code, ty, defined, site)));
+        }
+        text.push_str(&self.convert(last, ty, defined, site));
+        text.push(')');
+        Code { text, ty, defined, pure: false }
+    }
+
+    fn switch(&mut self, subject: TermId, cases: TermList, otherwise: Option<TermId>, id: TermId) -> Code {
+        let subject_code = self.term(subject);
+        let site = self.site(subject);
+        let ty = if subject_code.ty == Type::Undef { Type::Value } else { subject_code.ty };
+        let name = self.fresh("subject");
+        let variable = Code { text: name.clone(), ty, defined: subject_code.defined, pure: true };
+        let subject_text = match subject_code.ty {
+            Type::Undef => "gs::Value{}".to_string(),
+            _ => subject_code.text,
+        };
+        let mut arms = Vec::new();
+        for case in self.program.term_list(cases).to_vec().chunks_exact(2) {
+            let value = self.term(case[0]);
+            let guard = self.equality(variable.clone(), value, site);
+            arms.push((guard, case[1]));
+        }
+        let code = self.cases(arms, otherwise, id);
+        let result = match code.ty {
+            Type::Undef => "gs::Value".to_string(),
+            _ => self.plan.cpp(code.ty, code.defined),
+        };
+        let text = format!(
+            "[&]() -> {result} {{ [[maybe_unused]] const auto {name} = {subject_text}; return {}; }}()",
+            code.text
+        );
+        Code { text, pure: false, ..code }
+    }
+
+    /// Whether two values are equal; undef equals undef.
+    pub fn equality(&mut self, left: Code, right: Code, site: u32) -> String {
+        match (left.ty, right.ty) {
+            (Type::Undef, Type::Undef) => "true".to_string(),
+            (Type::Undef, _) | (_, Type::Undef) => {
+                let known = if left.ty == Type::Undef { right } else { left };
+                if known.defined {
+                    format!("((void)({}), false)", known.text)
+                } else {
+                    format!("!gs::is_defined({})", known.text)
+                }
+            }
+            (a, b) if a == b => format!("({} == {})", left.text, right.text),
+            _ => {
+                let left = self.convert(left, Type::Value, false, site);
+                let right = self.convert(right, Type::Value, false, site);
+                format!("({left} == {right})")
+            }
+        }
+    }
+
+    /// The elements of a domain, as a list of dynamic values.
+    pub fn domain_values(&mut self, domain: program::DomainId, span: syntax::Span) -> String {
+        let program = self.program;
+        let site = self.sites.number(span);
+        match &program.domain(domain).kind {
+            DomainKind::Prod(parts) => {
+                let parts: Vec<String> = parts.clone().iter().map(|part| self.domain_values(*part, span)).collect();
+                format!("gs::tuples(std::vector<gs::Values>{{{}}}, {site})", parts.join(", "))
+            }
+            DomainKind::Powerset(of) => {
+                let of = self.domain_values(*of, span);
+                format!("gs::subsets({of}, {site})")
+            }
+            _ => match self.domain_range(domain, span) {
+                Some((range, _)) => format!("gs::boxed({range})"),
+                None => format!("gs::failed<gs::Values>(gs::FaultKind::not_enumerable, {site})"),
+            },
+        }
+    }
+}
+
+/// Expressions as a list of arguments.
+pub(crate) fn listed(codes: &[Code]) -> String {
+    codes.iter().map(|code| code.text.as_str()).collect::<Vec<_>>().join(", ")
+}
+
+/// A collection of a kind, of a list of elements.
+fn collection(kind: CollectionKind, items: &str) -> String {
+    match kind {
+        CollectionKind::Set => format!("gs::Value::set({items})"),
+        CollectionKind::Seq => format!("gs::Value::seq({items})"),
+        CollectionKind::Bag => format!("gs::Value::bag({items})"),
+        CollectionKind::Map => format!("gs::collection(gs::CollectionKind::map, {items})"),
+    }
+}
+
+fn kind_of(kind: CollectionKind) -> &'static str {
+    match kind {
+        CollectionKind::Set => "gs::CollectionKind::set",
+        CollectionKind::Seq => "gs::CollectionKind::seq",
+        CollectionKind::Bag => "gs::CollectionKind::bag",
+        CollectionKind::Map => "gs::CollectionKind::map",
+    }
+}
+
+/// A literal of a double: it reads back as the same.
+pub(crate) fn real(number: f64) -> String {
+    if number.is_infinite() {
+        let sign = if number < 0.0 { "-" } else { "" };
+        return format!("{sign}std::numeric_limits<double>::infinity()");
+    }
+    format!("{:?}", number + 0.0)
+}
+
+/// A string as a dynamic value.
+pub(crate) fn string(text: &str) -> String {
+    format!("gs::Value::string(std::string{{\"{}\", {}}})", escaped(text), text.len())
+}

@@ -1,0 +1,68 @@
+//! The C++ type of a domain, and generated expressions with their types.
+//!
+//! Scalars are typed: truth values, numbers, characters, literals of enum domains, elements of abstract ones. All other
+//! values, strings and collections among them, are of the dynamic type `Value`.
+
+use model::Basic;
+use program::{DomainId, DomainKind, Program};
+
+/// The type of an expression, apart from whether it may be undef.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Type {
+    /// `undef` itself, of any domain.
+    Undef,
+    Boolean,
+    /// Integer and Natural.
+    Integer,
+    Real,
+    Char,
+    Enum(DomainId),
+    /// An element of an abstract domain, the base one.
+    Element(DomainId),
+    /// Everything else.
+    Value,
+}
+
+/// The type of a domain's values.
+pub(crate) fn type_of(program: &Program, domain: DomainId) -> Type {
+    let base = program.base_domain(domain);
+    match &program.domain(base).kind {
+        DomainKind::Basic(Basic::Boolean) => Type::Boolean,
+        DomainKind::Basic(Basic::Integer | Basic::Natural) => Type::Integer,
+        DomainKind::Basic(Basic::Real) => Type::Real,
+        DomainKind::Basic(Basic::Char) => Type::Char,
+        DomainKind::Basic(Basic::Undef) => Type::Undef,
+        DomainKind::Enum { .. } => Type::Enum(base),
+        DomainKind::Abstract { .. } => Type::Element(base),
+        _ => Type::Value,
+    }
+}
+
+/// An expression of C++.
+#[derive(Debug, Clone)]
+pub(crate) struct Code {
+    pub text: String,
+    pub ty: Type,
+    /// It is never undef; of a [`Type::Value`] always false.
+    pub defined: bool,
+    /// It neither faults nor asks anybody, so that it does not matter when it is evaluated.
+    pub pure: bool,
+}
+
+impl Code {
+    pub fn defined(text: impl Into<String>, ty: Type) -> Code {
+        Code { text: text.into(), ty, defined: ty != Type::Value, pure: false }
+    }
+
+    pub fn maybe(text: impl Into<String>, ty: Type) -> Code {
+        Code { text: text.into(), ty, defined: false, pure: false }
+    }
+
+    pub fn value(text: impl Into<String>) -> Code {
+        Code::maybe(text, Type::Value)
+    }
+
+    pub fn pure(self) -> Code {
+        Code { pure: true, ..self }
+    }
+}

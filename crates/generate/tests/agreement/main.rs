@@ -1,0 +1,113 @@
+//! Generated code and the machine agree: on every model of examples/, and on random models.
+//!
+//! A model is generated, compiled, and fed the inputs and choices of a run of the machine; the states must be the same
+//! step by step, and a fault must come in the same step. `GROUNDSTATE_CASES` sets how many random models,
+//! `GROUNDSTATE_SEED` the first seed, `GROUNDSTATE_MODEL` the only file to look at, `GROUNDSTATE_KEEP` a folder where the
+//! generated code stays.
+#![allow(
+    clippy::disallowed_methods,
+    clippy::disallowed_macros,
+    reason = "a test reads files and the environment, runs a compiler, and tells what it found"
+)]
+
+mod compile;
+mod run;
+
+use std::path::{Path, PathBuf};
+
+use syntax::SourceFile;
+
+use compile::Compiler;
+use run::{Disk, Prepared, prepare};
+
+/// The number in an environment variable.
+fn setting(name: &str, default: u64) -> u64 {
+    std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default)
+}
+
+/// What the model says of itself: where it can be found in a message.
+struct Case {
+    name: String,
+    text: String,
+    prepared: Prepared,
+}
+
+/// Generates, compiles and compares all of them.
+fn judge(folder: &str, cases: Vec<Case>) {
+    let compiler = Compiler::new(folder);
+    let mut built = Vec::new();
+    let mut failures = Vec::new();
+    for (index, case) in cases.iter().enumerate() {
+        match compiler.write(&format!("m{index}"), &case.text, &case.prepared) {
+            Ok(path) => built.push((case, path)),
+            Err(error) => failures.push(format!("{}: {error}", case.name)),
+        }
+    }
+    let programs = compiler.compile_all(built.iter().map(|(_, path)| path.clone()).collect());
+    for ((case, path), compiled) in built.iter().zip(programs) {
+        let outcome = compiled.and_then(|program| compiler.replay(&program, &case.prepared));
+        if let Err(reason) = outcome {
+            failures.push(format!("{} ({}): {reason}", case.name, path.display()));
+        }
+    }
+    assert!(failures.is_empty(), "{} of {}:\n{}", failures.len(), cases.len(), failures.join("\n\n"));
+    compiler.finish();
+}
+
+#[test]
+fn examples() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut paths = Vec::new();
+    match std::env::var("GROUNDSTATE_MODEL") {
+        Ok(path) => paths.push(PathBuf::from(path)),
+        Err(_) => {
+            ["examples", "bench/models", "library/patterns/tests"].iter().for_each(|f| walk(&root.join(f), &mut paths))
+        }
+    }
+    let mut cases = Vec::new();
+    for path in paths {
+        let text = std::fs::read_to_string(&path).expect("a readable file");
+        let file = SourceFile::new(path.to_string_lossy(), text.clone());
+        let name = path.strip_prefix(&root).unwrap_or(&path).display().to_string();
+        match prepare(file, &mut Disk, 30, 1) {
+            Ok(Some(prepared)) => cases.push(Case { name, text, prepared }),
+            Ok(None) => {}
+            Err(reason) => panic!("{name}: {reason}"),
+        }
+    }
+    assert!(!cases.is_empty());
+    judge("examples", cases);
+}
+
+fn walk(folder: &Path, found: &mut Vec<PathBuf>) {
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    paths.sort();
+    for path in paths {
+        if path.is_dir() {
+            // The reference systems of verification run without end.
+            if path.file_name().is_none_or(|name| name != "verify") {
+                walk(&path, found);
+            }
+        } else if path.extension().is_some_and(|extension| extension == "asm") {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn random_models() {
+    let (wanted, first) = (setting("GROUNDSTATE_CASES", 6), setting("GROUNDSTATE_SEED", 1));
+    let mut cases = Vec::new();
+    for seed in first..first + 4 * wanted {
+        if cases.len() as u64 == wanted {
+            break;
+        }
+        let text = oracle::generate::model(seed, 2 + (seed % 3) as u32).to_string();
+        let file = SourceFile::new("Model.asm", text.clone());
+        if let Ok(Some(prepared)) = prepare(file, &mut Disk, 6, seed) {
+            cases.push(Case { name: format!("seed {seed}"), text, prepared });
+        }
+    }
+    judge("random", cases);
+}

@@ -1,0 +1,96 @@
+//! A model, its generated code, and a run of the machine to hold that code to.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use generate::replay::{Answers, script, state};
+use generate::{Generated, Options};
+use machine::{Closed, EngineChoice, Limits, Machine};
+use model::Loader;
+use program::Program;
+use simulate::{Bounds, Choices, Inputs, RandomSource, Record, Run};
+use syntax::{Severity, SourceFile};
+
+/// What is compared.
+pub struct Prepared {
+    pub generated: Generated,
+    /// What the generated program is fed with.
+    pub script: String,
+    /// What it has to print. The place of a fault is left out.
+    pub expected: String,
+}
+
+/// The project's files.
+pub struct Disk;
+
+impl Loader for Disk {
+    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        let folder = Path::new(&importer.name).parent().unwrap_or(Path::new(""));
+        let found = folder.join(format!("{path}.asm"));
+        let text = std::fs::read_to_string(&found).map_err(|error| error.to_string())?;
+        Ok(SourceFile::new(found.to_string_lossy(), text))
+    }
+}
+
+/// Generates a model and runs it in the machine; none if there is nothing to run.
+pub fn prepare(file: SourceFile, disk: &mut dyn Loader, steps: u64, seed: u64) -> Result<Option<Prepared>, String> {
+    let checked = model::check(file, disk);
+    if let Some(error) = checked.diagnostics.iter().find(|found| found.severity == Severity::Error) {
+        return Err(error.message.clone());
+    }
+    let program = program::lower(&checked.model).map_err(|faults| faults[0].message.clone())?;
+    if program.main.is_none() {
+        return Ok(None);
+    }
+    let program = Arc::new(program);
+    let mut started = Machine::new(Arc::clone(&program), Limits::default());
+    // What initial values ask of the environment is asked for again.
+    let _ = started.start(&mut Closed);
+    let generated = generate::generate(&program, &checked.sources, &mut started, &Options::default())
+        .map_err(|refused| refused[0].message.clone())?;
+    let (script, expected) = record(&program, steps, seed);
+    Ok(Some(Prepared { generated, script, expected }))
+}
+
+fn record(program: &Arc<Program>, steps: u64, seed: u64) -> (String, String) {
+    let limits = Limits { iterations: 1_000_000, call_depth: 200, collection: 100_000, ..Limits::default() };
+    let inputs = Inputs::new().with(RandomSource::new(seed, Bounds::default())).choosing(Choices::random(seed));
+    let options = simulate::Options {
+        steps: Some(steps),
+        engine: EngineChoice::Interpreted,
+        invariants: simulate::Invariants::Ignore,
+        ..Default::default()
+    };
+    let mut run = Run::new(Arc::clone(program), limits, inputs, options);
+    let (mut text, mut expected, mut attempted) = (String::new(), String::new(), false);
+    while let Some(record) = run.advance() {
+        match record {
+            Record::Initial { inputs, times, .. } => {
+                text.push_str(&script(program, &Answers { inputs, times, choices: Vec::new() }));
+                expected.push_str(&state(program, &run.machine().locations()));
+            }
+            Record::Step(step) => {
+                text.push_str(&script(program, &answers(step)));
+                expected.push_str(&state(program, &run.machine().locations()));
+            }
+            Record::Attempt(step) => {
+                text.push_str(&script(program, &answers(step)));
+                attempted = true;
+            }
+            Record::End(simulate::End::Fault(fault)) => {
+                // A step that took nothing from outside leaves no attempt on record.
+                if !attempted {
+                    text.push_str("step\n");
+                }
+                expected.push_str(&format!("fault {}\n", fault.kind.id()));
+            }
+            _ => {}
+        }
+    }
+    (text, expected)
+}
+
+fn answers(step: simulate::StepRecord) -> Answers {
+    let choices = step.choices.into_iter().map(|choice| (choice.span, choice.index, choice.values)).collect();
+    Answers { inputs: step.inputs, choices, times: step.times }
+}
