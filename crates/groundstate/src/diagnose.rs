@@ -12,6 +12,13 @@ use syntax::{Diagnostic, Span};
 /// How many of the calls that led to a fault are shown.
 const CALLS: usize = 4;
 
+/// A part of a model that solvers have no place for.
+pub fn diagnose_outside(outside: &verify::solver::Outside) -> Diagnostic {
+    Diagnostic::error("outside-solver", outside.span, format!("{} has no place in what solvers are told", outside.what))
+        .because("not told to solvers")
+        .with_help("let the states be explored: `--engine explicit`, or `bdd`")
+}
+
 /// A fault of a step.
 pub fn diagnose_fault(fault: &Fault, program: &Program) -> Diagnostic {
     let message = fault.show(program).to_string();

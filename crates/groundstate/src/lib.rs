@@ -21,7 +21,7 @@ use syntax::ast::{AstNode, TermFile};
 use syntax::{Diagnostic, Severity, SourceFile, Sources, Span};
 
 pub use counterexample::{counterexample_run, counterexample_scenario};
-pub use diagnose::{diagnose_failure, diagnose_fault, diagnose_violation};
+pub use diagnose::{diagnose_failure, diagnose_fault, diagnose_outside, diagnose_violation};
 pub use diagnose_review::{REVIEW_IDS, diagnose_finding};
 pub use fingerprint::fingerprint;
 pub use test::{SeededChoices, Suite, Tested, own_files};

@@ -6,7 +6,8 @@
 use std::sync::Arc;
 
 use groundstate::scenario::{FirstCandidate, Options as Scenario};
-use groundstate::verify::{Options, Outcome, Reason, Report, Subject, verify};
+use groundstate::verify::solver::Method;
+use groundstate::verify::{Engine, NoStart, Options, Outcome, Reason, Report, Subject, verify};
 use groundstate::{Suite, counterexample_scenario};
 use program::Program;
 use syntax::SourceFile;
@@ -116,6 +117,15 @@ fn the_pages_of_faults_show_them() {
     let (_, report) = check(blocks(&no_bound, "asmetal verify")[0], 1);
     let Outcome::Unknown(reasons) = &report.verdicts[0].outcome else { panic!("{:?}", report.verdicts[0]) };
     assert!(matches!(reasons[..], [Reason::Unbounded(_)]));
+    let outside = page("faults/outside-solver");
+    let text = blocks(&outside, "asmetal solver")[0];
+    let loaded = groundstate::load(SourceFile::new(file(text), text), &mut OneModel(text.to_string()));
+    let program = Arc::new(loaded.unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics)).program);
+    let options = Options { engine: Engine::Solver(Method::Bounded), ..Options::default() };
+    let trouble = verify(&program, &options, &mut |_| true);
+    let Err(NoStart::Outside(outside)) = trouble else { panic!("{trouble:?}") };
+    assert_eq!(groundstate::diagnose_outside(&outside).id, "outside-solver");
+    assert_eq!(outside.what, "a function with values in Seq(Integer)");
     let violated = page("faults/property-violated");
     let (_, report) = check(blocks(&violated, "asmetal verify")[0], 1);
     let Outcome::Violated(trace) = &report.verdicts[4].outcome else { panic!("{:?}", report.verdicts[4]) };

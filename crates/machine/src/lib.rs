@@ -29,6 +29,7 @@ mod store;
 mod update;
 mod value;
 
+pub use builtin::name::name as builtin_name;
 pub use coverage::Coverage;
 pub use environment::{Choice, Closed, Draw, Environment, TimeUnit};
 pub use fault::{ClashSide, Fault, FaultKind};

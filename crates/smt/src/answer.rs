@@ -21,7 +21,7 @@ pub(crate) enum Answer {
 
 /// An S-expression.
 #[derive(Debug, Clone, PartialEq, Eq)]
-enum Expression {
+pub(crate) enum Expression {
     Word(String),
     List(Vec<Expression>),
 }
@@ -101,7 +101,7 @@ impl Reader<'_> {
     }
 }
 
-fn spelled(expression: &Expression) -> String {
+pub(crate) fn spelled(expression: &Expression) -> String {
     match expression {
         Expression::Word(word) => word.clone(),
         Expression::List(inner) => format!("({})", inner.iter().map(spelled).collect::<Vec<_>>().join(" ")),
@@ -109,7 +109,7 @@ fn spelled(expression: &Expression) -> String {
 }
 
 /// `12`, `(- 12)`
-fn integer(expression: &Expression) -> Option<i128> {
+pub(crate) fn integer(expression: &Expression) -> Option<i128> {
     match expression {
         Expression::Word(word) => word.parse().ok(),
         Expression::List(inner) => match &inner[..] {
@@ -120,7 +120,7 @@ fn integer(expression: &Expression) -> Option<i128> {
 }
 
 /// `1.5`, `(- 1.5)`, `(/ 1.0 3.0)`
-fn real(expression: &Expression) -> Option<f64> {
+pub(crate) fn real(expression: &Expression) -> Option<f64> {
     match expression {
         Expression::Word(word) => word.parse().ok(),
         Expression::List(inner) => match &inner[..] {
@@ -132,7 +132,7 @@ fn real(expression: &Expression) -> Option<f64> {
 }
 
 /// The expressions of a text; brackets that do not match are let go.
-fn expressions(text: &str) -> Vec<Expression> {
+pub(crate) fn expressions(text: &str) -> Vec<Expression> {
     let mut open: Vec<Vec<Expression>> = vec![Vec::new()];
     let mut letters = text.char_indices().peekable();
     let put = |open: &mut Vec<Vec<Expression>>, expression| {

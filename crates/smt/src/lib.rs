@@ -5,6 +5,9 @@
 //! many values, or are only compared with constants, the cases are gone through; else the formula is written as SMT-LIB
 //! and a [`Solver`], which the shell brings, is asked. An answer is a state, none, or unknown with the reason.
 //!
+//! Transition relations are too large for such trees: [`shared`] terms stand once, and a [`session`] with a solver keeps what
+//! it was told. `verify` builds them from programs.
+//!
 //! The meaning of terms is that of `machine`; tests hold the two to each other. It must not start a process.
 
 mod answer;
@@ -12,6 +15,8 @@ mod cases;
 mod decide;
 mod formula;
 mod script;
+pub mod session;
+pub mod shared;
 mod translate;
 
 pub use decide::{Decision, Solver};

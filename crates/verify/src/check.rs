@@ -10,6 +10,8 @@ use std::sync::Arc;
 use machine::explore::{Bounds, Settings, Trouble, Unbounded};
 use machine::{Fault, Limits};
 use program::{Expression, FunctionId, Program, PropertyKind};
+use smt::Outside;
+use smt::session::{Session, Silence, Solvers};
 use syntax::Span;
 
 use crate::assumed::assumed_bounds;
@@ -17,6 +19,7 @@ use crate::coverage::unreachable_rules;
 use crate::engine::{Ended, run_engine};
 use crate::runs::{OfRuns, Question, Why, decide};
 use crate::search::{Plan, Progress, Stop, Target};
+use crate::solver::{Left, Method, Proof};
 use crate::temporal::fairness::AgentFairness;
 use crate::trace::Trace;
 
@@ -30,6 +33,8 @@ pub enum Engine {
     Explicit,
     /// As sets, by binary decision diagrams.
     Symbolic,
+    /// Not at all: by an SMT solver.
+    Solver(Method),
 }
 
 /// How a program is checked.
@@ -105,6 +110,8 @@ pub enum Reason {
     Undecided,
     /// It speaks of runs; [`Report::runs`] tells why it is not known.
     Temporal,
+    /// A solver left it open; [`Report::left`] tells why.
+    Left,
 }
 
 /// What a check comes to.
@@ -146,6 +153,12 @@ pub struct Report {
     pub unreachable: Vec<Span>,
     /// By property: why it is not known whether a property of runs holds, where that is so.
     pub runs: BTreeMap<usize, Why>,
+    /// How it was proved what a solver has proved.
+    pub proofs: BTreeMap<Subject, Proof>,
+    /// Why a solver left something open.
+    pub left: BTreeMap<Subject, Left>,
+    /// The solver that was asked.
+    pub solver: Option<String>,
 }
 
 /// Why nothing could be checked.
@@ -155,6 +168,10 @@ pub enum NoStart {
     Fault(Box<Fault>),
     /// The initial states cannot be gone through.
     Unbounded(Unbounded),
+    /// It has a part that solvers have no place for.
+    Outside(Outside),
+    /// There is no solver: why, as a clause.
+    NoSolver(String),
 }
 
 impl From<Trouble> for NoStart {
@@ -189,10 +206,30 @@ pub fn verify_fair(
     agents: Option<AgentFairness>,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Report, NoStart> {
+    verify_with(program, options, agents, &mut NoSolvers, watch)
+}
+
+/// The same, where SMT solvers may be asked.
+///
+/// # Errors
+/// There is no initial state, or a solver cannot be asked.
+pub fn verify_with(
+    program: &Arc<Program>,
+    options: &Options,
+    agents: Option<AgentFairness>,
+    solvers: &mut dyn Solvers,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Report, NoStart> {
     let questions = Questions::of(program, options);
-    let mut ended = run_engine(program, &questions.plan, options.engine, watch)?;
+    let mut ended = run_engine(program, &questions.plan, options.engine, solvers, watch)?;
     let reasons = reasons(&ended, &questions, options);
-    let (mut of_runs, runs) = of_runs(program, &questions, options, agents, &reasons, watch);
+    let assumed: Vec<Reason> = reasons.iter().filter(|reason| matches!(reason, Reason::Bounded(_))).copied().collect();
+    let (mut proofs, mut left) = (BTreeMap::new(), BTreeMap::new());
+    let by_solver = matches!(ended.engine, Engine::Solver(_));
+    let (mut of_runs, runs) = match by_solver {
+        true => Default::default(),
+        false => of_runs(program, &questions, options, agents, &reasons, watch),
+    };
     let verdicts = questions.subjects.iter().map(|(subject, target)| {
         let outcome = match target {
             None => of_runs.remove(subject).unwrap_or(Outcome::Unknown(vec![Reason::Temporal])),
@@ -200,6 +237,14 @@ pub fn verify_fair(
                 // With other inputs the state might not rest.
                 Some(_) if *target == Target::Rest && !options.bounds.is_empty() => Outcome::Unknown(reasons.clone()),
                 Some(trace) => Outcome::Violated(Box::new(trace)),
+                None if ended.proved.contains_key(target) => {
+                    proofs.extend(ended.proved.get(target).map(|proof| (*subject, *proof)));
+                    if assumed.is_empty() { Outcome::Holds } else { Outcome::Unknown(assumed.clone()) }
+                }
+                None if ended.left.contains_key(target) => {
+                    left.extend(ended.left.remove(target).map(|why| (*subject, why)));
+                    Outcome::Unknown(reasons.iter().copied().chain([Reason::Left]).collect())
+                }
                 None => {
                     let mut reasons = reasons.clone();
                     if let Target::Condition(condition) = target
@@ -214,10 +259,24 @@ pub fn verify_fair(
         Verdict { subject: *subject, outcome }
     });
     let verdicts = verdicts.collect();
-    let unreachable = if reasons.is_empty() { unreachable_rules(program, &ended.executed) } else { Vec::new() };
-    let complete = ended.stop.is_none() && ended.unbounded.is_empty() && options.bounds.is_empty();
-    let Ended { progress, stop, width, engine, .. } = ended;
-    Ok(Report { verdicts, progress, stop, complete, width, unreachable, runs, engine })
+    let exhaustive = reasons.is_empty() && !by_solver;
+    let unreachable = if exhaustive { unreachable_rules(program, &ended.executed) } else { Vec::new() };
+    let complete = ended.stop.is_none() && ended.unbounded.is_empty() && options.bounds.is_empty() && !by_solver;
+    let Ended { progress, stop, width, engine, solver, .. } = ended;
+    Ok(Report { verdicts, progress, stop, complete, width, unreachable, runs, engine, proofs, left, solver })
+}
+
+/// No solver at all.
+struct NoSolvers;
+
+impl Solvers for NoSolvers {
+    fn name(&self) -> Result<String, String> {
+        Err("no solver is to be asked".to_string())
+    }
+
+    fn start(&mut self) -> Result<Box<dyn Session>, Silence> {
+        Err(Silence::Broken("no solver is to be asked".to_string()))
+    }
 }
 
 /// The outcomes of temporal properties, and why those are unknown that are. A limit that ended the search is none for them

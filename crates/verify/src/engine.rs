@@ -1,16 +1,19 @@
-//! Which engine goes through the states: one after the other, or as sets.
+//! Which engine goes through the states: one after the other, or as sets; or a solver, which proves what it can.
 //!
-//! In: a plan. Out: what either has found, in one form. INVARIANT: whichever it is, what Holds and what does not is the
-//! same; a shortest run may be another one.
+//! In: a plan. Out: what any has found, in one form. INVARIANT: whichever it is, nothing Holds by one that is violated by
+//! another; a shortest run may be another one.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use machine::explore::{Trouble, Unbounded};
-use program::{Program, RuleId};
+use model::Basic;
+use program::{DomainKind, FunctionKind, Program, RuleId};
+use smt::session::Solvers;
 
-use crate::check::Engine;
+use crate::check::{Engine, NoStart};
 use crate::search::{Plan, Progress, Search, Stop, Target};
+use crate::solver::{Left, Method, Proof, Solved, Unsolved, solve};
 use crate::symbolic::Reach;
 use crate::trace::Trace;
 
@@ -35,40 +38,110 @@ pub(crate) struct Ended {
     pub executed: Vec<bool>,
     /// Which engine it was.
     pub engine: Engine,
+    /// What a solver has proved not to be found.
+    pub proved: BTreeMap<Target, Proof>,
+    /// What a solver has left open.
+    pub left: BTreeMap<Target, Left>,
+    /// The solver that was asked.
+    pub solver: Option<String>,
 }
 
-/// Searches all states of a program.
+/// Searches all states of a program, or asks a solver about them.
 pub(crate) fn run_engine(
     program: &Arc<Program>,
     plan: &Plan,
     engine: Engine,
+    solvers: &mut dyn Solvers,
     watch: &mut dyn FnMut(&Progress) -> bool,
-) -> Result<Ended, Trouble> {
+) -> Result<Ended, NoStart> {
     // Sets are not made level by level, and have no bound of their size that a user could think of.
     let bounded = plan.max_depth < u64::MAX || plan.max_states < u64::MAX || plan.first;
     match engine {
-        Engine::Symbolic if !bounded => symbolic(program, plan, watch),
-        Engine::Automatic if !bounded => {
-            let mut stopped = false;
-            let mut heard = |progress: &Progress| {
-                stopped = !watch(progress);
-                !stopped
-            };
-            let few = Plan { max_states: FEW, ..plan.clone() };
-            let ended = explicit(program, &few, &mut heard)?;
-            if !matches!(ended.stop, Some(Stop::States | Stop::Memory)) {
+        Engine::Symbolic if !bounded => Ok(symbolic(program, plan, watch)?),
+        Engine::Solver(method) => by_solver(program, plan, method, solvers, watch),
+        Engine::Automatic => {
+            let few = Plan { max_states: if bounded { plan.max_states } else { FEW }, ..plan.clone() };
+            let mut ended = explicit(program, &few, watch)?;
+            let full = matches!(ended.stop, Some(Stop::States | Stop::Memory));
+            let endless = full && has_infinite_values(program);
+            let mut solved = None;
+            if (endless || !ended.unbounded.is_empty()) && ended.stop != Some(Stop::Asked) && solvers.name().is_ok() {
+                // What solvers have no place for, or do not know, stays as it is.
+                solved = solve(program, plan, Method::Portfolio, solvers, watch).ok();
+                let decided = solved.as_ref().is_some_and(|solved| solved.left.is_empty());
+                if decided || bounded || !full {
+                    ended.take(solved);
+                    return Ok(ended);
+                }
+            } else if bounded || !full {
                 return Ok(ended);
             }
             let memory = ended.stop == Some(Stop::Memory);
             drop(ended);
-            let ended = symbolic(program, plan, &mut heard)?;
-            if memory || ended.stop != Some(Stop::Memory) {
-                return Ok(ended);
+            let mut ended = symbolic(program, plan, watch)?;
+            if !memory && ended.stop == Some(Stop::Memory) {
+                drop(ended);
+                ended = explicit(program, plan, watch)?;
             }
-            drop(ended);
-            explicit(program, plan, &mut heard)
+            ended.take(solved);
+            Ok(ended)
         }
-        _ => explicit(program, plan, watch),
+        _ => Ok(explicit(program, plan, watch)?),
+    }
+}
+
+/// Whether some location has infinitely many values to take.
+fn has_infinite_values(program: &Program) -> bool {
+    program.functions.iter().any(|function| {
+        let kept = matches!(function.kind, FunctionKind::Controlled | FunctionKind::Out | FunctionKind::Shared);
+        let infinite = matches!(
+            program.domain(function.codomain).kind,
+            DomainKind::Basic(Basic::Integer | Basic::Natural | Basic::Real | Basic::String)
+        );
+        kept && infinite && !function.library
+    })
+}
+
+fn by_solver(
+    program: &Arc<Program>,
+    plan: &Plan,
+    method: Method,
+    solvers: &mut dyn Solvers,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Ended, NoStart> {
+    let solved = solve(program, plan, method, solvers, watch).map_err(|unsolved| match unsolved {
+        Unsolved::Outside(outside) => NoStart::Outside(outside),
+        Unsolved::Trouble(trouble) => NoStart::from(trouble),
+        Unsolved::NoSolver(reason) => NoStart::NoSolver(reason),
+    })?;
+    let progress = Progress { depth: solved.depth, ..Progress::default() };
+    let mut ended = Ended {
+        found: BTreeMap::new(),
+        stop: None,
+        progress,
+        unbounded: BTreeSet::new(),
+        unknown: BTreeSet::new(),
+        width: (0, 0),
+        executed: Vec::new(),
+        engine: Engine::Solver(method),
+        proved: BTreeMap::new(),
+        left: BTreeMap::new(),
+        solver: None,
+    };
+    ended.take(Some(solved));
+    Ok(ended)
+}
+
+impl Ended {
+    /// Adds what a solver has found and proved; what has been found before stays.
+    fn take(&mut self, solved: Option<Solved>) {
+        let Some(solved) = solved else { return };
+        for (target, trace) in solved.found {
+            self.found.entry(target).or_insert(trace);
+        }
+        self.proved = solved.proved;
+        self.left = solved.left;
+        self.solver = Some(solved.solver);
     }
 }
 
@@ -84,6 +157,9 @@ fn explicit(program: &Arc<Program>, plan: &Plan, watch: &mut dyn FnMut(&Progress
         unbounded: search.unbounded,
         unknown: search.unknown,
         engine: Engine::Explicit,
+        proved: BTreeMap::new(),
+        left: BTreeMap::new(),
+        solver: None,
     })
 }
 
@@ -99,5 +175,8 @@ fn symbolic(program: &Arc<Program>, plan: &Plan, watch: &mut dyn FnMut(&Progress
         unbounded: reach.unbounded,
         unknown: reach.unknown,
         engine: Engine::Symbolic,
+        proved: BTreeMap::new(),
+        left: BTreeMap::new(),
+        solver: None,
     })
 }

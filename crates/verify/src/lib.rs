@@ -11,12 +11,15 @@ pub mod graph;
 pub mod review;
 pub mod runs;
 mod search;
+pub mod solver;
 pub mod survey;
 mod symbolic;
 mod table;
 pub mod temporal;
 mod trace;
 
-pub use check::{Engine, NoStart, Options, Outcome, Reason, Report, Subject, Verdict, verify, verify_fair};
+pub use check::{
+    Engine, NoStart, Options, Outcome, Reason, Report, Subject, Verdict, verify, verify_fair, verify_with,
+};
 pub use search::{Progress, Stop};
 pub use trace::Trace;

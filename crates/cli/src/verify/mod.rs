@@ -14,8 +14,9 @@ use std::sync::Arc;
 
 use clap::Args;
 use groundstate::own_files;
+use groundstate::verify::solver::Method;
 use groundstate::verify::temporal::fairness::AgentFairness;
-use groundstate::verify::{NoStart, Options, Outcome, Report, verify_fair};
+use groundstate::verify::{NoStart, Options, Outcome, Report, verify_with};
 
 use program::PropertyKind;
 
@@ -23,6 +24,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::load::load;
 use crate::shell::Shell;
+use crate::solver::Process;
 pub use bounded::Bounded;
 pub use counterexample::relative;
 pub use tell::{StepLine, Teller};
@@ -35,6 +37,9 @@ pub struct Arguments {
     /// How states are gone through
     #[arg(long, value_enum, default_value_t)]
     engine: Engine,
+    /// The SMT solver, a program or `none`. Default: z3 or cvc5 from the PATH
+    #[arg(long, value_name = "PROGRAM")]
+    solver: Option<PathBuf>,
     /// How many workers search; as many as there are processors if not said
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=256))]
     workers: Option<u64>,
@@ -80,6 +85,12 @@ enum Engine {
     Explicit,
     /// Sets of states, by binary decision diagrams
     Bdd,
+    /// Runs of so many steps, by an SMT solver: finds violations, proves nothing
+    Bmc,
+    /// k-induction by an SMT solver, with runs
+    Induction,
+    /// Property-directed reachability (IC3) by the Horn engine of z3, with runs
+    Pdr,
 }
 
 impl Engine {
@@ -88,6 +99,9 @@ impl Engine {
             Engine::Auto => groundstate::verify::Engine::Automatic,
             Engine::Explicit => groundstate::verify::Engine::Explicit,
             Engine::Bdd => groundstate::verify::Engine::Symbolic,
+            Engine::Bmc => groundstate::verify::Engine::Solver(Method::Bounded),
+            Engine::Induction => groundstate::verify::Engine::Solver(Method::Induction),
+            Engine::Pdr => groundstate::verify::Engine::Solver(Method::Reachability),
         }
     }
 }
@@ -170,7 +184,8 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Fair::Weak => AgentFairness::Weak,
         Fair::Strong => AgentFairness::Strong,
     });
-    let outcome = verify_fair(&program, &options, agents, &mut |progress| watch.at(progress));
+    let mut solver = Process::find(arguments.solver.as_deref());
+    let outcome = verify_with(&program, &options, agents, &mut solver, &mut |progress| watch.at(progress));
     let timed_out = watch.done();
     let teller = Teller { program: &program, sources: &loaded.sources, timed_out };
     let mut report = match outcome {
@@ -196,6 +211,14 @@ pub fn no_start(shell: &mut Shell, teller: &Teller<'_>, trouble: NoStart) -> Res
         NoStart::Unbounded(unbounded) => {
             shell.diagnostic(teller.sources, &teller.unbounded(&unbounded))?;
             Ok(Exit::Unknown)
+        }
+        NoStart::Outside(outside) => {
+            shell.diagnostic(teller.sources, &groundstate::diagnose_outside(&outside))?;
+            Ok(Exit::Unknown)
+        }
+        NoStart::NoSolver(reason) => {
+            let help = "install z3 or cvc5, or name one by --solver";
+            Err(Failure::usage_with_help(format!("--engine needs a solver, and {reason}"), help))
         }
     }
 }

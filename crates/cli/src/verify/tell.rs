@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::io::Write;
 
 use groundstate::verify::runs::Why;
-use groundstate::verify::{Outcome, Progress, Reason, Report, Stop, Subject, Trace, Verdict};
+use groundstate::verify::solver::{Left, Proof};
+use groundstate::verify::{Engine, Outcome, Progress, Reason, Report, Stop, Subject, Trace, Verdict};
 use machine::explore::{ChoiceTaken, Told, Unbounded, UnboundedKind};
 use machine::{Location, Show, Value};
 use program::{Program, PropertyKind};
@@ -35,6 +36,9 @@ struct VerdictLine {
     verdict: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     states: Option<u64>,
+    /// How it was proved, where that was not by meeting all states.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    by: Option<String>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     reasons: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -96,6 +100,14 @@ impl Teller<'_> {
                 self.verdict(shell, verdict, report)?;
             }
         }
+        if let (Engine::Solver(_), false) = (report.engine, shell.json()) {
+            if shell.talks() {
+                let solver = report.solver.as_deref().unwrap_or("a solver");
+                let steps = plural(report.progress.depth as usize, "step");
+                writeln!(shell.out(), "decided by {solver}, runs of at most {steps} looked at")?;
+            }
+            return Ok(());
+        }
         self.explored(shell, &report.progress, report.complete, Some(report.width.1))
     }
 
@@ -131,7 +143,10 @@ impl Teller<'_> {
     fn verdict(&self, shell: &mut Shell, verdict: &Verdict, report: &Report) -> Result<(), Failure> {
         let name = self.name(verdict.subject);
         match &verdict.outcome {
-            Outcome::Holds => writeln!(shell.out(), "holds     {name}")?,
+            Outcome::Holds => match self.proof(verdict.subject, report) {
+                Some(proof) => writeln!(shell.out(), "holds     {name} ({proof})")?,
+                None => writeln!(shell.out(), "holds     {name}")?,
+            },
             Outcome::Unknown(reasons) => {
                 let reasons = self.reasons(verdict.subject, reasons, report);
                 writeln!(shell.out(), "unknown   {name}: {}", reasons.join("; "))?;
@@ -209,12 +224,16 @@ impl Teller<'_> {
             at: span.map(|span| Place::new(self.sources, span)),
             verdict: "holds",
             states: None,
+            by: None,
             reasons: Vec::new(),
             trace: None,
             again_from: None,
         };
         match &verdict.outcome {
-            Outcome::Holds => line.states = Some(report.progress.states),
+            Outcome::Holds => match self.proof(verdict.subject, report) {
+                None => line.states = Some(report.progress.states),
+                proof => line.by = proof,
+            },
             Outcome::Unknown(reasons) => {
                 line.verdict = "unknown";
                 line.reasons = self.reasons(verdict.subject, reasons, report);
@@ -276,6 +295,7 @@ impl Teller<'_> {
         };
         let temporal = |reason: &Reason| match (reason, why) {
             (Reason::Temporal, Some(why)) => self.why(why),
+            (Reason::Left, _) => report.left.get(&subject).map_or_else(|| self.reason(reason), |left| self.left(left)),
             (reason, _) => self.reason(reason),
         };
         reasons.iter().map(temporal).collect()
@@ -300,6 +320,37 @@ impl Teller<'_> {
         }
     }
 
+    /// How a check was proved, where a solver has done that.
+    fn proof(&self, subject: Subject, report: &Report) -> Option<String> {
+        let how = match report.proofs.get(&subject)? {
+            Proof::Induction(steps) => format!("k-induction, k = {steps}"),
+            Proof::Reachability => "property-directed reachability".to_string(),
+        };
+        Some(format!("{how}, {}", report.solver.as_deref().unwrap_or("a solver")))
+    }
+
+    /// Why a solver left something open.
+    fn left(&self, left: &Left) -> String {
+        match left {
+            Left::Depth(depth) => format!("no run of at most {} violates it", plural(*depth, "step")),
+            Left::Late(0) => "the solver does not know".to_string(),
+            Left::Late(steps) => format!("the solver does not know about runs of {}", plural(*steps, "step")),
+            Left::Stopped => self.reason(&Reason::Stopped(Stop::Asked)),
+            Left::Broken(reason) => reason.clone(),
+            Left::Beyond(outside) => {
+                format!(
+                    "a run meets {}, which is outside of what solvers are told ({})",
+                    outside.what,
+                    self.place(outside.span)
+                )
+            }
+            Left::Odd => "the solver found a run that the machine does not make, which is a fault of this program or, \
+                          where reals are computed, of rounding"
+                .to_string(),
+            Left::Untold => "a solver would have to go through all values of an input".to_string(),
+        }
+    }
+
     /// Why something is not known.
     pub fn reason(&self, reason: &Reason) -> String {
         match reason {
@@ -318,6 +369,7 @@ impl Teller<'_> {
             }
             Reason::Undecided => "it has no value in some state".to_string(),
             Reason::Temporal => "temporal formulas are not decided".to_string(),
+            Reason::Left => "the solver left it open".to_string(),
         }
     }
 

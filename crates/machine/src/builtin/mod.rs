@@ -4,7 +4,7 @@
 //! operand, an index outside, a result beyond 64 bits. Each file owns the functions of a few domains.
 
 mod collection;
-mod name;
+pub(crate) mod name;
 mod number;
 mod sequence;
 mod text;

@@ -3,7 +3,7 @@
 use program::Builtin;
 
 /// The name a library function is declared under.
-pub(crate) fn name(builtin: Builtin) -> &'static str {
+pub fn name(builtin: Builtin) -> &'static str {
     use Builtin::*;
     match builtin {
         Eq => "=",

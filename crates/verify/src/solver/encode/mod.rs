@@ -1,0 +1,453 @@
+//! A step of the machine in terms of a solver: for each location, its next value as a function of the state, the inputs and
+//! the choices; and under which conditions the step is no step.
+//!
+//! In: a program. Out: what [`super::relation`] puts together. Rules are run in the machine's order with symbols for values;
+//! every branch that may be taken is. INVARIANT: for every state and answer, `faults` holds the class of the first fault
+//! that the machine meets, and the update set is the machine's; `beyond` holds where that is not so. Tests hold the two to
+//! each other, and nobody is told of a run that the machine does not make.
+//!
+//! Each file owns one part: terms, builtins, numbers, ranges, rules, locations.
+
+mod builtin;
+mod location;
+mod number;
+mod range;
+mod rule;
+mod set;
+mod term;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use machine::explore::{Bounds, FaultClass};
+use machine::{Fault, FaultKind, Machine, Value};
+use program::{Expression, FunctionId, Program, Slot, TermId};
+use rustc_hash::FxHashMap;
+use smt::Outside;
+use smt::shared::{Node, Terms};
+use syntax::Span;
+
+use crate::solver::symbol::{Codes, Open, Shape, Symbol, constant};
+pub(crate) use location::Place;
+
+/// LIMIT: terms and rules that are gone through for one step.
+const WORK: usize = 2_000_000;
+/// LIMIT: shared terms.
+const TERMS: usize = 4_000_000;
+/// LIMIT: calls in each other, of which a solver is told all.
+const DEPTH: usize = 100;
+
+pub(crate) type Result<T = Symbol> = std::result::Result<T, Outside>;
+
+/// What a step takes from outside.
+#[derive(Debug, Clone)]
+pub(crate) struct Input {
+    pub variable: Node,
+    pub kind: InputKind,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum InputKind {
+    /// The value of a monitored location.
+    Location(FunctionId, Vec<Value>, Shape),
+    /// A place in the candidates of a choice.
+    Pick,
+    /// A number drawn by a choice.
+    Number,
+    /// What rounding does to a real number.
+    Rounding,
+}
+
+/// A choice: its candidates with the condition that each is taken.
+#[derive(Debug, Clone)]
+pub(crate) struct Choice {
+    /// It is made, and has candidates.
+    pub made: Node,
+    pub candidates: Vec<(Node, Vec<Symbol>)>,
+    /// Numbers that are drawn before.
+    pub draws: Vec<Symbol>,
+}
+
+/// The updates of a unit: by place, the condition that there is one, and its value.
+type Unit = BTreeMap<usize, (Node, Symbol)>;
+
+/// See the module.
+pub(crate) struct Encoder {
+    pub program: Arc<Program>,
+    pub terms: Terms,
+    pub codes: Codes,
+    /// Evaluates what does not depend on the state.
+    machine: Machine,
+    bounds: Bounds,
+    /// Reals are computed without rounding.
+    exact: bool,
+    /// Functions whose locations may be undef.
+    partial: BTreeSet<FunctionId>,
+    pub places: Vec<Place>,
+    listed: BTreeMap<FunctionId, Arc<location::Rows>>,
+    /// The values of places now, and before the step.
+    values: Vec<Symbol>,
+    original: Vec<Symbol>,
+    before: bool,
+    agent: Symbol,
+    pub inputs: Vec<Input>,
+    given_inputs: FxHashMap<(FunctionId, Vec<Value>), Symbol>,
+    pub choices: Vec<Choice>,
+    /// What is known of inputs.
+    pub given: Vec<Node>,
+    frame: Vec<Symbol>,
+    /// The condition under which the rule or term at hand is run.
+    path: Node,
+    /// No fault was met so far.
+    live: Node,
+    faults: [Node; 3],
+    /// Where the machine may do what is not told to solvers.
+    pub beyond: Vec<(Node, Outside)>,
+    units: Vec<Unit>,
+    /// By term: its free variables, if its value depends on them alone.
+    fixed: FxHashMap<TermId, Option<Arc<[Slot]>>>,
+    work: usize,
+    depth: usize,
+    /// A real number was computed.
+    pub inexact: bool,
+}
+
+/// The state between two parts of an encoding.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Course {
+    pub path: Node,
+    pub live: Node,
+    pub faults: [Node; 3],
+}
+
+impl Encoder {
+    pub fn new(machine: Machine, bounds: Bounds, exact: bool, partial: BTreeSet<FunctionId>) -> Encoder {
+        Encoder {
+            program: Arc::clone(machine.program()),
+            terms: Terms::default(),
+            codes: Codes::default(),
+            machine,
+            bounds,
+            exact,
+            partial,
+            places: Vec::new(),
+            listed: BTreeMap::new(),
+            values: Vec::new(),
+            original: Vec::new(),
+            before: false,
+            agent: Symbol::UNDEF,
+            inputs: Vec::new(),
+            given_inputs: FxHashMap::default(),
+            choices: Vec::new(),
+            given: Vec::new(),
+            frame: Vec::new(),
+            path: Terms::TRUE,
+            live: Terms::TRUE,
+            faults: [Terms::FALSE; 3],
+            beyond: Vec::new(),
+            units: Vec::new(),
+            fixed: FxHashMap::default(),
+            work: 0,
+            depth: 0,
+            inexact: false,
+        }
+    }
+
+    /// The constants of domains.
+    pub fn machine(&mut self) -> &mut Machine {
+        &mut self.machine
+    }
+
+    fn outside<T>(&self, what: impl Into<String>, span: Span) -> Result<T> {
+        Err(Outside { what: what.into(), span })
+    }
+
+    /// What is outside has the place of the term or rule at hand, where nothing nearer is known.
+    fn placed<T>(outcome: Result<T>, span: Span) -> Result<T> {
+        outcome.map_err(|outside| match outside.span {
+            Span { start: 0, end: 0, .. } => Outside { span, ..outside },
+            _ => outside,
+        })
+    }
+
+    /// Counts against the limits.
+    fn count(&mut self, span: Span) -> Result<()> {
+        self.work += 1;
+        if self.work > WORK || self.terms.count() > TERMS {
+            return self.outside("a step that is too large when it is written out", span);
+        }
+        Ok(())
+    }
+
+    /// Runs the main rule as a unit of its own.
+    pub fn step(&mut self) -> Result<()> {
+        let main = self.program.main.map(|main| self.program.procedure(main).clone());
+        let Some(main) = main else {
+            return self.outside("a model without a main rule", Span { file: syntax::FileId(0), start: 0, end: 0 });
+        };
+        self.units.push(Unit::new());
+        self.in_frame(Vec::new(), main.frame, main.span, |this| this.perform(main.body))
+    }
+
+    /// The next value of a place after [`Encoder::step`], and whether it is another one.
+    pub fn next(&mut self, place: usize) -> Result<(Symbol, Node)> {
+        let old = self.original[place].clone();
+        let Some((guard, value)) = self.units.first().and_then(|unit| unit.get(&place)).cloned() else {
+            return Ok((old, Terms::FALSE));
+        };
+        let same = self.equal(&value, &old)?;
+        let differs = self.terms.not(same);
+        let changed = self.terms.and([guard, differs]);
+        Ok((self.merge(guard, &value, &old)?, changed))
+    }
+
+    /// Whether a condition is true, in the state before the step, and whether it has a value at all; by itself, so that its
+    /// faults are none of the step.
+    pub fn condition(&mut self, expression: &Expression) -> Result<(Node, Node)> {
+        let former = self.course();
+        (self.path, self.live, self.faults) = (Terms::TRUE, Terms::TRUE, [Terms::FALSE; 3]);
+        let truth = self.closed_truth(expression);
+        let live = self.live;
+        self.resume(former);
+        let truth = truth?;
+        Ok((self.terms.and([truth, live]), live))
+    }
+
+    /// Whether a condition is true, evaluated behind what was run before: its faults are the step's.
+    pub fn closed_truth(&mut self, expression: &Expression) -> Result<Node> {
+        let span = self.program.term_span(expression.body);
+        let symbol = self.in_frame(Vec::new(), expression.frame, span, |this| this.evaluate(expression.body))?;
+        Ok(match symbol {
+            Symbol::Known(value) => self.terms.boolean(value == Value::Boolean(true)),
+            Symbol::Open(Open { shape: Shape::Boolean, value, defined }) => self.terms.and([value, defined]),
+            _ => Terms::FALSE,
+        })
+    }
+
+    /// How the run is so far.
+    pub fn course(&self) -> Course {
+        Course { path: self.path, live: self.live, faults: self.faults }
+    }
+
+    /// Goes on from there.
+    pub fn resume(&mut self, course: Course) {
+        (self.path, self.live, self.faults) = (course.path, course.live, course.faults);
+    }
+
+    /// From now on only where this holds.
+    pub fn assume(&mut self, condition: Node) {
+        self.path = self.terms.and([self.path, condition]);
+    }
+
+    /// Runs `body` where a condition holds as well; none where that is nowhere.
+    fn under<T>(&mut self, condition: Node, body: impl FnOnce(&mut Self) -> Result<T>) -> Result<Option<T>> {
+        let path = self.terms.and([self.path, condition]);
+        if path == Terms::FALSE {
+            return Ok(None);
+        }
+        let former = std::mem::replace(&mut self.path, path);
+        let outcome = body(self);
+        self.path = former;
+        outcome.map(Some)
+    }
+
+    /// A fault where a condition holds.
+    fn fault(&mut self, class: FaultClass, condition: Node) {
+        let here = self.terms.and([self.path, self.live, condition]);
+        if here != Terms::FALSE {
+            let class = class as usize;
+            self.faults[class] = self.terms.or([self.faults[class], here]);
+            self.end_where(condition);
+        }
+    }
+
+    /// What happens where a condition holds is not told.
+    fn beyond(&mut self, condition: Node, what: &str, span: Span) {
+        let here = self.terms.and([self.path, self.live, condition]);
+        if here != Terms::FALSE {
+            self.beyond.push((here, Outside { what: what.to_string(), span }));
+            self.end_where(condition);
+        }
+    }
+
+    fn end_where(&mut self, condition: Node) {
+        let here = self.terms.and([self.path, condition]);
+        let not = self.terms.not(here);
+        self.live = self.terms.and([self.live, not]);
+    }
+
+    /// What the machine has met instead of a value.
+    fn met(&mut self, fault: &Fault) -> Result {
+        if let FaultKind::Limit { .. } | FaultKind::Environment { .. } = fault.kind {
+            return self.outside("a term that the machine does not evaluate by itself", fault.span);
+        }
+        self.fault(FaultClass::of(fault), Terms::TRUE);
+        Ok(Symbol::UNDEF)
+    }
+
+    /// Runs `body` in a new frame.
+    fn in_frame<T>(
+        &mut self,
+        mut arguments: Vec<Symbol>,
+        frame: u32,
+        span: Span,
+        body: impl FnOnce(&mut Self) -> Result<T>,
+    ) -> Result<T> {
+        if self.depth >= DEPTH {
+            return self.outside("calls within each other without an end", span);
+        }
+        arguments.resize(frame as usize, Symbol::UNDEF);
+        let former = std::mem::replace(&mut self.frame, arguments);
+        self.depth += 1;
+        let outcome = stacker::maybe_grow(1 << 20, 8 << 20, || body(self));
+        self.depth -= 1;
+        self.frame = former;
+        outcome
+    }
+
+    fn bind(&mut self, slot: Slot, value: Symbol) {
+        self.frame[slot.0 as usize] = value;
+    }
+
+    /// A symbol as a scalar in terms; none if it is none. The value of undef is `like`.
+    fn open(&mut self, symbol: &Symbol, like: Option<Open>) -> Option<Open> {
+        match symbol {
+            Symbol::Open(open) => Some(*open),
+            Symbol::Known(Value::Undef) => like.map(|like| Open { defined: Terms::FALSE, ..like }),
+            Symbol::Known(value) => {
+                let node = constant(&mut self.terms, &mut self.codes, value);
+                Some(Open { shape: Shape::of(value), value: node, defined: Terms::TRUE })
+            }
+            Symbol::Tuple(_) | Symbol::Set(_) => None,
+        }
+    }
+
+    /// A scalar as a symbol, which is known where it can be.
+    fn symbol(&self, open: Open) -> Symbol {
+        if open.defined == Terms::FALSE {
+            return Symbol::UNDEF;
+        }
+        if open.defined == Terms::TRUE
+            && let Some(value) = self.constant_value(open.shape, open.value)
+        {
+            return Symbol::Known(value);
+        }
+        Symbol::Open(open)
+    }
+
+    fn constant_value(&self, shape: Shape, node: Node) -> Option<Value> {
+        use smt::session::Constant;
+        let constant = self.terms.constant(node)?;
+        match (shape, constant) {
+            // One that is not there yet may come.
+            (Shape::Coded, Constant::Integer(_))
+            | (_, Constant::Boolean(_) | Constant::Integer(_) | Constant::Real(_)) => {
+                crate::solver::symbol::value_of(&self.codes, shape, constant)
+            }
+        }
+    }
+
+    /// The first symbol where a condition holds, else the second.
+    fn merge(&mut self, condition: Node, yes: &Symbol, no: &Symbol) -> Result {
+        match self.terms.truth(condition) {
+            Some(true) => return Ok(yes.clone()),
+            Some(false) => return Ok(no.clone()),
+            None if yes == no => return Ok(yes.clone()),
+            None => {}
+        }
+        let span = Span { file: syntax::FileId(0), start: 0, end: 0 };
+        if let (Some(a), Some(b)) = (components(yes), components(no))
+            && a.len() == b.len()
+        {
+            let pairs = a.iter().zip(&b);
+            return Ok(Symbol::Tuple(pairs.map(|(a, b)| self.merge(condition, a, b)).collect::<Result<_>>()?));
+        }
+        if let (Some(a), Some(b)) = (elements(yes), elements(no)) {
+            return self.merge_sets(condition, a, b);
+        }
+        let like = match (yes, no) {
+            (Symbol::Open(open), _) | (_, Symbol::Open(open)) => Some(*open),
+            (Symbol::Known(Value::Undef), other) | (other, _) => self.open(other, None),
+        };
+        match (self.open(yes, like), self.open(no, like)) {
+            (Some(a), Some(b)) if a.shape == b.shape => {
+                let value = match (a.defined, b.defined) {
+                    (Terms::FALSE, _) => b.value,
+                    (_, Terms::FALSE) => a.value,
+                    _ => self.terms.choose(condition, a.value, b.value),
+                };
+                let defined = self.terms.choose(condition, a.defined, b.defined);
+                Ok(self.symbol(Open { shape: a.shape, value, defined }))
+            }
+            _ => self.outside("a value that is of one kind or of another", span),
+        }
+    }
+
+    /// Equality, which is total.
+    fn equal(&mut self, a: &Symbol, b: &Symbol) -> Result<Node> {
+        if let (Symbol::Known(a), Symbol::Known(b)) = (a, b) {
+            return Ok(self.terms.boolean(a == b));
+        }
+        if a == b {
+            return Ok(Terms::TRUE);
+        }
+        if let (Some(a), Some(b)) = (components(a), components(b)) {
+            if a.len() != b.len() {
+                return Ok(Terms::FALSE);
+            }
+            let all = a.iter().zip(&b).map(|(a, b)| self.equal(a, b)).collect::<Result<Vec<_>>>()?;
+            return Ok(self.terms.and(all));
+        }
+        let like = match (a, b) {
+            (Symbol::Open(open), _) | (_, Symbol::Open(open)) => Some(*open),
+            _ => None,
+        };
+        match (self.open(a, like), self.open(b, like)) {
+            (Some(a), Some(b)) => {
+                let neither = [self.terms.not(a.defined), self.terms.not(b.defined)];
+                let neither = self.terms.and(neither);
+                if a.shape != b.shape || a.defined == Terms::FALSE || b.defined == Terms::FALSE {
+                    return Ok(neither);
+                }
+                let same = self.terms.equal(a.value, b.value);
+                let both = self.terms.and([a.defined, b.defined, same]);
+                Ok(self.terms.or([both, neither]))
+            }
+            _ if matches!((a, b), (Symbol::Tuple(_) | Symbol::Set(_), Symbol::Known(Value::Undef)))
+                || matches!((a, b), (Symbol::Known(Value::Undef), Symbol::Tuple(_) | Symbol::Set(_))) =>
+            {
+                Ok(Terms::FALSE)
+            }
+            _ => self.outside("an equality of collections", Span { file: syntax::FileId(0), start: 0, end: 0 }),
+        }
+    }
+
+    /// The condition that a symbol is not undef.
+    fn defined(&self, symbol: &Symbol) -> Node {
+        match symbol {
+            Symbol::Known(value) => self.terms.boolean(!value.is_undef()),
+            Symbol::Open(open) => open.defined,
+            Symbol::Tuple(_) | Symbol::Set(_) => Terms::TRUE,
+        }
+    }
+}
+
+/// The components of a tuple.
+fn components(symbol: &Symbol) -> Option<Vec<Symbol>> {
+    match symbol {
+        Symbol::Tuple(components) => Some(components.clone()),
+        Symbol::Known(Value::Tuple(components)) => Some(components.iter().cloned().map(Symbol::Known).collect()),
+        _ => None,
+    }
+}
+
+/// The elements of a set.
+fn elements(symbol: &Symbol) -> Option<Vec<(Node, Symbol)>> {
+    match symbol {
+        Symbol::Set(elements) => Some(elements.clone()),
+        Symbol::Known(Value::Set(values)) => {
+            Some(values.iter().map(|value| (Terms::TRUE, Symbol::Known(value.clone()))).collect())
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,123 @@
+//! k-induction: what did not happen for k steps does not happen in the next.
+//!
+//! M. Sheeran, S. Singh, G. Stålmarck, *Checking safety properties using induction and a SAT-solver*, 2000, with paths on which
+//! no state comes twice. All that is looked for is proved together: what fails is left out and the rest tried again, so
+//! that one may be needed for the other. The beginning is [`super::bounded`]'s.
+
+use std::collections::BTreeMap;
+
+use smt::session::{Session, Silence, Verdict};
+use smt::shared::Node;
+
+use crate::search::Target;
+use crate::solver::relation::Relation;
+use crate::solver::unrolling::{Patience, Unrolling};
+
+/// LIMIT: times for which states are told to be different.
+const SIMPLE: usize = 40;
+
+/// The proof so far.
+pub(crate) struct Induction<'r> {
+    relation: &'r Relation,
+    unrolling: Unrolling<'r>,
+    /// What is to be proved; none is that the machine does nothing that was not told.
+    open: BTreeMap<Option<Target>, Node>,
+    /// By what is open or proved, its names at the times.
+    names: BTreeMap<Option<Target>, Vec<String>>,
+    /// What was proved, with how many steps.
+    pub proved: BTreeMap<Target, usize>,
+    /// It is proved that the machine does nothing that was not told.
+    pub told: bool,
+}
+
+impl<'r> Induction<'r> {
+    pub fn new(relation: &'r Relation, session: Box<dyn Session>) -> Induction<'r> {
+        let mut open: BTreeMap<Option<Target>, Node> =
+            relation.targets.iter().map(|(target, node)| (Some(*target), *node)).collect();
+        open.insert(None, relation.strays);
+        Induction {
+            relation,
+            unrolling: Unrolling::new(relation, session, false),
+            open,
+            names: BTreeMap::new(),
+            proved: BTreeMap::new(),
+            told: false,
+        }
+    }
+
+    /// Does not try to prove what is violated.
+    pub fn give_up(&mut self, target: Option<Target>) {
+        self.open.remove(&target);
+    }
+
+    /// Whether all is done.
+    pub fn is_done(&self) -> bool {
+        self.open.is_empty()
+    }
+
+    /// Tries with one step more than before, at first with none.
+    pub fn advance(&mut self, patience: &mut Patience<'_>) -> Result<(), Silence> {
+        if !self.names.is_empty() {
+            self.unrolling.step();
+        }
+        let time = self.unrolling.time();
+        if time > 0 && time < SIMPLE {
+            self.unrolling.be_new();
+        }
+        let known: Vec<(Option<Target>, Node)> = self.all();
+        for (target, node) in known {
+            let name = self.unrolling.name(node, time);
+            if self.is_proved(target) {
+                self.unrolling.assert_text(&format!("(not {name})"));
+            }
+            self.names.entry(target).or_default().push(name);
+        }
+        let mut set: Vec<Option<Target>> = self.open.keys().copied().collect();
+        while !set.is_empty() {
+            let last: Vec<String> = set.iter().map(|target| self.names[target][time].clone()).collect();
+            let mut assumed: Vec<String> = set
+                .iter()
+                .flat_map(|target| self.names[target][..time].iter().map(|name| format!("(not {name})")))
+                .collect();
+            assumed.push(self.unrolling.any(&last));
+            match self.unrolling.possible(&assumed, patience)? {
+                Verdict::Impossible => break,
+                Verdict::Unknown => return Err(Silence::Late),
+                Verdict::Possible => {}
+            }
+            let hits = self.unrolling.true_among(&last, patience)?;
+            let before = set.len();
+            let mut hits = hits.into_iter();
+            set.retain(|_| hits.next() != Some(true));
+            if set.len() == before {
+                return Err(Silence::Broken("the solver's values do not fit its answer".to_string()));
+            }
+        }
+        for target in set {
+            self.open.remove(&target);
+            match target {
+                Some(target) => _ = self.proved.insert(target, time),
+                None => self.told = true,
+            }
+            for name in self.names[&target].clone() {
+                self.unrolling.assert_text(&format!("(not {name})"));
+            }
+        }
+        Ok(())
+    }
+
+    fn is_proved(&self, target: Option<Target>) -> bool {
+        match target {
+            Some(target) => self.proved.contains_key(&target),
+            None => self.told,
+        }
+    }
+
+    /// What is open or proved.
+    fn all(&self) -> Vec<(Option<Target>, Node)> {
+        let proved = self.relation.targets.iter().filter(|(target, _)| self.proved.contains_key(target));
+        let proved = proved.map(|(target, node)| (Some(*target), *node));
+        let open = self.open.iter().map(|(target, node)| (*target, *node));
+        open.chain(proved).collect()
+    }
+}

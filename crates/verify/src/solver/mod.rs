@@ -1,0 +1,305 @@
+//! Verification by an SMT solver: models whose states, inputs and choices cannot be gone through.
+//!
+//! In: a program and what is asked of its states. Out: what was found, with runs that the machine has made again, and what
+//! was proved. [`encode`] puts a step into terms, [`relation`] the whole program; [`bounded`] looks for runs, [`induction`]
+//! and [`horn`] prove that there are none. INVARIANT: nothing is proved unless it is proved, too, that the machine does
+//! nothing that the solver was not told.
+
+mod bounded;
+mod encode;
+mod horn;
+mod induction;
+mod relation;
+mod replay;
+mod symbol;
+mod unrolling;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use machine::explore::Trouble;
+use program::Program;
+pub use smt::Outside;
+use smt::session::{Silence, Solvers};
+
+use crate::search::{Plan, Progress, Target};
+use crate::trace::Trace;
+use bounded::Bounded;
+use induction::Induction;
+use relation::{Relation, Unrelated};
+use unrolling::Patience;
+
+/// How a solver is asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// Bounded model checking: runs only.
+    Bounded,
+    /// Bounded model checking and k-induction.
+    Induction,
+    /// Property-directed reachability; runs by bounded model checking.
+    Reachability,
+    /// k-induction for a while, then property-directed reachability.
+    Portfolio,
+}
+
+/// How a property was proved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Proof {
+    /// By induction over so many steps.
+    Induction(usize),
+    /// By a set of states that leaves out what is looked for.
+    Reachability,
+}
+
+/// Why a solver left something open.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Left {
+    /// So many steps were looked at.
+    Depth(usize),
+    /// The solver did not answer in time, or does not know; of runs of so many steps.
+    Late(usize),
+    /// Whoever waits has had enough.
+    Stopped,
+    /// The solver has failed: a clause.
+    Broken(String),
+    /// The machine may do what the solver was not told.
+    Beyond(Outside),
+    /// The solver told of a run that the machine does not make.
+    Odd,
+    /// Inputs without number would have to be gone through.
+    Untold,
+}
+
+/// What came out.
+#[derive(Debug, Default)]
+pub(crate) struct Solved {
+    pub found: BTreeMap<Target, Trace>,
+    pub proved: BTreeMap<Target, Proof>,
+    pub left: BTreeMap<Target, Left>,
+    /// How many steps were looked at.
+    pub depth: u64,
+    /// The solver.
+    pub solver: String,
+}
+
+/// Why nothing came out.
+#[derive(Debug)]
+pub(crate) enum Unsolved {
+    /// The program has a part that solvers have no place for.
+    Outside(Outside),
+    /// There is no initial state.
+    Trouble(Trouble),
+    /// There is no solver: why, as a clause.
+    NoSolver(String),
+}
+
+impl From<Unrelated> for Unsolved {
+    fn from(unrelated: Unrelated) -> Unsolved {
+        match unrelated {
+            Unrelated::Outside(outside) => Unsolved::Outside(outside),
+            Unrelated::Trouble(trouble) => Unsolved::Trouble(trouble),
+        }
+    }
+}
+
+impl From<Silence> for Unsolved {
+    fn from(silence: Silence) -> Unsolved {
+        Unsolved::NoSolver(match silence {
+            Silence::Broken(reason) => reason,
+            Silence::Late | Silence::Stopped => "the solver does not start".to_string(),
+        })
+    }
+}
+
+/// LIMIT: steps that are looked at where nobody says how many; in a portfolio.
+const DEPTH: u64 = 100;
+const SHORT: u64 = 12;
+/// LIMIT: seconds for one question, in a portfolio; for property-directed reachability there.
+const SECONDS: u32 = 10;
+const LONG: u32 = 30;
+
+/// Checks a program by a solver.
+pub(crate) fn solve(
+    program: &Arc<Program>,
+    plan: &Plan,
+    method: Method,
+    solvers: &mut dyn Solvers,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Solved, Unsolved> {
+    let exact = Relation::of(program, plan, true)?;
+    // Reals are rounded by the machine: a proof is about all that rounding can do, a run about exact numbers at first.
+    let mut provable = Relation::of(program, plan, !exact.inexact)?;
+    let solver = solvers.name().map_err(Unsolved::NoSolver)?;
+    if method == Method::Reachability && !solver.starts_with("z3") {
+        return Err(Unsolved::NoSolver(format!("{solver} has no engine for Horn clauses; z3 has")));
+    }
+    let portfolio = method == Method::Portfolio;
+    let most = match (portfolio, plan.max_depth) {
+        (true, depth) => depth.min(SHORT),
+        (false, u64::MAX) => DEPTH,
+        (false, depth) => depth,
+    };
+    let mut go_on = |depth: u64| watch(&Progress { depth, ..Progress::default() });
+    let mut patience = Patience { seconds: if portfolio { SECONDS } else { u32::MAX }, go_on: &mut go_on, depth: 0 };
+    let mut solved = Solved { solver: solver.clone(), ..Solved::default() };
+    let mut pending = exact.targets.clone();
+    pending.extend(exact.untold.iter().map(|target| (*target, smt::shared::Terms::FALSE)));
+    let mut bounded = Bounded::new(program, plan, &exact, solvers.start()?);
+    let (mut told, mut late) = (false, None);
+    let mut proves = BTreeMap::new();
+    if method == Method::Reachability {
+        // Runs are looked for only of what is known to be reached.
+        let reached =
+            by_reachability(&mut provable, &BTreeMap::new(), false, solvers, &mut patience, &mut proves, &mut told)?;
+        match reached {
+            Reached::Told(targets) => bounded.open.retain(|(target, _)| targets.contains(target)),
+            Reached::Silent(left) => {
+                bounded.open.clear();
+                late = Some(left);
+            }
+        }
+    }
+    let (mut induction, mut base) = (None, None);
+    if matches!(method, Method::Induction | Method::Portfolio) {
+        induction = Some(Induction::new(&provable, solvers.start()?));
+        if exact.inexact {
+            base = Some(Bounded::new(program, plan, &provable, solvers.start()?));
+        }
+    }
+    for _ in 0..=most {
+        if bounded.open.is_empty() && induction.as_ref().is_none_or(Induction::is_done) {
+            break;
+        }
+        let looked = bounded.advance(&mut patience);
+        if let Err(silence) = looked {
+            late = late.or(Some(left_by(silence, bounded.times)));
+            break;
+        }
+        let Some(proof) = &mut induction else { continue };
+        let mut advanced = base.as_mut().map_or(Ok(()), |base| base.advance(&mut patience));
+        for bounded in std::iter::once(&bounded).chain(&base) {
+            for target in bounded.found.keys().chain(&bounded.odd) {
+                proof.give_up(Some(*target));
+            }
+            if bounded.beyond.is_some() {
+                proof.give_up(None);
+            }
+        }
+        if advanced.is_ok() {
+            advanced = proof.advance(&mut patience);
+        }
+        if let Err(silence) = advanced {
+            // It may still be that runs are found.
+            late = Some(left_by(silence, bounded.times));
+            proves.extend(proof.proved.iter().map(|(target, steps)| (*target, Proof::Induction(*steps))));
+            told |= proof.told;
+            induction = None;
+            if portfolio {
+                break;
+            }
+        } else {
+            bounded.open.retain(|(target, _)| !proof.proved.contains_key(target));
+        }
+    }
+    if let Some(base) = base {
+        bounded
+            .found
+            .extend(base.found.into_iter().filter(|(target, _)| bounded.open.iter().any(|one| one.0 == *target)));
+    }
+    if let Some(proof) = induction {
+        proves.extend(proof.proved.iter().map(|(target, steps)| (*target, Proof::Induction(*steps))));
+        told |= proof.told;
+    }
+    let stopped = late == Some(Left::Stopped);
+    if portfolio && !stopped && !bounded.open.is_empty() && solver.starts_with("z3") {
+        patience.seconds = LONG;
+        let known: BTreeMap<Target, ()> = pending
+            .iter()
+            .filter(|(target, _)| !bounded.open.iter().any(|(open, _)| open == target))
+            .map(|(target, _)| (*target, ()))
+            .collect();
+        by_reachability(&mut provable, &known, told, solvers, &mut patience, &mut proves, &mut told)?;
+    }
+    solved.depth = bounded.times.saturating_sub(1) as u64;
+    for (target, _) in pending {
+        let left = match proves.get(&target) {
+            Some(proof) if told => {
+                solved.proved.insert(target, *proof);
+                continue;
+            }
+            _ if bounded.found.contains_key(&target) => continue,
+            _ if bounded.odd.contains(&target) => Left::Odd,
+            _ if exact.untold.contains(&target) => Left::Untold,
+            _ => match (&bounded.beyond, &late) {
+                (Some(beyond), _) => Left::Beyond(beyond.clone()),
+                (None, Some(left)) => left.clone(),
+                (None, None) => Left::Depth(bounded.times.saturating_sub(1)),
+            },
+        };
+        solved.left.insert(target, left);
+    }
+    solved.found = bounded.found;
+    Ok(solved)
+}
+
+fn left_by(silence: Silence, times: usize) -> Left {
+    match silence {
+        Silence::Late => Left::Late(times),
+        Silence::Stopped => Left::Stopped,
+        Silence::Broken(reason) => Left::Broken(reason),
+    }
+}
+
+/// What property-directed reachability says of what was asked.
+enum Reached {
+    /// These are reached; the others were proved not to be.
+    Told(Vec<Target>),
+    Silent(Left),
+}
+
+/// Proves all that is not `known`; at first at once, then one by one.
+fn by_reachability(
+    relation: &mut Relation,
+    known: &BTreeMap<Target, ()>,
+    already: bool,
+    solvers: &mut dyn Solvers,
+    patience: &mut Patience<'_>,
+    proves: &mut BTreeMap<Target, Proof>,
+    told: &mut bool,
+) -> Result<Reached, Unsolved> {
+    let targets: Vec<_> = relation.targets.iter().filter(|(target, _)| !known.contains_key(target)).copied().collect();
+    let beyond = if already { smt::shared::Terms::FALSE } else { relation.strays };
+    let all = relation.terms.or(targets.iter().map(|one| one.1).chain([beyond]));
+    let mut silent = None;
+    match horn::reachable(relation, all, &mut *solvers.start()?, patience) {
+        Ok(false) => {
+            proves.extend(targets.iter().map(|(target, _)| (*target, Proof::Reachability)));
+            *told = true;
+            return Ok(Reached::Told(Vec::new()));
+        }
+        Ok(true) => {}
+        Err(Silence::Stopped) => return Ok(Reached::Silent(Left::Stopped)),
+        Err(silence) => silent = Some(left_by(silence, 0)),
+    }
+    if !already {
+        match horn::reachable(relation, beyond, &mut *solvers.start()?, patience) {
+            Ok(reached) => *told |= !reached,
+            Err(Silence::Stopped) => return Ok(Reached::Silent(Left::Stopped)),
+            Err(silence) => silent = Some(left_by(silence, 0)),
+        }
+    }
+    let mut reached = Vec::new();
+    for (target, node) in targets {
+        match horn::reachable(relation, node, &mut *solvers.start()?, patience) {
+            Ok(true) => reached.push(target),
+            Ok(false) => _ = proves.insert(target, Proof::Reachability),
+            Err(Silence::Stopped) => return Ok(Reached::Silent(Left::Stopped)),
+            Err(silence) => silent = Some(left_by(silence, 0)),
+        }
+    }
+    match silent {
+        // What was not told may be reached: runs are looked for all the same.
+        Some(left) if reached.is_empty() => Ok(Reached::Silent(left)),
+        _ => Ok(Reached::Told(reached)),
+    }
+}

@@ -1,0 +1,412 @@
+//! The transition relation of a program: its state as variables, what a step does to them, and what is looked for.
+//!
+//! In: a program and what is asked of its states, as for [`crate::search`]. Out: a [`Relation`], or what has no place in one.
+//! Which locations may be undef is found by trying: at first none but those without an initial value.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use machine::explore::{Explorer, Interner, Settings, Told, Trouble};
+use machine::{Location, Machine, Value};
+use program::{FunctionId, Program};
+use rustc_hash::FxHashMap;
+use smt::Outside;
+use smt::shared::{Kind, Node, Op, Terms, VariableId};
+use syntax::Span;
+
+use crate::search::{Plan, Target, widened};
+use crate::solver::encode::{Choice, Encoder, Input, Place};
+use crate::solver::replay::Given;
+use crate::solver::symbol::{Codes, Open, Shape, Symbol, constant};
+
+/// LIMIT: initial states.
+const STARTS: usize = 256;
+/// LIMIT: values of an input that are gone through to tell whether a state rests.
+const VALUES: i128 = 64;
+/// LIMIT: shared terms, for the same.
+const TERMS: usize = 1_500_000;
+
+/// An initial state.
+pub(crate) struct Start {
+    pub told: Told,
+    pub values: Vec<(Location, Value)>,
+}
+
+/// See the module.
+pub(crate) struct Relation {
+    pub terms: Terms,
+    pub codes: Codes,
+    pub places: Vec<Place>,
+    /// The variables of the state.
+    pub state: Vec<VariableId>,
+    /// Their values in an initial state, which is the one that `start` says.
+    pub initial: Vec<Node>,
+    pub start: Option<VariableId>,
+    pub starts: Vec<Start>,
+    /// Their values after a step.
+    pub next: Vec<Node>,
+    pub inputs: Vec<Input>,
+    pub choices: Vec<Choice>,
+    /// What is known of a state by its domains; which states are admitted; what is known of inputs; that there is a step.
+    pub typed: Node,
+    pub admitted: Node,
+    pub given: Node,
+    pub goes: Node,
+    /// What is looked for, and where it is found: in a state, with inputs.
+    pub targets: Vec<(Target, Node)>,
+    /// Targets of which it cannot be told where they are.
+    pub untold: Vec<Target>,
+    /// Where the machine may do what is not told here.
+    pub beyond: Vec<(Node, Outside)>,
+    /// That it does.
+    pub strays: Node,
+    /// Reals are computed.
+    pub inexact: bool,
+}
+
+/// Why there is no relation.
+pub(crate) enum Unrelated {
+    Outside(Outside),
+    Trouble(Trouble),
+}
+
+impl From<Outside> for Unrelated {
+    fn from(outside: Outside) -> Unrelated {
+        Unrelated::Outside(outside)
+    }
+}
+
+impl Relation {
+    /// The relation of a program; with `exact` reals are computed without rounding.
+    ///
+    /// # Errors
+    /// See [`Unrelated`].
+    pub fn of(program: &Arc<Program>, plan: &Plan, exact: bool) -> Result<Relation, Unrelated> {
+        let starts = starts(program, plan)?;
+        let mut partial = BTreeSet::new();
+        loop {
+            let mut machine = Machine::new(Arc::clone(program), plan.settings.limits);
+            let mut given = Given::new(&starts[0].told);
+            if let Err(fault) = machine.start(&mut given) {
+                return Err(Unrelated::Trouble(Trouble::Fault(Box::new(fault))));
+            }
+            let bounds = plan.settings.bounds.as_ref().clone();
+            let mut encoder = Encoder::new(machine, bounds, exact, partial.clone());
+            let relation = Relation::encode(&mut encoder, plan, &starts)?;
+            let Built { next, initial, mut relation } = relation;
+            let mut more = BTreeSet::new();
+            for (place, (next, initial)) in encoder.places.iter().zip(next.iter().zip(&initial)) {
+                let function = place.location.function;
+                let undefined = next.1 != Terms::TRUE || initial.1 != Terms::TRUE;
+                if place.kept && undefined && !partial.contains(&function) {
+                    more.insert(function);
+                }
+            }
+            if !more.is_empty() {
+                partial.extend(more);
+                continue;
+            }
+            for (index, place) in encoder.places.iter().enumerate().filter(|(_, place)| place.kept) {
+                let mut variables = vec![(place.value, next[index].0, initial[index].0)];
+                if place.defined != Terms::TRUE {
+                    variables.push((place.defined, next[index].1, initial[index].1));
+                }
+                for (variable, next, initial) in variables {
+                    let Op::Variable(id) = encoder.terms.op(variable) else { continue };
+                    relation.state.push(*id);
+                    relation.next.push(next);
+                    relation.initial.push(initial);
+                }
+            }
+            relation.places = encoder.places;
+            relation.inputs = encoder.inputs;
+            relation.choices = encoder.choices;
+            relation.beyond.extend(encoder.beyond);
+            relation.strays = encoder.terms.or(relation.beyond.iter().map(|one| one.0));
+            relation.inexact = encoder.inexact;
+            relation.terms = encoder.terms;
+            relation.codes = encoder.codes;
+            relation.starts = starts;
+            return Ok(relation);
+        }
+    }
+
+    fn encode(encoder: &mut Encoder, plan: &Plan, starts: &[Start]) -> Result<Built, Unrelated> {
+        let settings = &plan.settings;
+        encoder.step()?;
+        let mut excluded = Terms::FALSE;
+        let mut failures = Vec::new();
+        for (index, (formula, assumed)) in settings.step_conditions.iter().enumerate() {
+            let truth = encoder.closed_truth(formula)?;
+            let course = encoder.course();
+            let not = encoder.terms.not(truth);
+            let fails = encoder.terms.and([course.path, course.live, not]);
+            if *assumed {
+                excluded = encoder.terms.or([excluded, fails]);
+                encoder.assume(truth);
+            } else {
+                failures.push((index, fails));
+            }
+        }
+        let course = encoder.course();
+        let included = encoder.terms.not(excluded);
+        let goes = encoder.terms.and([course.live, included]);
+        let mut targets: Vec<(Target, Node)> =
+            (0..3).map(|class| (Target::Fault(class), course.faults[class])).collect();
+        for (index, fails) in failures.into_iter().filter(|(index, _)| plan.wanted_steps.contains(index)) {
+            targets.push((Target::StepCondition(index), encoder.terms.and([fails, included])));
+        }
+        let mut conditions = Vec::new();
+        let mut beyond = Vec::new();
+        for (index, condition) in settings.conditions.iter().enumerate() {
+            let (truth, live) = encoder.condition(condition)?;
+            conditions.push(truth);
+            if live != Terms::TRUE && (plan.assumed.contains(&index) || plan.terminal == Some(index)) {
+                let what = "an assumption that has no value".to_string();
+                let span = encoder.program.term_span(condition.body);
+                beyond.push((encoder.terms.not(live), Outside { what, span }));
+            }
+            if plan.wanted.contains(&index) {
+                targets.push((Target::Condition(index), encoder.terms.not(truth)));
+            }
+        }
+        let admitted = encoder.terms.and(plan.assumed.iter().map(|index| conditions[*index]));
+        let (mut next, mut moves) = (Vec::new(), Vec::new());
+        for index in 0..encoder.places.len() {
+            let place = encoder.places[index].clone();
+            if !place.kept {
+                next.push((Terms::FALSE, Terms::TRUE));
+                continue;
+            }
+            let (symbol, changed) = encoder.next(index)?;
+            moves.push(changed);
+            next.push(lowered(encoder, &symbol, &place)?);
+        }
+        let changed = encoder.terms.or(moves);
+        let moves = encoder.terms.and([goes, changed]);
+        let (initial, start) = initial(encoder, starts)?;
+        let given = encoder.given.clone();
+        let given = encoder.terms.and(given);
+        let typed: Vec<Node> = encoder.places.iter().map(|place| place.typed).collect();
+        let typed = encoder.terms.and(typed);
+        let mut untold = Vec::new();
+        let disturbed: Vec<Node> =
+            course.faults.iter().copied().chain(encoder.beyond.iter().map(|one| one.0)).collect();
+        let disturbed = encoder.terms.or(disturbed);
+        let awake = encoder.terms.or([moves, disturbed]);
+        match possible(encoder, awake) {
+            Some(awake) => {
+                let rests = [encoder.terms.not(changed), encoder.terms.not(awake)];
+                let resting = encoder.terms.and([goes, rests[0], rests[1]]);
+                let may = plan.terminal.map_or(Terms::FALSE, |index| conditions[index]);
+                let may_not = encoder.terms.not(may);
+                targets.push((Target::Rest, encoder.terms.and([resting, may_not])));
+            }
+            None => untold.push(Target::Rest),
+        }
+        let relation = Relation {
+            terms: Terms::default(),
+            codes: Codes::default(),
+            places: Vec::new(),
+            state: Vec::new(),
+            initial: Vec::new(),
+            start,
+            starts: Vec::new(),
+            next: Vec::new(),
+            inputs: Vec::new(),
+            choices: Vec::new(),
+            typed,
+            admitted,
+            given,
+            goes,
+            targets,
+            untold,
+            beyond,
+            strays: Terms::FALSE,
+            inexact: false,
+        };
+        Ok(Built { next, initial, relation })
+    }
+
+    /// Which variables of the state matter to what is looked for, directly or through others; as places in `state`.
+    pub fn cone(&self) -> Vec<usize> {
+        let place: FxHashMap<VariableId, usize> = self.state.iter().copied().zip(0..).collect();
+        let wanted = self.targets.iter().map(|one| one.1).chain(self.beyond.iter().map(|one| one.0));
+        let roots: Vec<Node> = wanted.chain([self.typed, self.admitted, self.given, self.goes]).collect();
+        let mut open: Vec<VariableId> = self.terms.variables_of(roots);
+        let mut within = BTreeSet::new();
+        while let Some(id) = open.pop() {
+            if let Some(index) = place.get(&id)
+                && within.insert(*index)
+            {
+                open.extend(self.terms.variables_of([self.next[*index]]));
+            }
+        }
+        within.into_iter().collect()
+    }
+
+    /// The variables of inputs.
+    pub fn input_variables(&self) -> Vec<VariableId> {
+        let variable = |input: &Input| match self.terms.op(input.variable) {
+            Op::Variable(id) => Some(*id),
+            _ => None,
+        };
+        self.inputs.iter().filter_map(variable).collect()
+    }
+}
+
+struct Built {
+    /// By place: value, and whether it is defined.
+    next: Vec<(Node, Node)>,
+    initial: Vec<(Node, Node)>,
+    relation: Relation,
+}
+
+fn starts(program: &Arc<Program>, plan: &Plan) -> Result<Vec<Start>, Unrelated> {
+    let nowhere = Span { file: syntax::FileId(0), start: 0, end: 0 };
+    let settings =
+        Settings { limits: plan.settings.limits, bounds: Arc::clone(&plan.settings.bounds), ..Settings::default() };
+    let explore = |widening: &_| Explorer::new(program, settings.clone(), widening, &Arc::new(Interner::default()));
+    let explorer = match widened(explore) {
+        Ok(explorer) => explorer,
+        Err(Trouble::Unbounded(unbounded)) => {
+            let what = "an initial value that takes any of infinitely many inputs".to_string();
+            return Err(Unrelated::Outside(Outside { what, span: unbounded.span }));
+        }
+        Err(trouble) => return Err(Unrelated::Trouble(trouble)),
+    };
+    let mut seen = BTreeSet::new();
+    let distinct: Vec<(Box<[u64]>, Told)> =
+        explorer.initial().iter().filter(|(state, _)| seen.insert(state.clone())).cloned().collect();
+    if distinct.len() > STARTS {
+        let what = format!("more than {STARTS} initial states");
+        return Err(Unrelated::Outside(Outside { what, span: nowhere }));
+    }
+    // A packed state leaves out values that are still the initial ones.
+    let mut machine = Machine::new(Arc::clone(program), plan.settings.limits);
+    let mut starts = Vec::new();
+    for (_, told) in distinct {
+        if let Err(fault) = machine.start(&mut Given::new(&told)) {
+            return Err(Unrelated::Trouble(Trouble::Fault(Box::new(fault))));
+        }
+        starts.push(Start { told, values: machine.locations() });
+    }
+    Ok(starts)
+}
+
+/// A symbol as the value of a place, and whether it is defined.
+fn lowered(encoder: &mut Encoder, symbol: &Symbol, place: &Place) -> Result<(Node, Node), Outside> {
+    let outside = |encoder: &Encoder| {
+        let span = encoder.program.function(place.location.function).span;
+        Outside { what: "a value of another kind than that of its function".to_string(), span }
+    };
+    match symbol {
+        Symbol::Known(Value::Undef) => Ok((place.value, Terms::FALSE)),
+        Symbol::Known(value) if Shape::of(value) == place.shape => {
+            Ok((constant(&mut encoder.terms, &mut encoder.codes, value), Terms::TRUE))
+        }
+        Symbol::Open(Open { shape, value, defined }) if *shape == place.shape => Ok((*value, *defined)),
+        _ => Err(outside(encoder)),
+    }
+}
+
+type Values = Vec<(Node, Node)>;
+
+/// By place, its value in an initial state; and the variable that says which.
+fn initial(encoder: &mut Encoder, starts: &[Start]) -> Result<(Values, Option<VariableId>), Outside> {
+    let several = starts.len() > 1;
+    let bounds = (Some(0), Some(starts.len() as i128 - 1));
+    let node = several.then(|| encoder.terms.variable("start", Kind::Integer, bounds));
+    let known: Vec<FxHashMap<&Location, &Value>> =
+        starts.iter().map(|start| start.values.iter().map(|(location, value)| (location, value)).collect()).collect();
+    let mut initial = Vec::new();
+    for index in 0..encoder.places.len() {
+        let place = encoder.places[index].clone();
+        if !place.kept {
+            initial.push((Terms::FALSE, Terms::TRUE));
+            continue;
+        }
+        let mut all: Option<(Node, Node)> = None;
+        for (number, values) in known.iter().enumerate() {
+            let value = values.get(&place.location).map_or(Value::Undef, |value| (*value).clone());
+            let function: FunctionId = place.location.function;
+            let (codomain, span) =
+                (encoder.program.function(function).codomain, encoder.program.function(function).span);
+            if !encoder.machine().contains(codomain, &value) {
+                return Err(Outside { what: "an initial value outside of its domain".to_string(), span });
+            }
+            let one = match value {
+                // Any value will do that is one of its domain's.
+                Value::Undef => (least(encoder, &place), Terms::FALSE),
+                value => lowered(encoder, &Symbol::Known(value), &place)?,
+            };
+            all = Some(match (all, node) {
+                (Some(former), Some(node)) => {
+                    let number = encoder.terms.integer(number as i128);
+                    let this = encoder.terms.equal(node, number);
+                    (encoder.terms.choose(this, one.0, former.0), encoder.terms.choose(this, one.1, former.1))
+                }
+                _ => one,
+            });
+        }
+        initial.extend(all);
+    }
+    let variable = node.and_then(|node| match encoder.terms.op(node) {
+        Op::Variable(id) => Some(*id),
+        _ => None,
+    });
+    Ok((initial, variable))
+}
+
+fn least(encoder: &mut Encoder, place: &Place) -> Node {
+    match place.shape.kind() {
+        Kind::Boolean => Terms::FALSE,
+        Kind::Real => encoder.terms.real(0.0),
+        Kind::Integer => {
+            let low = encoder.terms.bounds(place.value).0.unwrap_or(0);
+            encoder.terms.integer(low)
+        }
+    }
+}
+
+/// Whether a condition holds with some inputs; none where they cannot be gone through.
+fn possible(encoder: &mut Encoder, condition: Node) -> Option<Node> {
+    let mut result = condition;
+    let variable = |input: &Input| match encoder.terms.op(input.variable) {
+        Op::Variable(id) => Some(*id),
+        _ => None,
+    };
+    let inputs: BTreeSet<VariableId> = encoder.inputs.iter().filter_map(variable).collect();
+    // Those asked for last may depend on those before.
+    for id in inputs.iter().rev() {
+        if encoder.terms.variables_of([result]).binary_search(id).is_err() {
+            continue;
+        }
+        let declared = encoder.terms.variable_of(*id);
+        let values: Vec<Node> = match (declared.kind, declared.bounds) {
+            (Kind::Boolean, _) => vec![Terms::FALSE, Terms::TRUE],
+            (Kind::Integer, (Some(low), Some(high))) if high - low < VALUES => {
+                (low..=high).map(|number| encoder.terms.integer(number)).collect()
+            }
+            _ => return None,
+        };
+        let mut known = Vec::new();
+        for given in encoder.given.clone() {
+            let mut of_inputs = encoder.terms.variables_of([given]).into_iter().filter(|one| inputs.contains(one));
+            if of_inputs.next_back() == Some(*id) {
+                known.push(given);
+            }
+        }
+        let known = encoder.terms.and(known.into_iter().chain([result]));
+        let mut any = Vec::new();
+        for value in values {
+            let mut made = FxHashMap::default();
+            any.push(encoder.terms.replace(known, &|other| (other == *id).then_some(value), &mut made));
+            if encoder.terms.count() > TERMS {
+                return None;
+            }
+        }
+        result = encoder.terms.or(any);
+    }
+    Some(result)
+}

@@ -1,0 +1,197 @@
+//! A run that a solver found, made again by the machine: only then it is told.
+//!
+//! In: values of the inputs of each step. Out: the run as a trace, if the machine goes the same way and comes to what was
+//! looked for. The machine's semantics judges the solver, and our translation.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::Arc;
+
+use machine::explore::{ChoiceTaken, FaultClass, Told};
+use machine::{Choice, Draw, EngineChoice, Environment, Location, LocationRef, Machine, TimeUnit, Value};
+use program::{DomainId, Program};
+use rustc_hash::FxHashMap;
+use smt::session::Constant;
+use smt::shared::{VariableId, value_at};
+
+use crate::search::{Plan, Target};
+use crate::solver::encode::InputKind;
+use crate::solver::relation::Relation;
+use crate::solver::symbol::{Symbol, value_of};
+use crate::trace::Trace;
+
+/// What a solver says of a run.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Found {
+    /// Which initial state.
+    pub start: usize,
+    /// By step, the values of inputs, in the order of the relation's.
+    pub steps: Vec<Vec<Option<Constant>>>,
+}
+
+/// An environment that gives what was decided.
+#[derive(Debug, Default)]
+pub(crate) struct Given {
+    inputs: BTreeMap<Location, Value>,
+    choices: VecDeque<Vec<Value>>,
+    numbers: VecDeque<Value>,
+    taken: Vec<ChoiceTaken>,
+}
+
+impl Given {
+    /// What a step was told to take.
+    pub fn new(told: &Told) -> Given {
+        Given {
+            inputs: told.inputs.iter().cloned().collect(),
+            choices: told.choices.iter().map(|choice| choice.values.clone()).collect(),
+            ..Given::default()
+        }
+    }
+}
+
+impl Environment for Given {
+    fn monitored(&mut self, _: &Program, location: LocationRef<'_>, _: DomainId) -> Result<Value, String> {
+        self.inputs.get(&location.to_location()).cloned().ok_or_else(|| "an input that was not given".to_string())
+    }
+
+    fn choose(&mut self, _: &Program, choice: &Choice<'_>) -> Result<usize, String> {
+        let wanted = self.choices.pop_front().ok_or("a choice that was not made")?;
+        let found = (0..choice.candidates()).find(|index| choice.candidate(*index) == wanted);
+        self.taken.push(ChoiceTaken { span: choice.span, values: wanted });
+        found.ok_or_else(|| "a candidate that there is not".to_string())
+    }
+
+    fn number(&mut self, _: &Program, _: &Draw) -> Result<Value, String> {
+        self.numbers.pop_front().ok_or_else(|| "a number that was not drawn".to_string())
+    }
+
+    fn picks(&self, _: &Draw) -> bool {
+        true
+    }
+
+    fn time(&mut self, _: TimeUnit) -> Result<i64, String> {
+        Err("the clock".to_string())
+    }
+}
+
+/// The run as the machine makes it; none where it goes another way.
+pub(crate) fn replay(
+    program: &Arc<Program>,
+    plan: &Plan,
+    relation: &Relation,
+    found: &Found,
+    target: Target,
+) -> Option<Trace> {
+    let start = &relation.starts[found.start];
+    let mut machine = Machine::new(Arc::clone(program), plan.settings.limits);
+    machine.use_engine(EngineChoice::Interpreted);
+    machine.start(&mut Given::new(&start.told)).ok()?;
+    let mut trace = Trace { start: start.told.clone(), values: start.values.clone(), ..Trace::default() };
+    let last = found.steps.len() - 1;
+    for (step, mut given) in decided(relation, found)?.into_iter().enumerate() {
+        if step == last && matches!(target, Target::Condition(_)) {
+            break;
+        }
+        let mut told = Told::default();
+        let prepared = machine.prepare(&mut given);
+        let mut failed = false;
+        let outcome = prepared.and_then(|()| {
+            for (index, (formula, _)) in plan.settings.step_conditions.iter().enumerate() {
+                let holds = machine.evaluate(formula, &mut given)? == Value::Boolean(true);
+                failed |= !holds && target == Target::StepCondition(index);
+            }
+            Ok(())
+        });
+        told.inputs = machine.inputs();
+        match outcome {
+            Ok(()) => {
+                machine.commit();
+                told.changes = machine.changes();
+            }
+            Err(fault) => told.fault = Some(Box::new(fault)),
+        }
+        told.choices = std::mem::take(&mut given.taken);
+        let reached = match (target, &told.fault) {
+            (Target::Fault(class), Some(fault)) => FaultClass::of(fault) as usize == class,
+            (Target::StepCondition(_), None) => failed,
+            (Target::Rest, None) => told.changes.is_empty(),
+            _ => false,
+        };
+        if step == last && !reached || step < last && told.fault.is_some() {
+            return None;
+        }
+        if target != Target::Rest || step < last {
+            trace.steps.push(told);
+        }
+        machine.forget_inputs();
+    }
+    if let Target::Condition(index) = target {
+        let truth = machine.evaluate(&plan.settings.conditions[index], &mut Given::default());
+        if truth == Ok(Value::Boolean(true)) {
+            return None;
+        }
+    }
+    Some(trace)
+}
+
+/// What the environment gives in each step.
+fn decided(relation: &Relation, found: &Found) -> Option<Vec<Given>> {
+    let inputs = relation.input_variables();
+    let place: FxHashMap<VariableId, usize> = inputs.iter().copied().zip(0..).collect();
+    let begin =
+        relation.terms.values(&|id| (Some(id) == relation.start).then_some(Constant::Integer(found.start as i128)));
+    let mut state: FxHashMap<VariableId, Option<Constant>> =
+        relation.state.iter().copied().zip(relation.initial.iter().map(|node| value_at(&begin, *node))).collect();
+    let mut all = Vec::new();
+    for step in &found.steps {
+        let values = relation.terms.values(&|id| match place.get(&id) {
+            Some(index) => step[*index],
+            None => state.get(&id).copied().flatten(),
+        });
+        let truth = |node| value_at(&values, node) == Some(Constant::Boolean(true));
+        let mut given = Given::default();
+        for (input, value) in relation.inputs.iter().zip(step) {
+            if let (InputKind::Location(function, arguments, shape), Some(value)) = (&input.kind, value) {
+                let location = Location { function: *function, arguments: arguments.clone() };
+                given.inputs.insert(location, value_of(&relation.codes, *shape, *value)?);
+            }
+        }
+        for choice in relation.choices.iter().filter(|choice| truth(choice.made)) {
+            for draw in &choice.draws {
+                given.numbers.push_back(shown(relation, &values, draw)?);
+            }
+            let taken = choice.candidates.iter().find(|(taken, _)| truth(*taken));
+            if let Some((_, symbols)) = taken {
+                let values: Option<Vec<Value>> =
+                    symbols.iter().map(|symbol| shown(relation, &values, symbol)).collect();
+                given.choices.push_back(values?);
+            }
+        }
+        all.push(given);
+        state = relation.state.iter().copied().zip(relation.next.iter().map(|node| value_at(&values, *node))).collect();
+    }
+    Some(all)
+}
+
+/// The value of a symbol.
+fn shown(relation: &Relation, values: &[Option<Constant>], symbol: &Symbol) -> Option<Value> {
+    match symbol {
+        Symbol::Known(value) => Some(value.clone()),
+        Symbol::Open(open) => match value_at(values, open.defined)? {
+            Constant::Boolean(true) => value_of(&relation.codes, open.shape, value_at(values, open.value)?),
+            _ => Some(Value::Undef),
+        },
+        Symbol::Tuple(parts) => {
+            let parts: Option<Vec<Value>> = parts.iter().map(|part| shown(relation, values, part)).collect();
+            parts.map(Value::tuple)
+        }
+        Symbol::Set(elements) => {
+            let mut present = Vec::new();
+            for (here, element) in elements {
+                if value_at(values, *here)? == Constant::Boolean(true) {
+                    present.push(shown(relation, values, element)?);
+                }
+            }
+            Some(Value::set(present))
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! Values that are not known yet: terms of a solver in the place of the machine's values.
+//!
+//! A value is known, a number or an element in a term with the condition under which it is defined, a tuple of such, or a
+//! set of such with the condition under which each is in it. What an element is called is a matter of codes: enum literals
+//! and elements of abstract domains have their numbers; strings and what else can only be compared, their place in a list.
+
+use machine::{Real, Value};
+use program::DomainId;
+use smt::shared::{Kind, Node, Terms};
+
+/// What the values of a term are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Shape {
+    Boolean,
+    Integer,
+    Real,
+    /// Literals of an enum, by number.
+    Enum(DomainId),
+    /// Elements of an abstract domain, by number.
+    Element(DomainId),
+    /// Values that are only compared, by their place in [`Codes`].
+    Coded,
+}
+
+impl Shape {
+    pub fn kind(self) -> Kind {
+        match self {
+            Shape::Boolean => Kind::Boolean,
+            Shape::Real => Kind::Real,
+            _ => Kind::Integer,
+        }
+    }
+
+    /// The shape of a value that is not undef.
+    pub fn of(value: &Value) -> Shape {
+        match value {
+            Value::Boolean(_) => Shape::Boolean,
+            Value::Integer(_) => Shape::Integer,
+            Value::Real(number) if number.get().is_finite() => Shape::Real,
+            Value::Enum(domain, _) => Shape::Enum(*domain),
+            Value::Element(domain, _) => Shape::Element(*domain),
+            _ => Shape::Coded,
+        }
+    }
+}
+
+/// A scalar in terms.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Open {
+    pub shape: Shape,
+    /// Its value, where it is defined.
+    pub value: Node,
+    pub defined: Node,
+}
+
+/// A value, known or not.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Symbol {
+    Known(Value),
+    Open(Open),
+    Tuple(Vec<Symbol>),
+    /// Elements that may be in a set, each with the condition that it is. INVARIANT: no two that are in it are equal.
+    Set(Vec<(Node, Symbol)>),
+}
+
+impl Symbol {
+    pub const UNDEF: Symbol = Symbol::Known(Value::Undef);
+
+    pub fn boolean(value: Node) -> Symbol {
+        match value {
+            Terms::TRUE => Symbol::Known(Value::Boolean(true)),
+            Terms::FALSE => Symbol::Known(Value::Boolean(false)),
+            value => Symbol::Open(Open { shape: Shape::Boolean, value, defined: Terms::TRUE }),
+        }
+    }
+
+    pub fn known(&self) -> Option<&Value> {
+        match self {
+            Symbol::Known(value) => Some(value),
+            _ => None,
+        }
+    }
+}
+
+/// The list of values that are only compared.
+#[derive(Debug, Default)]
+pub(crate) struct Codes {
+    values: Vec<Value>,
+}
+
+impl Codes {
+    pub fn code(&mut self, value: &Value) -> i128 {
+        let found = self.values.iter().position(|known| known == value);
+        found.unwrap_or_else(|| {
+            self.values.push(value.clone());
+            self.values.len() - 1
+        }) as i128
+    }
+
+    /// The value of a code; of one that stands for none so far, a string that is not there.
+    pub fn value(&self, code: i128) -> Value {
+        let known = usize::try_from(code).ok().and_then(|code| self.values.get(code));
+        known.cloned().unwrap_or_else(|| {
+            let fresh = (0..).map(|more| format!("text{code}{}", "_".repeat(more)));
+            let mut fresh = fresh.map(Value::string).filter(|value| !self.values.contains(value));
+            fresh.next().unwrap_or_default()
+        })
+    }
+}
+
+/// The constant of a shape that a value is.
+pub(crate) fn constant(terms: &mut Terms, codes: &mut Codes, value: &Value) -> Node {
+    match value {
+        Value::Boolean(truth) => terms.boolean(*truth),
+        Value::Integer(number) => terms.integer(i128::from(*number)),
+        Value::Real(number) if number.get().is_finite() => terms.real(number.get()),
+        Value::Enum(_, index) | Value::Element(_, index) => terms.integer(i128::from(*index)),
+        other => {
+            let code = codes.code(other);
+            terms.integer(code)
+        }
+    }
+}
+
+/// The value of a shape that a constant is.
+pub(crate) fn value_of(codes: &Codes, shape: Shape, constant: smt::session::Constant) -> Option<Value> {
+    use smt::session::Constant;
+    Some(match (shape, constant) {
+        (Shape::Boolean, Constant::Boolean(truth)) => Value::Boolean(truth),
+        (Shape::Integer, Constant::Integer(number)) => Value::Integer(i64::try_from(number).ok()?),
+        (Shape::Real, Constant::Real(number)) => Value::Real(Real::new(number)?),
+        (Shape::Enum(domain), Constant::Integer(index)) => Value::Enum(domain, u32::try_from(index).ok()?),
+        (Shape::Element(domain), Constant::Integer(index)) => Value::Element(domain, u32::try_from(index).ok()?),
+        (Shape::Coded, Constant::Integer(code)) => codes.value(code),
+        _ => return None,
+    })
+}

@@ -1,0 +1,188 @@
+//! Steps of a relation one after the other, told to a solver that keeps them.
+//!
+//! In: a relation. The states of time 0, 1, 2 … with their inputs, and questions about them. INVARIANT: what is asserted of a
+//! time is true of every run (or, without a beginning, of every piece of a run) with so many steps.
+
+use std::fmt::Write;
+
+use smt::session::{Constant, Session, Silence, Verdict, constants, verdict};
+use smt::shared::{Kind, Node, Script, Terms, VariableId};
+
+use crate::solver::relation::Relation;
+use crate::solver::replay::Found;
+
+/// How long a solver may think about one question, and who says that it is enough.
+pub(crate) struct Patience<'w> {
+    pub seconds: u32,
+    pub go_on: &'w mut dyn FnMut(u64) -> bool,
+    /// The time that is being looked at.
+    pub depth: u64,
+}
+
+/// See the module.
+pub(crate) struct Unrolling<'r> {
+    relation: &'r Relation,
+    session: Box<dyn Session>,
+    /// By time, what has been written of it.
+    scripts: Vec<Script>,
+    /// Variables of the state that matter.
+    cone: Vec<usize>,
+    inputs: Vec<VariableId>,
+    /// Commands that the solver was not told yet.
+    text: String,
+    named: usize,
+}
+
+impl<'r> Unrolling<'r> {
+    /// Begins at time 0: in an initial state, or in any.
+    pub fn new(relation: &'r Relation, session: Box<dyn Session>, at_start: bool) -> Unrolling<'r> {
+        let mut unrolling = Unrolling {
+            relation,
+            session,
+            scripts: Vec::new(),
+            cone: relation.cone(),
+            inputs: relation.input_variables(),
+            text: "(set-option :produce-models true)\n(set-logic ALL)\n".to_string(),
+            named: 0,
+        };
+        if at_start {
+            Script::declare(&relation.terms, relation.start.as_slice(), 0, &mut unrolling.text);
+        }
+        unrolling.open_time();
+        if at_start {
+            for index in unrolling.cone.clone() {
+                unrolling.equate(relation.initial[index], 0, relation.state[index], 0);
+            }
+        }
+        unrolling
+    }
+
+    /// The last time.
+    pub fn time(&self) -> usize {
+        self.scripts.len() - 1
+    }
+
+    fn open_time(&mut self) {
+        let (relation, time) = (self.relation, self.scripts.len());
+        self.scripts.push(Script::default());
+        let state: Vec<VariableId> = self.cone.iter().map(|index| relation.state[*index]).collect();
+        Script::declare(&relation.terms, &state, time, &mut self.text);
+        Script::declare(&relation.terms, &self.inputs, time, &mut self.text);
+        for known in [relation.typed, relation.admitted, relation.given] {
+            self.assert(known, time);
+        }
+    }
+
+    fn written(&mut self, node: Node, time: usize) -> String {
+        self.scripts[time].term(&self.relation.terms, node, time, &mut self.text)
+    }
+
+    fn equate(&mut self, node: Node, time: usize, variable: VariableId, later: usize) {
+        let text = self.written(node, time);
+        let name = Script::name(&self.relation.terms, variable, later);
+        let _ = writeln!(self.text, "(assert (= {name} {text}))");
+    }
+
+    /// A term is true at a time.
+    pub fn assert(&mut self, node: Node, time: usize) {
+        if node != Terms::TRUE {
+            let text = self.written(node, time);
+            let _ = writeln!(self.text, "(assert {text})");
+        }
+    }
+
+    /// One step more.
+    pub fn step(&mut self) {
+        let (relation, time) = (self.relation, self.time());
+        self.assert(relation.goes, time);
+        self.open_time();
+        for index in self.cone.clone() {
+            self.equate(relation.next[index], time, relation.state[index], time + 1);
+        }
+    }
+
+    /// The state of the last time is none of those before.
+    pub fn be_new(&mut self) {
+        let time = self.time();
+        for former in 0..time {
+            let mut text = String::new();
+            for index in &self.cone {
+                let id = self.relation.state[*index];
+                let (a, b) =
+                    (Script::name(&self.relation.terms, id, former), Script::name(&self.relation.terms, id, time));
+                let _ = write!(text, " (not (= {a} {b}))");
+            }
+            let _ = writeln!(self.text, "(assert (or false{text}))");
+        }
+    }
+
+    /// A name for a term at a time.
+    pub fn name(&mut self, node: Node, time: usize) -> String {
+        let text = self.written(node, time);
+        self.named += 1;
+        let name = format!("h{}", self.named);
+        let _ = writeln!(self.text, "(declare-const {name} Bool)\n(assert (= {name} {text}))");
+        name
+    }
+
+    /// A name for one of several being true.
+    pub fn any(&mut self, names: &[String]) -> String {
+        self.named += 1;
+        let name = format!("h{}", self.named);
+        let _ = writeln!(self.text, "(declare-const {name} Bool)\n(assert (= {name} (or false {})))", names.join(" "));
+        name
+    }
+
+    /// Asserts a text for ever.
+    pub fn assert_text(&mut self, text: &str) {
+        let _ = writeln!(self.text, "(assert {text})");
+    }
+
+    /// Whether all this can be, with some names and opposites of names assumed.
+    pub fn possible(&mut self, assumed: &[String], patience: &mut Patience<'_>) -> Result<Verdict, Silence> {
+        let _ = writeln!(self.text, "(check-sat-assuming ({}))", assumed.join(" "));
+        let answer = self.ask(patience)?;
+        verdict(&answer)
+    }
+
+    fn ask(&mut self, patience: &mut Patience<'_>) -> Result<String, Silence> {
+        let text = std::mem::take(&mut self.text);
+        let depth = patience.depth;
+        let go_on = &mut *patience.go_on;
+        self.session.ask(&text, patience.seconds, &mut || go_on(depth))
+    }
+
+    /// Which of some names are true in the state that was found possible.
+    pub fn true_among(&mut self, names: &[String], patience: &mut Patience<'_>) -> Result<Vec<bool>, Silence> {
+        let _ = writeln!(self.text, "(get-value ({}))", names.join(" "));
+        let answer = self.ask(patience)?;
+        let values = constants(&answer, &vec![Kind::Boolean; names.len()]);
+        Ok(values.into_iter().map(|value| value == Some(Constant::Boolean(true))).collect())
+    }
+
+    /// The run that was found possible.
+    pub fn run(&mut self, patience: &mut Patience<'_>) -> Result<Found, Silence> {
+        let terms = &self.relation.terms;
+        let mut names = Vec::new();
+        let mut kinds = Vec::new();
+        names.extend(self.relation.start.map(|id| Script::name(terms, id, 0)));
+        kinds.extend(self.relation.start.map(|_| Kind::Integer));
+        for time in 0..self.scripts.len() {
+            names.extend(self.inputs.iter().map(|id| Script::name(terms, *id, time)));
+            kinds.extend(self.inputs.iter().map(|id| terms.variable_of(*id).kind));
+        }
+        let mut values = Vec::new();
+        if !names.is_empty() {
+            let _ = writeln!(self.text, "(get-value ({}))", names.join(" "));
+            let answer = self.ask(patience)?;
+            values = constants(&answer, &kinds);
+        }
+        let mut values = values.into_iter();
+        let start = match self.relation.start.and_then(|_| values.next()).flatten() {
+            Some(Constant::Integer(start)) => usize::try_from(start).unwrap_or(0),
+            _ => 0,
+        };
+        let steps = (0..self.scripts.len()).map(|_| values.by_ref().take(self.inputs.len()).collect()).collect();
+        Ok(Found { start: start.min(self.relation.starts.len() - 1), steps })
+    }
+}

@@ -1,0 +1,232 @@
+//! Solvers against the explicit search: what one proves the other does not find, and the runs have the same length.
+
+#![allow(clippy::disallowed_methods, reason = "a test runs a solver and reads the repository's own models")]
+#![allow(clippy::disallowed_macros, reason = "a test says that it has no solver")]
+
+mod process;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use machine::explore::Bounds;
+use machine::{Limits, Value};
+use model::Basic;
+use program::{DomainKind, FunctionId, FunctionKind, Program};
+use syntax::{Severity, SourceFile};
+use verify::solver::{Left, Method, Proof};
+use verify::{Engine, NoStart, Options, Outcome, Reason, Report, Subject, verify, verify_with};
+
+struct Disk;
+
+impl Disk {
+    fn read(path: &Path) -> Result<SourceFile, String> {
+        let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+        Ok(SourceFile::new(path.display().to_string(), text))
+    }
+}
+
+impl model::Loader for Disk {
+    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        Disk::read(&Path::new(&importer.name).parent().unwrap_or(Path::new("")).join(format!("{path}.asm")))
+    }
+}
+
+fn lowered(file: SourceFile) -> Arc<Program> {
+    let checked = model::check(file, &mut Disk);
+    assert!(checked.diagnostics.is_empty(), "{:#?}", checked.diagnostics);
+    Arc::new(program::lower(&checked.model).expect("it can be lowered"))
+}
+
+fn model(text: &str) -> Arc<Program> {
+    lowered(SourceFile::new("example.asm", format!("asm example\nimport StandardLibrary\nsignature:\n{text}\n")))
+}
+
+fn ask(program: &Arc<Program>, method: Method, depth: u64) -> Option<Result<Report, NoStart>> {
+    let mut solver = process::z3()?;
+    let options = Options { engine: Engine::Solver(method), max_depth: depth, ..Options::default() };
+    Some(verify_with(program, &options, None, &mut solver, &mut |_| true))
+}
+
+/// Each verdict in a word.
+fn words(program: &Program, report: &Report) -> Vec<(String, String)> {
+    let name = |subject: &Subject| match subject {
+        Subject::Property(index) => program.properties[*index].name.clone(),
+        other => format!("{other:?}"),
+    };
+    let word = |subject: &Subject, outcome: &Outcome| match outcome {
+        Outcome::Holds => match report.proofs.get(subject) {
+            Some(Proof::Induction(steps)) => format!("holds, k = {steps}"),
+            Some(Proof::Reachability) => "holds, reachability".to_string(),
+            None => "holds".to_string(),
+        },
+        Outcome::Violated(trace) => format!("violated in {} steps", trace.steps.len()),
+        Outcome::Unknown(_) => match report.left.get(subject) {
+            Some(Left::Beyond(outside)) => format!("beyond: {}", outside.what),
+            left => format!("unknown {left:?}"),
+        },
+    };
+    report.verdicts.iter().map(|one| (name(&one.subject), word(&one.subject, &one.outcome))).collect()
+}
+
+#[track_caller]
+fn check(program: &Arc<Program>, method: Method, expected: &[(&str, &str)]) {
+    let Some(outcome) = ask(program, method, 20) else { return };
+    let report = outcome.expect("it is told to the solver");
+    let words = words(program, &report);
+    for (name, word) in expected {
+        let found = words.iter().find(|(other, _)| other == name);
+        assert_eq!(found.map(|(_, word)| word.as_str()), Some(*word), "{name}\n{words:#?}");
+    }
+}
+
+const TANK: &str = "enum domain Valve = {OPEN | SHUT}
+    monitored inflow: Integer
+    controlled level: Integer
+    controlled valve: Valve
+    definitions:
+    INVAR inflow >= 0
+    invariant inv_low over level: level >= 0
+    invariant inv_high over level: level < 12
+    invariant inv_valve over valve: valve = OPEN implies level > 0
+    main rule r_Main = par
+        valve := if level + inflow > 5 then OPEN else SHUT endif
+        level := if valve = OPEN then 0 else min(level + inflow, 7 + level) endif
+    endpar
+    default init s0: function level = 0 function valve = SHUT";
+
+#[test]
+fn inputs_without_a_bound() {
+    let program = model(TANK);
+    let bmc = [("inv_high", "violated in 2 steps"), ("inv_low", "unknown Some(Depth(20))")];
+    check(&program, Method::Bounded, &bmc);
+    check(&program, Method::Induction, &[("inv_low", "holds, k = 1"), ("inv_high", "violated in 2 steps")]);
+    check(&program, Method::Reachability, &[("inv_low", "holds, reachability"), ("inv_high", "violated in 2 steps")]);
+}
+
+/// What is violated, after how many steps; the rest is not.
+fn violated(program: &Program, report: &Report) -> Vec<(String, String)> {
+    words(program, report).into_iter().filter(|(_, word)| word.starts_with("violated")).collect()
+}
+
+/// A solver's report fits that of the explicit search, which has met all states.
+#[track_caller]
+fn fits(program: &Arc<Program>, explicit: &Report, solved: &Report, depth: usize, text: &str) {
+    let near = |trace: &verify::Trace| trace.steps.len() <= depth;
+    for (one, other) in explicit.verdicts.iter().zip(&solved.verdicts) {
+        let context =
+            || format!("{:?}\n{:#?}\n{:#?}\n{text}", one.subject, words(program, explicit), words(program, solved));
+        assert_ne!(solved.left.get(&one.subject), Some(&Left::Odd), "{}", context());
+        let beyond = matches!(solved.left.get(&one.subject), Some(Left::Beyond(_) | Left::Late(_) | Left::Untold));
+        match (&one.outcome, &other.outcome) {
+            (Outcome::Violated(a), Outcome::Violated(b)) => assert_eq!(a.steps.len(), b.steps.len(), "{}", context()),
+            (Outcome::Violated(a), _) => assert!(beyond || !near(a) || a.branch || a.turn.is_some(), "{}", context()),
+            (Outcome::Holds, Outcome::Violated(_)) => panic!("{}", context()),
+            (Outcome::Unknown(reasons), Outcome::Violated(_)) => {
+                assert!(reasons.iter().any(|reason| !matches!(reason, Reason::Bounded(_))), "{}", context());
+            }
+            _ => {}
+        }
+        if matches!(other.outcome, Outcome::Holds) {
+            assert!(!matches!(one.outcome, Outcome::Violated(_)), "{}", context());
+        }
+    }
+}
+
+#[test]
+fn reference_models() {
+    for (name, method, depth) in [("Swing", Method::Induction, 3), ("SwingUnlocked", Method::Bounded, 12)] {
+        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../bench/models/verify/{name}.asm"));
+        let program = lowered(Disk::read(&path).expect("the model is there"));
+        let explicit = verify(&program, &Options::default(), &mut |_| true).expect("it starts");
+        let Some(outcome) = ask(&program, method, depth) else { return };
+        let solved = outcome.expect("it is told to the solver");
+        fits(&program, &explicit, &solved, depth as usize, name);
+        assert_eq!(violated(&program, &solved), violated(&program, &explicit));
+    }
+}
+
+/// The models of the repository that are small enough to be gone through.
+#[test]
+fn examples() {
+    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let (mut inside, mut outside) = (0, Vec::new());
+    let folders = std::fs::read_dir(root.join("examples")).expect("there are examples");
+    let mut folders: Vec<PathBuf> = folders.flatten().map(|entry| entry.path()).filter(|path| path.is_dir()).collect();
+    folders.extend(["library/runtime", "library/verification"].map(|name| root.join(name)));
+    folders.sort();
+    for folder in folders {
+        let files = std::fs::read_dir(folder).expect("a folder");
+        let mut files: Vec<PathBuf> = files.flatten().map(|entry| entry.path()).collect();
+        files.sort();
+        for path in files.into_iter().filter(|path| path.extension().is_some_and(|ending| ending == "asm")) {
+            let checked = model::check(Disk::read(&path).expect("a model"), &mut Disk);
+            let program = Arc::new(program::lower(&checked.model).expect("it can be lowered"));
+            if program.main.is_none() {
+                continue;
+            }
+            const DEPTH: u64 = 4;
+            let Some(outcome) = ask(&program, Method::Bounded, DEPTH) else { return };
+            let name = path.display().to_string();
+            match outcome {
+                Ok(solved) => {
+                    let options = Options { engine: Engine::Explicit, max_depth: DEPTH + 1, ..Options::default() };
+                    let explicit = verify(&program, &options, &mut |progress| progress.states < 300_000);
+                    fits(&program, &explicit.expect("it starts"), &solved, DEPTH as usize, &name);
+                    inside += 1;
+                }
+                Err(NoStart::Outside(why)) => outside.push(format!("{name}: {}", why.what)),
+                Err(other) => panic!("{name}: {other:?}"),
+            }
+        }
+    }
+    assert!(inside >= 5, "{inside} models are told to the solver; not: {outside:#?}");
+}
+
+/// The values that inputs over infinite domains are given.
+fn bounds(program: &Program) -> Bounds {
+    let infinite = |domain| matches!(program.domain(domain).kind, DomainKind::Basic(Basic::Integer | Basic::Natural));
+    let inputs = program.functions.iter().zip(0..).filter(|(function, _)| {
+        matches!(function.kind, FunctionKind::Monitored | FunctionKind::Shared) && infinite(function.codomain)
+    });
+    inputs.map(|(_, index)| (FunctionId(index), vec![Value::Integer(0), Value::Integer(1)])).collect()
+}
+
+/// `GROUNDSTATE_CASES` sets how many models, `GROUNDSTATE_SEED` the first seed.
+#[test]
+fn random_models() {
+    const DEPTH: u64 = 4;
+    let number =
+        |name: &str, otherwise: u64| std::env::var(name).ok().and_then(|n| n.parse().ok()).unwrap_or(otherwise);
+    let (cases, first) = (number("GROUNDSTATE_CASES", 80), number("GROUNDSTATE_SEED", 1));
+    let (mut compared, mut found) = (0, 0);
+    for seed in first..first + cases {
+        let text = oracle::generate::model(seed, 1).to_string();
+        let checked = model::check(SourceFile::new("Model.asm", text.clone()), &mut Disk);
+        if checked.diagnostics.iter().any(|found| found.severity == Severity::Error) {
+            continue;
+        }
+        let Ok(program) = program::lower(&checked.model) else { continue };
+        let program = Arc::new(program);
+        let limits = Limits { iterations: 200, call_depth: 50, collection: 2000, ..Limits::default() };
+        let bounds = bounds(&program);
+        let few = Options { limits, bounds, engine: Engine::Explicit, max_states: 400, ..Options::default() };
+        let Ok(explicit) = verify(&program, &few, &mut |progress| progress.transitions < 20_000) else { continue };
+        if explicit.stop.is_some() {
+            continue;
+        }
+        let Some(mut solver) = process::z3() else { return };
+        let engine = Engine::Solver(Method::Induction);
+        let options = Options { engine, max_states: u64::MAX, max_depth: DEPTH, ..few };
+        match verify_with(&program, &options, None, &mut solver, &mut |_| true) {
+            Ok(solved) => {
+                let context = format!("seed {seed}\n{text}");
+                fits(&program, &explicit, &solved, DEPTH as usize, &context);
+                compared += 1;
+                found += usize::from(!violated(&program, &solved).is_empty());
+            }
+            Err(NoStart::Outside(_)) => {}
+            Err(other) => panic!("seed {seed}: {other:?}\n{text}"),
+        }
+    }
+    assert!(compared > cases / 10 && found > 0, "{compared} models, {found} with something violated");
+}

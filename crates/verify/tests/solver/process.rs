@@ -1,0 +1,82 @@
+//! z3 as a process, for tests: found on the path, or there is none and the tests say so.
+
+use std::io::{BufRead, BufReader, Write};
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+
+use smt::session::{Session, Silence, Solvers, is_answer};
+
+/// A solver by its name on the path.
+pub struct Installed {
+    name: &'static str,
+    version: String,
+}
+
+/// The solver of a name, if it is there; that it is not is said on stderr.
+pub fn installed(name: &'static str) -> Option<Installed> {
+    let output = Command::new(name).arg("--version").output().ok()?;
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let version = text.split_whitespace().find(|word| word.starts_with(|c: char| c.is_ascii_digit()))?;
+    Some(Installed { name, version: version.to_string() })
+}
+
+/// z3, without which the tests of solvers have nothing to do.
+pub fn z3() -> Option<Installed> {
+    let found = installed("z3");
+    if found.is_none() {
+        eprintln!("z3 is not on the path: not tested");
+    }
+    found
+}
+
+struct Process {
+    child: Child,
+    input: ChildStdin,
+    output: BufReader<ChildStdout>,
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+impl Solvers for Installed {
+    fn name(&self) -> Result<String, String> {
+        Ok(format!("{} {}", self.name, self.version))
+    }
+
+    fn start(&mut self) -> Result<Box<dyn Session>, Silence> {
+        let arguments: &[&str] = match self.name {
+            "z3" => &["-smt2", "-in", "-t:20000"],
+            _ => &["--lang=smt2", "--incremental", "--tlimit-per=20000"],
+        };
+        let started = Command::new(self.name)
+            .args(arguments)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn();
+        let mut child = started.map_err(|error| Silence::Broken(error.to_string()))?;
+        let (input, output) = (child.stdin.take(), child.stdout.take());
+        let (Some(input), Some(output)) = (input, output) else { return Err(Silence::Late) };
+        Ok(Box::new(Process { child, input, output: BufReader::new(output) }))
+    }
+}
+
+impl Session for Process {
+    fn ask(&mut self, commands: &str, _: u32, go_on: &mut dyn FnMut() -> bool) -> Result<String, Silence> {
+        if !go_on() {
+            return Err(Silence::Stopped);
+        }
+        let broken = |error: std::io::Error| Silence::Broken(error.to_string());
+        self.input.write_all(commands.as_bytes()).and_then(|()| self.input.flush()).map_err(broken)?;
+        let mut answer = String::new();
+        while !is_answer(&answer) {
+            if self.output.read_line(&mut answer).map_err(broken)? == 0 {
+                return Err(Silence::Broken("it has ended".to_string()));
+            }
+        }
+        Ok(answer)
+    }
+}
