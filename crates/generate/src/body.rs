@@ -125,15 +125,19 @@ fn procedure(generator: &mut Generator<'_>, id: ProcedureId) -> Member {
     let procedure = program.procedure(id);
     let assumed = generator.assumed.parameters[id.0 as usize].clone();
     let parameters = generator.enter(&procedure.parameters, &assumed, procedure.frame, &procedure.names);
-    let name = generator.plan.procedure(id).name.clone();
+    let name = generator.plan.procedure(id).to_string();
     let list = parameters.join(", ");
     let mut text = Text::default();
     text.open_marked(procedure.span, format!("void Machine::{name}({}) {{", silenced(&parameters)));
-    if is_recursive(program, id) {
+    let recursive = is_recursive(program, id);
+    if recursive {
         let site = generator.sites.number(procedure.span);
-        text.line(format!("const gs::Call call{{calls_, {site}}};"));
+        text.line(format!("gs::enter(calls_, {site});"));
     }
     generator.rule(procedure.body, &mut text);
+    if recursive {
+        text.line("--calls_;");
+    }
     text.close("}");
     Member { declaration: format!("void {name}({list});"), definition: text }
 }
@@ -163,10 +167,15 @@ fn definition(generator: &mut Generator<'_>, id: FunctionId) -> Member {
     let result = generator.plan.cpp(plan.ty, defined);
     let mut text = Text::default();
     text.open_marked(function.span, format!("{result} Machine::{}({}) {{", plan.name, silenced(&parameters)));
+    let body = crate::rule::unwrapped(&body);
     if reads_itself(program, id) {
-        text.line(format!("const gs::Call call{{calls_, {site}}};"));
+        text.line(format!("gs::enter(calls_, {site});"));
+        text.marked(program.term_span(expression.body), format!("auto value = {body};"));
+        text.line("--calls_;");
+        text.line("return value;");
+    } else {
+        text.marked(program.term_span(expression.body), format!("return {body};"));
     }
-    text.marked(program.term_span(expression.body), format!("return {};", crate::rule::unwrapped(&body)));
     text.close("}");
     Member { declaration: format!("{result} {}({});", plan.name, parameters.join(", ")), definition: text }
 }
@@ -247,7 +256,7 @@ fn set_initial(generator: &mut Generator<'_>, index: usize, plan: &FunctionPlan,
     let mut ranges = Vec::new();
     for parameter in parameters {
         // Of what cannot be enumerated the initial values are made when they are read.
-        let Some((range, _)) = generator.domain_range(*parameter, initial.span) else { return };
+        let Some((range, _)) = generator.domain_range(*parameter) else { return };
         ranges.push(range);
         names.push(scope.take("argument"));
     }

@@ -16,8 +16,8 @@ use crate::types::Type;
 /// LIMIT: locations whose update log stands within the object; the logs of larger functions are on the heap.
 const LOG_IN_PLACE: u64 = 64;
 
-/// The header.
-pub(crate) fn header(bodies: &Bodies<'_>, title: &str) -> Text {
+/// The header of a source; it declares the types that one of the two names.
+pub(crate) fn header(bodies: &Bodies<'_>, source: &Text, title: &str) -> Text {
     let generator = &bodies.generator;
     let (program, plan) = (generator.program, generator.plan);
     let mut body = Text::default();
@@ -43,7 +43,7 @@ pub(crate) fn header(bodies: &Bodies<'_>, title: &str) -> Text {
     text.line("#include <array>\n#include <cstddef>\n#include <cstdint>\n#include <limits>\n#include <tuple>\n");
     includes.iter().for_each(|name| text.line(format!("#include <groundstate/machine/{name}.hpp>")));
     text.line(format!("\nnamespace {} {{\n\nnamespace gs = groundstate::machine;\n", plan.namespace));
-    let words = words(&[&body.plain(), &source(bodies, "").plain()]);
+    let words = words(&[&body.plain(), &source.plain()]);
     types(generator, &words, &mut text);
     body.pour(&mut text);
     text.line(format!("\n}}  // namespace {}", plan.namespace));
@@ -149,9 +149,9 @@ fn class(bodies: &Bodies<'_>, text: &mut Text) {
     text.line("explicit Machine(Environment& environment) : environment_{environment} {}");
     text.line("Machine(const Machine&) = delete;");
     text.line("Machine& operator=(const Machine&) = delete;\n");
-    text.line("/// Sets the initial state. Gives the fault of an initial value, or none.");
+    text.line("/// Sets the initial state. Who: the owner, once, before any step. Gives the fault of an initial value, or none.");
     text.line("[[nodiscard]] gs::Fault start();");
-    text.line("/// Makes a step. After a fault the state is the one before.");
+    text.line("/// Makes a step. After a fault, or an exception of the environment, the state is the one before.");
     text.line("[[nodiscard]] gs::Fault step();");
     text.line("/// Whether the last step had any update.");
     text.line("[[nodiscard]] bool changed() const noexcept { return updates_ > 0; }\n");
@@ -339,29 +339,34 @@ pub(crate) fn source(bodies: &Bodies<'_>, file: &str) -> Text {
 fn frame(bodies: &Bodies<'_>, text: &mut Text) {
     let generator = &bodies.generator;
     let (program, plan) = (generator.program, generator.plan);
+    let own: Vec<String> =
+        functions(generator, &[Role::Agent]).iter().map(|(_, function)| function.member.clone()).collect();
     text.open("gs::Fault Machine::start() {");
+    text.line("calls_ = 0;");
     text.open("return gs::attempt([&] {");
-    text.line("roll_back();");
     bodies.start.clone().pour(text);
+    text.between("}, [&] {");
+    text.line("roll_back();");
     text.close("});");
     text.close("}\n");
     text.open("gs::Fault Machine::step() {");
     text.line("++step_;");
     text.line("iterations_ = 0;");
     text.line("calls_ = 0;");
-    let own: Vec<String> =
-        functions(generator, &[Role::Agent]).iter().map(|(_, function)| function.member.clone()).collect();
     for member in &own {
         text.line(format!("const auto former = {member};"));
     }
     let main = match program.main {
-        Some(main) => format!("{}();", plan.procedure(main).name),
+        Some(main) => format!("{}();", plan.procedure(main)),
         None => "gs::fail(gs::FaultKind::no_main, 0, 0);".to_string(),
     };
-    text.line(format!("const gs::Fault fault = gs::attempt([&] {{ {main} }});"));
-    text.open("if (fault.kind != gs::FaultKind::none) {");
+    text.open("const gs::Fault fault = gs::attempt([&] {");
+    text.line(main);
+    text.between("}, [&] {");
     text.line("roll_back();");
     own.iter().for_each(|member| text.line(format!("{member} = former;")));
+    text.close("});");
+    text.open("if (fault) {");
     text.line("return fault;");
     text.close("}");
     text.line("updates_ = 0;");
@@ -503,7 +508,7 @@ fn agents(bodies: &Bodies<'_>, text: &mut Text) {
         if let Some(own) = &own {
             text.line(format!("    {own} = agent;"));
         }
-        text.line(format!("    {}();", generator.plan.procedure(entry.procedure).name));
+        text.line(format!("    {}();", generator.plan.procedure(entry.procedure)));
         text.line("    break;");
     }
     text.line("default: gs::fail(gs::FaultKind::not_a_rule, site, site);");

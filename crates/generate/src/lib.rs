@@ -69,8 +69,9 @@ pub fn generate(
         let (text, mappings) = text.finish(&name, sources);
         files.push(File { name, text, mappings });
     };
-    add(format!("{name}.hpp"), &class::header(&bodies, file_name(&title)));
-    add(format!("{name}.cpp"), &class::source(&bodies, &name));
+    let source = class::source(&bodies, &name);
+    add(format!("{name}.hpp"), &class::header(&bodies, &source, file_name(&title)));
+    add(format!("{name}.cpp"), &source);
     if !options.bare {
         add("replay.cpp".to_string(), &driver::driver(&bodies, &name));
     }

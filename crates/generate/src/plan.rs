@@ -88,12 +88,6 @@ pub(crate) struct DomainPlan {
     pub carrier: Option<String>,
 }
 
-/// A procedure.
-#[derive(Debug, Clone)]
-pub(crate) struct ProcedurePlan {
-    pub name: String,
-}
-
 /// The plan.
 #[derive(Debug, Clone)]
 pub(crate) struct Plan {
@@ -101,7 +95,8 @@ pub(crate) struct Plan {
     pub namespace: String,
     pub domains: Vec<DomainPlan>,
     pub functions: Vec<FunctionPlan>,
-    pub procedures: Vec<ProcedurePlan>,
+    /// What each procedure is called.
+    pub procedures: Vec<String>,
     /// What variables must not be called.
     pub members: Scope,
 }
@@ -142,8 +137,7 @@ pub(crate) fn plan(program: &Program, started: &mut machine::Machine) -> Plan {
             FunctionPlan { role, ty, name, member, dimensions, initial }
         })
         .collect();
-    let procedures =
-        program.procedures.iter().map(|procedure| ProcedurePlan { name: members.take(&procedure.name) }).collect();
+    let procedures = program.procedures.iter().map(|procedure| members.take(&procedure.name)).collect();
     // Types are seen from within the class, too.
     for domain in &domains {
         members.keep(&domain.name);
@@ -331,7 +325,7 @@ impl Plan {
         &self.domains[id.0 as usize]
     }
 
-    pub fn procedure(&self, id: ProcedureId) -> &ProcedurePlan {
+    pub fn procedure(&self, id: ProcedureId) -> &str {
         &self.procedures[id.0 as usize]
     }
 

@@ -5,7 +5,6 @@
 
 use model::{Basic, CollectionKind, Literal};
 use program::{Binder, BinderList, DomainId, DomainKind, Term, TermId};
-use syntax::Span;
 
 use crate::generator::{Generator, Variable};
 use crate::plan::integer;
@@ -43,7 +42,7 @@ impl<'a> Generator<'a> {
             Term::Domain(domain) => {
                 let ty = type_of(self.program, domain);
                 if (!self.options.bare || ty != Type::Value)
-                    && let Some((range, size)) = self.domain_range(domain, span)
+                    && let Some((range, size)) = self.domain_range(domain)
                 {
                     let variable = self.declare(binder.slot, ty, true);
                     text.open(format!(
@@ -126,7 +125,7 @@ impl<'a> Generator<'a> {
 
     /// What ranges over a domain's elements and how many there are at most, if that is known; none if they cannot be
     /// enumerated as values of one type.
-    pub fn domain_range(&mut self, domain: DomainId, _span: Span) -> Option<(String, Option<u64>)> {
+    pub fn domain_range(&mut self, domain: DomainId) -> Option<(String, Option<u64>)> {
         let plan = self.plan.domain(domain);
         let own = self.plan.domain(domain).carrier.as_ref().and_then(|_| self.carrier(domain));
         let ordinals =

@@ -249,7 +249,7 @@ impl Generator<'_> {
             let ty = self.parameter_type(*domain);
             list.push(self.convert(code, ty, assumed[place], sites[place]));
         }
-        let call = format!("{}({})", self.plan.procedure(procedure).name, list.join(", "));
+        let call = format!("{}({})", self.plan.procedure(procedure), list.join(", "));
         if statements.is_empty() { call } else { format!("[&] {{ {statements}{call}; }}()") }
     }
 

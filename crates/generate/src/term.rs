@@ -429,7 +429,7 @@ impl Generator<'_> {
                 let of = self.domain_values(*of, span);
                 format!("gs::subsets({of}, {site})")
             }
-            _ => match self.domain_range(domain, span) {
+            _ => match self.domain_range(domain) {
                 Some((range, _)) => format!("gs::boxed({range})"),
                 None => format!("gs::failed<gs::Values>(gs::FaultKind::not_enumerable, {site})"),
             },

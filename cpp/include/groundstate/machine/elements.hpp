@@ -25,7 +25,6 @@ class Created {
     }
     bool empty() const { return made_.size() == unit_; }
     void join(Mark mark) { unit_ = mark.outer; }
-    void drop(Mark mark) { end(mark); }
     void apply(Mark) {
         for (std::size_t place = unit_; place < made_.size(); ++place) {
             made_[place].visible = true;

@@ -1,7 +1,7 @@
 // Why a step could not be made: faults of the model at run time, in generated code.
 //
 // A fault is the model's, never ours; spec/faults/ has a page for each kind. `fail` reports one from wherever it is met,
-// `attempt` is where a step catches it; after a fault the step's caller restores the state from before the step.
+// `attempt` is where a step catches it, and undoes what it did.
 //
 // With exceptions a fault is thrown. Without them (-fno-exceptions, code generated with --bare) it jumps back to
 // `attempt`. LIMIT: such a jump runs no destructors; it is defined because bare code has trivially destructible objects
@@ -137,6 +137,25 @@ template <typename Action>
 }
 
 #endif
+
+/// The same; what was done is undone after a fault, and before an exception that is no fault passes.
+template <typename Action, typename Undo>
+[[nodiscard]] Fault attempt(Action&& action, Undo&& undo) {
+#if defined(__cpp_exceptions)
+    try {
+        const Fault fault = attempt(action);
+        if (fault) undo();
+        return fault;
+    } catch (...) {
+        undo();
+        throw;
+    }
+#else
+    const Fault fault = attempt(action);
+    if (fault) undo();
+    return fault;
+#endif
+}
 
 /// Ends the step at one place.
 [[noreturn]] inline void fail(FaultKind kind, Site site) { fail(kind, site, site); }

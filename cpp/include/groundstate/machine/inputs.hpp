@@ -88,23 +88,15 @@ class SharedLocations {
     Series<bool, All::Keys::fixed ? All::dense + All::Keys::capacity : 0> given_;
 };
 
-/// A call of a procedure or definition that may call itself.
-class Call {
-  public:
-    Call(std::uint32_t& depth, Site site) : depth_{depth} {
-        if (depth >= most) [[unlikely]] {
-            fail(FaultKind::limit, site, site);
-        }
-        ++depth;
-    }
-    Call(const Call&) = delete;
-    Call& operator=(const Call&) = delete;
-    ~Call() { --depth_; }
-
-  private:
+/// Begins a call of a procedure or definition that may call itself; it ends by `--depth`. A step begins at depth 0, so a
+/// fault need not end the calls it leaves.
+inline void enter(std::uint32_t& depth, Site site) {
     // LIMIT: calls inside each other, as the machine has it.
-    static constexpr std::uint32_t most = 10'000;
-    std::uint32_t& depth_;
-};
+    constexpr std::uint32_t most = 10'000;
+    if (depth >= most) [[unlikely]] {
+        fail(FaultKind::limit, site, site);
+    }
+    ++depth;
+}
 
 }  // namespace groundstate::machine

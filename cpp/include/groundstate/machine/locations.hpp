@@ -157,7 +157,7 @@ class Locations {
         const std::uint32_t held = where_[location];
         if (held >= unit_ && held < log_.size() && log_[held].location == location) {
             if (!(log_[held].value == value)) [[unlikely]] {
-                fail(FaultKind::inconsistent_update, rule, log_[held].rule);
+                fail(FaultKind::inconsistent_update, log_[held].rule, rule);
             }
             return;
         }
@@ -188,7 +188,7 @@ class Locations {
             const std::uint32_t held = where_[update.location];
             if (held >= unit_ && held < end && log_[held].location == update.location) {
                 if (!(log_[held].value == update.value)) [[unlikely]] {
-                    fail(FaultKind::inconsistent_update, update.rule, log_[held].rule);
+                    fail(FaultKind::inconsistent_update, log_[held].rule, update.rule);
                 }
                 continue;
             }
@@ -234,11 +234,7 @@ class Locations {
     /// Ends a sequence whose updates leave no trace, those of local functions.
     void drop(Mark mark) {
         take_back(mark.from);
-        for (std::size_t place = log_.size(); place-- > mark.from;) {
-            where_[log_[place].location] = log_[place].previous;
-        }
-        log_.shrink(mark.from);
-        unit_ = mark.outer;
+        forget(mark);
     }
 
     /// Ends a unit, leaving its updates out; gives the value of the one location of a function without arguments, if
@@ -248,7 +244,7 @@ class Locations {
         if (result.first) {
             result.second = log_[mark.from].value;
         }
-        drop_pending(mark);
+        forget(mark);
         return result;
     }
 
@@ -330,7 +326,7 @@ class Locations {
         }
     }
 
-    void drop_pending(Mark mark) {
+    void forget(Mark mark) {
         for (std::size_t place = log_.size(); place-- > mark.from;) {
             where_[log_[place].location] = log_[place].previous;
         }

@@ -27,31 +27,18 @@ namespace detail {
     return *number;
 }
 
-/// A Real, or the fault of a result that is none.
-[[nodiscard]] inline Value real_result(double number, Site site) {
-    if (std::isnan(number)) fail(FaultKind::not_a_number, site);
-    return Value::real(number);
-}
-
+/// Applies an operation on plain numbers (numbers.hpp).
 template <typename Operation>
 [[nodiscard]] Value reals(const Value& a, const Value& b, Site site, Operation operation) {
     const std::optional<double> x = as_number(a), y = as_number(b);
     if (!x || !y) refuse(site, a, b);
-    return real_result(operation(*x, *y), site);
+    return Value::real(operation(*x, *y, site));
 }
 
 /// A product rounded by itself: compilers may fuse it with a sum, where the machine rounds twice.
 [[nodiscard]] inline double product(double a, double b) noexcept {
     const volatile double rounded = a * b;
     return rounded;
-}
-
-/// A Real made whole, as an Integer. 2^63 is exact as a double, and every double below it converts.
-[[nodiscard]] inline Value whole(double number, Site site) {
-    if (!(number >= -9'223'372'036'854'775'808.0 && number < 9'223'372'036'854'775'808.0)) {
-        fail(FaultKind::overflow, site);
-    }
-    return Value::integer(static_cast<std::int64_t>(number));
 }
 
 /// Integers by their exact values, Reals by theirs, mixed ones as Reals; characters by number.
@@ -80,60 +67,43 @@ template <typename Operation>
     return Value::boolean(detail::ordered(a, b, site) >= 0);
 }
 
-[[nodiscard]] inline Value real_neg(const Value& a, Site site) { return Value::real(-detail::number_of(a, site)); }
-[[nodiscard]] inline Value real_abs(const Value& a, Site site) { return Value::real(std::fabs(detail::number_of(a, site))); }
-
+[[nodiscard]] inline Value real_neg(const Value& a, Site site) {
+    return Value::real(real_negate(detail::number_of(a, site), site));
+}
+[[nodiscard]] inline Value real_abs(const Value& a, Site site) {
+    return Value::real(real_absolute(detail::number_of(a, site), site));
+}
 [[nodiscard]] inline Value real_add(const Value& a, const Value& b, Site site) {
-    return detail::reals(a, b, site, [](double x, double y) { return x + y; });
+    return detail::reals(a, b, site, [](double x, double y, Site at) { return real_add(x, y, at); });
 }
-
-[[nodiscard]] inline Value real_sub(const Value& a, const Value& b, Site site) {
-    return detail::reals(a, b, site, [](double x, double y) { return x - y; });
-}
-
-[[nodiscard]] inline Value real_mul(const Value& a, const Value& b, Site site) {
-    return detail::reals(a, b, site, [](double x, double y) { return x * y; });
-}
+[[nodiscard]] inline Value real_sub(const Value& a, const Value& b, Site site) { return detail::reals(a, b, site, real_subtract); }
+[[nodiscard]] inline Value real_mul(const Value& a, const Value& b, Site site) { return detail::reals(a, b, site, real_multiply); }
 
 [[nodiscard]] inline Value real_div(const Value& a, const Value& b, Site site) {
     // A zero counts before the dividend's universe does.
     if (detail::as_number(b) == 0.0 && !a.is_undef()) fail(FaultKind::division_by_zero, site);
-    return detail::reals(a, b, site, [](double x, double y) { return x / y; });
+    return detail::reals(a, b, site, real_divide);
 }
 
-[[nodiscard]] inline Value real_min(const Value& a, const Value& b, Site site) {
-    return detail::reals(a, b, site, [](double x, double y) { return std::min(x, y); });
-}
-
-[[nodiscard]] inline Value real_max(const Value& a, const Value& b, Site site) {
-    return detail::reals(a, b, site, [](double x, double y) { return std::max(x, y); });
-}
-
+[[nodiscard]] inline Value real_min(const Value& a, const Value& b, Site site) { return detail::reals(a, b, site, real_minimum); }
+[[nodiscard]] inline Value real_max(const Value& a, const Value& b, Site site) { return detail::reals(a, b, site, real_maximum); }
 [[nodiscard]] inline Value real_power(const Value& a, const Value& b, Site site) {
-    return detail::reals(a, b, site, [](double x, double y) { return std::pow(x, y); });
+    return detail::reals(a, b, site, [](double x, double y, Site at) { return real_power(x, y, at); });
 }
 
 /// Of a negative number it is no number.
 [[nodiscard]] inline Value sqrt(const Value& a, Site site) {
-    return detail::real_result(std::sqrt(detail::number_of(a, site)), site);
+    return Value::real(square_root(detail::number_of(a, site), site));
 }
-
-[[nodiscard]] inline Value floor(const Value& a, Site site) {
-    return detail::whole(std::floor(detail::number_of(a, site)), site);
-}
-
+[[nodiscard]] inline Value floor(const Value& a, Site site) { return Value::integer(floor(detail::number_of(a, site), site)); }
 /// Halves go up.
-[[nodiscard]] inline Value round(const Value& a, Site site) {
-    const double number = detail::number_of(a, site);
-    const double below = std::floor(number);
-    return detail::whole(below + (number - below >= 0.5 ? 1.0 : 0.0), site);
-}
-
+[[nodiscard]] inline Value round(const Value& a, Site site) { return Value::integer(round(detail::number_of(a, site), site)); }
 [[nodiscard]] inline Value real_to_int(const Value& a, Site site) {
-    return detail::whole(std::trunc(detail::number_of(a, site)), site);
+    return Value::integer(truncate(detail::number_of(a, site), site));
 }
-
-[[nodiscard]] inline Value real_to_nat(const Value& a, Site site) { return detail::natural(real_to_int(a, site), site); }
+[[nodiscard]] inline Value real_to_nat(const Value& a, Site site) {
+    return Value::integer(truncate_natural(detail::number_of(a, site), site));
+}
 [[nodiscard]] inline Value int_to_real(const Value& a, Site site) { return Value::real(detail::number_of(a, site)); }
 [[nodiscard]] inline Value nat_to_real(const Value& a, Site site) { return Value::real(detail::number_of(a, site)); }
 

@@ -26,6 +26,16 @@ impl Compiler {
         Compiler { folder, kept: kept.is_some() }
     }
 
+    /// Where everything is written.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// The compiler with its warnings as errors, and where the runtime is.
+    pub fn command(&self) -> Command {
+        compiler()
+    }
+
     /// Writes generated files, and what they come from; gives their folder.
     pub fn write(&self, name: &str, model: &str, prepared: &Prepared) -> Result<PathBuf, String> {
         let generated = &prepared.generated;

@@ -10,6 +10,7 @@
     reason = "a test reads files and the environment, runs a compiler, and tells what it found"
 )]
 
+mod bare;
 mod compile;
 mod run;
 
