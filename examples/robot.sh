@@ -4,7 +4,7 @@
 set -eu
 cd "$(dirname "$0")"
 
-sh ../cpp/install.sh cmake ninja-build libgtest-dev libeigen3-dev liborocos-kdl-dev \
+sh ../cpp/install.sh cmake ninja-build libgtest-dev libeigen3-dev liborocos-kdl-dev libcli11-dev \
     libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev \
     libvisp-vs-dev visp-images-data
 
@@ -12,3 +12,4 @@ build=../target/cpp/robot
 cmake -S . -B "$build" -G Ninja >/dev/null
 cmake --build "$build" -- --quiet
 ctest --test-dir "$build" --output-on-failure
+sh programs.sh "$build"

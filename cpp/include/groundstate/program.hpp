@@ -55,39 +55,83 @@ inline CommandLine read_command_line(int count, char** words) {
     return line;
 }
 
-inline void report(const SystemPlan& plan, std::size_t i, const Unit& unit, std::int64_t invalid) {
-    const Statistics& known = unit.statistics();
-    std::printf("%-20s %9lld %9lld %9lld %9lld %9lld %12lld %12lld\n", plan.tasks[i].name,
-                static_cast<long long>(known.cycles.value()), static_cast<long long>(known.deadlines_met.value()),
-                static_cast<long long>(known.deadlines_missed.value()),
-                static_cast<long long>(unit.watchdog().skipped()), static_cast<long long>(invalid),
-                static_cast<long long>(known.worst_lateness_ns.value() / 1000),
-                static_cast<long long>(known.worst_duration_ns.value() / 1000));
+/// What is known of a task's cycles after a run.
+struct TaskAccount {
+    std::string name{};
+    std::int64_t cycles = 0;
+    std::int64_t deadlines_met = 0;
+    std::int64_t deadlines_missed = 0;
+    std::int64_t skipped = 0;  ///< accesses given up by the watchdog
+    std::int64_t invalid = 0;  ///< data that were not handed over
+    std::int64_t worst_lateness_ns = 0;
+    std::int64_t worst_duration_ns = 0;
+};
+
+/// What is left of a run when its system is gone.
+struct RunAccount {
+    std::string system{};
+    std::vector<TaskAccount> tasks{};
+    Ending ending{};
+};
+
+template <class System>
+RunAccount account_of(const System& system, Ending ending) {
+    RunAccount account{system.plan().name, {}, std::move(ending)};
+    for (std::size_t i = 0; i < system.plan().tasks.size(); ++i) {
+        const Statistics& known = system.unit(i).statistics();
+        account.tasks.push_back({.name = system.plan().tasks[i].name,
+                                 .cycles = known.cycles.value(),
+                                 .deadlines_met = known.deadlines_met.value(),
+                                 .deadlines_missed = known.deadlines_missed.value(),
+                                 .skipped = system.unit(i).watchdog().skipped(),
+                                 .invalid = system.context(i).invalid(),
+                                 .worst_lateness_ns = known.worst_lateness_ns.value(),
+                                 .worst_duration_ns = known.worst_duration_ns.value()});
+    }
+    return account;
 }
 
-/// Tells how a run ended, and of each task what is known of its cycles.
-template <class System>
-int tell(const System& system, const Ending& outcome) {
-    const SystemPlan& plan = system.plan();
+/// Tells how a run ended, and of each task what is known of its cycles. 1 if a task failed, or 0.
+inline int tell(const RunAccount& account) {
+    const char* name = account.system.c_str();
+    const Ending& outcome = account.ending;
     std::printf("%-20s %9s %9s %9s %9s %9s %12s %12s\n", "task", "cycles", "met", "missed", "skipped", "invalid",
                 "late_us", "longest_us");
-    for (std::size_t i = 0; i < plan.tasks.size(); ++i) {
-        report(plan, i, system.unit(i), system.context(i).invalid());
+    for (const TaskAccount& task : account.tasks) {
+        std::printf("%-20s %9lld %9lld %9lld %9lld %9lld %12lld %12lld\n", task.name.c_str(),
+                    static_cast<long long>(task.cycles), static_cast<long long>(task.deadlines_met),
+                    static_cast<long long>(task.deadlines_missed), static_cast<long long>(task.skipped),
+                    static_cast<long long>(task.invalid), static_cast<long long>(task.worst_lateness_ns / 1000),
+                    static_cast<long long>(task.worst_duration_ns / 1000));
     }
     if (outcome.log_error != 0) {
-        std::fprintf(stderr, "%s: the log ended early: %s\n", plan.name, std::strerror(outcome.log_error));
+        std::fprintf(stderr, "%s: the log ended early: %s\n", name, std::strerror(outcome.log_error));
     }
     if (outcome.log_lost > 0) {
-        std::fprintf(stderr, "%s: %lld events are missing in the log\n", plan.name,
-                     static_cast<long long>(outcome.log_lost));
+        std::fprintf(stderr, "%s: %lld events are missing in the log\n", name, static_cast<long long>(outcome.log_lost));
     }
     if (outcome) {
         return 0;
     }
-    std::fprintf(stderr, "%s: task %s %s in cycle %lld, phase %s: %s; the others were stopped safely\n", plan.name,
+    std::fprintf(stderr, "%s: task %s %s in cycle %lld, phase %s: %s; the others were stopped safely\n", name,
                  outcome.task.c_str(), outcome.kind == Ending::Kind::hung ? "hung" : "failed",
                  static_cast<long long>(outcome.cycle), outcome.phase.c_str(), outcome.reason.c_str());
     return 1;
+}
+
+/// Runs a system for so long. What is known of a run with a task that hung is told, and the program ends there, with
+/// exit status 1: the task's thread still uses the system, and all that its hooks refer to.
+template <class System>
+RunAccount run_to_account(System& system, std::int64_t span_ns) {
+    Ending outcome = system.run(span_ns);
+    const bool hung = outcome.kind == Ending::Kind::hung;
+    RunAccount account = account_of(system, std::move(outcome));
+    if (hung) {
+        const int status = tell(account);
+        std::fflush(nullptr);
+        std::_Exit(status);
+    }
+    return account;
 }
 
 /// Runs a system with its hooks as the command line says. The value is main's.
@@ -106,14 +150,7 @@ int run_program(int count, char** words, const Hooks& hooks) {
     const auto run = [&](auto& clock) {
         using C = std::remove_reference_t<decltype(clock)>;
         auto system = std::make_unique<System<C>>(clock, hooks, line.options);
-        const Ending outcome = system->run(line.span_ns);
-        const int status = tell(*system, outcome);
-        if (outcome.kind == Ending::Kind::hung) {
-            // A thread that never ends still uses the system.
-            std::fflush(nullptr);
-            std::_Exit(status);
-        }
-        return status;
+        return tell(run_to_account(*system, line.span_ns));
     };
     if (line.is_real) {
         if (line.options.priority > 0) {

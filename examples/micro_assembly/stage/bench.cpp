@@ -7,7 +7,8 @@ namespace assembly_system {
 
 using namespace groundstate;
 
-Bench::Bench(const BenchSettings& settings) : settings_{settings}, random_{settings.seed} {
+Bench::Bench(const BenchSettings& settings, std::int64_t origin_ns)
+    : settings_{settings}, origin_ns_{origin_ns}, random_{settings.seed} {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         const bool turns = i == 2;
         axes_[i] = {{.lag_s = 0.002,
@@ -62,7 +63,7 @@ Axes Bench::position(std::int64_t now_ns) {
 }
 
 bool Bench::draw(std::int64_t now_ns, FrameView into) {
-    if (settings_.unplugged_s > 0 && static_cast<double>(now_ns) * 1e-9 > settings_.unplugged_s) {
+    if (settings_.unplugged_s > 0 && static_cast<double>(now_ns - origin_ns_) * 1e-9 > settings_.unplugged_s) {
         return false;
     }
     const Axes part = position(now_ns);

@@ -29,7 +29,8 @@ struct BenchSettings {
 
 class Bench {
   public:
-    explicit Bench(const BenchSettings& settings);
+    /// `origin_ns` is when the run begins.
+    Bench(const BenchSettings& settings, std::int64_t origin_ns);
 
     const BenchSettings& settings() const noexcept { return settings_; }
 
@@ -49,6 +50,7 @@ class Bench {
     static constexpr std::int64_t step_ns = 100'000;
 
     BenchSettings settings_;
+    std::int64_t origin_ns_;
     std::mutex mutex_{};
     std::array<groundstate::plant::Joint, 4> axes_{};
     groundstate::plant::Random random_;

@@ -111,6 +111,9 @@ bool StageMover::approach(const Cycle&, const In& in, Out& out) {
     state_.at_ns = now_ns;
     out.axis_order = {set_, now_ns};
     out.state = state_;
+    if (states_.size() < states_.capacity()) {
+        states_.push_back(state_);
+    }
     return true;
 }
 

@@ -65,8 +65,12 @@ struct StageSettings {
 
 class StageMover final : public Stage {
   public:
-    StageMover(Now now, const StageSettings& settings = {}) : now_{std::move(now)}, settings_{settings} {}
+    StageMover(Now now, const StageSettings& settings, std::size_t states) : now_{std::move(now)}, settings_{settings} {
+        states_.reserve(states);
+    }
     bool approach(const Cycle& cycle, const In& in, Out& out) override;
+
+    const std::vector<State>& states() const noexcept { return states_; }
 
   private:
     void work(const In& in, std::int64_t now_ns, double dt);
@@ -75,6 +79,7 @@ class StageMover final : public Stage {
     StageSettings settings_;
     Axes set_{};
     State state_{};
+    std::vector<State> states_{};
     std::int64_t last_ns_ = -1;
 };
 

@@ -39,12 +39,16 @@ double Loop::worst(double from_s, double to_s) const {
     return result;
 }
 
-Loop run(const LoopSettings& settings) {
+namespace {
+
+template <Clock C>
+Loop run(const LoopSettings& settings, C& clock) {
     Loop loop;
-    VirtualClock clock{System<VirtualClock>::threads};
+    loop.origin_ns = clock.now_ns();
+    const std::int64_t span_ns = settings.run.span_ns;
     const Now now = [&clock] { return clock.now_ns(); };
-    Scenery scenery{settings.seed};
-    auto eye = simulated::Camera<VirtualClock>::open(
+    Scenery scenery{settings.run.seed};
+    auto eye = simulated::Camera<C>::open(
         clock, scenery.scene(), [&](std::int64_t at_ns) { return scenery.camera_from_object(at_ns); },
         {.faults = settings.faults});
     ImageGrabber camera{[&](FrameView into, Watchdog& watchdog) { return eye->grab(into, watchdog); }};
@@ -52,18 +56,23 @@ Loop run(const LoopSettings& settings) {
     HeadController head{now};
     HeadDrives motor{now, [&](std::int64_t at_ns, const Angles& velocity) { scenery.drive(at_ns, velocity); }};
     HeadEncoders encoders{now, [&](std::int64_t at_ns) { return scenery.measured(at_ns); }};
-    loop.off_centre.reserve(static_cast<std::size_t>(settings.span_ns / 10'000'000 + 10));
+    loop.off_centre.reserve(static_cast<std::size_t>(span_ns / 10'000'000 + 10));
     Watched encoder{now, scenery, encoders, loop.off_centre};
-    SightingList display{static_cast<std::size_t>(settings.span_ns / 5'000'000)};
-    auto system = std::make_unique<System<VirtualClock>>(
+    SightingList display{static_cast<std::size_t>(span_ns / 5'000'000)};
+    loop.account = closed_loop::run_tasks<System>(
         clock, Hooks{.camera = camera, .tracker = tracker, .head = head, .motor = motor, .encoder = encoder, .display = display},
-        Options{});
-    system->run(settings.span_ns);
+        settings.run);
     loop.shown = display.shown();
     loop.searches = tracker.searches();
     loop.unseen = tracker.unseen();
     loop.holding = head.holding();
     return loop;
+}
+
+}  // namespace
+
+Loop run(const LoopSettings& settings) {
+    return closed_loop::on_its_clock<System>(settings.run, [&](auto& clock) { return run(settings, clock); });
 }
 
 }  // namespace tracking_system

@@ -1,6 +1,8 @@
-// The tracking head with its object in one loop, in virtual time.
+// The tracking head with its object in one loop, for so long, in virtual or real time.
 #pragma once
 
+#include <groundstate/closed_loop/disturbances.hpp>
+#include <groundstate/closed_loop/run.hpp>
 #include <groundstate/simulated/camera.hpp>
 
 #include "hooks.hpp"
@@ -8,8 +10,7 @@
 namespace tracking_system {
 
 struct LoopSettings {
-    std::int64_t span_ns = 10'000'000'000;
-    std::uint64_t seed = 1;
+    groundstate::closed_loop::RunSettings run{};
     groundstate::simulated::Faults faults{};
 };
 
@@ -20,12 +21,14 @@ struct Loop {
     long searches = 0;
     long unseen = 0;
     bool holding = false;  ///< at the end: there is nothing to follow
+    std::int64_t origin_ns = 0;
+    groundstate::RunAccount account{};
 
-    /// The worst of the samples from one second on until the other.
+    /// The worst of the samples from one second on until the other; 0 where there are none.
     double worst(double from_s, double to_s) const;
 };
 
-/// In virtual time. Blocks: as long as it takes to compute. Allocates.
+/// Blocks: as long as the run takes. Allocates.
 Loop run(const LoopSettings& settings);
 
 }  // namespace tracking_system

@@ -104,11 +104,11 @@ bool PlacePlanner::plan(const Cycle&, const In& in, Out& out) {
     if (!in.progress) {
         return false;
     }
-    if (sent_ && in.progress->done == number_) {
-        sent_ = false;
+    if (waits_ && in.progress->done == number_) {
+        waits_ = false;
         next(*in.progress);
     }
-    if (sent_) {
+    if (waits_) {
         return false;
     }
     if (step_ == Step::look) {
@@ -118,8 +118,11 @@ bool PlacePlanner::plan(const Cycle&, const In& in, Out& out) {
         step_ = Step::over;
     }
     ++number_;
-    sent_ = true;
+    waits_ = true;
     out.moves = move();
+    if (sent_.size() < sent_.capacity()) {
+        sent_.push_back({now_(), out.moves});
+    }
     return true;
 }
 

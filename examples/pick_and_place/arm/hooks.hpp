@@ -38,14 +38,22 @@ class PartFinder final : public Vision {
     groundstate::vision::DiscDetector detector_{640, 480, {.dark = false, .least_area = 40}};
 };
 
+/// A move, and when it was sent.
+struct Sent {
+    std::int64_t at_ns = 0;
+    Moves move{};
+};
+
 class PlacePlanner final : public Planner {
   public:
     /// Where the parts are to go, in this order.
-    explicit PlacePlanner(std::vector<Place> row) : row_{std::move(row)} {}
+    PlacePlanner(Now now, std::vector<Place> row) : now_{std::move(now)}, row_{std::move(row)} { sent_.reserve(1000); }
     bool plan(const Cycle& cycle, const In& in, Out& out) override;
 
     std::size_t placed() const noexcept { return placed_; }
     long missed() const noexcept { return missed_; }
+    /// The first thousand moves.
+    const std::vector<Sent>& sent() const noexcept { return sent_; }
 
   private:
     enum class Step { look, over, down, close, up, carry, lower, open, rise, aside };
@@ -54,13 +62,15 @@ class PlacePlanner final : public Planner {
     Moves move() const;
     void next(const Progress& progress);
 
+    Now now_;
     std::vector<Place> row_;
+    std::vector<Sent> sent_{};
     std::size_t placed_ = 0;
     long missed_ = 0;
     Step step_ = Step::look;
     Place part_{};
     std::int64_t number_ = 0;
-    bool sent_ = false;
+    bool waits_ = false;  ///< for a move to be done
     std::int64_t free_ns_ = 0;  ///< images from then on show the table without the arm's last part
 };
 

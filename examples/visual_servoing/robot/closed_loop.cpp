@@ -19,32 +19,19 @@ Eigen::Isometry3d looking(const Eigen::Vector3d& from, double turn) {
     return pose;
 }
 
-simulated::Faults faults(const LoopSettings& settings) {
-    const Disturbances& wrong = settings.disturbances;
-    simulated::Faults result{.seed = settings.seed};
-    result.noise = wrong.noise ? 5 : 0;
-    result.lost = wrong.dropped ? 0.1 : 0;
-    result.slow = wrong.slow ? 0.2 : 0;
-    result.slow_ns = wrong.slow ? 15'000'000 : 0;
-    result.occluded = wrong.occlusion ? 0.01 : 0;
-    result.occluded_frames = 6;
-    result.unplug_after = static_cast<std::uint64_t>(wrong.unplugged_s * 100);
-    return result;
-}
-
 template <Clock C>
 Loop run(const LoopSettings& settings, C& clock) {
     Loop loop;
     loop.origin_ns = clock.now_ns();
-    loop.cell = std::make_unique<Cell>(example_cell(settings.seed));
+    loop.cell = std::make_unique<Cell>(example_cell(settings.run.seed));
     Cell& cell = *loop.cell;
     const Now now = [&clock] { return clock.now_ns(); };
-    loop.goals = settings.goals.empty() ? example_goals(settings.span_ns / 2) : settings.goals;
-    const auto periods = [&](std::int64_t period_ns) { return static_cast<std::size_t>(settings.span_ns / period_ns + 10); };
+    loop.goals = settings.goals.empty() ? example_goals(settings.run.span_ns / 2) : settings.goals;
+    const auto periods = [&](std::int64_t period_ns) { return static_cast<std::size_t>(settings.run.span_ns / period_ns + 10); };
 
     auto camera = simulated::Camera<C>::open(
         clock, cell.scene(), [&cell](std::int64_t at_ns) { return simulated_pose(cell.camera(at_ns)); },
-        {.faults = faults(settings)});
+        {.faults = closed_loop::faults(settings.disturbances, settings.run.seed, 100)});
     GoalSender sender{now, cell, loop.goals};
     ImageGrabber grabber{[&](FrameView into, Watchdog& watchdog) { return camera->grab(into, watchdog); }};
     ServoingSettings servoing;
@@ -56,22 +43,10 @@ Loop run(const LoopSettings& settings, C& clock) {
         periods(1'000'000));
     JointEncoders encoders{now, [&cell](std::int64_t at_ns) { return cell.measured(at_ns); }};
 
-    auto system = std::make_unique<System<C>>(
-        clock, Hooks{sender, grabber, *loop.servoing, *loop.robot, *loop.motor, encoders}, Options{});
-    const auto ending = system->run(settings.span_ns);
-    if (!ending) {
-        loop.failure = "task " + ending.task + ": " + ending.reason;
-    }
+    loop.account = closed_loop::run_tasks<System>(
+        clock, Hooks{sender, grabber, *loop.servoing, *loop.robot, *loop.motor, encoders}, settings.run);
     loop.frames = camera->account();
-    for (std::size_t i = 0; i < system->plan().tasks.size(); ++i) {
-        const Statistics& known = system->unit(i).statistics();
-        loop.tasks.push_back({.name = system->plan().tasks[i].name,
-                              .cycles = known.cycles.value(),
-                              .deadlines_missed = known.deadlines_missed.value(),
-                              .worst_lateness_ns = known.worst_lateness_ns.value(),
-                              .worst_duration_ns = known.worst_duration_ns.value()});
-    }
-    const std::int64_t end_ns = loop.origin_ns + settings.span_ns;
+    const std::int64_t end_ns = loop.origin_ns + settings.run.span_ns;
     const Eigen::Isometry3d goal = cell.settings().target.pose * loop.goals.back().camera;
     const Eigen::Isometry3d apart = goal.inverse() * cell.camera(end_ns);
     loop.position_error = apart.translation().norm();
@@ -95,12 +70,7 @@ std::vector<Goal> example_goals(std::int64_t second_ns) {
 }
 
 Loop run(const LoopSettings& settings) {
-    if (settings.is_real) {
-        MonotonicClock clock;
-        return run(settings, clock);
-    }
-    VirtualClock clock{System<VirtualClock>::threads};
-    return run(settings, clock);
+    return closed_loop::on_its_clock<System>(settings.run, [&](auto& clock) { return run(settings, clock); });
 }
 
 }  // namespace controller_system

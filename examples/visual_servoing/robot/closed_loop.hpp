@@ -4,40 +4,23 @@
 // INVARIANT: in virtual time a run depends on the settings alone; two runs have the same recordings, bit by bit.
 #pragma once
 
-#include <string>
+#include <groundstate/closed_loop/disturbances.hpp>
+#include <groundstate/closed_loop/run.hpp>
 
 #include "hooks.hpp"
 
 namespace controller_system {
 
-/// What goes wrong in a run. All is off at first.
-struct Disturbances {
-    bool noise = false;      ///< of the image: 5 of 255 steps
-    bool dropped = false;    ///< every tenth image is lost
-    bool slow = false;       ///< every fifth image arrives 15 ms late
-    bool occlusion = false;  ///< every hundredth image something covers a disc, for 6 images
-    double unplugged_s = 0;  ///< when the camera is gone for good; 0: never
-};
+using groundstate::closed_loop::Disturbances;
 
 struct LoopSettings {
-    std::int64_t span_ns = 10'000'000'000;
-    bool is_real = false;
-    std::uint64_t seed = 1;
+    groundstate::closed_loop::RunSettings run{};
     Disturbances disturbances{};
     std::vector<Goal> goals{};  ///< if empty the example's, the second one after half of the time
 };
 
 /// Straight above the target; then nearer, from aside and turned.
 std::vector<Goal> example_goals(std::int64_t second_ns);
-
-/// What is known of a task's cycles.
-struct TaskAccount {
-    std::string name;
-    std::int64_t cycles = 0;
-    std::int64_t deadlines_missed = 0;
-    std::int64_t worst_lateness_ns = 0;
-    std::int64_t worst_duration_ns = 0;
-};
 
 /// What a run left behind.
 struct Loop {
@@ -46,11 +29,10 @@ struct Loop {
     std::unique_ptr<ArmController> robot;
     std::unique_ptr<JointDrives> motor;
     std::vector<Goal> goals{};
-    std::vector<TaskAccount> tasks{};
+    groundstate::RunAccount account{};
     groundstate::FrameAccount frames{};
     std::int64_t origin_ns = 0;
 
-    std::string failure{};      ///< which task failed, and why; empty if none did
     double feature_error = 0;   ///< of the last image, |e| in the image plane at distance 1
     double position_error = 0;  ///< m, of the camera at the end
     double turn_error = 0;      ///< rad
@@ -60,7 +42,7 @@ struct Loop {
     /// The last goal is reached: features to 0.005, the camera to 5 mm and half a degree.
     bool converged() const noexcept {
         return feature_error < 5e-3 && position_error < 5e-3 && turn_error < 0.5 * M_PI / 180 && !holding &&
-               failure.empty();
+               account.ending;
     }
 };
 

@@ -1,86 +1,16 @@
-// The JSON of a run: settings, a column for each quantity, results.
+// A column for each quantity, and the results.
 #include "run_file.hpp"
 
-#include <charconv>
-#include <string_view>
+#include <groundstate/closed_loop/command_line.hpp>
 
 namespace controller_system {
 
 using namespace groundstate;
+using closed_loop::Json;
+using closed_loop::milliseconds;
+using closed_loop::seconds;
 
 namespace {
-
-// Objects and arrays with their commas.
-class Json {
-  public:
-    explicit Json(std::FILE* file) : file_{file} {}
-
-    Json& key(std::string_view name) {
-        separate();
-        std::fprintf(file_, "\n\"%.*s\":", static_cast<int>(name.size()), name.data());
-        first_ = true;
-        return *this;
-    }
-    void open(char bracket) {
-        separate();
-        std::fputc(bracket, file_);
-        first_ = true;
-    }
-    void close(char bracket) {
-        std::fputc(bracket, file_);
-        first_ = false;
-    }
-    void number(double value) {
-        separate();
-        char text[32];
-        const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-        std::fwrite(std::isfinite(value) ? text : "null", 1, std::isfinite(value) ? static_cast<std::size_t>(end - text) : 4, file_);
-    }
-    void nothing() {
-        separate();
-        std::fputs("null", file_);
-    }
-    void truth(bool value) {
-        separate();
-        std::fputs(value ? "true" : "false", file_);
-    }
-    void text(std::string_view value) {
-        separate();
-        std::fprintf(file_, "\"%.*s\"", static_cast<int>(value.size()), value.data());
-    }
-    template <class Values>
-    void numbers(const Values& values) {
-        open('[');
-        for (const double value : values) {
-            number(value);
-        }
-        close(']');
-    }
-
-    /// An array of what a function gives of each entry.
-    template <class Entries, class Of>
-    void column(std::string_view name, const Entries& entries, const Of& of) {
-        key(name).open('[');
-        for (const auto& entry : entries) {
-            of(*this, entry);
-        }
-        close(']');
-    }
-
-  private:
-    void separate() {
-        if (!first_) {
-            std::fputc(',', file_);
-        }
-        first_ = false;
-    }
-
-    std::FILE* file_;
-    bool first_ = true;
-};
-
-double seconds(std::int64_t span_ns) { return static_cast<double>(span_ns) * 1e-9; }
-double milliseconds(std::int64_t span_ns) { return static_cast<double>(span_ns) * 1e-6; }
 
 const char* text(vision::Track track) {
     switch (track) {
@@ -100,18 +30,8 @@ std::array<double, 8> flat(const servo::Pixels& pixels) {
     return result;
 }
 
-void write_settings(Json& json, const LoopSettings& settings, const Loop& loop) {
-    const Disturbances& wrong = settings.disturbances;
-    json.key("time").text(settings.is_real ? "real" : "virtual");
-    json.key("span_s").number(seconds(settings.span_ns));
-    json.key("seed").number(static_cast<double>(settings.seed));
-    json.key("disturbances").open('{');
-    json.key("noise").truth(wrong.noise);
-    json.key("dropped").truth(wrong.dropped);
-    json.key("slow").truth(wrong.slow);
-    json.key("occlusion").truth(wrong.occlusion);
-    json.key("unplugged_s").number(wrong.unplugged_s);
-    json.close('}');
+void write_scene(Json& json, const LoopSettings& settings, const Loop& loop) {
+    closed_loop::write_disturbances(json, settings.disturbances);
     json.key("image").numbers(std::array<double, 2>{640, 480});
     json.column("goals", loop.goals, [&](Json& j, const Goal& goal) {
         servo::Pixels pixels;
@@ -165,15 +85,6 @@ void write_motions(Json& json, const Loop& loop) {
 }
 
 void write_results(Json& json, const Loop& loop) {
-    json.column("tasks", loop.tasks, [](Json& j, const TaskAccount& task) {
-        j.open('{');
-        j.key("name").text(task.name);
-        j.key("cycles").number(static_cast<double>(task.cycles));
-        j.key("deadlines_missed").number(static_cast<double>(task.deadlines_missed));
-        j.key("worst_lateness_us").number(static_cast<double>(task.worst_lateness_ns) * 1e-3);
-        j.key("worst_duration_us").number(static_cast<double>(task.worst_duration_ns) * 1e-3);
-        j.close('}');
-    });
     json.key("frames").open('{');
     json.key("delivered").number(static_cast<double>(loop.frames.delivered));
     json.key("lost").number(static_cast<double>(loop.frames.lost));
@@ -190,16 +101,11 @@ void write_results(Json& json, const Loop& loop) {
 
 }  // namespace
 
-bool write_run(std::FILE* file, const LoopSettings& settings, const Loop& loop) {
-    Json json{file};
-    json.open('{');
-    write_settings(json, settings, loop);
+void write_columns(Json& json, const LoopSettings& settings, const Loop& loop) {
+    write_scene(json, settings, loop);
     write_sights(json, loop);
     write_motions(json, loop);
     write_results(json, loop);
-    json.close('}');
-    std::fputc('\n', file);
-    return std::fflush(file) == 0 && std::ferror(file) == 0;
 }
 
 }  // namespace controller_system

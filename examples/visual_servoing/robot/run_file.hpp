@@ -1,14 +1,14 @@
-// A run as JSON, for reports: what README.md lists. Numbers are written with as many digits as they need to be read back
-// the same; a run in virtual time gives the same bytes each time.
+// What is particular to a run of this robot, as JSON for reports: README.md lists it. A run in virtual time gives the same
+// bytes each time.
 #pragma once
 
-#include <cstdio>
+#include <groundstate/closed_loop/json.hpp>
 
 #include "closed_loop.hpp"
 
 namespace controller_system {
 
-/// Writes everything that was recorded. False if the file did not take it: errno says why.
-bool write_run(std::FILE* file, const LoopSettings& settings, const Loop& loop);
+/// Everything that was recorded, as keys of the object that is open.
+void write_columns(groundstate::closed_loop::Json& json, const LoopSettings& settings, const Loop& loop);
 
 }  // namespace controller_system

@@ -28,7 +28,7 @@ TEST(Tracking, KeepsTheObjectInTheMiddle) {
 }
 
 TEST(Tracking, IsTheSameForASeed) {
-    const LoopSettings settings{.span_ns = 2'000'000'000, .seed = 5, .faults = {.seed = 5, .lost = 0.1, .noise = 4}};
+    const LoopSettings settings{.run = {.span_ns = 2'000'000'000, .seed = 5}, .faults = {.seed = 5, .lost = 0.1, .noise = 4}};
     EXPECT_EQ(run(settings).off_centre, run(settings).off_centre);
 }
 
@@ -44,7 +44,7 @@ TEST(Tracking, LeadsOnWhileTheObjectIsCovered) {
 }
 
 TEST(Tracking, StandsWhenThereIsNothingToFollow) {
-    const Loop loop = run({.span_ns = 3'000'000'000, .faults = {.unplug_after = 150}});
+    const Loop loop = run({.run = {.span_ns = 3'000'000'000}, .faults = {.unplug_after = 150}});
     EXPECT_TRUE(loop.holding);
     EXPECT_LT(loop.worst(1.2, 1.5), 10);
 }

@@ -1,53 +1,16 @@
 // Parts that lie about are put in a row, also if the jaw slips.
 #include <gtest/gtest.h>
 
-#include "hooks.hpp"
+#include "closed_loop.hpp"
 
 namespace placing_system {
 namespace {
 
-const std::vector<Place> row{{0.42, 0.2}, {0.50, 0.2}, {0.58, 0.2}};
-
-struct Placed {
-    std::vector<Place> parts;
-    std::size_t placed = 0;
-    long missed = 0;
-    long slips = 0;
-};
-
-Placed run(std::uint64_t seed, double slip, std::int64_t span_ns) {
-    groundstate::VirtualClock clock{System<groundstate::VirtualClock>::threads};
-    const Now now = [&clock] { return clock.now_ns(); };
-    groundstate::plant::Random random{seed};
-    std::vector<Place> parts;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-        const double x = 0.40 + 0.09 * static_cast<double>(i);
-        parts.push_back({x + 0.02 * random.uniform(), -0.2 + 0.18 * random.uniform()});
-    }
-    Table table{parts, slip, seed};
-    TableCamera camera{now, table};
-    PartFinder vision;
-    PlacePlanner planner{row};
-    ToolMover robot{now, arm_with_tool()};
-    JawController gripper{[&](bool closed) { return table.jaw(now(), closed); }};
-    JointDrives motor{now, [&](std::int64_t at_ns, const Joints& velocity) { table.drive(at_ns, velocity); }};
-    JointEncoders encoder{now, [&](std::int64_t at_ns) { return table.measured(at_ns); }};
-    auto system = std::make_unique<System<groundstate::VirtualClock>>(
-        clock, Hooks{.camera = camera, .vision = vision, .planner = planner, .robot = robot, .gripper = gripper,
-                     .motor = motor, .encoder = encoder},
-        groundstate::Options{});
-    EXPECT_TRUE(system->run(span_ns));
-    return {table.parts(), planner.placed(), planner.missed(), table.slips()};
-}
-
-void expect_in_a_row(const Placed& end) {
-    EXPECT_EQ(end.placed, row.size());
-    for (const Place& place : row) {
-        double nearest = INFINITY;
-        for (const Place& part : end.parts) {
-            nearest = std::min(nearest, std::hypot(part.x - place.x, part.y - place.y));
-        }
-        EXPECT_LT(nearest * 1e3, 2) << "mm from " << place.x << ", " << place.y;
+void expect_in_a_row(const Loop& end) {
+    EXPECT_TRUE(end.account.ending);
+    EXPECT_EQ(end.placed, example_row().size());
+    for (const Place& place : example_row()) {
+        EXPECT_LT(end.error(place) * 1e3, 2) << "mm from " << place.x << ", " << place.y;
     }
 }
 
@@ -63,21 +26,22 @@ TEST(Geometry, TheCameraSeesTheTableWhereItIs) {
 }
 
 TEST(Placing, PutsTheParts) {
-    const Placed result = run(1, 0, 35 * second);
+    const Loop result = run({.run = {.span_ns = 35 * second, .seed = 1}});
     expect_in_a_row(result);
     EXPECT_EQ(result.missed, 0);
 }
 
 TEST(Placing, TriesAgainWhenTheJawSlips) {
-    const Placed result = run(4, 0.4, 40 * second);
+    const Loop result = run({.run = {.span_ns = 40 * second, .seed = 4}, .slip = 0.4});
     expect_in_a_row(result);
     EXPECT_GT(result.slips, 0);
     EXPECT_EQ(result.missed, result.slips);
 }
 
 TEST(Placing, IsTheSameForASeed) {
-    const Placed one = run(5, 0.4, 4 * second);
-    const Placed other = run(5, 0.4, 4 * second);
+    const LoopSettings settings{.run = {.span_ns = 4 * second, .seed = 5}, .slip = 0.4};
+    const Loop one = run(settings);
+    const Loop other = run(settings);
     for (std::size_t i = 0; i < one.parts.size(); ++i) {
         EXPECT_EQ(one.parts[i].x, other.parts[i].x);
         EXPECT_EQ(one.parts[i].y, other.parts[i].y);

@@ -57,7 +57,7 @@ std::vector<double> numbers(const Loop& loop) {
 TEST(ClosedLoop, IsTheSameForASeedAndAnotherForAnother) {
     const Disturbances all{.noise = true, .dropped = true, .slow = true, .occlusion = true};
     const auto of = [&](std::uint64_t seed) {
-        return numbers(run({.span_ns = 3 * second, .seed = seed, .disturbances = all}));
+        return numbers(run({.run = {.span_ns = 3 * second, .seed = seed}, .disturbances = all}));
     };
     const std::vector<double> first = of(1);
     const std::vector<double> again = of(1);
@@ -96,14 +96,14 @@ TEST(ClosedLoop, ConvergesThoughDiscsAreCovered) {
 TEST(ClosedLoop, ConvergesWithAllAtOnceForManySeeds) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         SCOPED_TRACE(seed);
-        expect_converged(run({.seed = seed, .disturbances = {.noise = true, .dropped = true, .slow = true, .occlusion = true}}),
+        expect_converged(run({.run = {.seed = seed}, .disturbances = {.noise = true, .dropped = true, .slow = true, .occlusion = true}}),
                          5e-3, 5, 0.5);
     }
 }
 
 // The camera is gone in the middle of the way: the arm comes to rest, and stays there.
 TEST(ClosedLoop, HoldsWhenTheCameraIsGone) {
-    const Loop loop = run({.span_ns = 3 * second, .disturbances = {.unplugged_s = 0.8}});
+    const Loop loop = run({.run = {.span_ns = 3 * second}, .disturbances = {.unplugged_s = 0.8}});
     EXPECT_TRUE(loop.holding);
     EXPECT_LT(loop.fastest, 5e-3) << "the noise of the encoders is left";
     EXPECT_GT(loop.position_error, 0.01);

@@ -30,42 +30,9 @@ inline constexpr double distinct = 1e-4;
 inline constexpr double flat = 1e-3;
 
 /// Who: everybody. Blocks: no. Allocates: no.
-inline Defect defect(const ImagePoints& seen, const Depths& depths) noexcept {
-    Eigen::Matrix<double, 2, points> places;
-    for (std::size_t i = 0; i < points; ++i) {
-        if (!std::isfinite(seen[i].x) || !std::isfinite(seen[i].y) || !std::isfinite(depths[i])) {
-            return Defect::not_finite;
-        }
-        if (depths[i] <= 0) {
-            return Defect::behind_camera;
-        }
-        for (std::size_t j = 0; j < i; ++j) {
-            if (std::hypot(seen[i].x - seen[j].x, seen[i].y - seen[j].y) < distinct) {
-                return Defect::coincident;
-            }
-        }
-        places.col(static_cast<Eigen::Index>(i)) << seen[i].x, seen[i].y;
-    }
-    // The extents along the principal axes are the roots of the eigenvalues of the 2x2 matrix of second moments.
-    const Eigen::Vector2d middle = places.rowwise().mean();
-    const Eigen::Matrix2d moments = (places.colwise() - middle) * (places.colwise() - middle).transpose();
-    const double half_trace = moments.trace() / 2;
-    const double along = half_trace + std::sqrt(std::max(0.0, half_trace * half_trace - moments.determinant()));
-    const double across = moments.determinant() / along;
-    return across < flat * flat * along ? Defect::collinear : Defect::none;
-}
+Defect defect(const ImagePoints& seen, const Depths& depths) noexcept;
 
 /// Who: everybody. Blocks: no. Allocates: no. The points have no defect.
-inline InteractionMatrix interaction_matrix(const ImagePoints& seen, const Depths& depths) noexcept {
-    InteractionMatrix result;
-    for (std::size_t i = 0; i < points; ++i) {
-        const auto [x, y] = seen[i];
-        const double z = depths[i];
-        const auto row = static_cast<Eigen::Index>(2 * i);
-        result.row(row) << -1 / z, 0, x / z, x * y, -(1 + x * x), y;
-        result.row(row + 1) << 0, -1 / z, y / z, 1 + y * y, -x * y, -x;
-    }
-    return result;
-}
+InteractionMatrix interaction_matrix(const ImagePoints& seen, const Depths& depths) noexcept;
 
 }  // namespace groundstate::servo
