@@ -77,11 +77,23 @@ said "not assembled"
 
 # Without images they come to rest.
 expect 0 visual_servoing --virtual 2s --unplugged 500ms
-said "holding, without images"
+said "holding, without set-points"
 expect 0 object_tracking --virtual 1s --unplugged 300ms
 said "holding, nothing to follow"
 expect 0 micro_assembly --virtual 1s --unplugged 100ms
 said "standing, without images"
+
+# Hooks that fail: one that throws, one that never returns, in either time; one that gives what is not a number.
+expect 1 visual_servoing --virtual 3s --hook throws
+said "task visual_servoing failed in cycle [0-9]*, phase .*: the law has no solution; the others were stopped safely"
+expect 1 visual_servoing --virtual 3s --hook hangs --patience 1s
+said "task visual_servoing hung in cycle [0-9]*, phase .*: no progress for 1000 ms of the wall clock; the others were stopped safely"
+expect 1 visual_servoing --virtual 3s --hook waits --patience 1s
+said "task visual_servoing hung in cycle [0-9]*, phase .*: no progress for 1000 ms of the wall clock; the others were stopped safely"
+expect 1 visual_servoing --real 3s --hook hangs
+said "task visual_servoing hung in cycle [0-9]*, phase .*: no progress for"
+expect 0 visual_servoing --virtual 3s --hook nan
+said "holding, without set-points"
 
 # In real time how well they do depends on the machine; that they run, and end, does not.
 for program in visual_servoing object_tracking pick_and_place micro_assembly; do

@@ -91,6 +91,9 @@ said "task slow failed in cycle 20, phase slow_law: the law has no solution; the
 expect 1 env HOOK=hang "$program" --real 5 --log "$log"
 said "task fast hung in cycle 20, phase fast_control: no progress for"
 said "stopped: fast"
+expect 1 env HOOK=hang "$program" --virtual 5 --patience 1 --log "$log"
+said "task fast hung in cycle 20, phase fast_control: no progress for 1000 ms of the wall clock"
+said "stopped: slow"
 expect 0 env HOOK=nan "$program" --virtual 1 --log "$log"
 said "^slow .* 1  *[0-9]*  *[0-9]*$"
 expect 0 $conform

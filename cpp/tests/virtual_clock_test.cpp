@@ -63,5 +63,35 @@ TEST(VirtualClock, EveryRunIsTheSame) {
     }
 }
 
+// One thread computes for ever, as it seems; without it the others go on.
+TEST(VirtualClock, GoesOnWithoutWhoeverWasEvicted) {
+    VirtualClock clock{2};
+    std::atomic<bool> computes{true};
+    std::thread first{[&] {
+        clock.enter(0);
+        while (computes.load()) {
+            std::this_thread::yield();
+        }
+        clock.leave();
+    }};
+    std::atomic<std::int64_t> slept_ns{0};
+    std::thread second{[&] {
+        clock.enter(1);
+        clock.sleep_until_ns(5);
+        slept_ns = clock.now_ns();
+        clock.leave();
+    }};
+    std::optional<int> evicted;
+    while (!evicted) {
+        evicted = clock.evict(0);
+    }
+    EXPECT_EQ(evicted, 0);
+    second.join();
+    EXPECT_EQ(slept_ns, 5);
+    EXPECT_FALSE(clock.evict(0)) << "nobody has the turn";
+    computes = false;
+    first.join();
+}
+
 }  // namespace
 }  // namespace groundstate

@@ -3,6 +3,7 @@
 //     robot --virtual 10 --log run.mcap          ten seconds of virtual time, tick by tick as the model
 //     robot --virtual 10 --seed 7                each phase lasts a part of its time, drawn from the seed
 //     robot --real 3 --realtime 20               three seconds in real time, SCHED_FIFO from priority 20 on
+//     robot --patience 2                         a task hangs if it makes no progress for 2 s (virtual time: 10, real: 0.5)
 //
 // Exit status: 0 the run came to its end; 1 a task failed or hung, which is told; 2 wrong usage.
 #pragma once
@@ -42,6 +43,8 @@ inline CommandLine read_command_line(int count, char** words) {
             line.options.log = value;
         } else if (word == "--realtime" && is_number && number >= 1 && number <= 90) {
             line.options.priority = static_cast<int>(number);
+        } else if (word == "--patience" && is_number && number > 0) {
+            line.options.patience_ns = line.options.guard_ns = static_cast<std::int64_t>(number * 1e9);
 #ifdef GROUNDSTATE_SEEDED_FAULTS
         } else if (word == "--seed-fault" && is_number && number <= 4) {
             seeded_fault = static_cast<Fault>(number);
@@ -140,7 +143,7 @@ int run_program(int count, char** words, const Hooks& hooks) {
     const CommandLine line = read_command_line(count, words);
     if (!line.wrong.empty()) {
         std::fprintf(stderr, "usage: %s [--virtual SECONDS [--seed N] | --real SECONDS [--realtime PRIORITY]] "
-                     "[--log FILE]; not understood: %s\n", words[0], line.wrong.c_str());
+                     "[--patience SECONDS] [--log FILE]; not understood: %s\n", words[0], line.wrong.c_str());
         return 2;
     }
     if (const int error = McapFile::probe(line.options.log); error != 0) {

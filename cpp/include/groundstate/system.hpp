@@ -4,14 +4,17 @@
 // in which cycle, and why. A hook that throws ends its task alone; the supervisor notices, stops the others, and calls
 // the components' safe_stop() in the order of the plan. A hook that never returns cannot be ended: the task is reported
 // as hung when it makes no progress for so many of its periods, the others are stopped safely, and its thread is left
-// alone; the program has to end then without waiting for it (program.hpp does). In virtual time, which stands still
-// while a hook computes, nobody can tell that it hangs.
+// alone; the program has to end then without waiting for it (program.hpp does). Virtual time stands still while a hook
+// computes: there a guard looks at the wall clock, and takes the turn away from a task that has had it for too long.
 #pragma once
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
 #include <exception>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <type_traits>
@@ -53,6 +56,7 @@ struct Options {
     int priority = 0;             ///< of SCHED_FIFO for the least urgent task; 0 asks for nothing
     int patience_periods = 10;    ///< so many periods without progress mean that a task hangs,
     std::int64_t patience_ns = 500'000'000;       ///< and so much time at the least
+    std::int64_t guard_ns = 10'000'000'000;       ///< of the wall clock: how long a hook may compute in virtual time
     std::int64_t lock_patience_ns = 200'000'000;  ///< what an asynchronous task may wait in a cycle, for locks and room
     Late late = Late::catch_up;
 };
@@ -143,6 +147,7 @@ class SystemBase {
             stop_components();
             return outcome;
         }
+        [[maybe_unused]] const auto guard = start_guard();
         clock_.enter(first_rank);
         outcome = watch(origin_ns, later_ns(origin_ns, span_ns));
         const std::int64_t stopped_ns = clock_.now_ns() - origin_ns;
@@ -150,6 +155,7 @@ class SystemBase {
             unit->ask_to_stop();
         }
         clock_.leave();
+        ending_.store(true, std::memory_order_relaxed);
         end(outcome);
         stop_components();
         close_log(outcome, stopped_ns);
@@ -283,7 +289,7 @@ class SystemBase {
 
     bool hangs(std::size_t number) const noexcept {
         if constexpr (is_virtual) {
-            return false;
+            return (evicted_.load(std::memory_order_relaxed) >> plan_.tasks[number].rank & 1) != 0;
         } else {
             const TaskPlan& plan = plan_.tasks[number];
             const std::int64_t period_ns = std::max(plan.period_ticks, plan.busy_ticks) * plan_.tick_ns;
@@ -292,6 +298,37 @@ class SystemBase {
                 waiting_ns + std::max(options_.patience_ns, options_.patience_periods * period_ns);
             const std::int64_t progress_ns = contexts_[number]->progress_ns();
             return progress_ns != never_ns && clock_.now_ns() - progress_ns > patience_ns;
+        }
+    }
+
+    // In virtual time a thread that looks at the wall clock; it ends when what is returned goes out of scope.
+    auto start_guard() {
+        if constexpr (is_virtual) {
+            return std::jthread{[this](const std::stop_token& stop) { guard(stop); }};
+        } else {
+            return 0;
+        }
+    }
+
+    // As long as turns are given, all is well. If not, whoever has the turn hangs; or, while the tasks are to end and
+    // nobody has it, all that are left do: time goes on no more for them.
+    void guard(const std::stop_token& stop) {
+        std::mutex mutex;
+        std::condition_variable_any woken;
+        std::unique_lock lock{mutex};
+        std::uint64_t turns = clock_.turns();
+        const std::int64_t pause_ns = std::min<std::int64_t>(options_.guard_ns / 4 + 1, 100'000'000);
+        // What is counted is how often it looked, not the time: a program that was stopped meanwhile does not hang.
+        std::int64_t still_ns = 0;
+        while (!woken.wait_for(lock, stop, std::chrono::nanoseconds{pause_ns}, [&] { return stop.stop_requested(); })) {
+            still_ns = clock_.turns() == turns ? still_ns + pause_ns : 0;
+            turns = clock_.turns();
+            if (still_ns >= options_.guard_ns) {
+                const std::optional<int> rank = clock_.evict(first_rank + 1);
+                const bool stuck = !rank && ending_.load(std::memory_order_relaxed);
+                evicted_.fetch_or(rank ? std::uint64_t{1} << *rank : stuck ? ~std::uint64_t{0} : 0, std::memory_order_relaxed);
+                still_ns = 0;
+            }
         }
     }
 
@@ -335,7 +372,8 @@ class SystemBase {
 
     Ending hung(std::size_t number) const {
         Ending outcome = at(number, Ending::Kind::hung);
-        outcome.reason = "no progress for " + std::to_string((clock_.now_ns() - contexts_[number]->progress_ns()) / 1'000'000) + " ms";
+        const std::int64_t still_ns = is_virtual ? options_.guard_ns : clock_.now_ns() - contexts_[number]->progress_ns();
+        outcome.reason = "no progress for " + std::to_string(still_ns / 1'000'000) + " ms" + (is_virtual ? " of the wall clock" : "");
         return outcome;
     }
 
@@ -408,6 +446,8 @@ class SystemBase {
     SystemPlan plan_;
     Options options_;
     bool realtime_refused_ = false;
+    std::atomic<std::uint64_t> evicted_{0};  ///< whom the guard found hanging, a bit a rank
+    std::atomic<bool> ending_{false};
     // Before the units, which record until they have ended.
     std::unique_ptr<Recorder> recorder_{};
     std::vector<std::unique_ptr<TaskContext<C>>> contexts_{};

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "clock.hpp"
@@ -44,7 +45,7 @@ class VirtualClock {
     /// Takes part no longer; the next one goes on.
     void leave() noexcept {
         const std::lock_guard guard{mutex_};
-        if (Seat* seat = mine(); seat != nullptr) {
+        if (Seat* seat = mine(); seat != nullptr && seat->state != State::evicted) {
             stand_up(*seat);
         }
     }
@@ -74,8 +75,26 @@ class VirtualClock {
         next();
     }
 
+    /// How often somebody was given the turn. Who: everybody. Blocks: no.
+    std::uint64_t turns() const noexcept { return turns_.load(std::memory_order_relaxed); }
+
+    /// Takes the turn away from whoever has it, for good: the others go on, and that thread waits for ever at its next
+    /// call. Its rank; nothing if nobody has the turn, or somebody of a lesser rank. Who: a guard that has seen no other
+    /// turn for too long.
+    std::optional<int> evict(int least_rank) noexcept {
+        const std::lock_guard guard{mutex_};
+        for (Seat& seat : seats_) {
+            if (seat.state == State::running && seat.rank >= least_rank) {
+                seat.state = State::evicted;
+                next();
+                return seat.rank;
+            }
+        }
+        return std::nullopt;
+    }
+
   private:
-    enum class State { empty, ready, running, resting };
+    enum class State { empty, ready, running, resting, evicted };
 
     struct Seat {
         State state = State::empty;
@@ -123,6 +142,9 @@ class VirtualClock {
         if (guest) {
             seat = &take_seat(guard, INT_MAX);
         }
+        while (seat->state == State::evicted) {
+            seat->turn.wait(guard);
+        }
         seat->state = State::resting;
         seat->word = word;
         seat->until_ns = until_ns;
@@ -145,7 +167,7 @@ class VirtualClock {
             if (seat.state == State::running) {
                 return;
             }
-            if (seat.state != State::empty && (first == nullptr || before(seat, *first))) {
+            if (seat.state != State::empty && seat.state != State::evicted && (first == nullptr || before(seat, *first))) {
                 first = &seat;
             }
         }
@@ -154,6 +176,7 @@ class VirtualClock {
         }
         now_ns_.store(std::max(now_ns(), instant_of(*first)), std::memory_order_release);
         first->state = State::running;
+        turns_.fetch_add(1, std::memory_order_relaxed);
         first->turn.notify_one();
     }
 
@@ -175,6 +198,7 @@ class VirtualClock {
     std::size_t present_ = 0;
     bool started_ = false;
     std::atomic<std::int64_t> now_ns_{0};
+    std::atomic<std::uint64_t> turns_{0};
 };
 
 static_assert(Clock<VirtualClock>);

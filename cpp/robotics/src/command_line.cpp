@@ -1,6 +1,7 @@
 // Options by CLI11, messages of our own; the file of a run.
 #include <groundstate/closed_loop/command_line.hpp>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -73,6 +74,7 @@ CommandLine::CommandLine(const char* program, const char* what, RunSettings& set
         ->type_name("NUMBER")
         ->check(whole_number());
     app.add_option("--realtime", settings_.priority, "SCHED_FIFO from this priority on")->check(CLI::Range(1, 90))->needs(real);
+    seconds("--patience", settings_.patience_s, "a task that makes no progress for so long hangs (virtual time: 10s, real: 0.5s)");
     app.add_option("--log", settings_.log, "write the tasks' events to this file, as MCAP")->type_name("FILE");
     app.add_option("--run", run_file_, "write what was recorded to this file, as JSON")->type_name("FILE");
 }
@@ -94,6 +96,18 @@ void CommandLine::share(const char* name, double& value, const char* what) {
 
 void CommandLine::number(const char* name, int& value, int least, int most, const char* what) {
     options_->app.add_option(name, value, what)->check(CLI::Range(least, most));
+}
+
+void CommandLine::choice(const char* name, int& value, const std::vector<std::string>& names, const char* what) {
+    options_->app
+        .add_option_function<std::string>(
+            name,
+            [&value, names](const std::string& text) {
+                value = static_cast<int>(std::find(names.begin(), names.end(), text) - names.begin());
+            },
+            what)
+        ->type_name("")
+        ->check(CLI::IsMember(names));
 }
 
 void CommandLine::folder(const char* name, std::string& value, const char* what) {

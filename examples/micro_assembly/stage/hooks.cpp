@@ -118,6 +118,8 @@ bool StageMover::approach(const Cycle&, const In& in, Out& out) {
 }
 
 // The axes measure themselves, faster than any channel could.
+void PiezoAxes::safe_stop() noexcept { bench_.drive(now_(), {}); }
+
 bool PiezoAxes::drive(const Cycle&, const In& in, Out&) {
     const std::int64_t now_ns = now_();
     Axes velocity{};

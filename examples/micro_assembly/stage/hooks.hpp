@@ -87,6 +87,8 @@ class PiezoAxes final : public Piezo {
   public:
     PiezoAxes(Now now, Bench& bench) : now_{std::move(now)}, bench_{bench} {}
     bool drive(const Cycle& cycle, const In& in, Out& out) override;
+    /// The axes stand: nobody leads them any more.
+    void safe_stop() noexcept override;
 
   private:
     Now now_;

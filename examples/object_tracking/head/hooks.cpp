@@ -101,6 +101,8 @@ bool HeadController::follow(const Cycle&, const In& in, Out& out) {
     return true;
 }
 
+void HeadDrives::safe_stop() noexcept { command_(now_(), {}); }
+
 bool HeadDrives::drive(const Cycle&, const In& in, Out&) {
     const std::int64_t now_ns = now_();
     follower_.begin(now_ns);

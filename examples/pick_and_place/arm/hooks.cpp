@@ -172,6 +172,8 @@ bool JawController::close(const Cycle&, const In& in, Out& out) {
     return true;
 }
 
+void JointDrives::safe_stop() noexcept { command_(now_(), Joints::Zero()); }
+
 bool JointDrives::drive(const Cycle&, const In& in, Out&) {
     const std::int64_t now_ns = now_();
     follower_.begin(now_ns);

@@ -106,6 +106,8 @@ class JointDrives final : public Motor {
     using Command = std::function<void(std::int64_t now_ns, const Joints& velocity)>;
     JointDrives(Now now, Command command) : now_{std::move(now)}, command_{std::move(command)} {}
     bool drive(const Cycle& cycle, const In& in, Out& out) override;
+    /// The joints stand: nobody leads them any more.
+    void safe_stop() noexcept override;
 
   private:
     Now now_;

@@ -1,6 +1,9 @@
 // Builds controller and cell, runs them, and measures what they came to.
 #include "closed_loop.hpp"
 
+#include <limits>
+#include <stdexcept>
+
 #include <groundstate/simulated/camera.hpp>
 
 namespace controller_system {
@@ -18,6 +21,39 @@ Eigen::Isometry3d looking(const Eigen::Vector3d& from, double turn) {
     pose.translation() = from;
     return pose;
 }
+
+// The hook of visual servoing, which fails from some instant on.
+template <Clock C>
+class FailingServoing final : public VisualServoing {
+  public:
+    FailingServoing(C& clock, VisualServoing& servoing, const LoopSettings& settings)
+        : clock_{clock}, servoing_{servoing}, fault_{settings.hook_fault},
+          from_ns_{clock.now_ns() + static_cast<std::int64_t>(settings.hook_fails_s * 1e9)} {}
+
+    bool set_point(const Cycle& cycle, const In& in, Out& out) override {
+        const bool ready = servoing_.set_point(cycle, in, out);
+        if (clock_.now_ns() < from_ns_) {
+            return ready;
+        }
+        switch (fault_) {
+            case HookFault::none: break;
+            case HookFault::throws: throw std::runtime_error{"the law has no solution"};
+            case HookFault::hangs:
+                for (MonotonicClock wall;;) {
+                    wall.sleep_until_ns(wall.now_ns() + 1'000'000'000);
+                }
+            case HookFault::waits: clock_.sleep_until_ns(never_ns); break;
+            case HookFault::not_a_number: out.vs_to_robot.twist[2] = std::numeric_limits<double>::quiet_NaN(); break;
+        }
+        return ready;
+    }
+
+  private:
+    C& clock_;
+    VisualServoing& servoing_;
+    HookFault fault_;
+    std::int64_t from_ns_;
+};
 
 template <Clock C>
 Loop run(const LoopSettings& settings, C& clock) {
@@ -43,8 +79,11 @@ Loop run(const LoopSettings& settings, C& clock) {
         periods(1'000'000));
     JointEncoders encoders{now, [&cell](std::int64_t at_ns) { return cell.measured(at_ns); }};
 
+    FailingServoing<C> failing{clock, *loop.servoing, settings};
+    VisualServoing& visual_servoing =
+        settings.hook_fault == HookFault::none ? static_cast<VisualServoing&>(*loop.servoing) : failing;
     loop.account = closed_loop::run_tasks<System>(
-        clock, Hooks{sender, grabber, *loop.servoing, *loop.robot, *loop.motor, encoders}, settings.run);
+        clock, Hooks{sender, grabber, visual_servoing, *loop.robot, *loop.motor, encoders}, settings.run);
     loop.frames = camera->account();
     const std::int64_t end_ns = loop.origin_ns + settings.run.span_ns;
     const Eigen::Isometry3d goal = cell.settings().target.pose * loop.goals.back().camera;

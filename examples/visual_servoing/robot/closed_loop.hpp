@@ -13,9 +13,14 @@ namespace controller_system {
 
 using groundstate::closed_loop::Disturbances;
 
+/// How the hook of visual servoing fails.
+enum class HookFault { none, throws, hangs, waits, not_a_number };
+
 struct LoopSettings {
     groundstate::closed_loop::RunSettings run{};
     Disturbances disturbances{};
+    HookFault hook_fault = HookFault::none;
+    double hook_fails_s = 1;    ///< from then on
     std::vector<Goal> goals{};  ///< if empty the example's, the second one after half of the time
 };
 

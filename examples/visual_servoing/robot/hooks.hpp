@@ -149,6 +149,8 @@ class JointDrives final : public Motor {
     using Command = std::function<void(std::int64_t now_ns, const Joints& velocity)>;
     JointDrives(Now now, Command command, const groundstate::kinematics::FollowerSettings& settings, std::size_t drives);
     bool drive(const Cycle& cycle, const In& in, Out& out) override;
+    /// The joints stand: nobody leads them any more.
+    void safe_stop() noexcept override;
 
     const std::vector<Drive>& drives() const noexcept { return drives_; }
 

@@ -16,17 +16,20 @@ int main(int count, char** words) {
     std::string views;
     CommandLine line{"visual_servoing", "An arm guided by the camera in its hand, in closed loop", settings.run};
     line.disturbances(settings.disturbances);
+    int fault = 0;
+    line.choice("--hook", fault, {"works", "throws", "hangs", "waits", "nan"}, "what that of visual servoing does after 1 s");
     line.folder("--views", views, "write some images of the camera there, with the features and their way");
     if (const auto status = line.read(count, words)) {
         return *status;
     }
+    settings.hook_fault = static_cast<HookFault>(fault);
     const Loop loop = run(settings);
     tell(loop.account);
     std::printf("camera: %lld images, %lld lost; searched whole %ld times\n", static_cast<long long>(loop.frames.delivered),
                 static_cast<long long>(loop.frames.lost), loop.servoing->searches());
     std::printf("features %.1e, camera %.2f mm and %.3f degrees from the last goal: %s\n", loop.feature_error,
                 loop.position_error * 1e3, loop.turn_error * 180 / M_PI,
-                loop.converged() ? "converged" : loop.holding ? "holding, without images" : "not converged");
+                loop.converged() ? "converged" : loop.holding ? "holding, without set-points" : "not converged");
     if (!views.empty()) {
         const std::size_t pictures = write_pictures(views, loop);
         std::printf("%zu views in %s\n", pictures, views.c_str());
@@ -35,7 +38,7 @@ int main(int count, char** words) {
             return 2;
         }
     }
-    const bool at_rest = loop.holding && settings.disturbances.unplugged_s > 0 && loop.fastest < 5e-3;
+    const bool at_rest = loop.holding && (settings.disturbances.unplugged_s > 0 || fault != 0) && loop.fastest < 5e-3;
     return line.end(loop.account, loop.converged() || at_rest,
                     [&](Json& json) { write_columns(json, settings, loop); });
 }

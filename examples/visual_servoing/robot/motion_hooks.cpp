@@ -67,6 +67,8 @@ JointDrives::JointDrives(Now now, Command command, const kinematics::FollowerSet
     drives_.reserve(drives);
 }
 
+void JointDrives::safe_stop() noexcept { command_(now_(), Joints::Zero()); }
+
 bool JointDrives::drive(const Cycle&, const In& in, Out&) {
     const std::int64_t now_ns = now_();
     Drive drive{.at_ns = now_ns};

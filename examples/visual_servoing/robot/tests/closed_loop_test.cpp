@@ -123,6 +123,47 @@ TEST(ClosedLoop, HoldsWhenTheCameraIsGone) {
     EXPECT_LT(fastest, 1e-6);
 }
 
+// How far the joints go in a second, beginning half a second after the run.
+double creeping(const Loop& loop, std::int64_t end_ns) {
+    const Joints before = loop.cell->measured(end_ns + 500 * ms);
+    return (loop.cell->measured(end_ns + 1500 * ms) - before).cwiseAbs().maxCoeff();
+}
+
+TEST(ClosedLoop, StandsWhenAHookThrows) {
+    const Loop loop = run({.run = {.span_ns = 2 * second}, .hook_fault = HookFault::throws, .hook_fails_s = 0.3});
+    const groundstate::Ending& ending = loop.account.ending;
+    EXPECT_EQ(ending.kind, groundstate::Ending::Kind::faulted);
+    EXPECT_EQ(ending.task, "visual_servoing");
+    EXPECT_EQ(ending.reason, "the law has no solution");
+    EXPECT_FALSE(loop.converged());
+    EXPECT_LT(loop.motor->drives().size(), 400u) << "the others were stopped, too";
+    EXPECT_GT(loop.motor->drives().back().fastest, 0.05) << "in the middle of a movement";
+    EXPECT_LT(creeping(loop, 2 * second), 1e-3);
+}
+
+// What is not a number is counted, and never comes to the joints: they are brought to rest as without images.
+TEST(ClosedLoop, HoldsWhenAHookGivesWhatIsNotANumber) {
+    const Loop loop = run({.run = {.span_ns = 2 * second}, .hook_fault = HookFault::not_a_number, .hook_fails_s = 0.3});
+    EXPECT_TRUE(loop.account.ending);
+    EXPECT_GT(loop.account.tasks[2].invalid, 50);
+    EXPECT_TRUE(loop.holding);
+    EXPECT_LT(loop.fastest, 5e-3);
+    for (const Motion& motion : loop.robot->motions()) {
+        ASSERT_TRUE(finite(motion.position) && finite(motion.velocity));
+    }
+}
+
+TEST(Images, OfAnotherSizeAreNotHandedOver) {
+    groundstate::Watchdog watchdog{ms};
+    ImageGrabber grabber{[](groundstate::FrameView, groundstate::Watchdog&) {
+        return groundstate::Grab{.outcome = groundstate::Outcome::other_shape};
+    }};
+    const auto image = std::make_unique<CameraToVs>();
+    Camera::Out out{*image};
+    EXPECT_FALSE(grabber.grab({.watchdog = watchdog}, {}, out));
+    EXPECT_EQ(grabber.without_image(), 1);
+}
+
 struct MotorTest : testing::Test {
     std::int64_t now_ns = second;
     Joints commanded = Joints::Zero();
@@ -165,6 +206,12 @@ TEST_F(MotorTest, BrakesOnARampWhenTheSetPointIsTooOld) {
     set.position = encoder.position;
     cycle();
     EXPECT_NEAR(commanded[0], 0.5, 1e-12);
+}
+
+TEST_F(MotorTest, StandsAtASafeStop) {
+    cycle();
+    drives.safe_stop();
+    EXPECT_EQ(commanded.cwiseAbs().maxCoeff(), 0);
 }
 
 TEST(Data, WhatIsNotANumberIsNotHandedOver) {

@@ -28,8 +28,8 @@
 
 namespace groundstate::closed_loop {
 
-/// Reads the options. Every program has --virtual, --real, --seed, --realtime, --log, --run; others are added before
-/// `read`. What is given here and there must outlive it.
+/// Reads the options. Every program has --virtual, --real, --seed, --realtime, --patience, --log, --run; others are
+/// added before `read`. What is given here and there must outlive it.
 class CommandLine {
   public:
     CommandLine(const char* program, const char* what, RunSettings& settings);
@@ -43,6 +43,8 @@ class CommandLine {
     /// From 0 to 1.
     void share(const char* name, double& value, const char* what);
     void number(const char* name, int& value, int least, int most, const char* what);
+    /// One of the names, whose number becomes the value.
+    void choice(const char* name, int& value, const std::vector<std::string>& names, const char* what);
     void folder(const char* name, std::string& value, const char* what);
     /// --noise, --dropped, --slow, --occlusion, --unplugged.
     void disturbances(Disturbances& wrong);

@@ -18,6 +18,7 @@ struct RunSettings {
     bool is_real = false;
     std::uint64_t seed = 1;  ///< of the world
     int priority = 0;        ///< of SCHED_FIFO for the least urgent task, in real time; 0 asks for nothing
+    double patience_s = 0;   ///< so long a task may make no progress (system.hpp); 0: as usual
     std::string log{};       ///< the file for the events, as MCAP; none if empty
 };
 
@@ -38,6 +39,9 @@ template <template <class> class System, Clock C, class Hooks>
 RunAccount run_tasks(C& clock, const Hooks& hooks, const RunSettings& settings) {
     Options options;
     options.log = settings.log;
+    if (settings.patience_s > 0) {
+        options.patience_ns = options.guard_ns = static_cast<std::int64_t>(settings.patience_s * 1e9);
+    }
     if constexpr (std::is_same_v<C, MonotonicClock>) {
         options.priority = settings.priority;
         if (settings.priority > 0) {
