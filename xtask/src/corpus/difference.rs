@@ -1,5 +1,7 @@
 //! How a run of ours and a recorded one part.
 
+use syntax::Span;
+
 use super::trace::End;
 
 /// What is not the same.
@@ -27,6 +29,8 @@ pub enum What {
         id: String,
         /// Its sentence and place.
         text: String,
+        /// Its place in the model.
+        span: Span,
         /// How the record goes on: the end, or none where the step was made.
         theirs: Option<End>,
     },

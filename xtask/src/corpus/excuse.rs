@@ -12,7 +12,7 @@ use super::difference::What;
 use super::reason;
 use super::state::Listed;
 use super::text;
-use super::trace::{End, Step, Trace};
+use super::trace::{End, Trace};
 
 /// Decides on differences of one run.
 #[derive(Debug)]
@@ -125,8 +125,8 @@ impl<'a> Excuses<'a> {
     /// found by [`super::defect`].
     pub fn parting(&self, what: &What, step: usize) -> Option<&'static str> {
         match what {
-            What::Fault { id, text, theirs } => self.fault(id, text, theirs.as_ref(), step),
-            What::GoesOn { theirs } => self.stops(theirs, step),
+            What::Fault { id, text, theirs, .. } => self.fault(id, text, theirs.as_ref(), step),
+            What::GoesOn { theirs } => self.stops(theirs),
             What::Value { location, theirs, ours } => self.splits_by_pattern(location, theirs, ours),
             What::Violation { .. } | What::Written { .. } | What::Beyond { .. } => None,
         }
@@ -138,10 +138,8 @@ impl<'a> Excuses<'a> {
             return (step > 0).then_some(reason::OTHER_FAULT);
         }
         match id {
-            "integer-overflow" => Some(reason::OVERFLOW),
             "division-by-zero" => Some(reason::DIVISION),
             "value-outside-domain" if step == 0 => Some(reason::INITIAL_UNCHECKED),
-            "bad-operand" if text.contains("so it is no Natural") => Some(reason::NEGATIVE_NATURAL),
             "domain-not-enumerable" => Some(reason::INFINITE_CHOICE),
             // The same fault there, in the step in which the initial value is first read.
             "no-definition" if step == 0 => {
@@ -152,7 +150,7 @@ impl<'a> Excuses<'a> {
         }
     }
 
-    fn stops(&self, theirs: &End, step: usize) -> Option<&'static str> {
+    fn stops(&self, theirs: &End) -> Option<&'static str> {
         let message = theirs.message.as_str();
         match theirs.class.as_str() {
             "UnresolvedReferenceException" => {
@@ -160,9 +158,7 @@ impl<'a> Excuses<'a> {
                 let mut functions = self.program.functions.iter().filter(|function| function.name == name);
                 functions.any(|function| function.library).then_some(reason::NOT_IMPLEMENTED)
             }
-            "RuntimeException" if message.contains("is unbound") => Some(reason::DEPENDENT_RANGE),
             "RuntimeException" if message.starts_with("definition of ") => Some(reason::NO_CONTENTS),
-            "InvalidValueException" => self.is_new(message, step).then_some(reason::NEW_ELEMENT),
             "NullPointerException" if message.contains("\"updateSet\" is null") && self.runs_unrun() => {
                 Some(reason::NOT_RUN)
             }
@@ -172,14 +168,6 @@ impl<'a> Excuses<'a> {
             }
             _ => None,
         }
-    }
-
-    /// The value refused is an element that no earlier state lists.
-    fn is_new(&self, message: &str, step: usize) -> bool {
-        let value = message.split("cannot assign ").nth(1).and_then(|rest| rest.split(' ').next());
-        let before = self.trace.steps.get(..step.saturating_sub(1)).and_then(<[Step]>::last);
-        let listing = before.and_then(|step| step.after.as_ref()).unwrap_or(&self.trace.initial);
-        value.is_some_and(|value| value.contains('!') && !listing.iter().any(|(_, held)| held.contains(value)))
     }
 
     /// The model has a rule that the peer parses and does not run.

@@ -2,7 +2,7 @@
 //!
 //! In: one recorded step and a plan (which candidate each choice of the step takes, the first ones as far as the plan
 //! goes). Out: what the machine asks for, and notes of what it asked beyond the record. INVARIANT: of a location that
-//! the record has several times the first value counts. An input that the record lacks is a choice among a few values
+//! the record has several times the first value counts, of a twin's the last. An input that the record lacks is a choice among a few values
 //! of its domain.
 
 use std::collections::BTreeMap;
@@ -11,6 +11,7 @@ use machine::{Choice, Draw, Environment, LocationRef, Machine, Real, TimeUnit, V
 use program::{DomainId, DomainKind, FunctionKind, Program};
 use syntax::Span;
 
+use super::defect::locations::is_twin;
 use super::names::painted;
 use super::text;
 use super::trace::Step;
@@ -94,6 +95,8 @@ fn some_values(machine: &mut Machine, program: &Program, domain: DomainId) -> Ve
 #[derive(Debug)]
 pub struct RecordedInputs<'a> {
     values: BTreeMap<&'a str, &'a str>,
+    /// The last values of the locations that the record has several times.
+    last: BTreeMap<&'a str, &'a str>,
     samples: &'a Samples,
     /// The numbers that the state after the step has: one drawn is among them, if anything came of it.
     numbers: Vec<Value>,
@@ -122,18 +125,18 @@ impl<'a> RecordedInputs<'a> {
         samples: &'a Samples,
         renaming: &'a BTreeMap<String, String>,
     ) -> Self {
-        let mut values = BTreeMap::new();
+        let (mut values, mut last) = (BTreeMap::new(), BTreeMap::new());
         for (location, value) in step.inputs.iter().chain(&step.times) {
-            values.entry(location.as_str()).or_insert(value.as_str());
+            if values.insert(location.as_str(), value.as_str()).is_some() {
+                last.insert(location.as_str(), value.as_str());
+            }
+        }
+        for (location, value) in step.inputs.iter().chain(&step.times).rev() {
+            values.insert(location.as_str(), value.as_str());
         }
         let (made, chosen, beyond) = (Vec::new(), Vec::new(), Vec::new());
         let numbers = numbers(step);
-        RecordedInputs { values, samples, numbers, renaming, strict, plan, habits, made, chosen, beyond }
-    }
-
-    /// Of a location that the record has several times the last value counts.
-    pub fn take_last(&mut self, step: &'a Step) {
-        self.values.extend(step.inputs.iter().map(|(location, value)| (location.as_str(), value.as_str())));
+        RecordedInputs { values, last, samples, numbers, renaming, strict, plan, habits, made, chosen, beyond }
     }
 
     fn take(&mut self, of: usize, habit: usize) -> usize {
@@ -151,7 +154,8 @@ impl Environment for RecordedInputs<'_> {
             let found = self.renaming.iter().find(|(_, theirs)| theirs.as_str() == element);
             found.map_or_else(|| element.to_string(), |(ours, _)| ours.clone())
         };
-        let recorded = self.values.get(name.as_str()).map(|value| painted(value, &ours));
+        let again = self.last.get(name.as_str()).filter(|_| is_twin(program, location.function));
+        let recorded = again.or_else(|| self.values.get(name.as_str())).map(|value| painted(value, &ours));
         if let Some(value) = recorded.and_then(|value| text::value(program, codomain, &value)) {
             return Ok(value);
         }

@@ -24,18 +24,24 @@ pub fn matching(ours: &[Fact], theirs: &[Fact], known: &BTreeMap<String, String>
     if ours.len() != theirs.len() {
         return None;
     }
-    // Equal colours first; where the states are not the same, the rest by number.
+    // Equal colours first, the finest before those that look less far around; where the states are not the same, the
+    // rest by number.
     let mut found = known.clone();
-    ours.retain(|((colour, _), mine)| {
-        let same = theirs.iter().position(|((other, _), _)| other == colour);
-        same.is_none_or(|at| {
-            found.insert(mine.clone(), theirs.remove(at).1);
-            false
-        })
-    });
-    ours.sort_by_key(|((_, number), _)| *number);
-    theirs.sort_by_key(|((_, number), _)| *number);
-    found.extend(ours.into_iter().zip(theirs).map(|((_, mine), (_, their))| (mine, their)));
+    for round in (0..ROUNDS).rev() {
+        let colour = |element: &Coloured| element.colours.get(round).or(element.colours.last()).copied();
+        ours.sort_by_key(|element| (colour(element), element.number));
+        theirs.sort_by_key(|element| (colour(element), element.number));
+        ours.retain(|mine| {
+            let same = theirs.iter().position(|their| colour(their) == colour(mine));
+            same.is_none_or(|at| {
+                found.insert(mine.name.clone(), theirs.remove(at).name);
+                false
+            })
+        });
+    }
+    ours.sort_by_key(|element| element.number);
+    theirs.sort_by_key(|element| element.number);
+    found.extend(ours.into_iter().zip(theirs).map(|(mine, their)| (mine.name, their.name)));
     Some(found)
 }
 
@@ -45,8 +51,18 @@ fn renamed(facts: &[Fact], name: &dyn Fn(&str) -> String) -> Vec<Fact> {
     open.map(|(location, value)| (painted(location, name), painted(value, name))).collect()
 }
 
-/// The elements that occur, ordered by colour and then by number.
-fn coloured(facts: &[Fact]) -> Vec<((u64, u64), String)> {
+/// LIMIT: how far around an element is looked.
+const ROUNDS: usize = 12;
+
+/// An element that occurs.
+struct Coloured {
+    name: String,
+    number: u64,
+    /// Its colour after each round.
+    colours: Vec<u64>,
+}
+
+fn coloured(facts: &[Fact]) -> Vec<Coloured> {
     let facts: Vec<(&Fact, Vec<String>)> = facts
         .iter()
         .map(|fact| (fact, elements(&fact.0).into_iter().chain(elements(&fact.1)).collect()))
@@ -54,7 +70,10 @@ fn coloured(facts: &[Fact]) -> Vec<((u64, u64), String)> {
         .collect();
     let all: BTreeSet<&String> = facts.iter().flat_map(|(_, elements)| elements).collect();
     let mut colours: BTreeMap<String, u64> = all.iter().map(|name| ((*name).clone(), 0)).collect();
-    for _ in 0..all.len().min(12) {
+    let number = |name: &str| name.rsplit_once('!').and_then(|(_, digits)| digits.parse().ok()).unwrap_or(0);
+    let element = |name: &String| Coloured { name: name.clone(), number: number(name), colours: Vec::new() };
+    let mut found: Vec<Coloured> = colours.keys().map(element).collect();
+    for _ in 0..all.len().min(ROUNDS) {
         let mut said: BTreeMap<&String, Vec<u64>> = BTreeMap::new();
         for ((location, value), elements) in &facts {
             for element in elements {
@@ -68,11 +87,9 @@ fn coloured(facts: &[Fact]) -> Vec<((u64, u64), String)> {
             (element.clone(), hash(&(colours[element], said)))
         });
         colours = next.collect();
+        found.iter_mut().for_each(|element| element.colours.push(colours[&element.name]));
     }
-    let number = |name: &str| name.rsplit_once('!').and_then(|(_, digits)| digits.parse().ok()).unwrap_or(0);
-    let mut ordered: Vec<_> = colours.into_iter().map(|(name, colour)| ((colour, number(&name)), name)).collect();
-    ordered.sort();
-    ordered
+    found
 }
 
 fn hash(value: &impl Hash) -> u64 {
@@ -152,6 +169,13 @@ mod tests {
         let none = BTreeMap::new();
         assert_eq!(matching(&ours, &ours, &none).unwrap()["n!2"], "n!2");
         assert_eq!(matching(&ours, &facts(&["N={n!1}"]), &none), None);
+    }
+
+    #[test]
+    fn elements_are_matched_though_others_are_not_alike() {
+        let ours = facts(&["N={n!1,n!2}", "f(n!1)=a", "f(n!2)=b"]);
+        let theirs = facts(&["N={n!1,n!2}", "f(n!1)=c", "f(n!2)=a"]);
+        assert_eq!(matching(&ours, &theirs, &BTreeMap::new()).unwrap()["n!1"], "n!2");
     }
 
     #[test]

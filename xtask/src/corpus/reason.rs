@@ -70,8 +70,12 @@ macro_rules! reasons {
 reasons! {
     ASKED_TWICE = Defect "input asked twice in a step":
         "The peer asks again for a monitored location that a `seq` or `while` reads, and may get another value (9.1, 14). Here a location is asked for once a step.";
+    BOTH_SIDES = Defect "both sides of a connective":
+        "The peer evaluates the right side of `and`, `or` and `implies` where the left one decides, and stops at what is undefined there (9.4, 14); when it asks a user for inputs it does not (9.2). By its own Kleene logic the left side decides, as it does here.";
     CHOICE_ORDER = Defect "hash order in a choice":
         "The peer takes the first candidate in the order of its hash tables (9.5). Here it is the first in canonical order; some choice gives the peer's result.";
+    DEPENDENT_RANGE = Defect "range over an earlier variable":
+        "The peer's parser takes a range that names a variable bound before it in the same `choose`; its simulator finds that variable unbound. Here it has the value that the variable has.";
     DIFFERENCE = Defect "symmetric difference":
         "`difference` of the peer is the symmetric difference (10.1).";
     INITIAL_OUTSIDE = Defect "initial value outside the parameters' domains":
@@ -80,6 +84,8 @@ reasons! {
         "The peer evaluates an initial value when the location is first read, in the state of that time (9.2, 14). Here it is evaluated in the initial state.";
     NEGATIVE_NATURAL = Defect "negative Natural":
         "The peer lets a Natural become negative, by `iton` of a negative number (10.1, 14). Here it is a fault.";
+    NEW_ELEMENT = Defect "new element as a value":
+        "Where a function has a growing subset as codomain, the peer refuses the very element that the step adds to that subset, as it looks in the state before the step (9.1). In the state that the step leads to the element is in the subset, and of an abstract domain the peer takes it. Here it is taken.";
     NOT_IMPLEMENTED = Defect "library function not implemented":
         "The peer declares the library function but has no implementation for these values, and stops (10). Here it is evaluated.";
     NOT_RUN = Defect "construct that is parsed and not run":
@@ -90,22 +96,20 @@ reasons! {
         "The peer leaves the location `result` in the state after a turbo call, where two calls beside each other clash (9.1, 14). Here the target of the call stands in its place, as the book has it.";
     SELF_KEPT = Defect "self not restored":
         "After `program(a)` the peer leaves `self` at that agent for the rules beside it (9.1, 14). Here it is bound within the program alone.";
+    WRAP = Defect "integers that wrap around":
+        "The peer's integers wrap around at 64 bits (14), and the run goes on with a number that is no sum or product. Here an overflow is a fault.";
     CHOICES_UNKNOWN = Record "choices not found":
         "The record does not hold the choices, and the search for those that lead to the recorded states was cut off. Up to there the run agrees.";
     INITIAL_INPUTS = Record "inputs of the initial state":
         "An initial value or an invariant asks for an input before the first step, which the record does not hold.";
     BUILT_IN_LIBRARY = Superset "library found":
         "The peer looks for the file of a standard library where the import says and does not find it. Here the standard libraries are built in.";
-    DEPENDENT_RANGE = Superset "range over an earlier variable":
-        "The peer accepts a range that names a variable bound before it in the same `choose`, and stops when a run gets there. Here it has the value that the variable has.";
     GENERATED = Superset "scenario that the peer cannot translate":
         "The peer writes a machine for the scenario and then cannot parse it. Here the scenario is run.";
     INTERNAL_FAILURE = Superset "internal failure of the peer":
         "The peer ends with a failure of its own program text (a null pointer, a class cast of undef). The model goes on here.";
     MODEL_PATH = Superset "path of the model":
         "The peer does not find the model by a path with backslashes. Here either slash separates.";
-    NEW_ELEMENT = Superset "new element as a value":
-        "The peer does not take an element that `extend` has just made for a value of the very domain that it extends.";
     NO_CONTENTS = Superset "domain without contents":
         "The peer stops where it needs the contents of a concrete domain that has no definition. Here what is inside of tuples and collections is not looked at; the check warns.";
     NO_RESULT = Superset "turbo rule without a result":
@@ -130,8 +134,6 @@ reasons! {
         "The condition of a `step until` does not come true. The peer ends the run some time, comes to none of the checks and passes. Here the bound is a failure.";
     OTHER_FAULT = BetterFault "another fault first":
         "Both stop in this step, each at the fault that it meets first.";
-    OVERFLOW = BetterFault "integer overflow":
-        "The peer's integers wrap around at 64 bits. Here an overflow is a fault.";
     UNBOUND = BetterFault "variable out of scope":
         "The peer accepts a variable outside the part of the rule that binds it. Here it is reported by the check.";
     DEFINED_ELEMENT = Decision "defined constant of an abstract domain":

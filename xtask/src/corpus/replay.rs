@@ -39,10 +39,9 @@ pub struct Replayed {
     pub cut: bool,
 }
 
-/// Makes the recorded run again. Where an input is asked for several times in a step, the first value counts; in the step
-/// `last` the last one.
-pub fn replay(program: &Arc<Program>, sources: &Sources, trace: &Trace, last: Option<usize>) -> Replayed {
-    let search = |strict| Search { last, ..Search::new(program, sources, trace, strict) };
+/// Makes the recorded run again.
+pub fn replay(program: &Arc<Program>, sources: &Sources, trace: &Trace) -> Replayed {
+    let search = |strict| Search::new(program, sources, trace, strict);
     let strict = search(true).run();
     if strict.difference.is_none() {
         return strict;
@@ -76,8 +75,6 @@ struct Search<'a> {
     first_plan: bool,
     /// The level being made.
     depth: usize,
-    /// Inputs asked for several times: in this step the last value counts.
-    last: Option<usize>,
     /// The level's choices are so few that all can be tried with care.
     few_choices: bool,
 }
@@ -114,7 +111,6 @@ impl<'a> Search<'a> {
             wrong: 0,
             first_plan: true,
             depth: 0,
-            last: None,
             few_choices: false,
         }
     }
@@ -263,9 +259,6 @@ impl<'a> Search<'a> {
         let habits = std::mem::take(&mut self.habits);
         let by_habit = by_habit.then_some(&habits);
         let mut inputs = RecordedInputs::new(step, plan, by_habit, self.strict, &samples, &renaming);
-        if self.last == Some(level) {
-            inputs.take_last(step);
-        }
         let mut outcome = if level == 0 { self.start(&mut inputs) } else { self.step(step, &mut inputs) };
         let RecordedInputs { made, chosen, beyond, .. } = inputs;
         (self.samples, self.habits) = (samples, habits);
@@ -333,7 +326,7 @@ impl<'a> Search<'a> {
 
     fn fault(&self, fault: &Fault, end: Option<&End>) -> What {
         let text = format!("{} ({})", fault.show(self.program), self.sources.position(fault.span));
-        What::Fault { id: fault.kind.id().to_string(), text, theirs: end.cloned() }
+        What::Fault { id: fault.kind.id().to_string(), text, span: fault.span, theirs: end.cloned() }
     }
 
     /// A fault agrees with a recorded one of the same sort.

@@ -12,7 +12,7 @@ use syntax::ast::AstNode;
 use syntax::{Severity, Sources};
 
 use super::accept::{refusal, refused};
-use super::defect;
+use super::defect::{self, Shown};
 use super::difference::{Difference, What};
 use super::excuse::Excuses;
 use super::job::Answer;
@@ -41,8 +41,8 @@ pub fn compare(checkout: &Checkout, path: &str, file: &str) -> Answer {
     };
     let own = elements_of_own_library(checkout, path, &program);
     let lists_own = trace.forget_elements(&own);
-    let replayed = replay(&program, &checked.sources, &trace, None);
-    match judge(checkout, path, &program, &checked.sources, &trace, &replayed) {
+    let replayed = replay(&program, &checked.sources, &trace);
+    match judge(checkout, path, &program, &checked.sources, &trace, replayed) {
         Answer::Same { .. } if lists_own => {
             Answer::different(Some(reason::OWN_LIBRARY), "agrees but for the elements that this explains".to_string())
         }
@@ -76,28 +76,22 @@ fn judge(
     program: &Arc<Program>,
     sources: &Sources,
     trace: &Trace,
-    replayed: &Replayed,
+    replayed: Replayed,
 ) -> Answer {
-    let mut reasons: BTreeSet<&'static str> = replayed.reasons.clone();
-    let Some(difference) = &replayed.difference else {
-        if !reasons.is_empty() {
-            let names = reasons.iter().map(ToString::to_string).collect();
-            return Answer::Different {
-                reasons: names,
-                detail: "agrees but for the values that this explains".to_string(),
-            };
-        }
-        let mut notes = Vec::new();
-        if !replayed.beyond.is_empty() {
-            notes.push(format!("asks for {} as well", list(&replayed.beyond)));
-        }
-        if replayed.renamed {
-            notes.push("new elements are numbered otherwise".to_string());
-        }
-        return Answer::Same { note: (!notes.is_empty()).then(|| notes.join("; ")) };
+    if replayed.difference.is_none() && replayed.reasons.is_empty() {
+        return Answer::Same { note: note(&replayed) };
+    }
+    let first = replayed.difference.clone();
+    let Shown { mut reasons, replayed } = defect::shown(program, sources, trace, replayed);
+    reasons.extend(&replayed.reasons);
+    let different = |reasons: BTreeSet<&'static str>, detail: String| Answer::Different {
+        reasons: reasons.iter().map(ToString::to_string).collect(),
+        detail,
     };
+    let agrees = || "agrees but for the values that this explains".to_string();
+    let line = |difference: Option<Difference>| difference.map_or_else(agrees, |difference| difference.line());
+    let Some(difference) = &replayed.difference else { return different(reasons, line(first)) };
     let found = Excuses::new(program, trace).parting(&difference.what, difference.step);
-    let found = found.or_else(|| defect::found(program, sources, trace, difference));
     let found = found.or_else(|| own_library(checkout, path, program, difference));
     let initial =
         difference.step <= 1 && !replayed.beyond.is_empty() && matches!(difference.what, What::Violation { .. });
@@ -106,14 +100,24 @@ fn judge(
         replayed.cut && difference.step > 1 && matches!(difference.what, What::Value { .. } | What::Written { .. });
     let found = found.or_else(|| unknown.then_some(reason::CHOICES_UNKNOWN));
     let cut = if replayed.cut { " (the search for choices was cut off)" } else { "" };
-    let detail = format!("{}{cut}", difference.line());
     match found {
         Some(found) => {
             reasons.insert(found);
-            Answer::Different { reasons: reasons.iter().map(ToString::to_string).collect(), detail }
+            different(reasons, format!("{}{cut}", difference.line()))
         }
-        None => Answer::different(None, detail),
+        None => Answer::different(None, format!("{}{cut}", difference.line())),
     }
+}
+
+fn note(replayed: &Replayed) -> Option<String> {
+    let mut notes = Vec::new();
+    if !replayed.beyond.is_empty() {
+        notes.push(format!("asks for {} as well", list(&replayed.beyond)));
+    }
+    if replayed.renamed {
+        notes.push("new elements are numbered otherwise".to_string());
+    }
+    (!notes.is_empty()).then(|| notes.join("; "))
 }
 
 fn list(names: &BTreeSet<String>) -> String {
