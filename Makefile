@@ -53,8 +53,9 @@ bench-cpp: ## what it costs to hand data over in C++, and to draw a simulated fr
 	target/cpp/plain/bench/hand_over
 	target/cpp/plain/adapters/simulated/tests/simulated_frame
 
-corpus: ## make corpus CORPUS=path: compare with recorded results of the public corpus, and count charts
+corpus: ## make corpus CORPUS=path: compare with recorded results of the public corpus, count charts, hold generated code to it
 	$(CARGO) xtask corpus $(CORPUS)
+	$(CARGO) run --locked --package generate --example folder -- $(CORPUS) $(EVERY)
 
 update: ## rewrite all golden expectations
 	UPDATE_EXPECT=1 SNAPSHOTS=overwrite $(CARGO) test --workspace

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 
 // xorshift64, the same as in xtask/src/bench/twins.rs, so that both make the same choices. SYNC(random)
 struct Random {
@@ -37,14 +38,14 @@ template <typename Program>
     const long steps = argc > 1 ? std::atol(argv[1]) : 1000;
     const long rounds = argc > 2 ? std::atol(argv[2]) : 1;
     std::chrono::duration<double> spent{};
-    Program program;
+    auto program = std::make_unique<Program>();
     for (long round = 0; round < rounds; ++round) {
-        program = Program{};
+        program = std::make_unique<Program>();
         const auto start = std::chrono::steady_clock::now();
-        for (long step = 0; step < steps; ++step) program.step();
+        for (long step = 0; step < steps; ++step) program->step();
         spent += std::chrono::steady_clock::now() - start;
     }
     std::printf("# seconds %.9f\n", spent.count());
-    program.print();
+    program->print();
     return 0;
 }

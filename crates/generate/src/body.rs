@@ -6,7 +6,9 @@
 use program::{Expression, FunctionId, FunctionKind, ProcedureId, Program};
 use syntax::Diagnostic;
 
+use crate::form::Form;
 use crate::generator::{Assumptions, Generator, Options};
+use crate::interval::Interval;
 use crate::plan::{FunctionPlan, Plan, Role};
 use crate::text::Text;
 use crate::types::Type;
@@ -18,6 +20,9 @@ pub(crate) struct Member {
     pub declaration: String,
     pub definition: Text,
 }
+
+/// LIMIT: how often intervals may grow step by step, before they grow at once.
+const EXACT_ROUNDS: u32 = 8;
 
 /// The member functions, in the order of the model.
 #[derive(Debug)]
@@ -38,6 +43,7 @@ pub(crate) fn bodies<'a>(
     program: &'a Program,
     plan: &'a Plan,
     writes: &'a Writes,
+    forms: &'a [Form],
     options: &'a Options,
     started: &machine::Machine,
 ) -> Result<Bodies<'a>, Vec<Diagnostic>> {
@@ -50,8 +56,9 @@ pub(crate) fn bodies<'a>(
         assumed.total[index] &= fitting;
     }
     // Rule values and programs of agents are entered with whatever there is.
+    let mut round = 0;
     loop {
-        let mut generator = Generator::new(program, plan, writes, options, assumed.clone());
+        let mut generator = Generator::new(program, plan, writes, forms, options, assumed.clone());
         let bodies = once(&mut generator, started);
         if generator.refuted == assumed {
             if !generator.refused.is_empty() {
@@ -60,7 +67,11 @@ pub(crate) fn bodies<'a>(
             let (procedures, definitions, initials, start, agents) = bodies;
             return Ok(Bodies { generator, procedures, definitions, initials, start, agents });
         }
-        assumed = generator.refuted;
+        assumed = match round {
+            0..EXACT_ROUNDS => generator.refuted,
+            _ => generator.refuted.widened(&assumed),
+        };
+        round += 1;
     }
 }
 
@@ -105,7 +116,7 @@ fn once(generator: &mut Generator<'_>, started: &machine::Machine) -> Parts {
         if matches!(plan.role, Role::Input | Role::Shared) {
             let names: Vec<String> = (0..plan.dimensions.len()).map(crate::class::argument_name).collect();
             let asked = format!("environment_.{}({})", plan.name, names.join(", "));
-            let asked = generator.checked(id, asked, "site");
+            let asked = generator.checked(id, asked, Interval::ALL, "site");
             generator.asked.insert(id, asked);
         }
     }
@@ -123,7 +134,8 @@ fn once(generator: &mut Generator<'_>, started: &machine::Machine) -> Parts {
 fn procedure(generator: &mut Generator<'_>, id: ProcedureId) -> Member {
     let program = generator.program;
     let procedure = program.procedure(id);
-    let assumed = generator.assumed.parameters[id.0 as usize].clone();
+    let defined = generator.assumed.parameters[id.0 as usize].iter().copied();
+    let assumed: Vec<_> = defined.zip(generator.assumed.parameter_ranges[id.0 as usize].iter().copied()).collect();
     let parameters = generator.enter(&procedure.parameters, &assumed, procedure.frame, &procedure.names);
     let name = generator.plan.procedure(id).to_string();
     let list = parameters.join(", ");
@@ -139,7 +151,7 @@ fn procedure(generator: &mut Generator<'_>, id: ProcedureId) -> Member {
         text.line("--calls_;");
     }
     text.close("}");
-    Member { declaration: format!("void {name}({list});"), definition: text }
+    Member { declaration: format!("inline void {name}({list});"), definition: text }
 }
 
 /// Parameters that the body may not use.
@@ -154,7 +166,8 @@ fn definition(generator: &mut Generator<'_>, id: FunctionId) -> Member {
         return Member { declaration: String::new(), definition: Text::default() };
     };
     let plan = generator.plan.function(id).clone();
-    let assumed = generator.assumed.arguments[id.0 as usize].clone();
+    let defined = generator.assumed.arguments[id.0 as usize].iter().copied();
+    let assumed: Vec<_> = defined.zip(generator.assumed.argument_ranges[id.0 as usize].iter().copied()).collect();
     let parameters = generator.enter(&expression.parameters, &assumed, expression.frame, &expression.names);
     let site = generator.sites.number(program.term_span(expression.body));
     let code = generator.term(expression.body);
@@ -162,13 +175,21 @@ fn definition(generator: &mut Generator<'_>, id: FunctionId) -> Member {
     if !code.defined {
         generator.refuted.result[id.0 as usize] = false;
     }
+    // A value of another type is converted, which may fault.
+    let pure = code.pure && code.ty == plan.ty;
+    let range = &mut generator.refuted.values[id.0 as usize];
+    *range = range.join(code.range);
     let defined = generator.assumed.result[id.0 as usize] && plan.ty != Type::Value;
     let body = generator.convert(code, plan.ty, defined, site);
     let result = generator.plan.cpp(plan.ty, defined);
     let mut text = Text::default();
     text.open_marked(function.span, format!("{result} Machine::{}({}) {{", plan.name, silenced(&parameters)));
     let body = crate::rule::unwrapped(&body);
-    if reads_itself(program, id) {
+    let recursive = reads_itself(program, id);
+    if recursive || !pure {
+        generator.refuted.pure[id.0 as usize] = false;
+    }
+    if recursive {
         text.line(format!("gs::enter(calls_, {site});"));
         text.marked(program.term_span(expression.body), format!("auto value = {body};"));
         text.line("--calls_;");
@@ -177,7 +198,7 @@ fn definition(generator: &mut Generator<'_>, id: FunctionId) -> Member {
         text.marked(program.term_span(expression.body), format!("return {body};"));
     }
     text.close("}");
-    Member { declaration: format!("{result} {}({});", plan.name, parameters.join(", ")), definition: text }
+    Member { declaration: format!("inline {result} {}({});", plan.name, parameters.join(", ")), definition: text }
 }
 
 /// The initial value of one location, as a function of its arguments.
@@ -186,7 +207,11 @@ fn initial_value(generator: &mut Generator<'_>, id: FunctionId, initial: usize) 
     let expression: &Expression = &program.initials[initial].value;
     let plan = generator.plan.function(id).clone();
     // Whoever reads a location may do so with an argument that is undef.
-    let assumed = vec![!generator.is_lazy(id); expression.parameters.len()];
+    let eager = !generator.is_lazy(id);
+    let parameters = program.function(id).parameters.iter();
+    let assumed: Vec<_> = parameters
+        .map(|domain| (eager, if eager { generator.domain_interval(*domain) } else { Interval::ALL }))
+        .collect();
     let parameters = generator.enter(&expression.parameters, &assumed, expression.frame, &expression.names);
     let site = generator.sites.number(program.term_span(expression.body));
     let code = generator.term(expression.body);
@@ -194,6 +219,8 @@ fn initial_value(generator: &mut Generator<'_>, id: FunctionId, initial: usize) 
     if !code.defined {
         generator.refuted.total[id.0 as usize] = false;
     }
+    let range = &mut generator.refuted.values[id.0 as usize];
+    *range = range.join(code.range);
     let defined = generator.assumed.total[id.0 as usize] && plan.ty != Type::Value;
     let body = generator.convert(code, plan.ty, defined, site);
     let result = generator.plan.cpp(plan.ty, defined);
@@ -217,6 +244,7 @@ fn start_state(generator: &mut Generator<'_>, started: &machine::Machine, text: 
         }
         generator.reached.insert(initial.function);
         if cyclic.contains(&index) {
+            generator.refuted.values[initial.function.0 as usize] = Interval::ALL;
             set_as_computed(generator, initial.function, &plan, started, text);
         } else {
             set_initial(generator, index, &plan, text);

@@ -8,12 +8,13 @@ use std::collections::BTreeSet;
 use program::{DomainId, DomainKind, FunctionId, Program};
 
 use crate::body::Bodies;
+use crate::form::Form;
 use crate::generator::{Generator, Need};
 use crate::plan::{DomainPlan, FunctionPlan, Role};
 use crate::text::{Text, escaped};
 use crate::types::Type;
 
-/// LIMIT: locations whose update log stands within the object; the logs of larger functions are on the heap.
+/// LIMIT: locations whose updates stand within the object; those of larger functions are on the heap.
 const LOG_IN_PLACE: u64 = 64;
 
 /// The header of a source; it declares the types that one of the two names.
@@ -34,7 +35,8 @@ pub(crate) fn header(bodies: &Bodies<'_>, source: &Text, title: &str) -> Text {
     if generator.options.bare {
         text.line("#ifndef GROUNDSTATE_BARE\n#define GROUNDSTATE_BARE\n#endif\n");
     }
-    let mut includes = vec!["elements", "inputs", "locations", "maybe", "membership", "numbers", "ranges", "units"];
+    let mut includes =
+        vec!["elements", "inputs", "locations", "maybe", "membership", "numbers", "ranges", "units", "unsequenced"];
     if !generator.options.bare {
         includes.push("boxing");
         includes.push("text");
@@ -284,10 +286,9 @@ fn members(generator: &Generator<'_>, text: &mut Text) {
             text.line(format!("{} {}{{}};", plan.cpp(function.ty, false), function.member));
             continue;
         }
-        let inside = generator.assumed.inside[id.0 as usize];
         let total = generator.assumed.total[id.0 as usize];
         let cell = plan.cpp(function.ty, total);
-        let whole = function.is_whole() && inside;
+        let whole = generator.is_whole(id);
         let capacity = generator.capacity(&generator.program.function(id).name);
         let sparse = match (whole, generator.options.bare) {
             (true, _) => "gs::Nowhere".to_string(),
@@ -303,7 +304,20 @@ fn members(generator: &Generator<'_>, text: &mut Text) {
         let declared = match function.role {
             Role::Input => format!("gs::Inputs<{cell}, {sparse}{dimensions}>"),
             Role::Shared => format!("gs::SharedLocations<{cell}, {sparse}, {log}{dimensions}>"),
-            _ => format!("gs::Locations<{cell}, {sparse}, {log}{dimensions}>"),
+            _ => match generator.form(id) {
+                Form::Unsequenced | Form::Disjoint | Form::Whole if function.dimensions.is_empty() => {
+                    format!("gs::Location<{cell}>")
+                }
+                Form::Unsequenced | Form::Disjoint if whole && locations <= LOG_IN_PLACE => {
+                    format!("gs::FewLocations<{cell}{dimensions}>")
+                }
+                Form::Whole => {
+                    let capacity = if generator.options.bare { function.dense() } else { 0 };
+                    format!("gs::WholeArray<{cell}, {capacity}{dimensions}>")
+                }
+                Form::Disjoint => format!("gs::DisjointLocations<{cell}, {sparse}, {log}{dimensions}>"),
+                Form::General | Form::Unsequenced => format!("gs::Locations<{cell}, {sparse}, {log}{dimensions}>"),
+            },
         };
         text.line(format!("{declared} {}{{}};", function.member));
     }

@@ -6,9 +6,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use program::{DomainId, FunctionId, ProcedureId, Program, Slot, TermId};
+use model::Basic;
+use program::{DomainId, DomainKind, FunctionId, ProcedureId, Program, Slot, TermId};
 use syntax::{Diagnostic, Span};
 
+use crate::form::Form;
+use crate::interval::Interval;
 use crate::names::Scope;
 use crate::plan::Plan;
 use crate::sites::Sites;
@@ -22,12 +25,22 @@ pub(crate) struct Assumptions {
     pub total: Vec<bool>,
     /// No location of the function is looked at with an argument that is undef.
     pub inside: Vec<bool>,
+    /// No location of the function is looked at with an integer outside of its array.
+    pub covered: Vec<bool>,
     /// A definition's value is never undef.
     pub result: Vec<bool>,
+    /// A definition's evaluation neither faults nor asks anybody.
+    pub pure: Vec<bool>,
     /// A definition's arguments are never undef.
     pub arguments: Vec<Vec<bool>>,
     /// A procedure's arguments are never undef.
     pub parameters: Vec<Vec<bool>>,
+    /// The integers among a function's values.
+    pub values: Vec<Interval>,
+    /// The integers among a definition's arguments.
+    pub argument_ranges: Vec<Vec<Interval>>,
+    /// The integers among a procedure's arguments.
+    pub parameter_ranges: Vec<Vec<Interval>>,
 }
 
 impl Assumptions {
@@ -37,10 +50,29 @@ impl Assumptions {
         Assumptions {
             total: vec![true; functions],
             inside: vec![true; functions],
+            covered: vec![true; functions],
             result: vec![true; functions],
+            pure: vec![true; functions],
             arguments: program.functions.iter().map(|f| vec![true; f.parameters.len()]).collect(),
             parameters: program.procedures.iter().map(|p| vec![true; p.parameters.len()]).collect(),
+            values: vec![Interval::EMPTY; functions],
+            argument_ranges: program.functions.iter().map(|f| vec![Interval::EMPTY; f.parameters.len()]).collect(),
+            parameter_ranges: program.procedures.iter().map(|p| vec![Interval::EMPTY; p.parameters.len()]).collect(),
         }
+    }
+
+    /// These assumptions, where an interval grew since `before` a larger one, so that soon none grows any more.
+    pub fn widened(mut self, before: &Assumptions) -> Assumptions {
+        let lists = std::iter::once(&mut self.values)
+            .chain(&mut self.argument_ranges)
+            .chain(&mut self.parameter_ranges)
+            .zip(std::iter::once(&before.values).chain(&before.argument_ranges).chain(&before.parameter_ranges));
+        for (now, before) in lists {
+            for (now, before) in now.iter_mut().zip(before) {
+                *now = now.widened(*before);
+            }
+        }
+        self
     }
 }
 
@@ -59,6 +91,15 @@ pub(crate) struct Variable {
     pub name: String,
     pub ty: Type,
     pub defined: bool,
+    /// If it is an integer, it lies in here.
+    pub range: Interval,
+}
+
+impl Variable {
+    /// Its value.
+    pub fn code(&self) -> Code {
+        Code { text: self.name.clone(), ty: self.ty, defined: self.defined, pure: true, range: self.range }
+    }
 }
 
 /// The frame of the procedure or definition that is being generated.
@@ -75,6 +116,8 @@ pub(crate) struct Generator<'a> {
     pub program: &'a Program,
     pub plan: &'a Plan,
     pub writes: &'a Writes,
+    /// By function.
+    pub forms: &'a [Form],
     pub options: &'a Options,
     pub assumed: Assumptions,
     pub refuted: Assumptions,
@@ -113,6 +156,7 @@ impl<'a> Generator<'a> {
         program: &'a Program,
         plan: &'a Plan,
         writes: &'a Writes,
+        forms: &'a [Form],
         options: &'a Options,
         assumed: Assumptions,
     ) -> Self {
@@ -120,6 +164,7 @@ impl<'a> Generator<'a> {
             program,
             plan,
             writes,
+            forms,
             options,
             refuted: assumed.clone(),
             assumed,
@@ -139,16 +184,16 @@ impl<'a> Generator<'a> {
     pub fn enter(
         &mut self,
         parameters: &[program::DomainId],
-        defined: &[bool],
+        assumed: &[(bool, Interval)],
         frame: u32,
         names: &[String],
     ) -> Vec<String> {
         self.frame =
             Frame { slots: vec![None; frame as usize], names: names.to_vec(), scope: self.plan.members.clone() };
         let mut declared = Vec::new();
-        for (index, (domain, defined)) in parameters.iter().zip(defined).enumerate() {
+        for (index, (domain, (defined, range))) in parameters.iter().zip(assumed).enumerate() {
             let ty = self.parameter_type(*domain);
-            let variable = self.declare(Slot(index as u32), ty, *defined);
+            let variable = self.declare(Slot(index as u32), ty, *defined, *range);
             declared.push(format!("{} {}", self.parameter(ty, *defined), variable.name));
         }
         declared
@@ -160,6 +205,24 @@ impl<'a> Generator<'a> {
             Type::Undef => Type::Value,
             ty => ty,
         }
+    }
+
+    /// Between what the integers of a domain lie.
+    pub fn domain_interval(&self, domain: DomainId) -> Interval {
+        use machine::Value::Integer;
+        match (&self.program.domain(domain).kind, &self.plan.domain(domain).contents) {
+            (DomainKind::Basic(Basic::Natural), _) => Interval::NATURAL,
+            (DomainKind::Concrete { .. }, Some(contents)) => match (contents.first(), contents.last()) {
+                (Some(Integer(low)), Some(Integer(high))) => Interval { low: *low, high: *high },
+                _ => Interval::ALL,
+            },
+            _ => Interval::ALL,
+        }
+    }
+
+    /// Between what a function's integers lie once they are checked for being in its codomain.
+    pub fn codomain_range(&self, function: FunctionId) -> Interval {
+        self.domain_interval(self.program.function(function).codomain)
     }
 
     /// The member that holds a growing domain, which matters from now on.
@@ -178,10 +241,11 @@ impl<'a> Generator<'a> {
     }
 
     /// Brings a variable into scope.
-    pub fn declare(&mut self, slot: Slot, ty: Type, defined: bool) -> Variable {
+    pub fn declare(&mut self, slot: Slot, ty: Type, defined: bool, range: Interval) -> Variable {
         let ty = if ty == Type::Undef { Type::Value } else { ty };
         let name = self.frame.names.get(slot.0 as usize).map_or("x", String::as_str).to_string();
-        let variable = Variable { name: self.frame.scope.take(&name), ty, defined: defined && ty != Type::Value };
+        let defined = defined && ty != Type::Value;
+        let variable = Variable { name: self.frame.scope.take(&name), ty, defined, range };
         self.frame.slots[slot.0 as usize] = Some(variable.clone());
         variable
     }
@@ -263,17 +327,15 @@ impl<'a> Generator<'a> {
         match (code.ty, ty) {
             (from, to) if from == to => code,
             (_, Type::Undef) => code,
-            (Type::Undef, Type::Value) => Code { text: "gs::Value{}".into(), ty, defined: false, pure: true },
-            (Type::Undef, to) => {
-                Code { text: format!("{}{{}}", self.plan.cpp(to, false)), ty, defined: false, pure: true }
-            }
-            (_, Type::Value) => Code { text: format!("gs::box({})", code.text), ty, defined: false, pure: code.pure },
+            (Type::Undef, Type::Value) => Code { ty, ..Code::undef() },
+            (Type::Undef, to) => Code { text: format!("{}{{}}", self.plan.cpp(to, false)), ty, ..Code::undef() },
+            (_, Type::Value) => Code { text: format!("gs::box({})", code.text), ty, defined: false, ..code },
             (Type::Value, to) => {
                 let plain = self.plan.cpp(to, true);
-                Code { text: format!("gs::unbox<{plain}>({}, {site})", code.text), ty, defined: false, pure: false }
+                Code::maybe(format!("gs::unbox<{plain}>({}, {site})", code.text), ty)
             }
             (Type::Integer, Type::Real) if code.defined => {
-                Code { text: format!("gs::to_real({})", code.text), ty, defined: true, pure: code.pure }
+                Code { text: format!("gs::to_real({})", code.text), ty, ..code }
             }
             // Two scalars that the model's checker let pass as one: as the machine sees them.
             _ => {

@@ -7,7 +7,9 @@
 mod body;
 mod class;
 mod driver;
+mod form;
 mod generator;
+mod interval;
 mod names;
 mod operation;
 mod plan;
@@ -61,7 +63,8 @@ pub fn generate(
 ) -> Result<Generated, Vec<Diagnostic>> {
     let plan = plan::plan(program, started);
     let writes = writes::Writes::new(program);
-    let bodies = body::bodies(program, &plan, &writes, options, started)?;
+    let forms = form::forms(program, &writes);
+    let bodies = body::bodies(program, &plan, &writes, &forms, options, started)?;
     let name = plan.namespace.clone();
     let title = sources.iter().next().map_or(program.name.clone(), |(_, file)| file.name.clone());
     let mut files = Vec::new();

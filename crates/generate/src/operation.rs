@@ -6,7 +6,9 @@
 use program::{Builtin, TermId, TermList};
 
 use crate::generator::{Generator, Need};
+use crate::interval::Outcome;
 use crate::names::snake;
+use crate::rule::unwrapped;
 use crate::types::{Code, Type};
 
 impl Generator<'_> {
@@ -98,10 +100,11 @@ impl Generator<'_> {
         let code = self.term(term);
         let site = self.site(id);
         let ty = if code.ty == Type::Undef { Type::Value } else { code.ty };
-        let defined = code.defined;
+        let (defined, range) = (code.defined, code.range);
         let text = self.convert(code, ty, defined, site);
         let result = self.plan.cpp(ty, defined);
-        Code { text: format!("before([&]() -> {result} {{ return {text}; }})"), ty, defined, pure: false }
+        let text = format!("before([&]() -> {result} {{ return {text}; }})");
+        Code { text, ty, defined, pure: false, range }
     }
 
     /// An operation all of whose operands are scalars; none if it is for dynamic values.
@@ -111,11 +114,11 @@ impl Generator<'_> {
         match (builtin, codes) {
             (Eq, [left, right]) => {
                 let text = self.equality(left.clone(), right.clone(), site);
-                return Some(Code { text, ty: Type::Boolean, defined: true, pure: left.pure && right.pure });
+                return Some(truth(text, left.pure && right.pure));
             }
             (Neq, [left, right]) => {
                 let text = format!("!{}", self.equality(left.clone(), right.clone(), site));
-                return Some(Code { text, ty: Type::Boolean, defined: true, pure: left.pure && right.pure });
+                return Some(truth(text, left.pure && right.pure));
             }
             (IsDef | IsUndef, [operand]) => {
                 let text = match (operand.ty, operand.defined) {
@@ -124,7 +127,7 @@ impl Generator<'_> {
                     _ if builtin == IsDef => format!("gs::is_defined({})", operand.text),
                     _ => format!("!gs::is_defined({})", operand.text),
                 };
-                return Some(Code { text, ty: Type::Boolean, defined: true, pure: operand.pure });
+                return Some(truth(text, operand.pure));
             }
             (Not, [operand]) if boolean(operand) => {
                 let operand = self.cast(operand.clone(), Type::Boolean, site);
@@ -161,33 +164,46 @@ impl Generator<'_> {
                 _ => return None,
             };
             let operands = operands(ty);
-            let text = format!("({} {symbol} {})", operands[0], operands[1]);
-            return Some(Code { text, ty: Type::Boolean, defined: true, pure });
+            let text = match (types[..] == [Type::Integer, Type::Integer], codes) {
+                (true, [left, right]) if left.defined && right.defined => beside(left, symbol, right),
+                _ => format!("({} {symbol} {})", operands[0], operands[1]),
+            };
+            return Some(truth(text, pure));
         }
         let called = |name: &str, operands: Vec<String>, ty: Type| {
-            Some(Code::defined(format!("gs::{name}({}, {site})", operands.join(", ")), ty))
+            let list: Vec<&str> = operands.iter().map(|operand| unwrapped(operand)).collect();
+            Some(Code::defined(format!("gs::{name}({}, {site})", list.join(", ")), ty))
         };
         match builtin {
             Xor | Iff if types.iter().all(|ty| *ty == Type::Boolean) => {
                 let operands = operands(Type::Boolean);
                 let symbol = if builtin == Xor { "!=" } else { "==" };
                 let text = format!("({} {symbol} {})", operands[0], operands[1]);
-                Some(Code { text, ty: Type::Boolean, defined: true, pure })
+                Some(truth(text, pure))
             }
             IntNeg | IntAdd | IntSub | IntMul | IntMod | IntMin | IntMax | IntAbs | IntQuotient | IntPower
             | IntToNat
                 if integers =>
             {
-                called(integer_function(builtin)?, operands(Type::Integer), Type::Integer)
+                let name = integer_function(builtin)?;
+                let operands = operands(Type::Integer);
+                let Some((outcome, symbol)) = arithmetic(builtin, codes) else {
+                    return called(name, operands, Type::Integer);
+                };
+                let code = match symbol {
+                    Some(symbol) if outcome.safe => {
+                        let known = |index: usize| Code { text: operands[index].clone(), ..codes[index].clone() };
+                        Code::defined(beside(&known(0), symbol, &known(1)), Type::Integer)
+                    }
+                    _ => called(name, operands, Type::Integer)?,
+                };
+                Some(Code { pure: pure && outcome.safe, ..code.within(outcome.interval) })
             }
             NatToInt if integers => {
                 let operand = codes[0].clone();
-                Some(Code {
-                    text: self.convert(operand, Type::Integer, true, site),
-                    ty: Type::Integer,
-                    defined: true,
-                    pure,
-                })
+                let range = operand.range;
+                let text = self.convert(operand, Type::Integer, true, site);
+                Some(Code { text, ty: Type::Integer, defined: true, pure, range })
             }
             IntDiv if integers => called("divide", operands(Type::Integer), Type::Real),
             RealNeg | RealAdd | RealSub | RealMul | RealDiv | RealMin | RealMax | RealAbs | RealPower | Sqrt
@@ -206,7 +222,7 @@ impl Generator<'_> {
             }
             IntToReal | NatToReal if numbers => {
                 let operands = operands(Type::Real);
-                Some(Code { text: operands[0].clone(), ty: Type::Real, defined: true, pure })
+                Some(Code { pure, ..Code::defined(operands[0].clone(), Type::Real) })
             }
             _ => None,
         }
@@ -221,21 +237,50 @@ impl Generator<'_> {
                 Builtin::Or => format!("({} || {})", left.text, right.text),
                 _ => format!("(!{} || {})", left.text, right.text),
             };
-            return Code { text, ty: Type::Boolean, defined: true, pure };
+            return truth(text, pure);
         }
         let name = match builtin {
             Builtin::And => "conjunction",
             Builtin::Or => "disjunction",
             _ => "implication",
         };
-        let truth = |code: Code, this: &mut Self| {
+        let operand = |code: Code, this: &mut Self| {
             let code = this.cast(code, Type::Boolean, site);
             if code.ty == Type::Undef { "gs::Maybe<bool>{}".to_string() } else { code.text }
         };
-        let (left, right) = (truth(left, self), truth(right, self));
+        let (left, right) = (operand(left, self), operand(right, self));
         let text = format!("gs::{name}({left}, [&]() -> gs::Maybe<bool> {{ return {right}; }})");
-        Code { text, ty: Type::Boolean, defined: false, pure }
+        Code { defined: false, ..truth(text, pure) }
     }
+}
+
+/// Two integers with an operator between; a literal is written without its type where the other one has it.
+pub(crate) fn beside(left: &Code, symbol: &str, right: &Code) -> String {
+    if left.beside() != left.text && right.beside() != right.text {
+        return format!("({} {symbol} {})", left.text, right.text);
+    }
+    format!("({} {symbol} {})", left.beside(), right.beside())
+}
+
+/// A truth value.
+fn truth(text: String, pure: bool) -> Code {
+    Code { pure, ..Code::defined(text, Type::Boolean) }
+}
+
+/// Integer arithmetic: what it gives, and how C++ writes it where it cannot fault.
+fn arithmetic(builtin: Builtin, codes: &[Code]) -> Option<(Outcome, Option<&'static str>)> {
+    Some(match (builtin, codes) {
+        (Builtin::IntAdd, [a, b]) => (a.range.add(b.range), Some("+")),
+        (Builtin::IntSub, [a, b]) => (a.range.subtract(b.range), Some("-")),
+        (Builtin::IntMul, [a, b]) => (a.range.multiply(b.range), Some("*")),
+        (Builtin::IntMod, [a, b]) => (a.range.remainder(b.range), Some("%")),
+        (Builtin::IntQuotient, [a, b]) => (a.range.quotient(b.range), Some("/")),
+        (Builtin::IntMin, [a, b]) => (a.range.minimum(b.range), None),
+        (Builtin::IntMax, [a, b]) => (a.range.maximum(b.range), None),
+        (Builtin::IntNeg, [a]) => (a.range.negate(), None),
+        (Builtin::IntAbs, [a]) => (a.range.absolute(), None),
+        _ => return None,
+    })
 }
 
 /// An expression after statements.

@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use model::Basic;
 use program::{DomainId, DomainKind, FunctionId, FunctionKind, ProcedureId, Program};
 
+use crate::interval::Interval;
 use crate::names::{Scope, identifier, snake};
 use crate::types::{Type, type_of};
 
@@ -46,6 +47,8 @@ pub(crate) struct Dimension {
     pub size: u64,
     /// It covers every value that the parameter can have.
     pub whole: bool,
+    /// It covers these integers.
+    pub bounds: Option<Interval>,
 }
 
 /// A function.
@@ -63,11 +66,6 @@ pub(crate) struct FunctionPlan {
 }
 
 impl FunctionPlan {
-    /// All locations that there can be stand in the array, as long as no argument is undef.
-    pub fn is_whole(&self) -> bool {
-        self.dimensions.iter().all(|dimension| dimension.whole)
-    }
-
     pub fn dense(&self) -> u64 {
         self.dimensions.iter().map(|dimension| dimension.size).product()
     }
@@ -245,7 +243,7 @@ fn dimensions(program: &Program, domains: &[DomainPlan], id: FunctionId, initial
 
 fn anywhere(program: &Program, domains: &[DomainPlan], domain: DomainId) -> Dimension {
     let ty = cpp_type(domains, type_of(program, domain));
-    Dimension { text: format!("gs::Anywhere<{ty}>"), size: 0, whole: false }
+    Dimension { text: format!("gs::Anywhere<{ty}>"), size: 0, whole: false, bounds: None }
 }
 
 fn dimension(program: &Program, domains: &[DomainPlan], domain: DomainId, initial: bool, few: bool) -> Dimension {
@@ -253,14 +251,17 @@ fn dimension(program: &Program, domains: &[DomainPlan], domain: DomainId, initia
     let name = |domain: DomainId| &domains[domain.0 as usize].name;
     let below = |domain: DomainId, size: u64, whole: bool| match size {
         0 => anywhere(),
-        _ => Dimension { text: format!("gs::Below<{}, {size}>", name(domain)), size, whole },
+        _ => Dimension { text: format!("gs::Below<{}, {size}>", name(domain)), size, whole, bounds: None },
     };
     let between = |low: i64, high: i64| {
         let size = (i128::from(high) - i128::from(low) + 1).min(i128::from(u32::MAX)) as u64;
-        Dimension { text: format!("gs::Between<{}, {}>", integer(low), integer(high)), size, whole: false }
+        let text = format!("gs::Between<{}, {}>", integer(low), integer(high));
+        Dimension { text, size, whole: false, bounds: Some(Interval { low, high }) }
     };
     match &program.domain(domain).kind {
-        DomainKind::Basic(Basic::Boolean) => Dimension { text: "gs::Below<bool, 2>".into(), size: 2, whole: true },
+        DomainKind::Basic(Basic::Boolean) => {
+            Dimension { text: "gs::Below<bool, 2>".into(), size: 2, whole: true, bounds: None }
+        }
         DomainKind::Enum { literals } => below(domain, literals.len() as u64, true),
         DomainKind::Abstract { elements, dynamic: false } => below(domain, elements.len() as u64, true),
         DomainKind::Abstract { elements, .. } => {
@@ -285,6 +286,12 @@ fn dimension(program: &Program, domains: &[DomainPlan], domain: DomainId, initia
         DomainKind::Basic(Basic::Natural) if few && !initial => between(0, 255),
         _ => anywhere(),
     }
+}
+
+/// From the least to the greatest of integers without gaps, in ascending order.
+pub(crate) fn gapless(contents: &[machine::Value]) -> Option<Interval> {
+    let (low, high) = compact(contents, true)?;
+    Some(Interval { low, high })
 }
 
 /// The least and the greatest of integers without (or without many) gaps.

@@ -7,6 +7,7 @@ use model::{Basic, CollectionKind, Literal};
 use program::{Binder, BinderList, DomainId, DomainKind, Term, TermId};
 
 use crate::generator::{Generator, Variable};
+use crate::interval::Interval;
 use crate::plan::integer;
 use crate::term::real;
 use crate::text::Text;
@@ -44,7 +45,7 @@ impl<'a> Generator<'a> {
                 if (!self.options.bare || ty != Type::Value)
                     && let Some((range, size)) = self.domain_range(domain)
                 {
-                    let variable = self.declare(binder.slot, ty, true);
+                    let variable = self.declare(binder.slot, ty, true, self.domain_interval(domain));
                     text.open(format!(
                         "for ([[maybe_unused]] const {} {} : {range}) {{",
                         self.plan.cpp(ty, true),
@@ -55,12 +56,12 @@ impl<'a> Generator<'a> {
                 if matches!(self.program.domain(domain).kind, DomainKind::Prod(_) | DomainKind::Powerset(_)) {
                     self.needs_values(span, "the set of a domain's elements");
                     let values = self.domain_values(domain, span);
-                    let variable = self.declare(binder.slot, Type::Value, false);
+                    let variable = self.declare(binder.slot, Type::Value, false, Interval::ALL);
                     text.open(format!("for ([[maybe_unused]] const gs::Value& {} : {values}) {{", variable.name));
                     return (variable, None);
                 }
                 let site = self.site(binder.range);
-                let variable = self.declare(binder.slot, ty, true);
+                let variable = self.declare(binder.slot, ty, true, Interval::ALL);
                 let plain = self.plan.cpp(variable.ty, true);
                 text.open(format!(
                     "for ([[maybe_unused]] const {plain} {} : gs::failed<gs::Ordinals<{plain}>>(gs::FaultKind::not_enumerable, {site})) {{",
@@ -72,12 +73,15 @@ impl<'a> Generator<'a> {
                 let site = self.site(binder.range);
                 let mut bound = |term: TermId| {
                     let code = self.term(term);
-                    self.convert(code, Type::Integer, true, site)
+                    let range = code.range;
+                    (self.convert(code, Type::Integer, true, site), range)
                 };
-                let (low_text, high_text) = (bound(low), bound(high));
-                let step_text = step.map_or("1".to_string(), bound);
+                let ((low_text, low_range), (high_text, high_range)) = (bound(low), bound(high));
+                let step_text = step.map_or("1".to_string(), |step| bound(step).0);
+                let between = Interval { low: low_range.low, high: high_range.high };
+                let between = if between.is_empty() { Interval::EMPTY } else { between };
                 let size = self.constant_size(low, high, step);
-                let variable = self.declare(binder.slot, Type::Integer, true);
+                let variable = self.declare(binder.slot, Type::Integer, true, between);
                 let range = format!("gs::Integers{{{low_text}, {high_text}, {step_text}, {site}}}");
                 text.open(format!("for ([[maybe_unused]] const std::int64_t {} : {range}) {{", variable.name));
                 (variable, size)
@@ -85,7 +89,7 @@ impl<'a> Generator<'a> {
             Term::Collection { kind: kind @ (CollectionKind::Set | CollectionKind::Seq), elements } => {
                 match self.constant_table(kind, elements, binder.range) {
                     Some((table, ty, size)) => {
-                        let variable = self.declare(binder.slot, ty, true);
+                        let variable = self.declare(binder.slot, ty, true, Interval::ALL);
                         text.open(format!(
                             "for ([[maybe_unused]] const {} {} : {table}) {{",
                             self.plan.cpp(ty, true),
@@ -111,12 +115,12 @@ impl<'a> Generator<'a> {
         let ty = if ty == Type::Undef { Type::Value } else { ty };
         let items = format!("gs::iterable({value}, {site})");
         if ty == Type::Value {
-            let variable = self.declare(binder.slot, ty, false);
+            let variable = self.declare(binder.slot, ty, false, Interval::ALL);
             text.open(format!("for ([[maybe_unused]] const gs::Value& {} : {items}) {{", variable.name));
             return (variable, None);
         }
         let item = self.fresh("item");
-        let variable = self.declare(binder.slot, ty, false);
+        let variable = self.declare(binder.slot, ty, false, Interval::ALL);
         let plain = self.plan.cpp(ty, true);
         text.open(format!("for (const gs::Value& {item} : {items}) {{"));
         text.line(format!("[[maybe_unused]] const auto {} = gs::unbox<{plain}>({item}, {site});", variable.name));
@@ -158,11 +162,8 @@ impl<'a> Generator<'a> {
 
     /// What ranges over the contents of a domain that never changes.
     fn contents_range(&mut self, domain: DomainId, contents: &[machine::Value]) -> String {
-        if let (Some(machine::Value::Integer(low)), Some(machine::Value::Integer(high))) =
-            (contents.first(), contents.last())
-            && i128::from(*high) - i128::from(*low) + 1 == contents.len() as i128
-        {
-            return format!("gs::Integers{{{}, {}}}", integer(*low), integer(*high));
+        if let Some(Interval { low, high }) = crate::plan::gapless(contents) {
+            return format!("gs::Integers{{{}, {}}}", integer(low), integer(high));
         }
         self.contents_table(domain, contents)
     }

@@ -12,6 +12,7 @@ use program::{
 };
 
 use crate::generator::{Generator, Need};
+use crate::interval::Interval;
 use crate::plan::{Role, integer};
 use crate::term::listed;
 use crate::text::Text;
@@ -87,9 +88,10 @@ impl Generator<'_> {
                 let value_site = self.site(*value);
                 let value = self.term(*value);
                 text.open("{");
-                let variable = self.declare(*slot, value.ty, value.defined);
+                let variable = self.declare(*slot, value.ty, value.defined, value.range);
                 let ty = self.plan.cpp(variable.ty, variable.defined);
                 let value = self.convert(value, variable.ty, variable.defined, value_site);
+                let value = unwrapped(&value);
                 text.marked(span, format!("[[maybe_unused]] const {ty} {} = {value};", variable.name));
                 self.rule(*body, text);
                 text.close("}");
@@ -147,12 +149,14 @@ impl Generator<'_> {
 
     /// A guard, unless it is the constant true.
     fn guard_unless_true(&mut self, condition: TermId) -> Option<String> {
-        if let Term::Constant(index) = self.program.term(condition)
-            && self.program.constants[*index as usize] == Literal::Boolean(true)
-        {
-            return None;
+        (!self.is_true(condition)).then(|| self.guard(condition))
+    }
+
+    fn is_true(&self, condition: TermId) -> bool {
+        match self.program.term(condition) {
+            Term::Constant(index) => self.program.constants[*index as usize] == Literal::Boolean(true),
+            _ => false,
         }
-        Some(self.guard(condition))
     }
 
     /// `function(arguments) := value`
@@ -166,13 +170,16 @@ impl Generator<'_> {
         if !value.defined {
             self.refuted.total[index] = false;
         }
+        let range = value.range;
+        let checked = range.meet(self.codomain_range(function));
+        self.refuted.values[index] = self.refuted.values[index].join(checked);
         let mut codes = vec![value];
         codes.extend(self.arguments(function, arguments));
         let (statements, mut codes) = self.hoist(codes, false);
         let value = codes.remove(0);
         let defined = self.assumed.total[index] && plan.ty != Type::Value;
         let value = self.convert(value, plan.ty, defined, site);
-        let value = self.checked(function, value, &site.to_string());
+        let value = self.checked(function, value, range, &site.to_string());
         let block = !statements.is_empty();
         if block {
             text.open("{");
@@ -182,8 +189,8 @@ impl Generator<'_> {
             let place = if plan.role == Role::Shared { format!(", {site}") } else { String::new() };
             text.marked(span, format!("(void){}({}{place});", plan.name, listed(&codes)));
         }
-        let mut list = vec![site.to_string(), value];
-        list.extend(codes.into_iter().map(|code| code.text));
+        let mut list = vec![site.to_string(), unwrapped(&value).to_string()];
+        list.extend(codes.into_iter().map(|code| unwrapped(&code.text).to_string()));
         let call = match plan.role {
             Role::Shared => format!("{}.write({});", plan.member, list.join(", ")),
             _ => format!("{}.update({});", plan.member, list.join(", ")),
@@ -194,20 +201,22 @@ impl Generator<'_> {
         }
     }
 
-    /// A value, checked for being in the codomain.
-    pub fn checked(&mut self, function: FunctionId, value: String, site: &str) -> String {
+    /// A value, checked for being in the codomain, unless it lies there anyway.
+    pub fn checked(&mut self, function: FunctionId, value: String, range: Interval, site: &str) -> String {
         let codomain = self.program.function(function).codomain;
         match &self.program.domain(codomain).kind {
+            DomainKind::Basic(Basic::Natural) if range.within(Interval::NATURAL) => value,
             DomainKind::Basic(Basic::Natural) => format!("gs::not_negative({value}, {site})"),
             DomainKind::Concrete { .. } => {
                 match (self.carrier(codomain), self.plan.domain(codomain).contents.clone()) {
                     (Some(carrier), _) => format!("gs::within_subset({value}, {carrier}, {site})"),
                     (None, Some(contents)) => {
-                        if let (Some(machine::Value::Integer(low)), Some(machine::Value::Integer(high))) =
-                            (contents.first(), contents.last())
-                            && i128::from(*high) - i128::from(*low) + 1 == contents.len() as i128
-                        {
-                            return format!("gs::between({value}, {}, {}, {site})", integer(*low), integer(*high));
+                        if let Some(all) = crate::plan::gapless(&contents) {
+                            if range.within(all) {
+                                return value;
+                            }
+                            let (low, high) = (integer(all.low), integer(all.high));
+                            return format!("gs::between({value}, {low}, {high}, {site})");
                         }
                         let table = self.contents_table(codomain, &contents);
                         format!("gs::within({value}, {table}, {site})")
@@ -240,6 +249,8 @@ impl Generator<'_> {
             if !code.defined {
                 self.refuted.parameters[index][place] = false;
             }
+            let range = &mut self.refuted.parameter_ranges[index][place];
+            *range = range.join(code.range);
             codes.push(code);
             sites.push(site);
         }
@@ -247,7 +258,8 @@ impl Generator<'_> {
         let mut list = Vec::new();
         for (place, (code, domain)) in codes.into_iter().zip(&parameters).enumerate() {
             let ty = self.parameter_type(*domain);
-            list.push(self.convert(code, ty, assumed[place], sites[place]));
+            let text = self.convert(code, ty, assumed[place], sites[place]);
+            list.push(unwrapped(&text).to_string());
         }
         let call = format!("{}({})", self.plan.procedure(procedure), list.join(", "));
         if statements.is_empty() { call } else { format!("[&] {{ {statements}{call}; }}()") }
@@ -308,6 +320,7 @@ impl Generator<'_> {
         self.reached.insert(result);
         // A turbo rule may leave its result unwritten.
         self.refuted.total[result.0 as usize] = false;
+        let range = self.assumed.values[result.0 as usize];
         let result = self.plan.function(result).clone();
         let (unit, mark, name) = (self.fresh("unit"), self.fresh("mark"), self.fresh("result"));
         text.open("{");
@@ -319,7 +332,7 @@ impl Generator<'_> {
         text.line(format!("{unit}.join();"));
         if self.program.function(function).kind != FunctionKind::Monitored {
             text.open(format!("if ({name}.first) {{"));
-            let value = Code { text: format!("{name}.second"), ty: result.ty, defined: false, pure: true };
+            let value = Code::maybe(format!("{name}.second"), result.ty).pure().within(range);
             self.update(function, target, value, id, text);
             text.close("}");
         }
@@ -370,7 +383,7 @@ impl Generator<'_> {
         let code = self.term(subject);
         let name = self.fresh("subject");
         let ty = if code.ty == Type::Undef { Type::Value } else { code.ty };
-        let defined = code.defined;
+        let (defined, range) = (code.defined, code.range);
         let code = self.convert(code, ty, defined, site);
         text.open("{");
         text.marked(span, format!("[[maybe_unused]] const auto {name} = {code};"));
@@ -378,7 +391,7 @@ impl Generator<'_> {
         let rules = self.program.rule_list(rules).to_vec();
         for (index, (value, rule)) in values.iter().zip(&rules).enumerate() {
             let value = self.term(*value);
-            let subject = Code { text: name.clone(), ty, defined, pure: true };
+            let subject = Code { text: name.clone(), ty, defined, pure: true, range };
             let guard = self.equality(subject, value, site);
             let guard = unwrapped(&guard).to_string();
             if index == 0 {
@@ -415,11 +428,23 @@ impl Generator<'_> {
         let binders = self.program.binder_list(binders).to_vec();
         text.open("{");
         let listed = self.draws(&binders, condition, site, text);
-        if listed.is_empty() && !binders.is_empty() && condition.is_none_or(|c| self.guard_unless_true(c).is_none()) {
+        if listed.is_empty() && !binders.is_empty() && condition.is_none_or(|condition| self.is_true(condition)) {
             // One candidate, all of whose numbers were drawn; the choice is still made.
             text.line(format!("(void)choose(1, {site});"));
             self.rule(body, text);
             text.close("}");
+            return;
+        }
+        if let ([binder], true) = (&listed[..], condition.is_none_or(|condition| self.is_true(condition)))
+            && let Some(picked) = self.picked(*binder, site)
+        {
+            let Term::Domain(domain) = *self.program.term(binder.range) else { unreachable!("a pick is of a domain") };
+            let ty = type_of(self.program, domain);
+            let name = self.declare(binder.slot, ty, true, self.domain_interval(domain)).name;
+            text.marked(span, format!("[[maybe_unused]] const {} {name} = {picked};", self.plan.cpp(ty, true)));
+            self.rule(body, text);
+            text.close("}");
+            self.frame.scope.release(&name);
             return;
         }
         let candidates = self.fresh("candidates");
@@ -460,15 +485,18 @@ impl Generator<'_> {
         }
         text.line(format!("gs::Candidates<{item}, {place}> {candidates};"));
         inner.pour(text);
-        text.open_marked(span, format!("if ({candidates}.size() == 0) {{"));
-        if let Some(if_none) = if_none {
-            self.rule(if_none, text);
+        match if_none {
+            Some(if_none) => {
+                text.open_marked(span, format!("if ({candidates}.size() == 0) {{"));
+                self.rule(if_none, text);
+                text.between("} else {");
+            }
+            None => text.open_marked(span, format!("if ({candidates}.size() > 0) {{")),
         }
-        text.between("} else {");
         let chosen: Vec<String> = listed
             .iter()
             .zip(&variables)
-            .map(|(binder, variable)| self.declare(binder.slot, variable.ty, variable.defined).name)
+            .map(|(binder, variable)| self.declare(binder.slot, variable.ty, variable.defined, variable.range).name)
             .collect();
         let pick = format!("{candidates}[choose({candidates}.size(), {site})]");
         match &chosen[..] {
@@ -481,9 +509,30 @@ impl Generator<'_> {
         chosen.iter().chain([&candidates]).for_each(|name| self.frame.scope.release(name));
     }
 
+    /// The choice of one of a domain's elements, where its number says which one it is; none where it does not.
+    fn picked(&self, binder: Binder, site: u32) -> Option<String> {
+        let Term::Domain(domain) = *self.program.term(binder.range) else { return None };
+        let plan = self.plan.domain(domain);
+        let ordinal = |ty: &str, count: usize| match count {
+            0 => None,
+            _ => Some(format!("gs::from_ordinal<{ty}>(static_cast<std::uint32_t>(choose({count}, {site})))")),
+        };
+        match (&self.program.domain(domain).kind, &plan.contents) {
+            (DomainKind::Basic(Basic::Boolean), _) => ordinal("bool", 2),
+            (DomainKind::Enum { literals }, _) => ordinal(&plan.name, literals.len()),
+            (DomainKind::Abstract { elements, .. }, _) if plan.carrier.is_none() => ordinal(&plan.name, elements.len()),
+            (DomainKind::Concrete { .. }, Some(contents)) if plan.carrier.is_none() => {
+                let Interval { low, .. } = crate::plan::gapless(contents)?;
+                let chosen = format!("static_cast<std::int64_t>(choose({}, {site}))", contents.len());
+                Some(if low == 0 { chosen } else { format!("{} + {chosen}", integer(low)) })
+            }
+            _ => None,
+        }
+    }
+
     /// Binds the variables that range over all numbers of a kind, where there is no guard; gives the other binders.
     fn draws(&mut self, binders: &[Binder], condition: Option<TermId>, site: u32, text: &mut Text) -> Vec<Binder> {
-        let guarded = condition.is_some_and(|condition| self.guard_unless_true(condition).is_some());
+        let guarded = condition.is_some_and(|condition| !self.is_true(condition));
         let mut listed = Vec::new();
         for (variable, binder) in binders.iter().enumerate() {
             let basic = match self.program.term(binder.range) {
@@ -506,7 +555,8 @@ impl Generator<'_> {
                     _ => continue,
                 },
             );
-            let name = self.declare(binder.slot, ty, true).name;
+            let range = if basic == Basic::Natural { Interval::NATURAL } else { Interval::ALL };
+            let name = self.declare(binder.slot, ty, true, range).name;
             let drawn = match basic {
                 Basic::Natural => format!("gs::not_negative(environment_.integer({site}, {variable}), {site})"),
                 Basic::Real => format!("gs::real(environment_.real({site}, {variable}), {site})"),
@@ -533,7 +583,7 @@ impl Generator<'_> {
         text.open("{");
         let mut made = Vec::new();
         for offset in 0..count {
-            let variable = self.declare(Slot(first.0 + offset), Type::Element(base), true);
+            let variable = self.declare(Slot(first.0 + offset), Type::Element(base), true, Interval::ALL);
             text.marked(span, format!("[[maybe_unused]] const {name} {}{{{carrier}.create({site})}};", variable.name));
             if domain != base
                 && let Some(subset) = self.carrier(domain)
@@ -589,6 +639,8 @@ pub(crate) fn unwrapped(text: &str) -> &str {
             '(' => depth += 1,
             ')' if depth == 0 => return text,
             ')' => depth -= 1,
+            // A comma between operands would be one between arguments.
+            ',' if depth == 0 => return text,
             '"' | '\'' => return text,
             _ => {}
         }

@@ -6,9 +6,12 @@
 
 use program::{CollectionKind, DomainKind, FunctionId, Literal, Quantifier, Term, TermId, TermList};
 
+use crate::form::Form;
 use crate::generator::Generator;
-use crate::operation::within;
-use crate::plan::{Role, integer};
+use crate::interval::Interval;
+use crate::operation::{beside, within};
+use crate::plan::{Dimension, Role, integer};
+use crate::rule::unwrapped;
 use crate::text::{Text, escaped};
 use crate::types::{Code, Type, type_of};
 
@@ -25,9 +28,9 @@ impl Generator<'_> {
         match program.term(id) {
             Term::Constant(index) => self.literal(&program.constants[*index as usize], id),
             Term::Slot(slot) => match self.frame.slots[slot.0 as usize].clone() {
-                Some(variable) => Code { text: variable.name, ty: variable.ty, defined: variable.defined, pure: true },
+                Some(variable) => variable.code(),
                 // A variable that no binder on the way here has bound is undef, as in the machine's frames.
-                None => Code { text: "gs::Value{}".into(), ty: Type::Undef, defined: false, pure: true },
+                None => Code::undef(),
             },
             Term::Read { function, arguments } => self.read(*function, *arguments, id),
             Term::Define { function, arguments } => self.definition(*function, *arguments, id),
@@ -117,14 +120,15 @@ impl Generator<'_> {
             }
             Term::If { branches, otherwise } => {
                 let branches = program.term_list(*branches).to_vec();
-                let arms: Vec<(String, TermId)> =
-                    branches.chunks_exact(2).map(|branch| (self.guard(branch[0]), branch[1])).collect();
+                let arms: Vec<(Code, TermId)> =
+                    branches.chunks_exact(2).map(|branch| (self.guard_code(branch[0]), branch[1])).collect();
                 self.cases(arms, *otherwise, id)
             }
             Term::Switch { subject, cases, otherwise } => self.switch(*subject, *cases, *otherwise, id),
             Term::Let { slot, value, body } => {
                 let value = self.term(*value);
-                let variable = self.declare(*slot, value.ty, value.defined);
+                let pure = value.pure;
+                let variable = self.declare(*slot, value.ty, value.defined, value.range);
                 let value = self.convert(value, variable.ty, variable.defined, 0);
                 let body = self.term(*body);
                 let result = self.plan.cpp(body.ty, body.defined);
@@ -132,7 +136,7 @@ impl Generator<'_> {
                     "[&]() -> {result} {{ [[maybe_unused]] const auto {} = {value}; return {}; }}()",
                     variable.name, body.text
                 );
-                Code { text, pure: false, ..body }
+                Code { text, pure: body.pure && pure, ..body }
             }
             Term::Rule(procedure) => {
                 self.needs_values(span, "a rule as a value");
@@ -178,15 +182,20 @@ impl Generator<'_> {
 
     /// A term as the condition of a C++ `if`.
     pub fn guard(&mut self, id: TermId) -> String {
+        self.guard_code(id).text
+    }
+
+    fn guard_code(&mut self, id: TermId) -> Code {
         let code = self.term(id);
         let site = self.site(id);
         let code = self.cast(code, Type::Boolean, site);
-        match code.ty {
+        let text = match code.ty {
             // Always undef: always the fault.
             Type::Undef => format!("gs::holds(gs::Maybe<bool>{{}}, {site})"),
-            _ if code.defined => code.text,
+            _ if code.defined => return code,
             _ => format!("gs::holds({}, {site})", code.text),
-        }
+        };
+        Code::defined(text, Type::Boolean)
     }
 
     /// What the machine would do with a dynamic value whose type is known.
@@ -210,10 +219,11 @@ impl Generator<'_> {
 
     fn literal(&mut self, literal: &Literal, id: TermId) -> Code {
         match literal {
-            Literal::Undef => Code { text: "gs::Value{}".into(), ty: Type::Undef, defined: false, pure: true },
+            Literal::Undef => Code::undef(),
             Literal::Boolean(truth) => Code::defined(truth.to_string(), Type::Boolean).pure(),
             Literal::Integer(number) => {
-                Code::defined(format!("std::int64_t{{{}}}", integer(*number)), Type::Integer).pure()
+                let text = format!("std::int64_t{{{}}}", integer(*number));
+                Code::defined(text, Type::Integer).pure().within(Interval::of(*number))
             }
             Literal::Real(number) => Code::defined(real(*number), Type::Real).pure(),
             Literal::Char(letter) => Code::defined(format!("char32_t{{{}}}", *letter as u32), Type::Char).pure(),
@@ -253,15 +263,18 @@ impl Generator<'_> {
                 let text = if self.is_lazy(function) {
                     format!("{}({list})", plan.name)
                 } else {
-                    format!("{}.read({list})", plan.member)
+                    let how = if self.is_whole(function) && !list.is_empty() { "get" } else { "read" };
+                    format!("{}.{how}({list})", plan.member)
                 };
                 let pure = pure && !self.is_lazy(function);
-                Code { text, ty: plan.ty, defined: total && plan.ty != Type::Value, pure }
+                let range = self.assumed.values[index];
+                Code { text, ty: plan.ty, defined: total && plan.ty != Type::Value, pure, range }
             }
             Role::Agent => Code::maybe(plan.member.clone(), plan.ty).pure(),
             Role::Input | Role::Shared => {
                 let comma = if list.is_empty() { "" } else { ", " };
                 Code::maybe(format!("{}({list}{comma}{site})", plan.name), plan.ty)
+                    .within(self.codomain_range(function))
             }
             Role::None | Role::Element(_) | Role::Definition => Code::value("gs::Value{}").pure(),
         };
@@ -281,6 +294,10 @@ impl Generator<'_> {
             if !code.defined {
                 self.refuted.inside[function.0 as usize] = false;
             }
+            let bounds = self.plan.function(function).dimensions[codes.len()].bounds;
+            if bounds.is_some_and(|bounds| !code.range.within(bounds)) {
+                self.refuted.covered[function.0 as usize] = false;
+            }
             codes.push(match code.ty {
                 Type::Undef => Code { text: format!("{}{{}}", self.plan.cpp(ty, false)), ty, ..code },
                 _ => code,
@@ -291,8 +308,29 @@ impl Generator<'_> {
 
     /// Some initial value of the function may be due only when it is read.
     pub fn is_lazy(&self, function: FunctionId) -> bool {
+        self.plan.function(function).initial.is_some() && !self.is_whole(function)
+    }
+
+    /// The form of a function's locations.
+    pub fn form(&self, function: FunctionId) -> Form {
+        let form = match self.forms[function.0 as usize] {
+            // A second array takes all locations.
+            Form::Whole if !self.is_whole(function) => Form::Disjoint,
+            form => form,
+        };
+        match form {
+            // The log of bare code has a fixed length, and one location may stand there often.
+            Form::Disjoint if self.options.bare && !self.plan.function(function).dimensions.is_empty() => Form::General,
+            form => form,
+        }
+    }
+
+    /// All locations that anybody looks at stand in the function's array.
+    pub fn is_whole(&self, function: FunctionId) -> bool {
         let plan = self.plan.function(function);
-        plan.initial.is_some() && !(plan.is_whole() && self.assumed.inside[function.0 as usize])
+        let covered = self.assumed.covered[function.0 as usize] && plan.role != Role::Shared;
+        let holds = |dimension: &Dimension| dimension.whole || (covered && dimension.bounds.is_some());
+        self.assumed.inside[function.0 as usize] && plan.dimensions.iter().all(holds)
     }
 
     fn definition(&mut self, function: FunctionId, arguments: TermList, id: TermId) -> Code {
@@ -313,17 +351,24 @@ impl Generator<'_> {
             if !code.defined {
                 self.refuted.arguments[function.0 as usize][index] = false;
             }
+            let range = &mut self.refuted.argument_ranges[function.0 as usize][index];
+            *range = range.join(code.range);
             codes.push(code);
         }
+        let arguments_pure = codes.iter().zip(&assumed).all(|(code, assumed)| code.pure && (code.defined || !assumed));
         let (statements, codes) = self.hoist(codes, false);
         let mut list = Vec::new();
         for (index, (code, domain)) in codes.into_iter().zip(&parameters).enumerate() {
             let ty = self.parameter_type(*domain);
             let site = self.site(terms[index]);
-            list.push(self.convert(code, ty, assumed[index], site));
+            let text = self.convert(code, ty, assumed[index], site);
+            list.push(unwrapped(&text).to_string());
         }
         let defined = self.assumed.result[function.0 as usize] && plan.ty != Type::Value;
-        let code = Code { text: format!("{}({})", plan.name, list.join(", ")), ty: plan.ty, defined, pure: false };
+        let text = format!("{}({})", plan.name, list.join(", "));
+        let range = self.assumed.values[function.0 as usize];
+        let pure = self.assumed.pure[function.0 as usize] && statements.is_empty();
+        let code = Code { text, ty: plan.ty, defined, pure: pure && arguments_pure, range };
         let code = within(&statements, code);
         // What a polymorphic definition gives may be known better where it is used.
         match self.term_type(id) {
@@ -336,21 +381,20 @@ impl Generator<'_> {
     }
 
     /// `guard ? term : …`; undef where no guard holds.
-    fn cases(&mut self, arms: Vec<(String, TermId)>, otherwise: Option<TermId>, id: TermId) -> Code {
-        let mut codes: Vec<(String, Code, u32)> = Vec::new();
+    fn cases(&mut self, arms: Vec<(Code, TermId)>, otherwise: Option<TermId>, id: TermId) -> Code {
+        let mut codes: Vec<(Code, Code, u32)> = Vec::new();
         for (guard, term) in arms {
             let code = self.term(term);
             let site = self.site(term);
             codes.push((guard, code, site));
         }
-        let undef = Code { text: "gs::Value{}".into(), ty: Type::Undef, defined: false, pure: true };
-        let last = otherwise.map_or(undef, |otherwise| self.term(otherwise));
+        let last = otherwise.map_or(Code::undef(), |otherwise| self.term(otherwise));
         let site = self.site(id);
         let mut types = codes.iter().map(|(_, code, _)| code.ty).chain([last.ty]).filter(|ty| *ty != Type::Undef);
         let first = types.next().unwrap_or(Type::Undef);
         let ty = match first {
             // All are undef.
-            Type::Undef => return Code { text: "gs::Value{}".into(), ty: Type::Undef, defined: false, pure: false },
+            Type::Undef => return Code { pure: false, ..Code::undef() },
             first if types.all(|ty| ty == first) => first,
             _ => match self.term_type(id) {
                 Type::Undef => Type::Value,
@@ -358,13 +402,17 @@ impl Generator<'_> {
             },
         };
         let defined = codes.iter().all(|(_, code, _)| code.defined && code.ty == ty) && last.defined && last.ty == ty;
+        // An arm that is undef gives no integer.
+        let arms = codes.iter().map(|(_, code, _)| code).chain([&last]);
+        let range = arms.filter(|code| code.ty != Type::Undef).fold(Interval::EMPTY, |all, code| all.join(code.range));
+        let pure = last.pure && codes.iter().all(|(guard, code, _)| guard.pure && code.pure && code.defined);
         let mut text = String::from("(");
         for (guard, code, site) in codes {
-            text.push_str(&format!("{guard} ? {} : ", self.convert(code, ty, defined, site)));
+            text.push_str(&format!("{} ? {} : ", guard.text, self.convert(code, ty, defined, site)));
         }
         text.push_str(&self.convert(last, ty, defined, site));
         text.push(')');
-        Code { text, ty, defined, pure: false }
+        Code { text, ty, defined, pure, range }
     }
 
     fn switch(&mut self, subject: TermId, cases: TermList, otherwise: Option<TermId>, id: TermId) -> Code {
@@ -372,7 +420,8 @@ impl Generator<'_> {
         let site = self.site(subject);
         let ty = if subject_code.ty == Type::Undef { Type::Value } else { subject_code.ty };
         let name = self.fresh("subject");
-        let variable = Code { text: name.clone(), ty, defined: subject_code.defined, pure: true };
+        let variable = Code { text: name.clone(), ty, pure: true, ..subject_code.clone() };
+        let pure = subject_code.pure;
         let subject_text = match subject_code.ty {
             Type::Undef => "gs::Value{}".to_string(),
             _ => subject_code.text,
@@ -380,8 +429,9 @@ impl Generator<'_> {
         let mut arms = Vec::new();
         for case in self.program.term_list(cases).to_vec().chunks_exact(2) {
             let value = self.term(case[0]);
+            let pure = value.pure;
             let guard = self.equality(variable.clone(), value, site);
-            arms.push((guard, case[1]));
+            arms.push((Code { pure, ..Code::defined(guard, Type::Boolean) }, case[1]));
         }
         let code = self.cases(arms, otherwise, id);
         let result = match code.ty {
@@ -392,7 +442,7 @@ impl Generator<'_> {
             "[&]() -> {result} {{ [[maybe_unused]] const auto {name} = {subject_text}; return {}; }}()",
             code.text
         );
-        Code { text, pure: false, ..code }
+        Code { text, pure: code.pure && pure, ..code }
     }
 
     /// Whether two values are equal; undef equals undef.
@@ -407,6 +457,7 @@ impl Generator<'_> {
                     format!("!gs::is_defined({})", known.text)
                 }
             }
+            (Type::Integer, Type::Integer) if left.defined && right.defined => beside(&left, "==", &right),
             (a, b) if a == b => format!("({} == {})", left.text, right.text),
             _ => {
                 let left = self.convert(left, Type::Value, false, site);
@@ -439,7 +490,7 @@ impl Generator<'_> {
 
 /// Expressions as a list of arguments.
 pub(crate) fn listed(codes: &[Code]) -> String {
-    codes.iter().map(|code| code.text.as_str()).collect::<Vec<_>>().join(", ")
+    codes.iter().map(|code| unwrapped(&code.text)).collect::<Vec<_>>().join(", ")
 }
 
 /// A collection of a kind, of a list of elements.

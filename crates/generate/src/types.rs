@@ -6,6 +6,8 @@
 use model::Basic;
 use program::{DomainId, DomainKind, Program};
 
+use crate::interval::Interval;
+
 /// The type of an expression, apart from whether it may be undef.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Type {
@@ -47,15 +49,17 @@ pub(crate) struct Code {
     pub defined: bool,
     /// It neither faults nor asks anybody, so that it does not matter when it is evaluated.
     pub pure: bool,
+    /// If it is an integer, it lies in here.
+    pub range: Interval,
 }
 
 impl Code {
     pub fn defined(text: impl Into<String>, ty: Type) -> Code {
-        Code { text: text.into(), ty, defined: ty != Type::Value, pure: false }
+        Code { text: text.into(), ty, defined: ty != Type::Value, pure: false, range: Interval::ALL }
     }
 
     pub fn maybe(text: impl Into<String>, ty: Type) -> Code {
-        Code { text: text.into(), ty, defined: false, pure: false }
+        Code { text: text.into(), ty, defined: false, pure: false, range: Interval::ALL }
     }
 
     pub fn value(text: impl Into<String>) -> Code {
@@ -64,5 +68,19 @@ impl Code {
 
     pub fn pure(self) -> Code {
         Code { pure: true, ..self }
+    }
+
+    /// `undef`, of no type yet.
+    pub fn undef() -> Code {
+        Code { text: "gs::Value{}".into(), ty: Type::Undef, defined: false, pure: true, range: Interval::EMPTY }
+    }
+
+    pub fn within(self, range: Interval) -> Code {
+        Code { range, ..self }
+    }
+
+    /// The same where another integer stands beside it, which makes a literal one of 64 bits.
+    pub fn beside(&self) -> &str {
+        self.text.strip_prefix("std::int64_t{").and_then(|rest| rest.strip_suffix('}')).unwrap_or(&self.text)
     }
 }

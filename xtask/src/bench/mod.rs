@@ -59,7 +59,7 @@ pub fn run(words: &[String]) -> Result<Outcome, Failure> {
         large: arguments.flag("--large"),
     };
     let explored = verify::explored(&binary, &peers, only)?;
-    let twins = twins::compare(effort, only)?;
+    let twins = twins::compare(&binary, effort, only)?;
     if let Some(corpus) = arguments.option("--corpus") {
         models::reference(&binary, effort, Path::new(corpus), only)?;
     }

@@ -1,7 +1,8 @@
-//! The five programs: a C++ program and its AsmetaL twin, step by step the same, in one session.
+//! The five programs: a C++ program, its AsmetaL twin and the C++ generated from that, step by step the same, in one
+//! session.
 //!
-//! In: bench/native/*.cpp, compiled with -O2, and bench/models/*.asm. Out: steps per second of both and their ratio.
-//! Both make the same number of steps from their initial states with the same choices, again and again for as long as
+//! In: bench/native/*.cpp, compiled with -O2, and bench/models/*.asm. Out: steps per second of all three and their ratios.
+//! All make the same number of steps from their initial states with the same choices, again and again for as long as
 //! is measured; their final states are compared, location by location, and a difference is a fault. Without g++ there is
 //! nothing to compare with, and that is said.
 
@@ -13,7 +14,7 @@ use std::time::{Duration, Instant};
 
 use machine::{Choice, Environment, Limits, LocationRef, Machine, Passed, Show, Snapshot, TimeUnit, Value};
 use model::Loader;
-use program::{DomainId, Program};
+use program::{DomainId, DomainKind, Program};
 use syntax::SourceFile;
 
 use super::{Effort, figure, table};
@@ -32,7 +33,7 @@ const TWINS: &[(&str, &str, u64)] = &[
 ///
 /// # Errors
 /// A program does not compile, a model is faulty.
-pub fn compare(effort: Effort, only: &str) -> Result<Outcome, Failure> {
+pub fn compare(binary: &Path, effort: Effort, only: &str) -> Result<Outcome, Failure> {
     let twins: Vec<_> = TWINS.iter().filter(|(name, model, _)| name.contains(only) || model.contains(only)).collect();
     if twins.is_empty() {
         return Ok(Outcome::Good);
@@ -46,30 +47,65 @@ pub fn compare(effort: Effort, only: &str) -> Result<Outcome, Failure> {
     let mut rows = Vec::new();
     for (name, model, steps) in twins {
         let native = compile(name, folder.path())?;
+        let generated = generate(binary, model, folder.path())?;
         let program = load(model)?;
-        if let Some(difference) = difference(&native, &program, *steps)? {
+        let differences = [difference(&native, &program, *steps)?, difference(&generated, &program, *steps)?];
+        if let Some(difference) = differences.into_iter().flatten().next() {
             println!("{name}: after {steps} steps {difference}");
             outcome = Outcome::AtFault;
             continue;
         }
-        let here = engine_rate(&program, *steps, effort)?;
-        let there = native_rate(&native, *steps, effort)?;
-        let cells = [here, there, there / here].map(figure);
+        let engine = engine_rate(&program, *steps, effort)?;
+        let (native, generated) = rates(&native, &generated, *steps, effort)?;
+        let cells = [engine, generated, native, native / engine, native / generated].map(figure);
         rows.push([(*name).to_string(), steps.to_string()].into_iter().chain(cells).collect());
     }
     println!("Native twins (g++ -O2), the same steps with the same choices, final states equal\n");
-    println!("{}", table(&["program", "steps", "engine steps/s", "native steps/s", "native is … times faster"], &rows));
+    let head = [
+        "program",
+        "steps",
+        "engine steps/s",
+        "generated steps/s",
+        "native steps/s",
+        "native/engine",
+        "native/generated",
+    ];
+    println!("{}", table(&head, &rows));
     Ok(outcome)
 }
 
 fn compile(name: &str, folder: &Path) -> Result<PathBuf, Failure> {
     let source = repository::root().join("bench/native").join(format!("{name}.cpp"));
     let target = folder.join(name);
-    let built = Command::new("g++").args(["-std=c++20", "-O2", "-o"]).arg(&target).arg(&source).output();
-    match built {
-        Ok(built) if built.status.success() => Ok(target),
-        Ok(built) => Err(format!("{name}.cpp does not compile: {}", String::from_utf8_lossy(&built.stderr))),
-        Err(error) => Err(format!("g++ cannot be run: {error}")),
+    done(Command::new("g++").args(["-std=c++20", "-O2", "-o"]).arg(&target).arg(&source))?;
+    Ok(target)
+}
+
+/// The step code that `groundstate generate cpp` makes of a model, in the frame of the native programs.
+fn generate(binary: &Path, model: &str, folder: &Path) -> Result<PathBuf, Failure> {
+    let root = repository::root().join("bench");
+    let (made, target) = (folder.join(model), folder.join(format!("generated_{model}")));
+    let file = root.join("models").join(format!("{model}.asm"));
+    done(Command::new(binary).args(["generate", "cpp"]).arg(&file).arg("-o").arg(&made))?;
+    let files = std::fs::read_dir(&made).map_err(|error| format!("{}: {error}", made.display()))?;
+    let header =
+        files.flatten().map(|entry| entry.path()).find(|path| path.extension().is_some_and(|end| end == "hpp"));
+    let header = header.ok_or_else(|| format!("nothing was generated from {model}.asm"))?;
+    let name = header.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let mut command = Command::new("g++");
+    command.args(["-std=c++20", "-O2"]).arg(format!("-DHEADER=\"{name}.hpp\"")).arg(format!("-DMODEL={name}"));
+    command.arg("-I").arg(&made).arg("-I").arg(made.join("runtime/include")).arg("-o").arg(&target);
+    done(command.arg(root.join("native/generated.cpp")).arg(header.with_extension("cpp")))?;
+    Ok(target)
+}
+
+/// Runs a command that has to succeed.
+fn done(command: &mut Command) -> Result<(), Failure> {
+    let name = command.get_program().to_string_lossy().into_owned();
+    match command.output() {
+        Ok(output) if output.status.success() => Ok(()),
+        Ok(output) => Err(format!("{name} fails: {}", String::from_utf8_lossy(&output.stderr))),
+        Err(error) => Err(format!("{name} cannot be run: {error}")),
     }
 }
 
@@ -174,7 +210,16 @@ fn difference(native: &Path, program: &Arc<Program>, steps: u64) -> Result<Optio
     let (_, theirs) = run_native(native, steps, 1)?;
     for (location, value) in &theirs {
         let mine = ours.get(location).map_or("undef", String::as_str);
-        if mine != value {
+        // Generated code knows its literals by number.
+        let literal = value.strip_prefix('#').and_then(|number| number.parse().ok()).and_then(|number: usize| {
+            let name = location.split('(').next().unwrap_or(location);
+            let function = program.functions.iter().find(|function| function.name == name)?;
+            match &program.domain(function.codomain).kind {
+                DomainKind::Enum { literals } => literals.get(number),
+                _ => None,
+            }
+        });
+        if mine != literal.unwrap_or(value) {
             return Ok(Some(format!("`{location}` is {mine} in AsmetaL and {value} in C++")));
         }
     }
@@ -211,17 +256,20 @@ fn engine_rate(program: &Arc<Program>, steps: u64, effort: Effort) -> Result<f64
     median((0..effort.windows.max(1)).map(|_| window()).collect::<Result<Vec<f64>, _>>()?)
 }
 
-fn native_rate(native: &Path, steps: u64, effort: Effort) -> Result<f64, Failure> {
+/// Of the program written by hand and the generated one, window by window in turn.
+fn rates(native: &Path, generated: &Path, steps: u64, effort: Effort) -> Result<(f64, f64), Failure> {
     let mut rounds = 1;
     // As many rounds as fill a window.
     while run_native(native, steps, rounds)?.0 * 1e3 < effort.window_ms as f64 && rounds < 1 << 32 {
         rounds *= 2;
     }
-    let rates = (0..effort.windows.max(1)).map(|_| {
-        let seconds = run_native(native, steps, rounds)?.0;
-        Ok((rounds * steps) as f64 / seconds)
-    });
-    median(rates.collect::<Result<Vec<f64>, Failure>>()?)
+    let rate = |program: &Path| Ok::<f64, Failure>((rounds * steps) as f64 / run_native(program, steps, rounds)?.0);
+    let mut found = (Vec::new(), Vec::new());
+    for _ in 0..effort.windows.max(1) {
+        found.0.push(rate(native)?);
+        found.1.push(rate(generated)?);
+    }
+    Ok((median(found.0)?, median(found.1)?))
 }
 
 fn median(mut rates: Vec<f64>) -> Result<f64, Failure> {

@@ -57,6 +57,52 @@ struct Anywhere {
     static constexpr T value(std::size_t) noexcept { return T{}; }
 };
 
+// Arguments and places in the array.
+
+/// The place of arguments in an array with these dimensions; false if it has none. Arguments are values of the dimensions'
+/// types or Maybe of them.
+template <class... Dimensions, class... Arguments>
+constexpr bool find_place(std::size_t& place, const Arguments&... arguments) {
+    [[maybe_unused]] const auto inside = [&]<class Dimension, class Given>(const Dimension*, const Given& argument) {
+        std::size_t index = 0;
+        if constexpr (std::is_same_v<Given, Maybe<typename Dimension::Type>>) {
+            if (!argument.defined) {
+                return false;
+            }
+            index = Dimension::index(argument.value);
+        } else {
+            index = Dimension::index(argument);
+        }
+        place = place * Dimension::size + index;
+        return index < Dimension::size;
+    };
+    place = 0;
+    return (inside(static_cast<const Dimensions*>(nullptr), arguments) && ...);
+}
+
+/// The place of arguments that are known to have one.
+template <class... Dimensions, class... Arguments>
+constexpr std::size_t place_of(const Arguments&... arguments) {
+    std::size_t place = 0;
+    ((place = place * Dimensions::size + Dimensions::index(arguments)), ...);
+    return place;
+}
+
+/// The arguments at a place of the array.
+template <class... Dimensions>
+std::tuple<Argument<typename Dimensions::Type>...> arguments_at(std::size_t place) {
+    std::array<std::size_t, sizeof...(Dimensions) + 1> indexes{};
+    constexpr std::array<std::size_t, sizeof...(Dimensions) + 1> sizes{Dimensions::size..., 1};
+    for (std::size_t dimension = sizeof...(Dimensions); dimension-- > 0;) {
+        indexes[dimension] = place % sizes[dimension];
+        place /= sizes[dimension];
+    }
+    return [&]<std::size_t... Places>(std::index_sequence<Places...>) {
+        return std::tuple<Argument<typename Dimensions::Type>...>{
+            Argument<typename Dimensions::Type>{Dimensions::value(indexes[Places])}...};
+    }(std::index_sequence_for<Dimensions...>{});
+}
+
 /// One update: what a location becomes and which rule says so. Applied, it holds what it overwrote.
 template <class Cell>
 struct Update {
@@ -94,9 +140,9 @@ class Locations {
     template <class... Arguments>
     std::uint32_t find(const Arguments&... arguments) const {
         if constexpr (dense > 0) {
-            std::size_t number = 0;
-            if ((inside<Dimensions>(number, arguments) && ...)) [[likely]] {
-                return static_cast<std::uint32_t>(number);
+            std::size_t place = 0;
+            if (find_place<Dimensions...>(place, arguments...)) [[likely]] {
+                return static_cast<std::uint32_t>(place);
             }
         }
         if constexpr (Keys::none) {
@@ -131,6 +177,12 @@ class Locations {
         return found == none ? Cell{} : values_[found];
     }
 
+    /// The same of arguments that are known to have a place in the array.
+    template <class... Arguments>
+    const Cell& get(const Arguments&... arguments) const {
+        return values_[place_of<Dimensions...>(arguments...)];
+    }
+
     Cell& at(std::uint32_t number) { return values_[number]; }
     const Cell& at(std::uint32_t number) const { return values_[number]; }
 
@@ -138,7 +190,7 @@ class Locations {
     template <class Visit>
     void each(Visit&& visit) const {
         for (std::size_t number = 0; number < dense; ++number) {
-            visit(dense_key(number, std::index_sequence_for<Dimensions...>{}), values_[number]);
+            visit(arguments_at<Dimensions...>(number), values_[number]);
         }
         if constexpr (!Keys::none) {
             keys_.each([&](const Key& key, std::uint32_t number) { visit(key, values_[dense + number]); });
@@ -161,9 +213,7 @@ class Locations {
             }
             return;
         }
-        const auto end = static_cast<std::uint32_t>(log_.size());
-        log_.push(Update<Cell>{location, held, rule, false, std::move(value)}, rule);
-        where_[location] = end;
+        where_[location] = append(location, std::move(value), rule, held);
     }
 
     /// Begins a unit.
@@ -291,32 +341,15 @@ class Locations {
         }
     }
 
+  protected:
+    /// An update at the end of the log; gives its place there.
+    std::uint32_t append(std::uint32_t location, Cell value, Site rule, std::uint32_t previous = none) {
+        const auto end = static_cast<std::uint32_t>(log_.size());
+        log_.push(Update<Cell>{location, previous, rule, false, std::move(value)}, rule);
+        return end;
+    }
+
   private:
-    template <class Dimension, class Given>
-    static bool inside(std::size_t& number, const Given& argument) {
-        if constexpr (std::is_same_v<Given, Maybe<typename Dimension::Type>>) {
-            if (!argument.defined) {
-                return false;
-            }
-            return inside<Dimension>(number, argument.value);
-        } else {
-            const std::size_t index = Dimension::index(argument);
-            number = number * Dimension::size + index;
-            return index < Dimension::size;
-        }
-    }
-
-    template <std::size_t... Places>
-    static Key dense_key(std::size_t number, std::index_sequence<Places...>) {
-        std::array<std::size_t, sizeof...(Dimensions) + 1> indexes{};
-        constexpr std::array<std::size_t, sizeof...(Dimensions) + 1> sizes{Dimensions::size..., 1};
-        for (std::size_t place = sizeof...(Dimensions); place-- > 0;) {
-            indexes[place] = number % sizes[place];
-            number /= sizes[place];
-        }
-        return Key{Argument<typename Dimensions::Type>{Dimensions::value(indexes[Places])}...};
-    }
-
     void take_back(std::size_t from) {
         for (std::size_t place = log_.size(); place-- > from;) {
             if (log_[place].applied) {

@@ -8,7 +8,7 @@ use generate::Options;
 use machine::{Closed, Limits, Machine};
 use syntax::SourceFile;
 
-use crate::compile::Compiler;
+use crate::compile::{Compiler, strict};
 use crate::run::Disk;
 
 /// A main program for both: choices from xorshift64, the state after many steps.
@@ -107,7 +107,7 @@ fn printed(compiler: &Compiler, model: &str, bare: bool) -> String {
     }
     let unit = format!("#include \"{0}.cpp\"\nnamespace model = {0};\n{MAIN}", generated.name);
     std::fs::write(folder.join("main.cpp"), unit).expect("a folder of one's own");
-    let mut command = compiler.command();
+    let mut command = strict();
     if bare {
         command.args(["-fno-exceptions", "-fno-rtti", "-DGROUNDSTATE_BARE", "-DGROUNDSTATE_SINGLE_THREADED"]);
     }
@@ -139,7 +139,7 @@ fn the_guide() {
     let unit = format!("{program}\n#include \"coffee_machine.cpp\"\n");
     std::fs::write(compiler.folder().join("main.cpp"), unit).expect("a folder of one's own");
     let path = compiler.folder().join("program");
-    let built = compiler.command().arg(compiler.folder().join("main.cpp")).arg("-o").arg(&path).output().expect("g++");
+    let built = strict().arg(compiler.folder().join("main.cpp")).arg("-o").arg(&path).output().expect("g++");
     assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
     let output = Command::new(&path).output().expect("the program runs");
     assert_eq!(String::from_utf8_lossy(&output.stdout), "credit 50\n");

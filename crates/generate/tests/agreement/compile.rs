@@ -31,11 +31,6 @@ impl Compiler {
         &self.folder
     }
 
-    /// The compiler with its warnings as errors, and where the runtime is.
-    pub fn command(&self) -> Command {
-        compiler()
-    }
-
     /// Writes generated files, and what they come from; gives their folder.
     pub fn write(&self, name: &str, model: &str, prepared: &Prepared) -> Result<PathBuf, String> {
         let generated = &prepared.generated;
@@ -62,7 +57,7 @@ impl Compiler {
             #include <groundstate/machine/text.hpp>\n#include <groundstate/machine/units.hpp>\n",
         )
         .expect("a file of one's own");
-        let compiled = compiler().arg("-x").arg("c++-header").arg(&header).status().expect("g++ runs");
+        let compiled = strict().arg("-x").arg("c++-header").arg(&header).status().expect("g++ runs");
         assert!(compiled.success(), "the runtime's headers do not compile");
         let next = AtomicUsize::new(0);
         let done: Mutex<Vec<(usize, Result<PathBuf, String>)>> = Mutex::new(Vec::new());
@@ -120,7 +115,8 @@ impl Compiler {
     }
 }
 
-fn compiler() -> Command {
+/// The compiler with its warnings as errors, and where the runtime is.
+pub fn strict() -> Command {
     let mut command = Command::new("g++");
     command.args(["-std=c++20", "-O0", "-Wall", "-Wextra", "-Wconversion", "-Werror", "-I"]);
     command.arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cpp/include"));
@@ -129,7 +125,7 @@ fn compiler() -> Command {
 
 fn compile(folder: &Path, header: &Path) -> Result<PathBuf, String> {
     let program = folder.join("replay");
-    let output = compiler()
+    let output = strict()
         .arg("-include")
         .arg(header)
         .arg(folder.join("all.cpp"))

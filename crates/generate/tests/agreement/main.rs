@@ -12,6 +12,7 @@
 
 mod bare;
 mod compile;
+mod forms;
 mod run;
 
 use std::path::{Path, PathBuf};
@@ -73,7 +74,8 @@ fn examples() {
         match prepare(file, &mut Disk, 30, 1) {
             Ok(Some(prepared)) => cases.push(Case { name, text, prepared }),
             Ok(None) => {}
-            Err(reason) => panic!("{name}: {reason}"),
+            Err(reason) if reason.refused => panic!("{name} is refused: {}", reason.why),
+            Err(reason) => panic!("{name}: {}", reason.why),
         }
     }
     assert!(!cases.is_empty());

@@ -20,25 +20,39 @@ pub struct Prepared {
     pub expected: String,
 }
 
-/// The project's files.
+/// Why there is nothing to compare.
+pub struct Reason {
+    /// The model is as it should be, but cannot be generated.
+    pub refused: bool,
+    pub why: String,
+}
+
+impl Reason {
+    fn faulty(why: &str) -> Reason {
+        Reason { refused: false, why: why.to_string() }
+    }
+}
+
+/// Files on disk. Bytes that are no UTF-8 are replaced.
 pub struct Disk;
 
 impl Loader for Disk {
     fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
         let folder = Path::new(&importer.name).parent().unwrap_or(Path::new(""));
-        let found = folder.join(format!("{path}.asm"));
-        let text = std::fs::read_to_string(&found).map_err(|error| error.to_string())?;
-        Ok(SourceFile::new(found.to_string_lossy(), text))
+        let path = path.replace('\\', "/");
+        let found = folder.join(format!("{}.asm", path.strip_suffix(".asm").unwrap_or(&path)));
+        let bytes = std::fs::read(&found).map_err(|error| error.to_string())?;
+        Ok(SourceFile::new(found.to_string_lossy(), String::from_utf8_lossy(&bytes).into_owned()))
     }
 }
 
 /// Generates a model and runs it in the machine; none if there is nothing to run.
-pub fn prepare(file: SourceFile, disk: &mut dyn Loader, steps: u64, seed: u64) -> Result<Option<Prepared>, String> {
+pub fn prepare(file: SourceFile, disk: &mut dyn Loader, steps: u64, seed: u64) -> Result<Option<Prepared>, Reason> {
     let checked = model::check(file, disk);
     if let Some(error) = checked.diagnostics.iter().find(|found| found.severity == Severity::Error) {
-        return Err(error.message.clone());
+        return Err(Reason::faulty(&error.message));
     }
-    let program = program::lower(&checked.model).map_err(|faults| faults[0].message.clone())?;
+    let program = program::lower(&checked.model).map_err(|faults| Reason::faulty(&faults[0].message))?;
     if program.main.is_none() {
         return Ok(None);
     }
@@ -47,7 +61,7 @@ pub fn prepare(file: SourceFile, disk: &mut dyn Loader, steps: u64, seed: u64) -
     // What initial values ask of the environment is asked for again.
     let _ = started.start(&mut Closed);
     let generated = generate::generate(&program, &checked.sources, &mut started, &Options::default())
-        .map_err(|refused| refused[0].message.clone())?;
+        .map_err(|refused| Reason { refused: true, why: refused[0].message.clone() })?;
     let (script, expected) = record(&program, steps, seed);
     Ok(Some(Prepared { generated, script, expected }))
 }

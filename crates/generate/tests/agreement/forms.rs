@@ -1,0 +1,74 @@
+//! The forms of locations: each is taken where it may be, and nowhere else.
+
+use syntax::SourceFile;
+
+use crate::run::{Disk, prepare};
+use crate::{Case, judge};
+
+/// A model whose main rule is given; `f` and `g` hold what its rules update.
+fn model(main: &str) -> String {
+    format!(
+        "asm Forms\n\nimport StandardLibrary\n\nsignature:\n\tdomain D subsetof Integer\n\tdomain Large subsetof Integer\n\tcontrolled n: Integer\n\
+         \tcontrolled f: D -> Integer\n\tcontrolled g: Prod(D, D) -> Integer\n\tcontrolled l: Large -> Integer\n\n\
+         definitions:\n\tdomain D = {{0 : 3}}\n\tdomain Large = {{0 : 99}}\n\n\
+         \trule r_set($a in D, $b in D) = g($a, $b) := $a * 10 + $b + n\n\n\
+         \tmain rule r_Main =\n\t\t{main}\n\n\
+         default init s0:\n\tfunction n = 0\n\tfunction f($d in D) = $d\n\tfunction g($a in D, $b in D) = 0\n\
+         \tfunction l($d in Large) = $d\n"
+    )
+}
+
+fn case(name: &str, main: &str, member: &str) -> Case {
+    let text = model(main);
+    let prepared = match prepare(SourceFile::new("Forms.asm", text.clone()), &mut Disk, 6, 1) {
+        Ok(Some(prepared)) => prepared,
+        Ok(None) => panic!("{name}: nothing to run"),
+        Err(reason) => panic!("{name}: {}", reason.why),
+    };
+    let header = &prepared.generated.files[0].text;
+    assert!(header.contains(member), "{name}: no `{member}` in\n{header}");
+    Case { name: name.to_string(), text, prepared }
+}
+
+#[test]
+fn forms() {
+    let few = "FewLocations<std::int64_t, gs::Between<0, 3>> f_";
+    let cases = vec![
+        case("two loops", "par forall $i in D do f($i) := $i forall $j in D do f($j) := $j + n n := n + 1 endpar", few),
+        case("a variable that names nothing", "forall $i in D, $j in D do f($i) := $j", few),
+        case(
+            "branches apart",
+            "forall $i in D do if $i < 2 then f($i) := 1 else f(($i + 2) mod 4) := 2 + n endif",
+            few,
+        ),
+        case("one place for two", "forall $i in D, $j in D do g($i, $i) := $j", "gs::FewLocations<std::int64_t, gs::B"),
+        case(
+            "whole, in a branch",
+            "par if n mod 2 = 0 then forall $i in Large do l($i) := l(99 - $i) + n endif n := n + 1 endpar",
+            "gs::WholeArray<std::int64_t, 0, gs::Between<0, 99>> l_",
+        ),
+        case(
+            "a part, by a condition",
+            "par forall $i in Large with $i > n do l($i) := l(99 - $i) + n n := n + 1 endpar",
+            "gs::DisjointLocations<std::int64_t, gs::Nowhere, 0, gs::Between<0, 99>> l_",
+        ),
+        case(
+            "through a call, a choice and a let",
+            "par forall $i in D do forall $j in D do r_set[$i, $j] choose $k in Large with true do l($k) := n \
+             let ($m = n + 1) in n := $m endlet endpar",
+            "gs::DisjointLocations<std::int64_t, gs::Nowhere, 0, gs::Between<0, 99>> l_",
+        ),
+        case(
+            "in sequence",
+            "seq forall $i in Large do l($i) := l(99 - $i) + 1 l(0) := l(1) n := n + 1 endseq",
+            "gs::Locations<std::int64_t, gs::Nowhere, 0, gs::Between<0, 99>> l_",
+        ),
+        case(
+            "one location twice",
+            "par n := 1 if f(0) = 0 then n := 2 - n endif endpar",
+            "gs::Location<std::int64_t> n_",
+        ),
+        case("sums beyond 64 bits", "par n := n * 2 + 4000000000000000000 f(n mod 4) := n endpar", "n_"),
+    ];
+    judge("forms", cases);
+}
