@@ -197,7 +197,7 @@ fn told(shell: &mut Shell, teller: &Teller<'_>, tests: &Tests) -> Result<(), Fai
         }
     }
     match &tests.progress {
-        Some(progress) => teller.explored(shell, progress, complete, None),
+        Some(progress) => teller.explored(shell, progress, complete, None, None),
         None => Ok(()),
     }
 }

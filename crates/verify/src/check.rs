@@ -15,11 +15,13 @@ use smt::session::{Session, Silence, Solvers};
 use syntax::Span;
 
 use crate::assumed::assumed_bounds;
+use crate::checkpoint::{Keeper, Refusal};
 use crate::coverage::unreachable_rules;
 use crate::engine::{Ended, run_engine};
 use crate::runs::{OfRuns, Question, Why, decide};
 use crate::search::{Plan, Progress, Stop, Target};
 use crate::solver::{Left, Method, Proof};
+use crate::storage::Storage;
 use crate::temporal::fairness::AgentFairness;
 use crate::trace::Trace;
 
@@ -61,6 +63,10 @@ pub struct Options {
     pub terminal: Option<Expression>,
     /// Steps are always made by a machine, never remembered.
     pub forgetful: bool,
+    /// What is kept of each state; where that is not all of it, nothing Holds.
+    pub storage: Storage,
+    /// Draws the hash, where less than the state is kept.
+    pub seed: u64,
 }
 
 impl Default for Options {
@@ -76,6 +82,8 @@ impl Default for Options {
             bounds: BTreeMap::new(),
             terminal: None,
             forgetful: false,
+            storage: Storage::Exact,
+            seed: 0,
         }
     }
 }
@@ -100,6 +108,8 @@ pub enum Subject {
 pub enum Reason {
     /// The search ended before it had met all states.
     Stopped(Stop),
+    /// Less than the states was kept, so some may be left out; [`Report::omission`] tells how likely that is.
+    Compacted,
     /// Alternatives that cannot be gone through.
     Unbounded(Unbounded),
     /// An input was given only some of its values.
@@ -153,6 +163,11 @@ pub struct Report {
     pub unreachable: Vec<Span>,
     /// By property: why it is not known whether a property of runs holds, where that is so.
     pub runs: BTreeMap<usize, Why>,
+    /// What was kept of each state.
+    pub storage: Storage,
+    /// Where less than the states was kept: how many are to be expected to have been left out for being taken for others,
+    /// which is no less than the probability that any was.
+    pub omission: Option<Expected>,
     /// How it was proved what a solver has proved.
     pub proofs: BTreeMap<Subject, Proof>,
     /// Why a solver left something open.
@@ -160,6 +175,12 @@ pub struct Report {
     /// The solver that was asked.
     pub solver: Option<String>,
 }
+
+/// An expected number, which is no less than 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Expected(pub f64);
+
+impl Eq for Expected {}
 
 /// Why nothing could be checked.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -172,6 +193,8 @@ pub enum NoStart {
     Outside(Outside),
     /// There is no solver: why, as a clause.
     NoSolver(String),
+    /// What was kept of a search is none to go on with.
+    Refused(Refusal),
 }
 
 impl From<Trouble> for NoStart {
@@ -220,18 +243,36 @@ pub fn verify_with(
     solvers: &mut dyn Solvers,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Report, NoStart> {
+    verify_kept(program, options, agents, solvers, None, watch)
+}
+
+/// The same, where a search that a limit ends is kept, and gone on with if it was. States are gone through one by one then.
+///
+/// # Errors
+/// There is no initial state, a solver cannot be asked, or what was kept does not fit.
+pub fn verify_kept(
+    program: &Arc<Program>,
+    options: &Options,
+    agents: Option<AgentFairness>,
+    solvers: &mut dyn Solvers,
+    keeper: Option<&mut dyn Keeper>,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Report, NoStart> {
     let questions = Questions::of(program, options);
-    let mut ended = run_engine(program, &questions.plan, options.engine, solvers, watch)?;
+    let mut ended = run_engine(program, &questions.plan, options.engine, solvers, keeper, watch)?;
     let reasons = reasons(&ended, &questions, options);
     let assumed: Vec<Reason> = reasons.iter().filter(|reason| matches!(reason, Reason::Bounded(_))).copied().collect();
     let (mut proofs, mut left) = (BTreeMap::new(), BTreeMap::new());
     let by_solver = matches!(ended.engine, Engine::Solver(_));
     let (mut of_runs, runs) = match by_solver {
         true => Default::default(),
+        // Their graph keeps all of the states, of which there are too many.
+        false if ended.omission.is_some() => Default::default(),
         false => of_runs(program, &questions, options, agents, &reasons, watch),
     };
     let verdicts = questions.subjects.iter().map(|(subject, target)| {
         let outcome = match target {
+            None if ended.omission.is_some() => Outcome::Unknown(reasons.clone()),
             None => of_runs.remove(subject).unwrap_or(Outcome::Unknown(vec![Reason::Temporal])),
             Some(target) => match ended.found.remove(target) {
                 // With other inputs the state might not rest.
@@ -262,8 +303,24 @@ pub fn verify_with(
     let exhaustive = reasons.is_empty() && !by_solver;
     let unreachable = if exhaustive { unreachable_rules(program, &ended.executed) } else { Vec::new() };
     let complete = ended.stop.is_none() && ended.unbounded.is_empty() && options.bounds.is_empty() && !by_solver;
+    let complete = complete && ended.omission.is_none();
+    let (storage, omission) = (options.storage, ended.omission.map(Expected));
     let Ended { progress, stop, width, engine, solver, .. } = ended;
-    Ok(Report { verdicts, progress, stop, complete, width, unreachable, runs, engine, proofs, left, solver })
+    Ok(Report {
+        verdicts,
+        progress,
+        stop,
+        complete,
+        width,
+        unreachable,
+        storage,
+        omission,
+        runs,
+        engine,
+        proofs,
+        left,
+        solver,
+    })
 }
 
 /// No solver at all.
@@ -330,6 +387,7 @@ pub(crate) fn plan_of(program: &Program, options: &Options) -> Plan {
 fn reasons(search: &Ended, questions: &Questions, options: &Options) -> Vec<Reason> {
     let mut reasons = BTreeSet::new();
     reasons.extend(search.stop.map(Reason::Stopped));
+    reasons.extend(search.omission.map(|_| Reason::Compacted));
     reasons.extend(search.unbounded.iter().copied().map(Reason::Unbounded));
     reasons.extend(options.bounds.keys().copied().map(Reason::Bounded));
     for condition in &questions.plan.assumed {
@@ -361,6 +419,8 @@ impl Questions {
             max_states: options.max_states,
             max_depth: options.max_depth,
             max_bytes: options.max_bytes,
+            storage: options.storage,
+            seed: options.seed,
             ..Plan::default()
         };
         let mut property_of = Vec::new();

@@ -8,12 +8,14 @@ use std::sync::Arc;
 
 use machine::explore::{Trouble, Unbounded};
 use model::Basic;
-use program::{DomainKind, FunctionKind, Program, RuleId};
+use program::{DomainKind, FunctionKind, Program};
 use smt::session::Solvers;
 
 use crate::check::{Engine, NoStart};
+use crate::checkpoint::{Keeper, Unfit};
 use crate::search::{Plan, Progress, Search, Stop, Target};
 use crate::solver::{Left, Method, Proof, Solved, Unsolved, solve};
+use crate::storage::Storage;
 use crate::symbolic::Reach;
 use crate::trace::Trace;
 
@@ -26,6 +28,8 @@ pub(crate) struct Ended {
     pub found: BTreeMap<Target, Trace>,
     /// Why it ended early; none where all states were met.
     pub stop: Option<Stop>,
+    /// Where less than the states was kept: how many are to be expected to have been left out.
+    pub omission: Option<f64>,
     /// How far it came.
     pub progress: Progress,
     /// What could not be gone through.
@@ -52,6 +56,7 @@ pub(crate) fn run_engine(
     plan: &Plan,
     engine: Engine,
     solvers: &mut dyn Solvers,
+    keeper: Option<&mut dyn Keeper>,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Ended, NoStart> {
     // Sets are not made level by level, and have no bound of their size that a user could think of.
@@ -59,9 +64,10 @@ pub(crate) fn run_engine(
     match engine {
         Engine::Symbolic if !bounded => Ok(symbolic(program, plan, watch)?),
         Engine::Solver(method) => by_solver(program, plan, method, solvers, watch),
-        Engine::Automatic => {
+        // Only states that are gone through one by one are kept in one way or another.
+        Engine::Automatic if plan.storage == Storage::Exact && keeper.is_none() => {
             let few = Plan { max_states: if bounded { plan.max_states } else { FEW }, ..plan.clone() };
-            let mut ended = explicit(program, &few, watch)?;
+            let mut ended = explicit(program, &few, None, watch)?;
             let full = matches!(ended.stop, Some(Stop::States | Stop::Memory));
             let endless = full && has_infinite_values(program);
             let mut solved = None;
@@ -81,12 +87,12 @@ pub(crate) fn run_engine(
             let mut ended = symbolic(program, plan, watch)?;
             if !memory && ended.stop == Some(Stop::Memory) {
                 drop(ended);
-                ended = explicit(program, plan, watch)?;
+                ended = explicit(program, plan, None, watch)?;
             }
             ended.take(solved);
             Ok(ended)
         }
-        _ => Ok(explicit(program, plan, watch)?),
+        _ => explicit(program, plan, keeper, watch),
     }
 }
 
@@ -118,6 +124,7 @@ fn by_solver(
     let mut ended = Ended {
         found: BTreeMap::new(),
         stop: None,
+        omission: None,
         progress,
         unbounded: BTreeSet::new(),
         unknown: BTreeSet::new(),
@@ -145,15 +152,24 @@ impl Ended {
     }
 }
 
-fn explicit(program: &Arc<Program>, plan: &Plan, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<Ended, Trouble> {
-    let mut search = Search::run(program, plan, watch)?;
-    let traces = search.traces();
+fn explicit(
+    program: &Arc<Program>,
+    plan: &Plan,
+    keeper: Option<&mut dyn Keeper>,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Ended, NoStart> {
+    let mut search = Search::run(program, plan, keeper, watch).map_err(|unfit| match unfit {
+        Unfit::Refused(refusal) => NoStart::Refused(refusal),
+        Unfit::Trouble(trouble) => NoStart::from(trouble),
+    })?;
+    let traces = search.traces(watch);
     Ok(Ended {
         found: search.found.iter().map(|found| found.target).zip(traces).collect(),
         stop: search.stop,
+        omission: (plan.storage != Storage::Exact).then_some(search.omission),
         progress: search.progress,
         width: search.width(),
-        executed: (0..program.rules.len()).map(|rule| search.executed(RuleId(rule as u32)) > 0).collect(),
+        executed: search.executed,
         unbounded: search.unbounded,
         unknown: search.unknown,
         engine: Engine::Explicit,
@@ -169,6 +185,7 @@ fn symbolic(program: &Arc<Program>, plan: &Plan, watch: &mut dyn FnMut(&Progress
     Ok(Ended {
         found: reach.found.iter().map(|found| found.target).zip(traces).collect(),
         stop: reach.stop,
+        omission: None,
         progress: reach.progress,
         width: reach.width(),
         executed: reach.executed(),

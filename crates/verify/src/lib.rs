@@ -5,13 +5,17 @@
 
 mod assumed;
 mod check;
+mod checkpoint;
 mod coverage;
 mod engine;
 pub mod graph;
+mod lineage;
 pub mod review;
 pub mod runs;
 mod search;
+mod shard;
 pub mod solver;
+mod storage;
 pub mod survey;
 mod symbolic;
 mod table;
@@ -19,7 +23,10 @@ pub mod temporal;
 mod trace;
 
 pub use check::{
-    Engine, NoStart, Options, Outcome, Reason, Report, Subject, Verdict, verify, verify_fair, verify_with,
+    Engine, Expected, NoStart, Options, Outcome, Reason, Report, Subject, Verdict, verify, verify_fair, verify_kept,
+    verify_with,
 };
+pub use checkpoint::{Keeper, Refusal};
 pub use search::{Progress, Stop};
+pub use storage::Storage;
 pub use trace::Trace;

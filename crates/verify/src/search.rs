@@ -1,22 +1,20 @@
 //! The search: all states that can be reached, level by level.
 //!
 //! In: a program and what is asked of its states. Out: a [`Search`] that has ended, with the states by their distance and
-//! the first state of each kind that was looked for. Each worker owns the states whose hash is its own: it makes their
-//! steps, and takes in the successors that the others send. A level is ended before the next begins, so what is found is
+//! the first state of each kind that was looked for. Each worker ([`crate::shard`]) owns the states whose hash is its
+//! own. A level is ended before the next begins, so what is found is
 //! at the least distance, and of several states the least in canonical order: INVARIANT: what comes out is the same for
 //! any number of workers.
 
 use std::collections::BTreeSet;
-use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::sync::{Arc, Barrier, Mutex, PoisonError};
+use std::sync::Arc;
 
-use machine::explore::{Expansion, Explorer, Interner, Settings, Trouble, Truth, Unbounded, Widening};
-use program::{Program, RuleId};
+use machine::explore::{Explorer, Interner, Settings, Trouble, Unbounded, Widening};
+use program::Program;
 
-use crate::table::{Table, hash};
-
-/// How many states a worker expands before all exchange successors.
-const ROUND: usize = 1 << 12;
+use crate::checkpoint::{Journal, Keeper, Past, Unfit, keep, made, resume};
+use crate::shard::{Crew, Decision, Report, Shard, note};
+use crate::storage::{Storage, Store};
 
 /// What is looked for in a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -54,6 +52,10 @@ pub struct Plan {
     pub max_depth: u64,
     /// The most bytes for states.
     pub max_bytes: u64,
+    /// What is kept of each state.
+    pub storage: Storage,
+    /// Draws the hash, where less than the state is kept.
+    pub seed: u64,
 }
 
 /// How far a search is.
@@ -69,6 +71,21 @@ pub struct Progress {
     pub depth: u64,
     /// Bytes that states take.
     pub bytes: u64,
+}
+
+impl Progress {
+    /// What workers report, all together.
+    pub(crate) fn of(reports: &[Report], depth: u64) -> Progress {
+        let sum = |of: fn(&Report) -> u64| reports.iter().map(of).sum::<u64>();
+        let fresh = sum(|report| report.fresh);
+        Progress {
+            states: sum(|report| report.states),
+            transitions: sum(|report| report.transitions),
+            queue: sum(|report| report.left) + fresh,
+            depth: if fresh > 0 { depth } else { depth.saturating_sub(1) },
+            bytes: sum(|report| report.bytes),
+        }
+    }
 }
 
 /// Why a search ended before it had met all states.
@@ -97,28 +114,34 @@ pub struct Found {
     pub state: Box<[u64]>,
 }
 
-/// The states that are a worker's own, and what it knows of them.
-#[derive(Debug)]
-pub(crate) struct Shard {
-    pub table: Table,
-    /// Where each level that is or was expanded ends among the states of the table.
-    pub levels: Vec<usize>,
-    found: Vec<Found>,
-    transitions: u64,
-    /// The next state to be expanded.
-    next: usize,
-    /// A truth that is not known.
-    unknown: BTreeSet<usize>,
+/// Makes explorers that pack states alike.
+#[derive(Debug, Clone)]
+pub(crate) struct Maker {
+    program: Arc<Program>,
+    settings: Settings,
     widening: Widening,
-    unbounded: BTreeSet<Unbounded>,
-    /// How often each rule ran.
-    executed: Vec<u64>,
+    pub interner: Arc<Interner>,
+}
+
+impl Maker {
+    /// Of explorers with room for what did not fit.
+    pub fn new(program: &Arc<Program>, plan: &Plan, widening: &Widening) -> Maker {
+        let (settings, interner) = (plan.settings.clone(), Arc::default());
+        Maker { program: Arc::clone(program), settings, widening: widening.clone(), interner }
+    }
+
+    /// One more.
+    pub fn explorer(&self) -> Result<Explorer, Trouble> {
+        Explorer::new(&self.program, self.settings.clone(), &self.widening, &self.interner)
+    }
 }
 
 /// A search that has ended.
 #[derive(Debug)]
 pub struct Search {
     pub(crate) explorer: Explorer,
+    pub(crate) maker: Maker,
+    pub(crate) plan: Plan,
     pub(crate) shards: Vec<Shard>,
     /// What was found, each target at most once.
     pub found: Vec<Found>,
@@ -130,46 +153,124 @@ pub struct Search {
     pub unbounded: BTreeSet<Unbounded>,
     /// Conditions whose truth is not known in some state.
     pub unknown: BTreeSet<usize>,
+    /// By rule, whether a machine ran it.
+    pub executed: Vec<bool>,
+    /// How many states are to be expected to have been left out for being taken for others.
+    pub omission: f64,
 }
 
-/// Successors on their way: from one worker to another.
-type Mail = Vec<Vec<Mutex<Vec<u64>>>>;
+impl Search {
+    /// Searches all states of a program; with a keeper, goes on with what it has kept, and keeps what a limit ends.
+    ///
+    /// # Errors
+    /// There is no initial state, or what was kept does not fit.
+    pub(crate) fn run(
+        program: &Arc<Program>,
+        plan: &Plan,
+        mut keeper: Option<&mut dyn Keeper>,
+        watch: &mut dyn FnMut(&Progress) -> bool,
+    ) -> Result<Search, Unfit> {
+        let mut resumed = match &mut keeper {
+            Some(keeper) => resume(*keeper, program, plan)?,
+            None => None,
+        };
+        let mut past = Past::default();
+        loop {
+            let (maker, mut explorer, mut shards, starts) = match resumed.take() {
+                Some(resumed) => {
+                    past = resumed.past;
+                    (resumed.maker, resumed.explorer, resumed.shards, Vec::new())
+                }
+                None => begun(program, plan, keeper.is_some(), &mut past)?,
+            };
+            let kept = keeper.as_mut().map(|keeper| (&mut **keeper, &past));
+            let (stop, progress) = search(&maker, &mut explorer, &mut shards, starts, plan, kept, watch);
+            match shards.iter().find(|shard| !shard.widening.is_empty()) {
+                Some(shard) => past.close(shard, explorer.words(), &shard.widening),
+                None => return Ok(Search::gather(maker, explorer, plan, shards, stop, progress)),
+            }
+        }
+    }
 
-fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+    fn gather(
+        maker: Maker,
+        mut explorer: Explorer,
+        plan: &Plan,
+        mut shards: Vec<Shard>,
+        stop: Option<Stop>,
+        progress: Progress,
+    ) -> Search {
+        let mut found: Vec<Found> = Vec::new();
+        for one in shards.iter_mut().flat_map(|shard| std::mem::take(&mut shard.found)) {
+            note(&mut found, one, &mut explorer);
+        }
+        found.sort_by_key(|found| found.target);
+        let unbounded = shards.iter().flat_map(|shard| &shard.unbounded).copied().collect();
+        let unknown = shards.iter().flat_map(|shard| &shard.unknown).copied().collect();
+        let rules = maker.program.rules.len();
+        let ran = |rule: usize| shards.iter().any(|shard| shard.executed[rule] > 0);
+        let executed = (0..rules).map(ran).collect();
+        let omission = shards.iter().map(|shard| shard.store.omission()).sum();
+        let plan = plan.clone();
+        Search { explorer, maker, plan, shards, found, stop, progress, unbounded, unknown, executed, omission }
+    }
+
+    /// How many words a state has, and how many bits of them are used.
+    pub fn width(&self) -> (usize, usize) {
+        (self.explorer.words(), self.explorer.bits())
+    }
 }
 
-/// What workers tell each other at the end of a round.
-#[derive(Debug)]
-struct Board {
-    /// By worker.
-    reports: Vec<Report>,
-    decision: Decision,
+/// A search that has not begun yet, with the states it begins with.
+type Begun = (Maker, Explorer, Vec<Shard>, Vec<Box<[u64]>>);
+
+fn begun(program: &Arc<Program>, plan: &Plan, is_kept: bool, past: &mut Past) -> Result<Begun, Unfit> {
+    let (maker, explorer) = made(program, plan, &mut past.widening)?;
+    // The order in which values come up can be told of one worker alone.
+    let is_numbered = is_kept && !maker.interner.is_empty();
+    let count = if is_numbered { 1 } else { plan.workers.max(1) };
+    let store = || Store::new(explorer.words(), plan.storage, plan.seed, count);
+    let mut shards: Vec<Shard> = (0..count).map(|_| Shard::new(store())).collect();
+    shards[0].journal = is_numbered.then(|| Journal::new(&maker.interner));
+    let starts = explorer.initial().iter().map(|(state, _)| state.clone()).collect();
+    Ok((maker, explorer, shards, starts))
 }
 
-#[derive(Debug, Clone, Copy, Default)]
-struct Report {
-    states: u64,
-    transitions: u64,
-    /// States of this level that are still to be expanded.
-    left: u64,
-    /// States of the next level.
-    fresh: u64,
-    bytes: u64,
-    full: bool,
-    narrow: bool,
-    found: bool,
-    /// The worker has panicked.
-    broken: bool,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Decision {
-    /// The level goes on.
-    Round,
-    /// The next level begins.
-    Level,
-    Stop(Option<Stop>),
+/// Searches until all states are met or something ends it, with pauses in which the search is kept.
+fn search<'k>(
+    maker: &Maker,
+    explorer: &mut Explorer,
+    shards: &mut [Shard],
+    mut starts: Vec<Box<[u64]>>,
+    plan: &Plan,
+    mut kept: Option<(&mut (dyn Keeper + 'k), &Past)>,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> (Option<Stop>, Progress) {
+    let mut progress = Progress::default();
+    let crew = Crew { plan, explore: &|| maker.explorer() };
+    loop {
+        let mut paused = false;
+        let mut decide = |reports: &[Report], depth: u64| {
+            let decision = decide(reports, depth, plan, &mut progress, watch);
+            let goes_on = matches!(decision, Decision::Round | Decision::Level);
+            paused = goes_on && kept.as_mut().is_some_and(|(keeper, _)| keeper.is_due());
+            if paused { Decision::Stop(None) } else { decision }
+        };
+        let stop = crew.work(explorer, shards, &starts, &mut decide);
+        starts.clear();
+        let Some((keeper, past)) = &mut kept else { return (stop, progress) };
+        if shards.iter().any(|shard| !shard.widening.is_empty() || shard.store.is_full()) {
+            return (stop, progress);
+        }
+        if paused || stop.is_some() {
+            keep(*keeper, &maker.program, plan, explorer, maker.interner.len(), past, shards);
+        } else {
+            keeper.remove();
+        }
+        if !paused {
+            return (stop, progress);
+        }
+    }
 }
 
 /// Attempts a search again and again, each time with room for what did not fit the time before.
@@ -179,101 +280,6 @@ pub(crate) fn widened<T>(mut attempt: impl FnMut(&Widening) -> Result<T, Trouble
         match attempt(&widening) {
             Err(Trouble::TooNarrow(more)) => widening.merge(&more),
             outcome => return outcome,
-        }
-    }
-}
-
-impl Search {
-    /// Searches all states of a program.
-    ///
-    /// # Errors
-    /// There is no initial state.
-    pub fn run(
-        program: &Arc<Program>,
-        plan: &Plan,
-        watch: &mut dyn FnMut(&Progress) -> bool,
-    ) -> Result<Search, Trouble> {
-        widened(|widening| Search::attempt(program, plan, widening, watch))
-    }
-
-    fn attempt(
-        program: &Arc<Program>,
-        plan: &Plan,
-        widening: &Widening,
-        watch: &mut dyn FnMut(&Progress) -> bool,
-    ) -> Result<Search, Trouble> {
-        let interner = Arc::new(Interner::default());
-        let explore = || Explorer::new(program, plan.settings.clone(), widening, &interner);
-        let mut explorer = explore()?;
-        let count = plan.workers.max(1);
-        let mut shards: Vec<Shard> = (0..count).map(|_| Shard::new(explorer.words())).collect();
-        let mail: Mail = (0..count).map(|_| (0..count).map(|_| Mutex::default()).collect()).collect();
-        for (state, _) in explorer.initial() {
-            lock(&mail[owner(state, count)][0]).extend_from_slice(state);
-        }
-        let barrier = Barrier::new(count);
-        let board = Mutex::new(Board { reports: vec![Report::default(); count], decision: Decision::Round });
-        let mut progress = Progress::default();
-        let (leader, others) = shards.split_first_mut().expect("at least one worker");
-        let stop = std::thread::scope(|scope| {
-            for (index, shard) in others.iter_mut().enumerate() {
-                let (plan, mail, barrier, board, explore) = (&plan, &mail, &barrier, &board, &explore);
-                let body = move || {
-                    // A machine may not go from thread to thread; what the leader could make can be made here.
-                    let mut explorer = explore().expect("the leader has made the same");
-                    shard.work(&mut explorer, index + 1, plan, mail, barrier, board, &mut |_, _| Decision::Round);
-                };
-                // Steps may be deep; the stack grows on demand beyond this.
-                let spawned = std::thread::Builder::new().stack_size(16 << 20).spawn_scoped(scope, body);
-                assert!(spawned.is_ok(), "a thread can be made");
-            }
-            let mut decide = |reports: &[Report], depth: u64| decide(reports, depth, plan, &mut progress, watch);
-            leader.work(&mut explorer, 0, plan, &mail, &barrier, &board, &mut decide)
-        });
-        for shard in &shards {
-            if !shard.widening.is_empty() {
-                return Err(Trouble::TooNarrow(shard.widening.clone()));
-            }
-        }
-        Ok(Search::gather(explorer, shards, stop, progress))
-    }
-
-    fn gather(mut explorer: Explorer, mut shards: Vec<Shard>, stop: Option<Stop>, progress: Progress) -> Search {
-        let mut found: Vec<Found> = Vec::new();
-        for one in shards.iter_mut().flat_map(|shard| std::mem::take(&mut shard.found)) {
-            note(&mut found, one, &mut explorer);
-        }
-        found.sort_by_key(|found| found.target);
-        let unbounded = shards.iter().flat_map(|shard| &shard.unbounded).copied().collect();
-        let unknown = shards.iter().flat_map(|shard| &shard.unknown).copied().collect();
-        Search { explorer, shards, found, stop, progress, unbounded, unknown }
-    }
-
-    /// How many words a state has, and how many bits of them are used.
-    pub fn width(&self) -> (usize, usize) {
-        (self.explorer.words(), self.explorer.bits())
-    }
-
-    /// How often each rule ran in the steps that a machine made; 0 for a rule that never can.
-    pub fn executed(&self, rule: RuleId) -> u64 {
-        self.shards.iter().map(|shard| shard.executed[rule.0 as usize]).sum()
-    }
-}
-
-/// Which worker a state belongs to.
-fn owner(state: &[u64], workers: usize) -> usize {
-    if workers == 1 { 0 } else { (hash(state) & 0xffff) as usize % workers }
-}
-
-/// Keeps the nearest, and of equally near ones the least.
-fn note(found: &mut Vec<Found>, one: Found, explorer: &mut Explorer) {
-    match found.iter_mut().find(|other| other.target == one.target) {
-        None => found.push(one),
-        Some(other) => {
-            let nearer = one.depth.cmp(&other.depth).then_with(|| explorer.compare(&one.state, &other.state));
-            if nearer.is_lt() {
-                *other = one;
-            }
         }
     }
 }
@@ -288,13 +294,7 @@ fn decide(
     let sum = |of: fn(&Report) -> u64| reports.iter().map(of).sum::<u64>();
     let any = |of: fn(&Report) -> bool| reports.iter().any(of);
     let (left, fresh) = (sum(|report| report.left), sum(|report| report.fresh));
-    *progress = Progress {
-        states: sum(|report| report.states),
-        transitions: sum(|report| report.transitions),
-        queue: left + fresh,
-        depth: if fresh > 0 { depth } else { depth.saturating_sub(1) },
-        bytes: sum(|report| report.bytes),
-    };
+    *progress = Progress::of(reports, depth);
     let go_on = watch(progress);
     if any(|report| report.narrow || report.broken) || left + fresh == 0 {
         return Decision::Stop(None);
@@ -319,196 +319,4 @@ fn decide(
         return Decision::Stop(Some(Stop::Depth));
     }
     Decision::Level
-}
-
-impl Shard {
-    fn new(words: usize) -> Shard {
-        Shard {
-            table: Table::new(words),
-            levels: Vec::new(),
-            found: Vec::new(),
-            transitions: 0,
-            next: 0,
-            unknown: BTreeSet::new(),
-            widening: Widening::default(),
-            unbounded: BTreeSet::new(),
-            executed: Vec::new(),
-        }
-    }
-
-    /// Works until the leader, who is worker 0, decides to stop.
-    #[allow(clippy::too_many_arguments, reason = "all of them are shared by the workers and used here alone")]
-    fn work(
-        &mut self,
-        explorer: &mut Explorer,
-        index: usize,
-        plan: &Plan,
-        mail: &Mail,
-        barrier: &Barrier,
-        board: &Mutex<Board>,
-        leader: &mut dyn FnMut(&[Report], u64) -> Decision,
-    ) -> Option<Stop> {
-        let mut sent = vec![Vec::new(); mail.len()];
-        loop {
-            let mut panic = None;
-            // Who panics still meets the others at the barriers, so that all end; then the panic goes on.
-            let mut guard = |body: &mut dyn FnMut()| {
-                panic = panic.take().or(catch_unwind(AssertUnwindSafe(body)).err());
-            };
-            guard(&mut || {
-                self.expand_round(explorer, plan, &mut sent);
-                for (to, successors) in sent.iter_mut().enumerate() {
-                    lock(&mail[to][index]).append(successors);
-                }
-            });
-            barrier.wait();
-            guard(&mut || {
-                for received in &mail[index] {
-                    self.take_in(explorer, plan, &mut lock(received));
-                }
-            });
-            let broken = panic.is_some();
-            lock(board).reports[index] = Report { broken, ..self.report() };
-            barrier.wait();
-            if index == 0 {
-                let reports = lock(board).reports.clone();
-                // The depth of the states that come in, once the initial ones are there.
-                let depth = self.levels.len() as u64;
-                let decided = catch_unwind(AssertUnwindSafe(|| leader(&reports, depth)));
-                lock(board).decision = decided.unwrap_or_else(|payload| {
-                    panic = Some(payload);
-                    Decision::Stop(None)
-                });
-            }
-            barrier.wait();
-            if let Some(panic) = panic {
-                resume_unwind(panic);
-            }
-            let decision = lock(board).decision;
-            match decision {
-                Decision::Round => {}
-                Decision::Level => self.levels.push(self.table.len()),
-                Decision::Stop(stop) => {
-                    self.unbounded.clone_from(explorer.unbounded());
-                    self.executed.clone_from(&explorer.coverage().executed);
-                    return stop;
-                }
-            }
-        }
-    }
-
-    fn report(&self) -> Report {
-        let end = self.levels.last().copied().unwrap_or(0);
-        Report {
-            states: self.table.len() as u64,
-            transitions: self.transitions,
-            left: (end - self.next) as u64,
-            fresh: (self.table.len() - end) as u64,
-            bytes: self.table.bytes() as u64,
-            full: self.table.is_full(),
-            narrow: !self.widening.is_empty(),
-            found: !self.found.is_empty(),
-            broken: false,
-        }
-    }
-
-    /// Makes the steps of some states of the level, and puts the successors where they belong.
-    fn expand_round(&mut self, explorer: &mut Explorer, plan: &Plan, sent: &mut [Vec<u64>]) {
-        let end = self.levels.last().copied().unwrap_or(0).min(self.next + ROUND);
-        let words = explorer.words();
-        let mut successors = Vec::new();
-        while self.next < end {
-            let state = self.table.state(self.next);
-            self.next += 1;
-            let out = if sent.len() == 1 { &mut sent[0] } else { &mut successors };
-            match explorer.expand(state, out) {
-                Ok(expansion) => {
-                    self.transitions += u64::from(expansion.moved);
-                    if expansion.moved == 0 || expansion.failed > 0 || expansion.faults != [0; 3] {
-                        self.look_at(explorer, plan, self.next - 1, &expansion);
-                    }
-                }
-                Err(widening) => {
-                    self.widening = widening;
-                    return;
-                }
-            }
-            for successor in successors.chunks_exact(words) {
-                sent[owner(successor, sent.len())].extend_from_slice(successor);
-            }
-            successors.clear();
-        }
-    }
-
-    /// Notes what is looked for in an expansion.
-    #[cold]
-    fn look_at(&mut self, explorer: &mut Explorer, plan: &Plan, place: usize, expansion: &Expansion) {
-        let depth = self.levels.len() - 1;
-        let state: Box<[u64]> = self.table.state(place).into();
-        let mut targets = Vec::new();
-        targets.extend((0..3).filter(|class| expansion.faults[*class] > 0).map(Target::Fault));
-        if expansion.moved == 0 && expansion.stayed > 0 && expansion.faults == [0; 3] && expansion.unbounded == 0 {
-            let may_rest = plan.terminal.map(|terminal| explorer.truth(terminal, &state));
-            match may_rest {
-                Some(Truth::True) => {}
-                Some(Truth::Fault | Truth::Unknown) => {
-                    self.unknown.extend(plan.terminal);
-                }
-                _ => targets.push(Target::Rest),
-            }
-        }
-        let missing = |target: &usize| {
-            !self.found.iter().any(|found| found.target == Target::StepCondition(*target) && found.depth < depth)
-        };
-        if expansion.failed > 0 && plan.wanted_steps.iter().any(missing) {
-            let mut failed = BTreeSet::new();
-            let looked = explorer.paths(&state, &mut |path| failed.extend(path.failed));
-            if let Err(widening) = looked {
-                self.widening = widening;
-            }
-            let wanted = plan.wanted_steps.iter().filter(|wanted| failed.contains(&(**wanted as u32)));
-            targets.extend(wanted.map(|wanted| Target::StepCondition(*wanted)));
-        }
-        for target in targets {
-            note(&mut self.found, Found { target, depth, state: state.clone() }, explorer);
-        }
-    }
-
-    /// Adds states that have come in.
-    fn take_in(&mut self, explorer: &mut Explorer, plan: &Plan, states: &mut Vec<u64>) {
-        let Shard { table, levels, found, unknown, .. } = self;
-        if !plan.assumed.is_empty() {
-            let mut admitted = Vec::with_capacity(states.len());
-            for state in states.chunks_exact(explorer.words()) {
-                let mut all = true;
-                for condition in &plan.assumed {
-                    let truth = explorer.truth(*condition, state);
-                    all &= truth == Truth::True;
-                    if matches!(truth, Truth::Fault | Truth::Unknown) {
-                        unknown.insert(*condition);
-                    }
-                }
-                if all {
-                    admitted.extend_from_slice(state);
-                }
-            }
-            *states = admitted;
-        }
-        let depth = levels.len();
-        table.insert_all(states, &mut |state| {
-            for condition in &plan.wanted {
-                match explorer.truth(*condition, state) {
-                    Truth::True => {}
-                    Truth::Unknown => {
-                        unknown.insert(*condition);
-                    }
-                    Truth::False | Truth::Undef | Truth::Fault => {
-                        let target = Target::Condition(*condition);
-                        note(found, Found { target, depth, state: state.into() }, explorer);
-                    }
-                }
-            }
-        });
-        states.clear();
-    }
 }

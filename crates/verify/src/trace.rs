@@ -2,14 +2,17 @@
 //!
 //! In: what a search has found. Out: a [`Trace`] for each. No way is kept while searching; it is found again backwards,
 //! level by level: of the states of the level before that lead to the state, the least in canonical order is taken, and of
-//! its steps the first. So a trace does not depend on the number of workers, and a state costs no link to its parent.
+//! its steps the first. So a trace does not depend on the number of workers, and a state costs no link to its parent. Where
+//! states were not kept, ways are found by searching again ([`crate::lineage`]).
 
 use std::ops::ControlFlow;
 
 use machine::explore::{Explorer, FaultClass, Outcome, Path, Told};
 use machine::{Location, Value};
 
-use crate::search::{Found, Search, Shard, Target};
+use crate::search::{Found, Progress, Search, Target};
+use crate::shard::Shard;
+use crate::storage::Storage;
 
 /// A run from an initial state.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -28,7 +31,14 @@ pub struct Trace {
 
 impl Search {
     /// A shortest run to each state found, in the order of `found`.
-    pub fn traces(&mut self) -> Vec<Trace> {
+    pub fn traces(&mut self, watch: &mut dyn FnMut(&Progress) -> bool) -> Vec<Trace> {
+        let chains = if self.plan.storage == Storage::Exact { self.chains() } else { self.chains_again(watch) };
+        let explorer = &mut self.explorer;
+        self.found.iter().zip(&chains).map(|(found, chain)| tell(explorer, chain, found)).collect()
+    }
+
+    /// The states on the way to each state found.
+    fn chains(&mut self) -> Vec<Vec<Box<[u64]>>> {
         let mut chains: Vec<Vec<Box<[u64]>>> = self.found.iter().map(|found| vec![found.state.clone()]).collect();
         let deepest = self.found.iter().map(|found| found.depth).max().unwrap_or(0);
         for level in (0..deepest).rev() {
@@ -40,15 +50,8 @@ impl Search {
                 chains[index].push(parent);
             }
         }
-        let explorer = &mut self.explorer;
-        let found = self.found.iter();
-        found
-            .zip(&mut chains)
-            .map(|(found, chain)| {
-                chain.reverse();
-                tell(explorer, chain, found)
-            })
-            .collect()
+        chains.iter_mut().for_each(|chain| chain.reverse());
+        chains
     }
 
     /// For each state that is wanted the least state of a level that leads to it.
@@ -57,10 +60,10 @@ impl Search {
         let Search { explorer, shards, .. } = self;
         let words = explorer.words();
         let mut successors = Vec::new();
-        for Shard { table, levels, .. } in shards {
+        for Shard { store, levels, .. } in shards {
             let begin = if level == 0 { 0 } else { levels[level - 1] };
             for place in begin..levels[level] {
-                let state = table.state(place);
+                let state = store.state(place);
                 successors.clear();
                 if explorer.expand(state, &mut successors).is_err() {
                     continue;

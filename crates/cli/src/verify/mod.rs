@@ -5,6 +5,7 @@
 mod beside;
 mod bound;
 mod bounded;
+mod checkpoint;
 mod counterexample;
 mod tell;
 mod watch;
@@ -16,7 +17,7 @@ use clap::Args;
 use groundstate::own_files;
 use groundstate::verify::solver::Method;
 use groundstate::verify::temporal::fairness::AgentFairness;
-use groundstate::verify::{NoStart, Options, Outcome, Report, verify_with};
+use groundstate::verify::{Keeper, NoStart, Options, Outcome, Report, verify_kept};
 
 use program::PropertyKind;
 
@@ -26,6 +27,7 @@ use crate::load::load;
 use crate::shell::Shell;
 use crate::solver::Process;
 pub use bounded::Bounded;
+use checkpoint::Checkpoint;
 pub use counterexample::relative;
 pub use tell::{StepLine, Teller};
 
@@ -40,6 +42,19 @@ pub struct Arguments {
     /// The SMT solver, a program or `none`. Default: z3 or cvc5 from the PATH
     #[arg(long, value_name = "PROGRAM")]
     solver: Option<PathBuf>,
+    /// What is kept of each state; where that is not all of it, nothing holds
+    #[arg(long, value_enum, default_value_t)]
+    storage: Storage,
+    /// How large the array of --storage bitstate is, in MiB
+    #[arg(long, value_name = "MIB", default_value_t = 64, value_parser = clap::value_parser!(u64).range(1..=1 << 20))]
+    array: u64,
+    /// Draws another hash for --storage compact and bitstate, which leaves out other states, if any
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    hash_seed: u64,
+    /// Keep the search in this file every now and then and when a limit or Ctrl-C ends it, and go on with it where the file
+    /// is there; it is removed when the search has ended
+    #[arg(long, value_name = "FILE")]
+    checkpoint: Option<PathBuf>,
     /// How many workers search; as many as there are processors if not said
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=256))]
     workers: Option<u64>,
@@ -106,6 +121,19 @@ impl Engine {
     }
 }
 
+/// What is kept of each state.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::ValueEnum)]
+enum Storage {
+    /// All of it
+    #[default]
+    Exact,
+    /// A hash of 61 bits: 9 to 14 bytes a state, however large it is
+    Compact,
+    /// Three bits of an array
+    #[value(name = "bitstate")]
+    BitState,
+}
+
 /// How the main rule's choice of who moves is fair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum Fair {
@@ -135,6 +163,20 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
             "sets of states know no --first, --max-states or --depth",
             "bound them by --max-memory and --time, or leave out --engine bdd",
         ));
+    }
+    if arguments.storage != Storage::Exact && !matches!(arguments.engine, Engine::Auto | Engine::Explicit) {
+        let help = "leave out --engine, or --storage";
+        return Err(Failure::usage_with_help("--storage is of states that are gone through one by one", help));
+    }
+    if arguments.checkpoint.is_some() {
+        if !matches!(arguments.engine, Engine::Auto | Engine::Explicit) {
+            let help = "leave out --engine, or --checkpoint";
+            return Err(Failure::usage_with_help("--checkpoint is of states that are gone through one by one", help));
+        }
+        if arguments.storage != Storage::Exact {
+            let help = "leave out --storage, or --checkpoint";
+            return Err(Failure::usage_with_help("a search that keeps less than the states has no checkpoint", help));
+        }
     }
     if arguments.counterexample.is_some() && arguments.model.as_os_str() == "-" {
         return Err(Failure::usage("no scenario can load standard input: write the model to a file"));
@@ -171,6 +213,12 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         first: arguments.first,
         terminal,
         forgetful: arguments.forgetful,
+        storage: match arguments.storage {
+            Storage::Exact => groundstate::verify::Storage::Exact,
+            Storage::Compact => groundstate::verify::Storage::Compact,
+            Storage::BitState => groundstate::verify::Storage::BitState(arguments.array << 20),
+        },
+        seed: arguments.hash_seed,
         ..options
     };
     let fair = match (arguments.fair, beside.fair.as_deref()) {
@@ -185,11 +233,19 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Fair::Strong => AgentFairness::Strong,
     });
     let mut solver = Process::find(arguments.solver.as_deref());
-    let outcome = verify_with(&program, &options, agents, &mut solver, &mut |progress| watch.at(progress));
+    let mut checkpoint = match &arguments.checkpoint {
+        Some(path) => Some(Checkpoint::new(path, &fingerprint)?),
+        None => None,
+    };
+    let keeper = checkpoint.as_mut().map(|checkpoint| checkpoint as &mut dyn Keeper);
+    let outcome = verify_kept(&program, &options, agents, &mut solver, keeper, &mut |progress| watch.at(progress));
     let timed_out = watch.done();
     let teller = Teller { program: &program, sources: &loaded.sources, timed_out };
     let mut report = match outcome {
         Ok(report) => report,
+        Err(NoStart::Refused(refusal)) => {
+            return Err(checkpoint.map_or_else(|| Failure::usage("no checkpoint"), |kept| kept.refused(refusal)));
+        }
         Err(trouble) => return no_start(shell, &teller, trouble),
     };
     report.unreachable.retain(|span| span.file == root || (arguments.imports && users(span.file)));
@@ -198,12 +254,14 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         let model = (arguments.model.as_path(), fingerprint.as_str());
         counterexample::write(shell, path, model, &program, &mut loaded, &report)?;
     }
+    checkpoint.map_or(Ok(()), Checkpoint::done)?;
     Ok(exit(&report))
 }
 
 /// Tells why there is no initial state.
 pub fn no_start(shell: &mut Shell, teller: &Teller<'_>, trouble: NoStart) -> Result<Exit, Failure> {
     match trouble {
+        NoStart::Refused(_) => unreachable!("a checkpoint is refused where there is one"),
         NoStart::Fault(fault) => {
             shell.diagnostic(teller.sources, &groundstate::diagnose_fault(&fault, teller.program))?;
             Ok(Exit::Model)

@@ -5,7 +5,7 @@ use std::io::Write;
 
 use groundstate::verify::runs::Why;
 use groundstate::verify::solver::{Left, Proof};
-use groundstate::verify::{Engine, Outcome, Progress, Reason, Report, Stop, Subject, Trace, Verdict};
+use groundstate::verify::{Engine, Outcome, Progress, Reason, Report, Stop, Storage, Subject, Trace, Verdict};
 use machine::explore::{ChoiceTaken, Told, Unbounded, UnboundedKind};
 use machine::{Location, Show, Value};
 use program::{Program, PropertyKind};
@@ -82,6 +82,9 @@ struct ExploredLine {
     bytes: u64,
     #[serde(skip_serializing_if = "Option::is_none")]
     bits: Option<usize>,
+    /// Where less than the states was kept: how many are to be expected to have been left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    omission: Option<f64>,
 }
 
 impl Teller<'_> {
@@ -108,7 +111,8 @@ impl Teller<'_> {
             }
             return Ok(());
         }
-        self.explored(shell, &report.progress, report.complete, Some(report.width.1))
+        let omission = report.omission.map(|expected| expected.0);
+        self.explored(shell, &report.progress, report.complete, Some(report.width.1), omission)
     }
 
     /// Tells how far a search came.
@@ -118,6 +122,7 @@ impl Teller<'_> {
         progress: &Progress,
         complete: bool,
         bits: Option<usize>,
+        omission: Option<f64>,
     ) -> Result<(), Failure> {
         if shell.json() {
             return shell.object(&ExploredLine {
@@ -128,6 +133,7 @@ impl Teller<'_> {
                 depth: progress.depth,
                 bytes: progress.bytes,
                 bits,
+                omission,
             });
         }
         if shell.talks() {
@@ -295,6 +301,7 @@ impl Teller<'_> {
         };
         let temporal = |reason: &Reason| match (reason, why) {
             (Reason::Temporal, Some(why)) => self.why(why),
+            (Reason::Compacted, _) => omission(report),
             (Reason::Left, _) => report.left.get(&subject).map_or_else(|| self.reason(reason), |left| self.left(left)),
             (reason, _) => self.reason(reason),
         };
@@ -360,6 +367,7 @@ impl Teller<'_> {
             Reason::Stopped(Stop::Found) => "the search ended at the first violation (--first)".to_string(),
             Reason::Stopped(Stop::Asked) if self.timed_out => "the time is up".to_string(),
             Reason::Stopped(Stop::Asked) => "interrupted".to_string(),
+            Reason::Compacted => "states are told apart by less than themselves".to_string(),
             Reason::Unbounded(unbounded) => self.unbounded(unbounded).message,
             Reason::Bounded(function) => {
                 format!("{} is tried with some of its values only", self.program.function(*function).name)
@@ -425,6 +433,22 @@ impl Teller<'_> {
         let name = file.name.rsplit(['/', '\\']).next().unwrap_or(&file.name);
         format!("{name}:{}:{}", start.line, start.column)
     }
+}
+
+/// How likely it is that a state was left out.
+fn omission(report: &Report) -> String {
+    let expected = report.omission.map_or(0.0, |expected| expected.0);
+    if expected >= 1.0 {
+        return format!("about {expected:.0} states were taken for others and left out");
+    }
+    let most = match report.storage {
+        Storage::BitState(_) => "about",
+        _ => "at most",
+    };
+    // Two digits, rounded up.
+    let unit = 10f64.powf(expected.max(f64::MIN_POSITIVE).log10().floor() - 1.0);
+    let probability = (expected / unit).ceil() * unit;
+    format!("with a probability of {most} {probability:.1e} a state was taken for another and left out")
 }
 
 /// The word that names a check that nobody asks for.

@@ -1,0 +1,157 @@
+//! A checkpoint of a search, as a file: words of eight bytes, the lowest first.
+//!
+//! In: the path, the model's fingerprint. Out: a [`Keeper`]. The file takes its name when it is whole. INVARIANT: of trouble with
+//! it the first is told when the search has ended, and the search goes on without.
+
+use std::fs::File;
+use std::io::{BufReader, Read, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use groundstate::verify::{Keeper, Refusal};
+
+use crate::failure::Failure;
+use crate::files::Unfinished;
+
+/// How long a search goes on before it is kept.
+const BETWEEN: Duration = Duration::from_secs(60);
+/// It goes on for so many times as long as keeping it took.
+const SHARE: u32 = 20;
+
+/// See the module.
+pub struct Checkpoint {
+    path: PathBuf,
+    model: u64,
+    last: Instant,
+    wait: Duration,
+    reading: Option<BufReader<File>>,
+    writing: Option<(Unfinished, Instant)>,
+    /// What is being written has met trouble: the rest of it goes nowhere.
+    lost: bool,
+    failure: Option<Failure>,
+}
+
+impl Checkpoint {
+    /// The checkpoint of a model in a file, which may or may not be there.
+    pub fn new(path: &Path, fingerprint: &str) -> Result<Checkpoint, Failure> {
+        if path.is_dir() {
+            return Err(Failure::Folder(path.to_path_buf()));
+        }
+        // What cannot be written is better told before the search than after.
+        drop(Unfinished::create(path)?);
+        Ok(Checkpoint {
+            path: path.to_path_buf(),
+            model: u64::from_str_radix(fingerprint, 16).unwrap_or_default(),
+            last: Instant::now(),
+            wait: BETWEEN,
+            reading: None,
+            writing: None,
+            lost: false,
+            failure: None,
+        })
+    }
+
+    /// Why the file is not gone on with.
+    pub fn refused(self, refusal: Refusal) -> Failure {
+        if let Some(failure) = self.failure {
+            return failure;
+        }
+        let path = self.path.display();
+        let what = match refusal {
+            Refusal::Foreign => format!("{path} is no checkpoint"),
+            Refusal::Version => format!("{path} is a checkpoint of another version of groundstate"),
+            Refusal::Model => format!("{path} is a checkpoint of another model, or of one that has changed since"),
+            Refusal::Question => format!("{path} is a checkpoint of a search with other properties, bounds or limits"),
+            Refusal::Damaged => format!("{path} is damaged: it is not as it was written"),
+        };
+        Failure::usage_with_help(what, "remove it to begin anew, or name another file")
+    }
+
+    /// The search has ended: the first trouble with the file, if there was any.
+    pub fn done(self) -> Result<(), Failure> {
+        self.failure.map_or(Ok(()), Err)
+    }
+
+    fn fail(&mut self, failure: Failure) {
+        self.writing = None;
+        self.lost = true;
+        self.failure.get_or_insert(failure);
+    }
+}
+
+impl Keeper for Checkpoint {
+    fn model(&self) -> u64 {
+        self.model
+    }
+
+    fn is_due(&mut self) -> bool {
+        self.last.elapsed() > self.wait
+    }
+
+    fn open(&mut self) -> bool {
+        match File::open(&self.path) {
+            Ok(file) => {
+                self.reading = Some(BufReader::new(file));
+                true
+            }
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => false,
+            // What cannot be read ends too soon, and is not replaced.
+            Err(error) => {
+                self.failure = Some(Failure::of_file("read", &self.path, error));
+                true
+            }
+        }
+    }
+
+    fn read(&mut self, words: &mut [u64]) -> bool {
+        let Some(file) = &mut self.reading else { return false };
+        words.iter_mut().all(|word| {
+            let mut bytes = [0; 8];
+            let read = file.read_exact(&mut bytes).is_ok();
+            *word = u64::from_le_bytes(bytes);
+            read
+        })
+    }
+
+    fn write(&mut self, words: &[u64]) {
+        self.reading = None;
+        if self.lost {
+            return;
+        }
+        let now = Instant::now();
+        let (mut file, began) = match self.writing.take() {
+            Some(writing) => writing,
+            None => match Unfinished::create(&self.path) {
+                Ok(file) => (file, now),
+                Err(failure) => return self.fail(failure),
+            },
+        };
+        for word in words {
+            if let Err(error) = file.write_all(&word.to_le_bytes()) {
+                return self.fail(Failure::of_file("write", &self.path, error));
+            }
+        }
+        self.writing = Some((file, began));
+    }
+
+    fn end(&mut self) {
+        self.last = Instant::now();
+        self.lost = false;
+        let Some((file, began)) = self.writing.take() else { return };
+        if let Err(failure) = file.finish() {
+            return self.fail(failure);
+        }
+        self.last = Instant::now();
+        self.wait = BETWEEN.max(began.elapsed() * SHARE);
+    }
+
+    fn remove(&mut self) {
+        self.reading = None;
+        match std::fs::remove_file(&self.path) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                self.fail(Failure::of_file("remove", &self.path, error));
+            }
+            _ => {}
+        }
+    }
+}

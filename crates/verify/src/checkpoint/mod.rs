@@ -1,0 +1,364 @@
+//! A search that is kept while it is under way, and gone on with later.
+//!
+//! In: the shards of a search between two rounds. Out: a checkpoint, and shards from one. States are packed as the machine packs
+//! them in this process: where values have numbers (a location over an infinite domain, a growing domain), the numbers come
+//! from the order in which values came up. They are not written down; the steps that made them come up are, by the places of
+//! their states, and are made again by the machine in their order. So are those that showed a packing to be too narrow.
+//! INVARIANT: a search that goes on from a checkpoint ends as it would have without.
+
+mod identity;
+mod words;
+
+use std::sync::Arc;
+
+use machine::explore::{Explorer, Interner, Trouble, Unbounded, UnboundedKind, Widening};
+use model::FunctionId;
+use program::Program;
+use syntax::{FileId, Span};
+
+use crate::checkpoint::identity::{layout, question};
+use crate::checkpoint::words::{Reader, Writer};
+use crate::search::{Found, Maker, Plan, Target};
+use crate::shard::{Shard, owner};
+use crate::storage::Store;
+
+/// Raised whenever what is written means something else.
+const VERSION: u64 = 1;
+
+/// Where a checkpoint is kept: in a file, by a shell. Trouble with it is the shell's.
+pub trait Keeper {
+    /// The model, by a number that another model does not have.
+    fn model(&self) -> u64;
+    /// Whether it is time to keep what there is.
+    fn is_due(&mut self) -> bool;
+    /// Begins to read the checkpoint; false where there is none.
+    fn open(&mut self) -> bool;
+    /// Reads on; false where there are not as many words.
+    fn read(&mut self, words: &mut [u64]) -> bool;
+    /// Writes on.
+    fn write(&mut self, words: &[u64]);
+    /// What was written is whole: it takes the place of the checkpoint before.
+    fn end(&mut self);
+    /// The search has ended: there is nothing to go on with.
+    fn remove(&mut self);
+}
+
+/// Why a search does not go on from a checkpoint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Refusal {
+    /// It is none.
+    Foreign,
+    /// Another version of this program made it.
+    Version,
+    /// It is of another model.
+    Model,
+    /// It is of other properties, bounds or limits of the machine.
+    Question,
+    /// It is not as it was written.
+    Damaged,
+}
+
+/// What came before the search at hand: attempts that ended because states did not fit.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Past {
+    /// What has been found not to fit.
+    pub widening: Widening,
+    /// Of each attempt: words of a state, how many states, and the states whose steps made new values come up, the last of
+    /// which did not fit.
+    attempts: Vec<u64>,
+}
+
+/// Which states' steps made new values come up.
+#[derive(Debug)]
+pub(crate) struct Journal {
+    interner: Arc<Interner>,
+    known: usize,
+    /// The places of the states.
+    pub places: Vec<u64>,
+}
+
+impl Journal {
+    /// A journal of a search whose values are numbered here, all of them so far being those of the initial states.
+    pub fn new(interner: &Arc<Interner>) -> Journal {
+        Journal { interner: Arc::clone(interner), known: interner.len(), places: Vec::new() }
+    }
+
+    /// The steps of the state of this place were made.
+    pub fn note(&mut self, place: usize) {
+        let known = self.interner.len();
+        if known > self.known {
+            self.known = known;
+            self.places.push(place as u64);
+        }
+    }
+}
+
+impl Past {
+    /// An attempt has ended because the steps of a state do not fit.
+    pub fn close(&mut self, shard: &Shard, words: usize, more: &Widening) {
+        let places = shard.journal.iter().flat_map(|journal| &journal.places).map(|place| *place as usize);
+        let culprit = shard.next - 1;
+        let places: Vec<usize> = places.filter(|place| *place != culprit).chain([culprit]).collect();
+        self.attempts.extend([words as u64, places.len() as u64]);
+        places.iter().for_each(|place| self.attempts.extend(shard.store.state(*place)));
+        self.widening.merge(more);
+    }
+}
+
+/// A search as it was kept, read but not yet understood.
+struct Kept {
+    question: u64,
+    numbers: Vec<u64>,
+    attempts: Vec<u64>,
+    journal: Vec<u64>,
+    unknown: Vec<u64>,
+    unbounded: Vec<u64>,
+    executed: Vec<u64>,
+    found: Vec<u64>,
+    /// By level.
+    states: Vec<Vec<u64>>,
+}
+
+/// A search to go on with.
+pub(crate) struct Resumed {
+    pub past: Past,
+    pub maker: Maker,
+    pub explorer: Explorer,
+    pub shards: Vec<Shard>,
+}
+
+/// Why there is no search to go on with.
+pub(crate) enum Unfit {
+    Refused(Refusal),
+    Trouble(Trouble),
+}
+
+impl From<Refusal> for Unfit {
+    fn from(refusal: Refusal) -> Unfit {
+        Unfit::Refused(refusal)
+    }
+}
+
+/// Keeps a search.
+pub(crate) fn keep(
+    keeper: &mut dyn Keeper,
+    program: &Program,
+    plan: &Plan,
+    explorer: &Explorer,
+    numbers: usize,
+    past: &Past,
+    shards: &[Shard],
+) {
+    let words = explorer.words();
+    let model = keeper.model();
+    let mut writer = Writer::begin(keeper, VERSION);
+    writer.word(model);
+    writer.word(question(program, plan));
+    let levels = shards[0].levels.len();
+    let begin = |shard: &Shard, level: usize| if level == 0 { 0 } else { shard.levels[level - 1] };
+    let expanded = match levels {
+        0 => 0,
+        _ => shards.iter().map(|shard| shard.next - begin(shard, levels - 1)).sum(),
+    };
+    let transitions: u64 = shards.iter().map(|shard| shard.transitions).sum();
+    writer.section(&[words as u64, layout(explorer), numbers as u64, transitions, expanded as u64]);
+    writer.section(&past.attempts);
+    let journal = shards[0].journal.as_ref();
+    writer.section(journal.map_or(&[], |journal| &journal.places));
+    let unknown: Vec<u64> = shards.iter().flat_map(|shard| &shard.unknown).map(|condition| *condition as u64).collect();
+    writer.section(&unknown);
+    let unbounded: Vec<u64> = shards.iter().flat_map(|shard| &shard.unbounded).flat_map(of_unbounded).collect();
+    writer.section(&unbounded);
+    let rules = program.rules.len();
+    let executed: Vec<u64> =
+        (0..rules).map(|rule| shards.iter().any(|shard| shard.executed[rule] > 0).into()).collect();
+    writer.section(&executed);
+    let mut found = Vec::new();
+    for one in shards.iter().flat_map(|shard| &shard.found) {
+        found.extend(of_target(one.target));
+        found.push(one.depth as u64);
+        found.extend(&one.state);
+    }
+    writer.section(&found);
+    writer.word(levels as u64 + 1);
+    for level in 0..=levels {
+        let end = |shard: &Shard| shard.levels.get(level).copied().unwrap_or(shard.store.len());
+        // Those whose steps were made come first.
+        let made = |shard: &Shard| end(shard).min(shard.next.max(begin(shard, level)));
+        let count: usize = shards.iter().map(|shard| end(shard) - begin(shard, level)).sum();
+        writer.word((count * words) as u64);
+        let first = shards.iter().map(|shard| (shard, begin(shard, level)..made(shard)));
+        let second = shards.iter().map(|shard| (shard, made(shard)..end(shard)));
+        for (shard, places) in first.chain(second) {
+            places.flat_map(|place| shard.store.state(place)).for_each(|word| writer.word(*word));
+        }
+    }
+    writer.end();
+}
+
+/// Reads what was kept, if anything was, and makes what is needed to go on with it.
+pub(crate) fn resume(keeper: &mut dyn Keeper, program: &Arc<Program>, plan: &Plan) -> Result<Option<Resumed>, Unfit> {
+    let Some(kept) = read(keeper)? else { return Ok(None) };
+    if kept.question != question(program, plan) {
+        return Err(Refusal::Question.into());
+    }
+    kept.understood(program, plan).map(Some)
+}
+
+fn read(keeper: &mut dyn Keeper) -> Result<Option<Kept>, Refusal> {
+    let model = keeper.model();
+    let Some(mut reader) = Reader::begin(keeper, VERSION)? else { return Ok(None) };
+    let of_model = reader.word()?;
+    let mut kept = Kept {
+        question: reader.word()?,
+        numbers: reader.section()?,
+        attempts: reader.section()?,
+        journal: reader.section()?,
+        unknown: reader.section()?,
+        unbounded: reader.section()?,
+        executed: reader.section()?,
+        found: reader.section()?,
+        states: Vec::new(),
+    };
+    for _ in 0..reader.word()? {
+        kept.states.push(reader.section()?);
+    }
+    reader.end()?;
+    if of_model != model { Err(Refusal::Model) } else { Ok(Some(kept)) }
+}
+
+impl Kept {
+    fn understood(self, program: &Arc<Program>, plan: &Plan) -> Result<Resumed, Unfit> {
+        let [words, fields, numbers, transitions, expanded] = self.numbers[..] else {
+            return Err(Refusal::Damaged.into());
+        };
+        let mut past = Past { widening: Widening::default(), attempts: self.attempts.clone() };
+        let mut attempts = &self.attempts[..];
+        while let [words, count, rest @ ..] = attempts {
+            let (words, count) = (*words as usize, *count as usize);
+            let states = words.checked_mul(count).filter(|len| *len <= rest.len() && *len > 0);
+            let (states, rest) = rest.split_at(states.ok_or(Refusal::Damaged)?);
+            attempts = rest;
+            let (_, mut explorer) = made(program, plan, &mut past.widening)?;
+            if explorer.words() != words {
+                return Err(Refusal::Damaged.into());
+            }
+            let (before, last) = states.split_at(states.len() - words);
+            before.chunks_exact(words).try_for_each(|state| again(&mut explorer, state))?;
+            match explorer.expand(last, &mut Vec::new()).and_then(|_| explorer.paths(last, &mut |_| {})) {
+                Err(more) => past.widening.merge(&more),
+                Ok(()) => return Err(Refusal::Damaged.into()),
+            }
+        }
+        let (maker, mut explorer) = made(program, plan, &mut past.widening)?;
+        if explorer.words() as u64 != words || layout(&explorer) != fields {
+            return Err(Refusal::Damaged.into());
+        }
+        let words = words as usize;
+        let count = if maker.interner.is_empty() { plan.workers.max(1) } else { 1 };
+        let mut shards: Vec<Shard> =
+            (0..count).map(|_| Shard::new(Store::new(words, plan.storage, plan.seed, count))).collect();
+        let current = self.states.len().checked_sub(2);
+        for (level, states) in self.states.iter().enumerate() {
+            if current == Some(level) {
+                shards.iter_mut().for_each(|shard| shard.next = shard.store.len());
+            }
+            for (index, state) in states.chunks_exact(words).enumerate() {
+                let shard = &mut shards[owner(state, count)];
+                shard.store.insert_all(state, &mut |_| {});
+                if current == Some(level) && index < expanded as usize {
+                    shard.next += 1;
+                }
+            }
+            if level + 1 < self.states.len() {
+                shards.iter_mut().for_each(|shard| shard.levels.push(shard.store.len()));
+            }
+        }
+        if !maker.interner.is_empty() {
+            let mut journal = Journal::new(&maker.interner);
+            for place in &self.journal {
+                let state: Box<[u64]> = match *place < shards[0].store.len() as u64 {
+                    true => shards[0].store.state(*place as usize).into(),
+                    false => return Err(Refusal::Damaged.into()),
+                };
+                again(&mut explorer, &state)?;
+                journal.note(*place as usize);
+            }
+            if maker.interner.len() as u64 != numbers || journal.places != self.journal {
+                return Err(Refusal::Damaged.into());
+            }
+            shards[0].journal = Some(journal);
+        }
+        let shard = &mut shards[0];
+        shard.transitions = transitions;
+        shard.unknown.extend(self.unknown.iter().map(|condition| *condition as usize));
+        shard.unbounded.extend(
+            self.unbounded.chunks_exact(5).map(to_unbounded).collect::<Option<Vec<_>>>().ok_or(Refusal::Damaged)?,
+        );
+        shard.executed = self.executed;
+        for found in self.found.chunks_exact(3 + words) {
+            let target = to_target(found[0], found[1] as usize).ok_or(Refusal::Damaged)?;
+            shard.found.push(Found { target, depth: found[2] as usize, state: found[3..].into() });
+        }
+        Ok(Resumed { past, maker, explorer, shards })
+    }
+}
+
+/// Makes the steps of a state once more.
+fn again(explorer: &mut Explorer, state: &[u64]) -> Result<(), Refusal> {
+    explorer.expand(state, &mut Vec::new()).map(|_| ()).map_err(|_| Refusal::Damaged)
+}
+
+/// An explorer whose initial states fit.
+pub(crate) fn made(program: &Arc<Program>, plan: &Plan, widening: &mut Widening) -> Result<(Maker, Explorer), Unfit> {
+    loop {
+        let maker = Maker::new(program, plan, widening);
+        match maker.explorer() {
+            Ok(explorer) => return Ok((maker, explorer)),
+            Err(Trouble::TooNarrow(more)) => widening.merge(&more),
+            Err(trouble) => return Err(Unfit::Trouble(trouble)),
+        }
+    }
+}
+
+fn of_target(target: Target) -> [u64; 2] {
+    match target {
+        Target::Fault(class) => [0, class as u64],
+        Target::Rest => [1, 0],
+        Target::Condition(condition) => [2, condition as u64],
+        Target::StepCondition(condition) => [3, condition as u64],
+    }
+}
+
+fn to_target(kind: u64, number: usize) -> Option<Target> {
+    Some(match kind {
+        0 => Target::Fault(number),
+        1 => Target::Rest,
+        2 => Target::Condition(number),
+        3 => Target::StepCondition(number),
+        _ => return None,
+    })
+}
+
+fn of_unbounded(unbounded: &Unbounded) -> [u64; 5] {
+    let (kind, function) = match unbounded.kind {
+        UnboundedKind::Input(function) => (0, function.0),
+        UnboundedKind::Choice => (1, 0),
+        UnboundedKind::Clock => (2, 0),
+        UnboundedKind::Limit => (3, 0),
+    };
+    let Span { file, start, end } = unbounded.span;
+    [kind, function.into(), file.0.into(), start.into(), end.into()]
+}
+
+fn to_unbounded(words: &[u64]) -> Option<Unbounded> {
+    let &[kind, function, file, start, end] = words else { return None };
+    let kind = match kind {
+        0 => UnboundedKind::Input(FunctionId(function as u32)),
+        1 => UnboundedKind::Choice,
+        2 => UnboundedKind::Clock,
+        3 => UnboundedKind::Limit,
+        _ => return None,
+    };
+    Some(Unbounded { kind, span: Span { file: FileId(file as u32), start: start as u32, end: end as u32 } })
+}

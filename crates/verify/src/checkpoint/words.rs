@@ -1,0 +1,131 @@
+//! A checkpoint as words: sections, each with its length, and a sum over all of them at the end.
+//!
+//! In: a [`Keeper`], which is whoever has files. Out: what was written, or that it is not what was written. INVARIANT: no
+//! length is believed before as many words were read; nothing is used before the sum is right.
+
+use crate::checkpoint::{Keeper, Refusal};
+
+/// The first word of a checkpoint: `gsverify`, as bytes.
+const MARK: u64 = u64::from_be_bytes(*b"gsverify");
+/// How many words are moved at a time.
+const PIECE: usize = 1 << 12;
+
+/// Sums words so that one that is changed, lost, or in another place changes the sum.
+#[derive(Debug, Clone, Copy)]
+struct Sum(u64);
+
+impl Sum {
+    fn add(&mut self, word: u64) {
+        self.0 = (self.0.rotate_left(5) ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        self.0 ^= self.0 >> 29;
+    }
+}
+
+/// Writes sections.
+pub struct Writer<'k> {
+    keeper: &'k mut dyn Keeper,
+    sum: Sum,
+    piece: Vec<u64>,
+}
+
+impl<'k> Writer<'k> {
+    /// Begins a checkpoint of this version.
+    pub fn begin(keeper: &'k mut dyn Keeper, version: u64) -> Writer<'k> {
+        let mut writer = Writer { keeper, sum: Sum(0), piece: Vec::with_capacity(PIECE) };
+        writer.word(MARK);
+        writer.word(version);
+        writer
+    }
+
+    /// One word.
+    pub fn word(&mut self, word: u64) {
+        self.sum.add(word);
+        self.piece.push(word);
+        if self.piece.len() == PIECE {
+            self.keeper.write(&self.piece);
+            self.piece.clear();
+        }
+    }
+
+    /// A section that is at hand.
+    pub fn section(&mut self, words: &[u64]) {
+        self.word(words.len() as u64);
+        words.iter().for_each(|word| self.word(*word));
+    }
+
+    /// Ends the checkpoint, which counts from now on.
+    pub fn end(mut self) {
+        let sum = self.sum.0;
+        self.word(sum);
+        self.keeper.write(&self.piece);
+        self.keeper.end();
+    }
+}
+
+/// Reads sections.
+pub struct Reader<'k> {
+    keeper: &'k mut dyn Keeper,
+    sum: Sum,
+}
+
+impl<'k> Reader<'k> {
+    /// Begins to read; none where there is no checkpoint.
+    ///
+    /// # Errors
+    /// It is no checkpoint, or one of another version.
+    pub fn begin(keeper: &'k mut dyn Keeper, version: u64) -> Result<Option<Reader<'k>>, Refusal> {
+        if !keeper.open() {
+            return Ok(None);
+        }
+        let mut reader = Reader { keeper, sum: Sum(0) };
+        if reader.word().ok() != Some(MARK) {
+            return Err(Refusal::Foreign);
+        }
+        if reader.word()? != version {
+            return Err(Refusal::Version);
+        }
+        Ok(Some(reader))
+    }
+
+    /// One word.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn word(&mut self) -> Result<u64, Refusal> {
+        let mut word = [0];
+        if !self.keeper.read(&mut word) {
+            return Err(Refusal::Damaged);
+        }
+        self.sum.add(word[0]);
+        Ok(word[0])
+    }
+
+    /// A section.
+    ///
+    /// # Errors
+    /// It ends too soon.
+    pub fn section(&mut self) -> Result<Vec<u64>, Refusal> {
+        let mut left = self.word()?;
+        let mut words = Vec::new();
+        while left > 0 {
+            let piece = left.min(PIECE as u64) as usize;
+            let start = words.len();
+            words.resize(start + piece, 0);
+            if !self.keeper.read(&mut words[start..]) {
+                return Err(Refusal::Damaged);
+            }
+            words[start..].iter().for_each(|word| self.sum.add(*word));
+            left -= piece as u64;
+        }
+        Ok(words)
+    }
+
+    /// Ends reading.
+    ///
+    /// # Errors
+    /// The sum is not right, or there is more.
+    pub fn end(mut self) -> Result<(), Refusal> {
+        let sum = self.sum.0;
+        if self.word()? != sum || self.keeper.read(&mut [0]) { Err(Refusal::Damaged) } else { Ok(()) }
+    }
+}

@@ -1,0 +1,127 @@
+//! Ways to states that were found, where the states before them were not kept.
+//!
+//! In: a search with a compact store that has ended. Out: for each state found the states of a shortest way to it. The search is
+//! made again, and each state takes an ancestor along: the one of the last level whose number is a multiple of some distance.
+//! So a pass tells of each state that is wanted an ancestor that far away; with half the distance the next pass tells of
+//! the states between. INVARIANT: each pass meets the same states in the same order, for what a worker gets depends on the
+//! number of workers alone; so the ways are those of the first search.
+
+use std::collections::BTreeMap;
+
+use rustc_hash::FxHashSet;
+
+use crate::search::{Found, Progress, Search, Stop};
+use crate::shard::{Crew, Decision, Report, Shard};
+use crate::storage::Store;
+
+/// What a worker does on such a pass.
+#[derive(Debug, Clone)]
+pub(crate) struct Lineage {
+    /// States of the levels that are multiples of this are taken along.
+    every: usize,
+    /// The states whose ancestors are asked for, by level.
+    wanted: Wanted,
+    /// What was asked for.
+    ancestors: Vec<(At, Box<[u64]>)>,
+}
+
+/// A state and its level.
+type At = (usize, Box<[u64]>);
+/// States by their level.
+type Wanted = BTreeMap<usize, FxHashSet<Box<[u64]>>>;
+/// The states on the way to one, by their level, as far as they are known.
+type Way = BTreeMap<usize, Box<[u64]>>;
+
+impl Lineage {
+    /// What the successors of a state of this level take along.
+    pub fn ancestor<'a>(&self, store: &'a Store, place: usize, level: usize) -> &'a [u64] {
+        match store {
+            Store::Compact(compact) if !level.is_multiple_of(self.every) => compact.more(place),
+            store => store.state(place),
+        }
+    }
+
+    /// Notes the ancestor of a new state that is wanted.
+    pub fn meet(&mut self, level: usize, item: &[u64]) {
+        let (state, ancestor) = item.split_at(item.len() / 2);
+        if self.wanted.get(&level).is_some_and(|wanted| wanted.contains(state)) {
+            self.ancestors.push(((level, state.into()), ancestor.into()));
+        }
+    }
+}
+
+impl Search {
+    /// The states on the way to each state found.
+    pub(crate) fn chains_again(&mut self, watch: &mut dyn FnMut(&Progress) -> bool) -> Vec<Vec<Box<[u64]>>> {
+        let deepest = self.found.iter().map(|found| found.depth).max().unwrap_or(0);
+        let way = |found: &Found| Way::from([(found.depth, found.state.clone())]);
+        let mut ways: Vec<Way> = self.found.iter().map(way).collect();
+        let mut every = (deepest + 1).next_power_of_two() / 2;
+        while ways.iter().any(|way| !way.contains_key(&0)) {
+            let before = |level: usize| (level - 1) / every * every;
+            let asked = |way: &Way| {
+                let all = way.iter().map(|(level, state)| (*level, state.clone()));
+                all.filter(|(level, _)| *level > 0 && !way.contains_key(&before(*level))).collect::<Vec<At>>()
+            };
+            let asked: Vec<_> = ways.iter().map(asked).collect();
+            let mut wanted = Wanted::new();
+            for (level, state) in asked.iter().flatten() {
+                wanted.entry(*level).or_default().insert(state.clone());
+            }
+            let ancestors = self.pass(every, wanted, watch);
+            for (way, asked) in ways.iter_mut().zip(asked) {
+                for (level, state) in asked {
+                    let ancestor = ancestors.get(&(level, state)).expect("a search comes to the same states again");
+                    way.insert(before(level), ancestor.clone());
+                }
+            }
+            every = (every / 2).max(1);
+        }
+        ways.into_iter().map(|way| way.into_values().collect()).collect()
+    }
+
+    /// Searches again, for ancestors alone.
+    fn pass(
+        &mut self,
+        every: usize,
+        wanted: Wanted,
+        watch: &mut dyn FnMut(&Progress) -> bool,
+    ) -> BTreeMap<At, Box<[u64]>> {
+        let mut plan = self.plan.clone();
+        (plan.wanted, plan.wanted_steps, plan.terminal) = (Vec::new(), Vec::new(), None);
+        let words = self.explorer.words();
+        let count = self.shards.len();
+        // The states of the first search make room.
+        self.shards.clear();
+        let lineage = Lineage { every, wanted, ancestors: Vec::new() };
+        let mut shards: Vec<Shard> = (0..count)
+            .map(|_| {
+                let mut shard = Shard::new(Store::new(words, plan.storage, plan.seed, count).with_more(words));
+                shard.lineage = Some(lineage.clone());
+                shard
+            })
+            .collect();
+        let starts = self.explorer.initial().iter().map(|(state, _)| [&**state, &**state].concat().into_boxed_slice());
+        let starts: Vec<Box<[u64]>> = starts.collect();
+        let deepest = lineage.wanted.last_key_value().map_or(0, |(level, _)| *level as u64);
+        let mut decide = |reports: &[Report], depth: u64| {
+            let progress = Progress::of(reports, depth);
+            // What was found is to be told, however long that takes.
+            watch(&progress);
+            let broken = reports.iter().any(|report| report.narrow || report.broken);
+            match reports.iter().any(|report| report.left > 0) {
+                _ if broken => Decision::Stop(None),
+                true => Decision::Round,
+                false if depth >= deepest => Decision::Stop(Some(Stop::Depth)),
+                false => Decision::Level,
+            }
+        };
+        let maker = self.maker.clone();
+        let crew = Crew { plan: &plan, explore: &|| maker.explorer() };
+        crew.work(&mut self.explorer, &mut shards, &starts, &mut decide);
+        let ancestors = shards.into_iter().filter_map(|shard| shard.lineage).flat_map(|lineage| lineage.ancestors);
+        let ancestors = ancestors.collect();
+        self.shards = (0..count).map(|_| Shard::new(Store::new(words, plan.storage, plan.seed, count))).collect();
+        ancestors
+    }
+}

@@ -1,0 +1,366 @@
+//! A worker of a search, with the states that are its own.
+//!
+//! In: a plan, successors from all workers. Out: the states whose hash is its own by their distance, and what was found in
+//! them. All workers work in rounds: each makes the steps of some of its states of the level and sends the successors to
+//! their owners; each takes in what came; then the first of them decides how it goes on. INVARIANT: what a worker gets, and
+//! in which order, depends on the number of workers alone.
+
+use std::collections::BTreeSet;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::{Barrier, Mutex, PoisonError};
+
+use machine::explore::{Expansion, Explorer, Trouble, Truth, Unbounded, Widening};
+
+use crate::checkpoint::Journal;
+use crate::lineage::Lineage;
+use crate::search::{Found, Plan, Stop, Target};
+use crate::storage::Store;
+use crate::table::hash;
+
+/// How many states a worker expands before all exchange successors.
+const ROUND: usize = 1 << 12;
+
+/// The states that are a worker's own, and what it knows of them.
+#[derive(Debug)]
+pub(crate) struct Shard {
+    pub store: Store,
+    /// Where each level that is or was expanded ends among the states of the store.
+    pub levels: Vec<usize>,
+    pub found: Vec<Found>,
+    pub transitions: u64,
+    /// The next state to be expanded.
+    pub next: usize,
+    /// A truth that is not known.
+    pub unknown: BTreeSet<usize>,
+    pub widening: Widening,
+    pub unbounded: BTreeSet<Unbounded>,
+    /// How often each rule ran; more than 0 if it did at all.
+    pub executed: Vec<u64>,
+    /// Where values are numbered and the search is to be kept: which states' steps made new ones come up.
+    pub journal: Option<Journal>,
+    /// Where nothing but the ways to some states is looked for.
+    pub lineage: Option<Lineage>,
+}
+
+/// All that workers share but what they send each other.
+pub(crate) struct Crew<'a> {
+    pub plan: &'a Plan,
+    /// A machine may not go from thread to thread, so each worker makes its own explorer; the first has one.
+    pub explore: &'a (dyn Fn() -> Result<Explorer, Trouble> + Sync),
+}
+
+/// Successors on their way: from one worker to another.
+type Mail = Vec<Vec<Mutex<Vec<u64>>>>;
+
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// What workers tell each other at the end of a round.
+#[derive(Debug)]
+struct Board {
+    /// By worker.
+    reports: Vec<Report>,
+    decision: Decision,
+}
+
+/// What a worker tells the leader.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Report {
+    pub states: u64,
+    pub transitions: u64,
+    /// States of this level that are still to be expanded.
+    pub left: u64,
+    /// States of the next level.
+    pub fresh: u64,
+    pub bytes: u64,
+    pub full: bool,
+    pub narrow: bool,
+    pub found: bool,
+    /// The worker has panicked.
+    pub broken: bool,
+}
+
+/// How it goes on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Decision {
+    /// The level goes on.
+    Round,
+    /// The next level begins.
+    Level,
+    /// All workers stop.
+    Stop(Option<Stop>),
+}
+
+/// Decides how it goes on, from what all workers report and the depth of the states that come in.
+pub(crate) type Leader<'a> = dyn FnMut(&[Report], u64) -> Decision + 'a;
+
+impl Crew<'_> {
+    /// Lets the workers of the shards work until the leader decides to stop. `starts` are states that come in first, each
+    /// with what goes with it.
+    pub fn work(
+        &self,
+        explorer: &mut Explorer,
+        shards: &mut [Shard],
+        starts: &[Box<[u64]>],
+        decide: &mut Leader<'_>,
+    ) -> Option<Stop> {
+        let (count, words) = (shards.len(), explorer.words());
+        let mail: Mail = (0..count).map(|_| (0..count).map(|_| Mutex::default()).collect()).collect();
+        for item in starts {
+            lock(&mail[owner(&item[..words], count)][0]).extend_from_slice(item);
+        }
+        let barrier = Barrier::new(count);
+        let board = Mutex::new(Board { reports: vec![Report::default(); count], decision: Decision::Round });
+        let (leader, others) = shards.split_first_mut().expect("at least one worker");
+        std::thread::scope(|scope| {
+            for (index, shard) in others.iter_mut().enumerate() {
+                let (mail, barrier, board) = (&mail, &barrier, &board);
+                let (plan, explore) = (self.plan, self.explore);
+                let body = move || {
+                    let mut explorer = explore().expect("the leader has made the same");
+                    shard.work(&mut explorer, index + 1, plan, mail, barrier, board, &mut |_, _| Decision::Round);
+                };
+                // Steps may be deep; the stack grows on demand beyond this.
+                let spawned = std::thread::Builder::new().stack_size(16 << 20).spawn_scoped(scope, body);
+                assert!(spawned.is_ok(), "a thread can be made");
+            }
+            leader.work(explorer, 0, self.plan, &mail, &barrier, &board, decide)
+        })
+    }
+}
+
+/// Which worker a state belongs to.
+pub(crate) fn owner(state: &[u64], workers: usize) -> usize {
+    if workers == 1 { 0 } else { (hash(state) & 0xffff) as usize % workers }
+}
+
+/// Keeps the nearest, and of equally near ones the least.
+pub(crate) fn note(found: &mut Vec<Found>, one: Found, explorer: &mut Explorer) {
+    match found.iter_mut().find(|other| other.target == one.target) {
+        None => found.push(one),
+        Some(other) => {
+            let nearer = one.depth.cmp(&other.depth).then_with(|| explorer.compare(&one.state, &other.state));
+            if nearer.is_lt() {
+                *other = one;
+            }
+        }
+    }
+}
+
+impl Shard {
+    /// A shard without states.
+    pub fn new(store: Store) -> Shard {
+        Shard {
+            store,
+            levels: Vec::new(),
+            found: Vec::new(),
+            transitions: 0,
+            next: 0,
+            unknown: BTreeSet::new(),
+            widening: Widening::default(),
+            unbounded: BTreeSet::new(),
+            executed: Vec::new(),
+            journal: None,
+            lineage: None,
+        }
+    }
+
+    /// Works until the leader, who is worker 0, decides to stop.
+    #[allow(clippy::too_many_arguments, reason = "all of them are shared by the workers and used here alone")]
+    fn work(
+        &mut self,
+        explorer: &mut Explorer,
+        index: usize,
+        plan: &Plan,
+        mail: &Mail,
+        barrier: &Barrier,
+        board: &Mutex<Board>,
+        leader: &mut Leader<'_>,
+    ) -> Option<Stop> {
+        let mut sent = vec![Vec::new(); mail.len()];
+        loop {
+            let mut panic = None;
+            // Who panics still meets the others at the barriers, so that all end; then the panic goes on.
+            let mut guard = |body: &mut dyn FnMut()| {
+                panic = panic.take().or(catch_unwind(AssertUnwindSafe(body)).err());
+            };
+            guard(&mut || {
+                self.expand_round(explorer, plan, &mut sent);
+                for (to, successors) in sent.iter_mut().enumerate() {
+                    lock(&mail[to][index]).append(successors);
+                }
+            });
+            barrier.wait();
+            guard(&mut || {
+                for received in &mail[index] {
+                    self.take_in(explorer, plan, &mut lock(received));
+                }
+            });
+            let broken = panic.is_some();
+            lock(board).reports[index] = Report { broken, ..self.report() };
+            barrier.wait();
+            if index == 0 {
+                let reports = lock(board).reports.clone();
+                // The depth of the states that come in, once the initial ones are there.
+                let depth = self.levels.len() as u64;
+                let decided = catch_unwind(AssertUnwindSafe(|| leader(&reports, depth)));
+                lock(board).decision = decided.unwrap_or_else(|payload| {
+                    panic = Some(payload);
+                    Decision::Stop(None)
+                });
+            }
+            barrier.wait();
+            if let Some(panic) = panic {
+                resume_unwind(panic);
+            }
+            let decision = lock(board).decision;
+            match decision {
+                Decision::Round => {}
+                Decision::Level => {
+                    self.store.forget_before(self.next);
+                    self.levels.push(self.store.len());
+                }
+                Decision::Stop(stop) => {
+                    self.unbounded.extend(explorer.unbounded());
+                    let executed = &explorer.coverage().executed;
+                    self.executed.resize(executed.len(), 0);
+                    let pairs = self.executed.iter_mut().zip(executed);
+                    pairs.for_each(|(before, now)| *before = (*before).max(*now));
+                    return stop;
+                }
+            }
+        }
+    }
+
+    fn report(&self) -> Report {
+        let end = self.levels.last().copied().unwrap_or(0);
+        Report {
+            states: self.store.len() as u64,
+            transitions: self.transitions,
+            left: (end - self.next) as u64,
+            fresh: (self.store.len() - end) as u64,
+            bytes: self.store.bytes() as u64,
+            full: self.store.is_full(),
+            narrow: !self.widening.is_empty(),
+            found: !self.found.is_empty(),
+            broken: false,
+        }
+    }
+
+    /// Makes the steps of some states of the level, and puts the successors where they belong.
+    fn expand_round(&mut self, explorer: &mut Explorer, plan: &Plan, sent: &mut [Vec<u64>]) {
+        let end = self.levels.last().copied().unwrap_or(0).min(self.next + ROUND);
+        let words = explorer.words();
+        let mut successors = Vec::new();
+        while self.next < end {
+            let state = self.store.state(self.next);
+            self.next += 1;
+            let direct = sent.len() == 1 && self.lineage.is_none();
+            let out = if direct { &mut sent[0] } else { &mut successors };
+            match explorer.expand(state, out) {
+                Ok(expansion) => {
+                    self.transitions += u64::from(expansion.moved);
+                    if expansion.moved == 0 || expansion.failed > 0 || expansion.faults != [0; 3] {
+                        self.look_at(explorer, plan, self.next - 1, &expansion);
+                        if !self.widening.is_empty() {
+                            return;
+                        }
+                    }
+                    if let Some(journal) = &mut self.journal {
+                        journal.note(self.next - 1);
+                    }
+                }
+                Err(widening) => {
+                    self.widening = widening;
+                    return;
+                }
+            }
+            for successor in successors.chunks_exact(words) {
+                let out = owner(successor, sent.len());
+                sent[out].extend_from_slice(successor);
+                if let Some(lineage) = &self.lineage {
+                    sent[out].extend_from_slice(lineage.ancestor(&self.store, self.next - 1, self.levels.len() - 1));
+                }
+            }
+            successors.clear();
+        }
+    }
+
+    /// Notes what is looked for in an expansion.
+    #[cold]
+    fn look_at(&mut self, explorer: &mut Explorer, plan: &Plan, place: usize, expansion: &Expansion) {
+        let depth = self.levels.len() - 1;
+        let state: Box<[u64]> = self.store.state(place).into();
+        let mut targets = Vec::new();
+        targets.extend((0..3).filter(|class| expansion.faults[*class] > 0).map(Target::Fault));
+        if expansion.moved == 0 && expansion.stayed > 0 && expansion.faults == [0; 3] && expansion.unbounded == 0 {
+            let may_rest = plan.terminal.map(|terminal| explorer.truth(terminal, &state));
+            match may_rest {
+                Some(Truth::True) => {}
+                Some(Truth::Fault | Truth::Unknown) => {
+                    self.unknown.extend(plan.terminal);
+                }
+                _ => targets.push(Target::Rest),
+            }
+        }
+        let missing = |target: &usize| {
+            !self.found.iter().any(|found| found.target == Target::StepCondition(*target) && found.depth < depth)
+        };
+        if expansion.failed > 0 && plan.wanted_steps.iter().any(missing) {
+            let mut failed = BTreeSet::new();
+            let looked = explorer.paths(&state, &mut |path| failed.extend(path.failed));
+            if let Err(widening) = looked {
+                self.widening = widening;
+            }
+            let wanted = plan.wanted_steps.iter().filter(|wanted| failed.contains(&(**wanted as u32)));
+            targets.extend(wanted.map(|wanted| Target::StepCondition(*wanted)));
+        }
+        for target in targets {
+            note(&mut self.found, Found { target, depth, state: state.clone() }, explorer);
+        }
+    }
+
+    /// Adds states that have come in.
+    fn take_in(&mut self, explorer: &mut Explorer, plan: &Plan, states: &mut Vec<u64>) {
+        let Shard { store, levels, found, unknown, lineage, .. } = self;
+        if !plan.assumed.is_empty() {
+            let mut admitted = Vec::with_capacity(states.len());
+            let words = explorer.words();
+            for state in states.chunks_exact(if lineage.is_some() { 2 * words } else { words }) {
+                let mut all = true;
+                for condition in &plan.assumed {
+                    let truth = explorer.truth(*condition, &state[..words]);
+                    all &= truth == Truth::True;
+                    if matches!(truth, Truth::Fault | Truth::Unknown) {
+                        unknown.insert(*condition);
+                    }
+                }
+                if all {
+                    admitted.extend_from_slice(state);
+                }
+            }
+            *states = admitted;
+        }
+        let depth = levels.len();
+        store.insert_all(states, &mut |state| {
+            if let Some(lineage) = lineage {
+                lineage.meet(depth, state);
+                return;
+            }
+            for condition in &plan.wanted {
+                match explorer.truth(*condition, state) {
+                    Truth::True => {}
+                    Truth::Unknown => {
+                        unknown.insert(*condition);
+                    }
+                    Truth::False | Truth::Undef | Truth::Fault => {
+                        let target = Target::Condition(*condition);
+                        note(found, Found { target, depth, state: state.into() }, explorer);
+                    }
+                }
+            }
+        });
+        states.clear();
+    }
+}

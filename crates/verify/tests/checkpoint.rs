@@ -1,0 +1,230 @@
+//! A search that is interrupted, kept, and gone on with ends as one that is not; what was damaged is refused.
+
+#![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use program::Program;
+use smt::session::{Session, Silence, Solvers};
+use syntax::SourceFile;
+use verify::{Keeper, NoStart, Options, Outcome, Refusal, Report, Stop, verify_kept};
+
+struct Disk;
+
+impl Disk {
+    fn read(path: &Path) -> Result<SourceFile, String> {
+        let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+        Ok(SourceFile::new(path.display().to_string(), text))
+    }
+}
+
+impl model::Loader for Disk {
+    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        Disk::read(&Path::new(&importer.name).parent().unwrap_or(Path::new("")).join(format!("{path}.asm")))
+    }
+}
+
+fn lowered(file: SourceFile) -> Arc<Program> {
+    let checked = model::check(file, &mut Disk);
+    assert!(checked.diagnostics.is_empty(), "{:#?}", checked.diagnostics);
+    Arc::new(program::lower(&checked.model).expect("it can be lowered"))
+}
+
+fn program(name: &str) -> Arc<Program> {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../bench/models/verify/{name}.asm"));
+    lowered(Disk::read(&path).expect("the model is there"))
+}
+
+/// Integers, a domain that grows, and a function that becomes undef only after some steps.
+fn growing(most: u32) -> Arc<Program> {
+    let text = format!(
+        "asm Grow\nimport StandardLibrary\nsignature:\n dynamic abstract domain Part\n monitored more: Boolean\n \
+         controlled size: Part -> Integer\n controlled sum: Integer\n controlled square: Integer\n controlled last: Boolean\n\
+         definitions:\n invariant inv_sum over sum: sum < {most}\n \
+         main rule r_Main = if sum < 21 then if more then extend Part with $p do par size($p) := sum sum := sum + 2 endpar\n \
+         else par sum := sum + 3 square := square + sum * sum if sum > 9 then last := undef endif endpar endif endif\n\
+         default init s0:\n function sum = 0\n function square = 0\n function last = false\n"
+    );
+    lowered(SourceFile::new("Grow.asm", text))
+}
+
+struct NoSolvers;
+
+impl Solvers for NoSolvers {
+    fn name(&self) -> Result<String, String> {
+        Err(String::new())
+    }
+
+    fn start(&mut self) -> Result<Box<dyn Session>, Silence> {
+        Err(Silence::Broken(String::new()))
+    }
+}
+
+/// Keeps words in memory.
+#[derive(Default)]
+struct Memory {
+    model: u64,
+    kept: Option<Vec<u64>>,
+    unfinished: Vec<u64>,
+    read: usize,
+    /// Each so many rounds it is time.
+    every: usize,
+    rounds: usize,
+    times: usize,
+}
+
+impl Keeper for Memory {
+    fn model(&self) -> u64 {
+        self.model
+    }
+
+    fn is_due(&mut self) -> bool {
+        self.rounds += 1;
+        self.every > 0 && self.rounds.is_multiple_of(self.every)
+    }
+
+    fn open(&mut self) -> bool {
+        self.read = 0;
+        self.kept.is_some()
+    }
+
+    fn read(&mut self, words: &mut [u64]) -> bool {
+        let kept = self.kept.as_deref().unwrap_or_default();
+        let Some(found) = kept.get(self.read..self.read + words.len()) else { return false };
+        words.copy_from_slice(found);
+        self.read += words.len();
+        true
+    }
+
+    fn write(&mut self, words: &[u64]) {
+        self.unfinished.extend(words);
+    }
+
+    fn end(&mut self) {
+        self.kept = Some(std::mem::take(&mut self.unfinished));
+        self.times += 1;
+    }
+
+    fn remove(&mut self) {
+        self.kept = None;
+    }
+}
+
+fn check(program: &Arc<Program>, options: &Options, keeper: &mut Memory) -> Result<Report, NoStart> {
+    verify_kept(program, options, None, &mut NoSolvers, Some(keeper), &mut |_| true)
+}
+
+fn straight(program: &Arc<Program>, options: &Options) -> Report {
+    verify::verify(program, options, &mut |_| true).expect("there is an initial state")
+}
+
+/// Interrupted again and again, with as many workers as stand there in turn, it ends as without.
+fn agrees(program: &Arc<Program>, options: &Options, steps: u64, workers: &[usize]) {
+    let whole = straight(program, &Options { workers: 1, engine: verify::Engine::Explicit, ..options.clone() });
+    let mut keeper = Memory::default();
+    for (index, workers) in workers.iter().copied().cycle().enumerate() {
+        let max_states = steps * (index as u64 + 1);
+        let report = check(program, &Options { workers, max_states, ..options.clone() }, &mut keeper);
+        let report = report.expect("it goes on");
+        if report.stop == Some(Stop::States) {
+            assert!(keeper.kept.is_some() && report.verdicts.iter().all(|v| v.outcome != Outcome::Holds));
+            continue;
+        }
+        // One that ended at the first violation might go on without --first.
+        assert_eq!(keeper.kept.is_some(), report.stop.is_some(), "a search that has ended is not kept");
+        assert!(keeper.times > 2, "{}", keeper.times);
+        assert_eq!(report.verdicts, whole.verdicts);
+        assert_eq!(report.unreachable, whole.unreachable);
+        let numbers = |report: &Report| (report.progress.states, report.progress.transitions, report.progress.depth);
+        assert_eq!(numbers(&report), numbers(&whole));
+        return;
+    }
+}
+
+#[test]
+fn an_interrupted_search_ends_as_one_that_is_not() {
+    agrees(&program("Swing"), &Options::default(), 20, &[1]);
+    agrees(&program("SwingUnlocked"), &Options::default(), 20, &[2, 1, 3]);
+    agrees(&program("ChainXS"), &Options::default(), 3_000, &[1, 2]);
+    agrees(&program("Phil12"), &Options::default(), 100_000, &[2, 1]);
+}
+
+#[test]
+fn values_without_bound_are_numbered_again() {
+    for (most, first) in [(14, false), (14, true), (1000, false)] {
+        let (program, terminal) = (growing(most), None);
+        agrees(&program, &Options { first, terminal, ..Options::default() }, 6, &[2, 1]);
+    }
+}
+
+#[test]
+fn pauses_change_nothing() {
+    for (program, every) in [(program("ChainXS"), 3), (growing(14), 2)] {
+        let whole = straight(&program, &Options { engine: verify::Engine::Explicit, ..Options::default() });
+        for workers in [1, 2] {
+            let mut keeper = Memory { every, ..Memory::default() };
+            let report = check(&program, &Options { workers, ..Options::default() }, &mut keeper).expect("it starts");
+            assert!(keeper.times > 2);
+            assert_eq!((report.verdicts, report.unreachable), (whole.verdicts.clone(), whole.unreachable.clone()));
+            assert_eq!(report.progress.states, whole.progress.states);
+        }
+    }
+}
+
+/// A checkpoint of a search that is not at its end.
+fn kept(program: &Arc<Program>) -> Memory {
+    let mut keeper = Memory { model: 7, ..Memory::default() };
+    check(program, &Options { max_states: 60, ..Options::default() }, &mut keeper).expect("it starts");
+    assert!(keeper.kept.is_some());
+    keeper
+}
+
+fn refused(program: &Arc<Program>, options: &Options, keeper: &mut Memory) -> Option<Refusal> {
+    match check(program, options, keeper) {
+        Err(NoStart::Refused(refusal)) => Some(refusal),
+        _ => None,
+    }
+}
+
+#[test]
+fn what_is_of_something_else_is_refused() {
+    let program = program("Swing");
+    let mut keeper = kept(&program);
+    keeper.model = 8;
+    assert_eq!(refused(&program, &Options::default(), &mut keeper), Some(Refusal::Model));
+    keeper.model = 7;
+    let other = Options { limits: machine::Limits { iterations: 3, ..Default::default() }, ..Options::default() };
+    assert_eq!(refused(&program, &other, &mut keeper), Some(Refusal::Question));
+    assert_eq!(refused(&growing(14), &Options::default(), &mut keeper), Some(Refusal::Question));
+    keeper.kept.as_mut().expect("kept")[1] += 1;
+    assert_eq!(refused(&program, &Options::default(), &mut keeper), Some(Refusal::Version));
+    keeper.kept = Some(vec![1, 2, 3]);
+    assert_eq!(refused(&program, &Options::default(), &mut keeper), Some(Refusal::Foreign));
+    keeper.kept = Some(Vec::new());
+    assert_eq!(refused(&program, &Options::default(), &mut keeper), Some(Refusal::Foreign));
+}
+
+#[test]
+fn what_is_damaged_is_refused() {
+    for program in [program("Swing"), growing(14)] {
+        let whole = kept(&program).kept.expect("kept");
+        for len in 0..whole.len() {
+            let mut keeper = Memory { model: 7, kept: Some(whole[..len].to_vec()), ..Memory::default() };
+            assert!(refused(&program, &Options::default(), &mut keeper).is_some(), "{len} words");
+        }
+        let mut random = 1u64;
+        for word in 0..whole.len() {
+            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            for bit in [0, 63, random >> 58] {
+                let mut flipped = whole.clone();
+                flipped[word] ^= 1 << bit;
+                let mut keeper = Memory { model: 7, kept: Some(flipped), ..Memory::default() };
+                assert!(refused(&program, &Options::default(), &mut keeper).is_some(), "bit {bit} of word {word}");
+            }
+        }
+        let longer = [&whole[..], &[0]].concat();
+        let mut keeper = Memory { model: 7, kept: Some(longer), ..Memory::default() };
+        assert_eq!(refused(&program, &Options::default(), &mut keeper), Some(Refusal::Damaged));
+    }
+}
