@@ -197,7 +197,7 @@ fn told(shell: &mut Shell, teller: &Teller<'_>, tests: &Tests) -> Result<(), Fai
         }
     }
     match &tests.progress {
-        Some(progress) => teller.explored(shell, progress, complete, None, None),
+        Some(progress) => teller.explored(shell, progress, complete, &crate::verify::Explored::default()),
         None => Ok(()),
     }
 }

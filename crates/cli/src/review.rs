@@ -144,7 +144,7 @@ fn summary(shell: &mut Shell, teller: &Teller<'_>, review: &Review) -> Result<()
             writeln!(shell.out(), "{number} {word:<9} {says}{more}")?;
         }
     }
-    teller.explored(shell, &review.progress, review.reasons.is_empty(), None, None)
+    teller.explored(shell, &review.progress, review.reasons.is_empty(), &crate::verify::Explored::default())
 }
 
 fn says(meta: Meta) -> &'static str {

@@ -18,6 +18,7 @@ use crate::assumed::assumed_bounds;
 use crate::checkpoint::{Keeper, Refusal};
 use crate::coverage::unreachable_rules;
 use crate::engine::{Ended, run_engine};
+use crate::partial_order::Unreduced;
 use crate::runs::{OfRuns, Question, Why, decide};
 use crate::search::{Plan, Progress, Stop, Target};
 use crate::solver::{Left, Method, Proof};
@@ -67,6 +68,8 @@ pub struct Options {
     pub storage: Storage,
     /// Draws the hash, where less than the state is kept.
     pub seed: u64,
+    /// Where the main rule chooses who moves: of moves that do not concern each other one order is enough.
+    pub partial_order: bool,
 }
 
 impl Default for Options {
@@ -84,6 +87,7 @@ impl Default for Options {
             forgetful: false,
             storage: Storage::Exact,
             seed: 0,
+            partial_order: false,
         }
     }
 }
@@ -168,6 +172,8 @@ pub struct Report {
     /// Where less than the states was kept: how many are to be expected to have been left out for being taken for others,
     /// which is no less than the probability that any was.
     pub omission: Option<Expected>,
+    /// Where partial-order reduction was asked for: that states were reduced, or why not.
+    pub reduced: Option<Result<(), Unreduced>>,
     /// How it was proved what a solver has proved.
     pub proofs: BTreeMap<Subject, Proof>,
     /// Why a solver left something open.
@@ -305,6 +311,7 @@ pub fn verify_kept(
     let complete = ended.stop.is_none() && ended.unbounded.is_empty() && options.bounds.is_empty() && !by_solver;
     let complete = complete && ended.omission.is_none();
     let (storage, omission) = (options.storage, ended.omission.map(Expected));
+    let reduced = options.partial_order.then_some(ended.unreduced.map_or(Ok(()), Err));
     let Ended { progress, stop, width, engine, solver, .. } = ended;
     Ok(Report {
         verdicts,
@@ -315,6 +322,7 @@ pub fn verify_kept(
         unreachable,
         storage,
         omission,
+        reduced,
         runs,
         engine,
         proofs,
@@ -421,6 +429,7 @@ impl Questions {
             max_bytes: options.max_bytes,
             storage: options.storage,
             seed: options.seed,
+            partial_order: options.partial_order,
             ..Plan::default()
         };
         let mut property_of = Vec::new();

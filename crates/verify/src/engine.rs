@@ -13,6 +13,7 @@ use smt::session::Solvers;
 
 use crate::check::{Engine, NoStart};
 use crate::checkpoint::{Keeper, Unfit};
+use crate::partial_order::Unreduced;
 use crate::search::{Plan, Progress, Search, Stop, Target};
 use crate::solver::{Left, Method, Proof, Solved, Unsolved, solve};
 use crate::storage::Storage;
@@ -30,6 +31,8 @@ pub(crate) struct Ended {
     pub stop: Option<Stop>,
     /// Where less than the states was kept: how many are to be expected to have been left out.
     pub omission: Option<f64>,
+    /// Why all steps were made, where fewer were wanted.
+    pub unreduced: Option<Unreduced>,
     /// How far it came.
     pub progress: Progress,
     /// What could not be gone through.
@@ -65,7 +68,7 @@ pub(crate) fn run_engine(
         Engine::Symbolic if !bounded => Ok(symbolic(program, plan, watch)?),
         Engine::Solver(method) => by_solver(program, plan, method, solvers, watch),
         // Only states that are gone through one by one are kept in one way or another.
-        Engine::Automatic if plan.storage == Storage::Exact && keeper.is_none() => {
+        Engine::Automatic if plan.storage == Storage::Exact && !plan.partial_order && keeper.is_none() => {
             let few = Plan { max_states: if bounded { plan.max_states } else { FEW }, ..plan.clone() };
             let mut ended = explicit(program, &few, None, watch)?;
             let full = matches!(ended.stop, Some(Stop::States | Stop::Memory));
@@ -125,6 +128,7 @@ fn by_solver(
         found: BTreeMap::new(),
         stop: None,
         omission: None,
+        unreduced: None,
         progress,
         unbounded: BTreeSet::new(),
         unknown: BTreeSet::new(),
@@ -167,6 +171,7 @@ fn explicit(
         found: search.found.iter().map(|found| found.target).zip(traces).collect(),
         stop: search.stop,
         omission: (plan.storage != Storage::Exact).then_some(search.omission),
+        unreduced: search.unreduced,
         progress: search.progress,
         width: search.width(),
         executed: search.executed,
@@ -186,6 +191,7 @@ fn symbolic(program: &Arc<Program>, plan: &Plan, watch: &mut dyn FnMut(&Progress
         found: reach.found.iter().map(|found| found.target).zip(traces).collect(),
         stop: reach.stop,
         omission: None,
+        unreduced: None,
         progress: reach.progress,
         width: reach.width(),
         executed: reach.executed(),

@@ -10,6 +10,7 @@ mod coverage;
 mod engine;
 pub mod graph;
 mod lineage;
+mod partial_order;
 pub mod review;
 pub mod runs;
 mod search;
@@ -27,6 +28,7 @@ pub use check::{
     verify_with,
 };
 pub use checkpoint::{Keeper, Refusal};
+pub use partial_order::Unreduced;
 pub use search::{Progress, Stop};
 pub use storage::Storage;
 pub use trace::Trace;

@@ -96,7 +96,8 @@ impl Search {
         let lineage = Lineage { every, wanted, ancestors: Vec::new() };
         let mut shards: Vec<Shard> = (0..count)
             .map(|_| {
-                let mut shard = Shard::new(Store::new(words, plan.storage, plan.seed, count).with_more(words));
+                let mut shard =
+                    Shard::new(Store::new(words, plan.storage, plan.seed, count).with_more(words), &self.reduction);
                 shard.lineage = Some(lineage.clone());
                 shard
             })
@@ -121,7 +122,9 @@ impl Search {
         crew.work(&mut self.explorer, &mut shards, &starts, &mut decide);
         let ancestors = shards.into_iter().filter_map(|shard| shard.lineage).flat_map(|lineage| lineage.ancestors);
         let ancestors = ancestors.collect();
-        self.shards = (0..count).map(|_| Shard::new(Store::new(words, plan.storage, plan.seed, count))).collect();
+        self.shards = (0..count)
+            .map(|_| Shard::new(Store::new(words, plan.storage, plan.seed, count), &self.reduction))
+            .collect();
         ancestors
     }
 }

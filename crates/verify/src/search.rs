@@ -12,7 +12,8 @@ use std::sync::Arc;
 use machine::explore::{Explorer, Interner, Settings, Trouble, Unbounded, Widening};
 use program::Program;
 
-use crate::checkpoint::{Journal, Keeper, Past, Unfit, keep, made, resume};
+use crate::checkpoint::{Journal, Keeper, Past, Resumed, Unfit, keep, made, resume};
+use crate::partial_order::{Reduction, Unreduced, reduction};
 use crate::shard::{Crew, Decision, Report, Shard, note};
 use crate::storage::{Storage, Store};
 
@@ -56,6 +57,8 @@ pub struct Plan {
     pub storage: Storage,
     /// Draws the hash, where less than the state is kept.
     pub seed: u64,
+    /// Of moves that do not concern each other one order is enough.
+    pub partial_order: bool,
 }
 
 /// How far a search is.
@@ -157,6 +160,10 @@ pub struct Search {
     pub executed: Vec<bool>,
     /// How many states are to be expected to have been left out for being taken for others.
     pub omission: f64,
+    /// Which steps were enough, where not all of them were made.
+    pub(crate) reduction: Option<Arc<Reduction>>,
+    /// Why all steps were made, where fewer were wanted.
+    pub unreduced: Option<Unreduced>,
 }
 
 impl Search {
@@ -176,10 +183,10 @@ impl Search {
         };
         let mut past = Past::default();
         loop {
-            let (maker, mut explorer, mut shards, starts) = match resumed.take() {
-                Some(resumed) => {
-                    past = resumed.past;
-                    (resumed.maker, resumed.explorer, resumed.shards, Vec::new())
+            let Begun { maker, mut explorer, mut shards, unreduced, starts } = match resumed.take() {
+                Some(Resumed { past: before, maker, explorer, shards, unreduced }) => {
+                    past = before;
+                    Begun { maker, explorer, shards, unreduced, starts: Vec::new() }
                 }
                 None => begun(program, plan, keeper.is_some(), &mut past)?,
             };
@@ -187,7 +194,9 @@ impl Search {
             let (stop, progress) = search(&maker, &mut explorer, &mut shards, starts, plan, kept, watch);
             match shards.iter().find(|shard| !shard.widening.is_empty()) {
                 Some(shard) => past.close(shard, explorer.words(), &shard.widening),
-                None => return Ok(Search::gather(maker, explorer, plan, shards, stop, progress)),
+                None => {
+                    return Ok(Search { unreduced, ..Search::gather(maker, explorer, plan, shards, stop, progress) });
+                }
             }
         }
     }
@@ -211,8 +220,22 @@ impl Search {
         let ran = |rule: usize| shards.iter().any(|shard| shard.executed[rule] > 0);
         let executed = (0..rules).map(ran).collect();
         let omission = shards.iter().map(|shard| shard.store.omission()).sum();
-        let plan = plan.clone();
-        Search { explorer, maker, plan, shards, found, stop, progress, unbounded, unknown, executed, omission }
+        let (plan, reduction) = (plan.clone(), shards[0].reduction.clone());
+        Search {
+            explorer,
+            maker,
+            plan,
+            shards,
+            found,
+            stop,
+            progress,
+            unbounded,
+            unknown,
+            executed,
+            omission,
+            reduction,
+            unreduced: None,
+        }
     }
 
     /// How many words a state has, and how many bits of them are used.
@@ -221,19 +244,28 @@ impl Search {
     }
 }
 
-/// A search that has not begun yet, with the states it begins with.
-type Begun = (Maker, Explorer, Vec<Shard>, Vec<Box<[u64]>>);
+/// What a search needs.
+struct Begun {
+    maker: Maker,
+    explorer: Explorer,
+    shards: Vec<Shard>,
+    unreduced: Option<Unreduced>,
+    /// The states that it begins with.
+    starts: Vec<Box<[u64]>>,
+}
 
+/// A search that has not begun yet, with the states it begins with.
 fn begun(program: &Arc<Program>, plan: &Plan, is_kept: bool, past: &mut Past) -> Result<Begun, Unfit> {
-    let (maker, explorer) = made(program, plan, &mut past.widening)?;
+    let (maker, mut explorer) = made(program, plan, &mut past.widening)?;
     // The order in which values come up can be told of one worker alone.
     let is_numbered = is_kept && !maker.interner.is_empty();
     let count = if is_numbered { 1 } else { plan.workers.max(1) };
+    let (reduction, unreduced) = reduction(program, plan, &mut explorer);
     let store = || Store::new(explorer.words(), plan.storage, plan.seed, count);
-    let mut shards: Vec<Shard> = (0..count).map(|_| Shard::new(store())).collect();
+    let mut shards: Vec<Shard> = (0..count).map(|_| Shard::new(store(), &reduction)).collect();
     shards[0].journal = is_numbered.then(|| Journal::new(&maker.interner));
     let starts = explorer.initial().iter().map(|(state, _)| state.clone()).collect();
-    Ok((maker, explorer, shards, starts))
+    Ok(Begun { maker, explorer, shards, unreduced, starts })
 }
 
 /// Searches until all states are met or something ends it, with pauses in which the search is kept.

@@ -7,12 +7,13 @@
 
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::sync::{Barrier, Mutex, PoisonError};
+use std::sync::{Arc, Barrier, Mutex, PoisonError};
 
 use machine::explore::{Expansion, Explorer, Trouble, Truth, Unbounded, Widening};
 
 use crate::checkpoint::Journal;
 use crate::lineage::Lineage;
+use crate::partial_order::Reduction;
 use crate::search::{Found, Plan, Stop, Target};
 use crate::storage::Store;
 use crate::table::hash;
@@ -38,6 +39,8 @@ pub(crate) struct Shard {
     pub executed: Vec<u64>,
     /// Where values are numbered and the search is to be kept: which states' steps made new ones come up.
     pub journal: Option<Journal>,
+    /// Which steps are enough, where not all of them have to be made.
+    pub reduction: Option<Arc<Reduction>>,
     /// Where nothing but the ways to some states is looked for.
     pub lineage: Option<Lineage>,
 }
@@ -150,7 +153,7 @@ pub(crate) fn note(found: &mut Vec<Found>, one: Found, explorer: &mut Explorer) 
 
 impl Shard {
     /// A shard without states.
-    pub fn new(store: Store) -> Shard {
+    pub fn new(store: Store, reduction: &Option<Arc<Reduction>>) -> Shard {
         Shard {
             store,
             levels: Vec::new(),
@@ -162,6 +165,7 @@ impl Shard {
             unbounded: BTreeSet::new(),
             executed: Vec::new(),
             journal: None,
+            reduction: reduction.clone(),
             lineage: None,
         }
     }
@@ -179,6 +183,11 @@ impl Shard {
         leader: &mut Leader<'_>,
     ) -> Option<Stop> {
         let mut sent = vec![Vec::new(); mail.len()];
+        if self.reduction.is_some() {
+            // Parts are told apart once the steps of some state were made.
+            let initial = explorer.initial().first().map(|(state, _)| state.clone());
+            let _ = initial.map(|state| explorer.expand(&state, &mut Vec::new()));
+        }
         loop {
             let mut panic = None;
             // Who panics still meets the others at the barriers, so that all end; then the panic goes on.
@@ -258,7 +267,11 @@ impl Shard {
             self.next += 1;
             let direct = sent.len() == 1 && self.lineage.is_none();
             let out = if direct { &mut sent[0] } else { &mut successors };
-            match explorer.expand(state, out) {
+            let expanded = match &self.reduction {
+                None => explorer.expand(state, out),
+                Some(reduction) => reduction.expand(explorer, state, out),
+            };
+            match expanded {
                 Ok(expansion) => {
                     self.transitions += u64::from(expansion.moved);
                     if expansion.moved == 0 || expansion.failed > 0 || expansion.faults != [0; 3] {

@@ -29,7 +29,7 @@ use crate::solver::Process;
 pub use bounded::Bounded;
 use checkpoint::Checkpoint;
 pub use counterexample::relative;
-pub use tell::{StepLine, Teller};
+pub use tell::{Explored, StepLine, Teller};
 
 /// Arguments of `verify`.
 #[derive(Debug, Args)]
@@ -55,6 +55,9 @@ pub struct Arguments {
     /// is there; it is removed when the search has ended
     #[arg(long, value_name = "FILE")]
     checkpoint: Option<PathBuf>,
+    /// Where the main rule chooses who moves: of moves that do not concern each other make one order, not all
+    #[arg(long, value_enum, default_value_t, value_name = "HOW")]
+    partial_order: Switch,
     /// How many workers search; as many as there are processors if not said
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=256))]
     workers: Option<u64>,
@@ -121,6 +124,16 @@ impl Engine {
     }
 }
 
+/// Whether something is done.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::ValueEnum)]
+enum Switch {
+    /// It is
+    On,
+    /// It is not
+    #[default]
+    Off,
+}
+
 /// What is kept of each state.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::ValueEnum)]
 enum Storage {
@@ -163,6 +176,10 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
             "sets of states know no --first, --max-states or --depth",
             "bound them by --max-memory and --time, or leave out --engine bdd",
         ));
+    }
+    if arguments.partial_order == Switch::On && !matches!(arguments.engine, Engine::Auto | Engine::Explicit) {
+        let help = "leave out --engine, or --partial-order";
+        return Err(Failure::usage_with_help("--partial-order is of states that are gone through one by one", help));
     }
     if arguments.storage != Storage::Exact && !matches!(arguments.engine, Engine::Auto | Engine::Explicit) {
         let help = "leave out --engine, or --storage";
@@ -219,6 +236,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
             Storage::BitState => groundstate::verify::Storage::BitState(arguments.array << 20),
         },
         seed: arguments.hash_seed,
+        partial_order: arguments.partial_order == Switch::On,
         ..options
     };
     let fair = match (arguments.fair, beside.fair.as_deref()) {

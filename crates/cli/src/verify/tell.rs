@@ -5,7 +5,9 @@ use std::io::Write;
 
 use groundstate::verify::runs::Why;
 use groundstate::verify::solver::{Left, Proof};
-use groundstate::verify::{Engine, Outcome, Progress, Reason, Report, Stop, Storage, Subject, Trace, Verdict};
+use groundstate::verify::{
+    Engine, Outcome, Progress, Reason, Report, Stop, Storage, Subject, Trace, Unreduced, Verdict,
+};
 use machine::explore::{ChoiceTaken, Told, Unbounded, UnboundedKind};
 use machine::{Location, Show, Value};
 use program::{Program, PropertyKind};
@@ -73,18 +75,28 @@ struct ChangeLine {
 
 /// `{"type":"explored",…}`
 #[derive(Debug, Serialize)]
-struct ExploredLine {
+struct ExploredLine<'a> {
     r#type: &'static str,
     complete: bool,
     states: u64,
     transitions: u64,
     depth: u64,
     bytes: u64,
+    #[serde(flatten)]
+    more: &'a Explored,
+}
+
+/// What there is to say of a search beside its numbers.
+#[derive(Debug, Default, Serialize)]
+pub struct Explored {
     #[serde(skip_serializing_if = "Option::is_none")]
     bits: Option<usize>,
     /// Where less than the states was kept: how many are to be expected to have been left out.
     #[serde(skip_serializing_if = "Option::is_none")]
     omission: Option<f64>,
+    /// Where one order of moves was to be enough: whether it was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    partial_order: Option<&'static str>,
 }
 
 impl Teller<'_> {
@@ -111,8 +123,13 @@ impl Teller<'_> {
             }
             return Ok(());
         }
+        if let (Some(Err(unreduced)), false, true) = (report.reduced, shell.json(), shell.talks()) {
+            writeln!(shell.out(), "all steps were made: {}", why_unreduced(unreduced))?;
+        }
         let omission = report.omission.map(|expected| expected.0);
-        self.explored(shell, &report.progress, report.complete, Some(report.width.1), omission)
+        let reduced = report.reduced.map(|reduced| reduced.map_or_else(why_unreduced, |()| "reduced"));
+        let explored = Explored { bits: Some(report.width.1), omission, partial_order: reduced };
+        self.explored(shell, &report.progress, report.complete, &explored)
     }
 
     /// Tells how far a search came.
@@ -121,8 +138,7 @@ impl Teller<'_> {
         shell: &mut Shell,
         progress: &Progress,
         complete: bool,
-        bits: Option<usize>,
-        omission: Option<f64>,
+        more: &Explored,
     ) -> Result<(), Failure> {
         if shell.json() {
             return shell.object(&ExploredLine {
@@ -132,12 +148,15 @@ impl Teller<'_> {
                 transitions: progress.transitions,
                 depth: progress.depth,
                 bytes: progress.bytes,
-                bits,
-                omission,
+                more,
             });
         }
         if shell.talks() {
-            let whole = if complete { "all" } else { "not all" };
+            let whole = match (complete, more.partial_order) {
+                (true, Some("reduced")) => "all but for the order of moves",
+                (true, _) => "all",
+                (false, _) => "not all",
+            };
             let states = plural(progress.states as usize, "state");
             let transitions = plural(progress.transitions as usize, "transition");
             let depth = progress.depth;
@@ -432,6 +451,15 @@ impl Teller<'_> {
         let start = file.line_column(span.start);
         let name = file.name.rsplit(['/', '\\']).next().unwrap_or(&file.name);
         format!("{name}:{}:{}", start.line, start.column)
+    }
+}
+
+/// Why one order of moves is not enough.
+fn why_unreduced(unreduced: Unreduced) -> &'static str {
+    match unreduced {
+        Unreduced::NoChoice => "the main rule is no choice of who moves",
+        Unreduced::Inputs => "an invariant or an assumption reads inputs",
+        Unreduced::AllShared => "nobody who moves keeps anything to himself",
     }
 }
 

@@ -34,11 +34,11 @@ fn hash(parts: &[&dyn Debug]) -> u64 {
 pub fn question(program: &Program, plan: &Plan) -> u64 {
     let Program { domains, functions, constants, terms, term_lists, rules, rule_lists, binder_lists, .. } = program;
     let Program { function_lists, procedures, main, initials, agents, properties, .. } = program;
-    let Plan { settings, assumed, terminal, wanted, wanted_steps, storage, seed, .. } = plan;
+    let Plan { settings, assumed, terminal, wanted, wanted_steps, storage, seed, partial_order, .. } = plan;
     hash(&[
         &(domains, functions, constants, terms, term_lists, rules, rule_lists, binder_lists),
         &(function_lists, procedures, main, initials, agents, properties),
-        &(settings, assumed, terminal, wanted, wanted_steps, storage, seed),
+        &(settings, assumed, terminal, wanted, wanted_steps, storage, seed, partial_order),
     ])
 }
 

@@ -18,6 +18,7 @@ use syntax::{FileId, Span};
 
 use crate::checkpoint::identity::{layout, question};
 use crate::checkpoint::words::{Reader, Writer};
+use crate::partial_order::{Unreduced, reduction};
 use crate::search::{Found, Maker, Plan, Target};
 use crate::shard::{Shard, owner};
 use crate::storage::Store;
@@ -125,6 +126,7 @@ pub(crate) struct Resumed {
     pub maker: Maker,
     pub explorer: Explorer,
     pub shards: Vec<Shard>,
+    pub unreduced: Option<Unreduced>,
 }
 
 /// Why there is no search to go on with.
@@ -243,6 +245,7 @@ impl Kept {
             if explorer.words() != words {
                 return Err(Refusal::Damaged.into());
             }
+            let _ = reduction(program, plan, &mut explorer);
             let (before, last) = states.split_at(states.len() - words);
             before.chunks_exact(words).try_for_each(|state| again(&mut explorer, state))?;
             match explorer.expand(last, &mut Vec::new()).and_then(|_| explorer.paths(last, &mut |_| {})) {
@@ -255,9 +258,10 @@ impl Kept {
             return Err(Refusal::Damaged.into());
         }
         let words = words as usize;
+        let (reduction, unreduced) = reduction(program, plan, &mut explorer);
         let count = if maker.interner.is_empty() { plan.workers.max(1) } else { 1 };
         let mut shards: Vec<Shard> =
-            (0..count).map(|_| Shard::new(Store::new(words, plan.storage, plan.seed, count))).collect();
+            (0..count).map(|_| Shard::new(Store::new(words, plan.storage, plan.seed, count), &reduction)).collect();
         let current = self.states.len().checked_sub(2);
         for (level, states) in self.states.iter().enumerate() {
             if current == Some(level) {
@@ -300,7 +304,7 @@ impl Kept {
             let target = to_target(found[0], found[1] as usize).ok_or(Refusal::Damaged)?;
             shard.found.push(Found { target, depth: found[2] as usize, state: found[3..].into() });
         }
-        Ok(Resumed { past, maker, explorer, shards })
+        Ok(Resumed { past, maker, explorer, shards, unreduced })
     }
 }
 
