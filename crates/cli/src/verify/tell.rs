@@ -153,14 +153,14 @@ impl Teller<'_> {
         }
         if shell.talks() {
             let whole = match (complete, more.partial_order) {
-                (true, Some("reduced")) => "all but for the order of moves",
-                (true, _) => "all",
-                (false, _) => "not all",
+                (true, Some("reduced")) => "all that can be reached, but for the order of moves",
+                (true, _) => "all that can be reached",
+                (false, _) => "not all that can be reached",
             };
             let states = plural(progress.states as usize, "state");
             let transitions = plural(progress.transitions as usize, "transition");
             let depth = progress.depth;
-            writeln!(shell.out(), "{states} ({whole} that can be reached), {transitions}, depth {depth}")?;
+            writeln!(shell.out(), "{states} ({whole}), {transitions}, depth {depth}")?;
         }
         Ok(())
     }
