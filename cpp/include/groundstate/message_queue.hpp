@@ -4,6 +4,7 @@
 // length is the difference. What happens when it is full is the sender's to say: `try_send` is refused, and that is
 // counted; `send` waits for room while its watchdog has time, and is then refused. Nothing is overwritten. Data of
 // which only the newest matter belong into a swinging buffer; several senders take a queue each.
+// library/runtime/QueueSteps.asm is this file and signal.hpp step by atomic step.
 #pragma once
 
 #include <array>
