@@ -12,13 +12,13 @@
 // leaves the action out. The protocol is that of library/patterns/{SwingingBuffer,PatternMachines}.asm: the index read
 // becomes the index written, which goes on to the next array of the ring; a swap without a pending datum does nothing.
 //
-// SYNC(permit): plain members are shared under the lock alone; its release and acquire (semaphore.hpp) order them.
+// SYNC(permit): plain members are shared under the lock alone; its release and acquire (pair_lock.hpp) order them.
 #pragma once
 
 #include <array>
 
 #include "observer.hpp"
-#include "semaphore.hpp"
+#include "pair_lock.hpp"
 #include "signal.hpp"
 #include "swinging_buffer.hpp"
 
@@ -214,7 +214,7 @@ class LockedBuffer {
 
     [[no_unique_address]] Observer observer_;
     C& clock_;
-    Semaphore<C> lock_;
+    PairLock<C> lock_;
     Signal<C>* trigger_ = nullptr;
     std::array<Array<T>, N> arrays_{};
 

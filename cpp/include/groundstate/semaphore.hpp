@@ -9,7 +9,7 @@
 //     | permits | first in line   |     | last in line   |     0 stands for nobody, u + 1 for user u
 //
 // INVARIANT: while a permit is free, nobody is in line.
-// LIMIT: seven users; no priority inheritance. The watchdog is what bounds a priority inversion.
+// LIMIT: seven users; no priority inheritance (pair_lock.hpp has it, for two). The watchdog is what bounds an inversion.
 #pragma once
 
 #include <array>

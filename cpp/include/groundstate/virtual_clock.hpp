@@ -5,13 +5,13 @@
 // instant somebody sleeps until. Computing takes no time, only sleeping does. A run thus depends on ranks and instants
 // alone, never on the machine.
 //
-// For tests and simulation; it locks, and is not meant for a control loop in real time.
+// For tests and simulation; it locks, and is not meant for a control loop in real time. A thread sleeps until its turn on a
+// word of its own, and whoever gives the turn wakes that thread alone: two system calls, which are most of what a run costs.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <condition_variable>
 #include <cstddef>
 #include <exception>
 #include <mutex>
@@ -44,9 +44,9 @@ class VirtualClock {
 
     /// Takes part no longer; the next one goes on.
     void leave() noexcept {
-        const std::lock_guard guard{mutex_};
+        std::unique_lock guard{mutex_};
         if (Seat* seat = mine(); seat != nullptr && seat->state != State::evicted) {
-            stand_up(*seat);
+            hand_over(guard, stand_up(*seat));
         }
     }
 
@@ -66,13 +66,13 @@ class VirtualClock {
     }
 
     void wake(Word& word) noexcept {
-        const std::lock_guard guard{mutex_};
+        std::unique_lock guard{mutex_};
         for (Seat& seat : seats_) {
             if (seat.state == State::resting && seat.word == &word) {
                 seat.state = State::ready;
             }
         }
-        next();
+        hand_over(guard, next());
     }
 
     /// How often somebody was given the turn. Who: everybody. Blocks: no.
@@ -82,11 +82,11 @@ class VirtualClock {
     /// call. Its rank; nothing if nobody has the turn, or somebody of a lesser rank. Who: a guard that has seen no other
     /// turn for too long.
     std::optional<int> evict(int least_rank) noexcept {
-        const std::lock_guard guard{mutex_};
+        std::unique_lock guard{mutex_};
         for (Seat& seat : seats_) {
             if (seat.state == State::running && seat.rank >= least_rank) {
                 seat.state = State::evicted;
-                next();
+                hand_over(guard, next());
                 return seat.rank;
             }
         }
@@ -102,7 +102,7 @@ class VirtualClock {
         int rank = 0;
         std::int64_t until_ns = never_ns;
         const Word* word = nullptr;
-        std::condition_variable turn{};
+        Word given{0};  ///< how often it was given the turn; what its thread sleeps on
     };
 
     Seat* mine() noexcept {
@@ -129,10 +129,11 @@ class VirtualClock {
         std::terminate();
     }
 
-    void stand_up(Seat& seat) noexcept {
+    // Who has the turn now, if it is another one than before.
+    Seat* stand_up(Seat& seat) noexcept {
         seat.state = State::empty;
         --present_;
-        next();
+        return next();
     }
 
     // Lets the others go on until the word is woken or the instant has come.
@@ -142,42 +143,56 @@ class VirtualClock {
         if (guest) {
             seat = &take_seat(guard, INT_MAX);
         }
-        while (seat->state == State::evicted) {
-            seat->turn.wait(guard);
+        if (seat->state != State::evicted) {
+            seat->state = State::resting;
         }
-        seat->state = State::resting;
         seat->word = word;
         seat->until_ns = until_ns;
         await_turn(guard, *seat);
         if (guest) {
-            stand_up(*seat);
+            hand_over(guard, stand_up(*seat));
+            guard.lock();
         }
     }
 
+    // Returns, with the mutex, when the seat has the turn; an evicted one never gets it.
     void await_turn(std::unique_lock<std::mutex>& guard, Seat& seat) noexcept {
-        next();
-        seat.turn.wait(guard, [&] { return seat.state == State::running; });
+        for (Seat* other = next(); seat.state != State::running; other = nullptr) {
+            const std::uint32_t seen = seat.given.load(std::memory_order_relaxed);
+            hand_over(guard, other);
+            wall_.wait_while(seat.given, seen, never_ns);
+            guard.lock();
+        }
     }
 
-    // INVARIANT: at most one seat runs. Gives the turn to the next one, if nobody has it.
-    void next() noexcept {
+    // Without the mutex, so that whoever is woken does not run into it. The count was raised with it.
+    void hand_over(std::unique_lock<std::mutex>& guard, Seat* next) noexcept {
+        guard.unlock();
+        if (next != nullptr) {
+            wall_.wake(next->given);
+        }
+    }
+
+    // INVARIANT: at most one seat runs. Gives the turn to the next one, if nobody has it; that one has to be woken.
+    Seat* next() noexcept {
         started_ = started_ || present_ >= expected_;
         Seat* first = nullptr;
         for (Seat& seat : seats_) {
             if (seat.state == State::running) {
-                return;
+                return nullptr;
             }
             if (seat.state != State::empty && seat.state != State::evicted && (first == nullptr || before(seat, *first))) {
                 first = &seat;
             }
         }
         if (!started_ || first == nullptr || instant_of(*first) == never_ns) {
-            return;  // all wait for data that only a thread outside can bring
+            return nullptr;  // all wait for data that only a thread outside can bring
         }
         now_ns_.store(std::max(now_ns(), instant_of(*first)), std::memory_order_release);
         first->state = State::running;
         turns_.fetch_add(1, std::memory_order_relaxed);
-        first->turn.notify_one();
+        first->given.fetch_add(1, std::memory_order_relaxed);
+        return first;
     }
 
     // Who is ready goes on now, before those who sleep until this very instant.
@@ -192,6 +207,7 @@ class VirtualClock {
         return left.rank < right.rank;
     }
 
+    MonotonicClock wall_{};
     std::mutex mutex_{};
     std::array<Seat, seats> seats_{};
     std::size_t expected_;

@@ -1,0 +1,120 @@
+// The lock between two tasks: nobody waits for it beyond his watchdog, and whoever holds it is as urgent as whoever waits.
+//
+// In real time it is Linux's futex with priority inheritance: while the urgent one waits, the other runs at his priority,
+// and no third task of a priority between holds up both. The system hands it over to the one that waits, so that with two
+// users it comes in the order of asking, as library/patterns/Semaphore.asm has it. Without contention it is one exchange
+// either way, and no call of the system. By any other clock it is a semaphore with one permit (semaphore.hpp): virtual time
+// has no priorities that could be inverted.
+#pragma once
+
+#include <algorithm>
+#include <cerrno>
+
+#include "semaphore.hpp"
+
+namespace groundstate {
+
+/// For users 0 and 1, each a thread of its own.
+template <Clock C>
+class PairLock : public Semaphore<C> {
+  public:
+    explicit PairLock(C& clock) noexcept : Semaphore<C>{clock} {}
+};
+
+template <>
+class PairLock<MonotonicClock> {
+  public:
+    explicit PairLock(MonotonicClock& clock) noexcept : clock_{clock} {}
+
+    PairLock(const PairLock&) = delete;
+    PairLock& operator=(const PairLock&) = delete;
+
+    /// Takes it, or gives up when the watchdog's budget is used up, which the watchdog counts. Who: each of the two, who
+    /// does not hold it; if he does, he is refused. Blocks: at most for the budget. Allocates: no. Worst case without
+    /// contention: one exchange; the time is read only to wait.
+    [[nodiscard]] bool acquire(int, Watchdog& watchdog) noexcept {
+        if (is_taken()) {
+            return true;
+        }
+        const std::int64_t left_ns = watchdog.left_ns();
+        if (left_ns <= 0) {
+            watchdog.skip();
+            return false;
+        }
+        const std::int64_t start_ns = clock_.now_ns();
+        const bool granted = wait_until(later_ns(start_ns, left_ns));
+        watchdog.waited(clock_.now_ns() - start_ns);
+        if (!granted) {
+            watchdog.skip();
+        }
+        return granted;
+    }
+
+    /// Who: whoever holds it. Blocks: no. Allocates: no. Worst case: one exchange, and one system call if the other waits.
+    void release() noexcept {
+        // SYNC(hand): release, for the way by the system, which is no atomic operation of this program's.
+        handed_.store(handed_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+        std::uint32_t own = thread();
+        // SYNC(permit): release; pairs with the exchange in is_taken().
+        if (!holder_.compare_exchange_strong(own, 0, std::memory_order_release, std::memory_order_relaxed)) {
+            call(FUTEX_UNLOCK_PI_PRIVATE, nullptr);
+        }
+    }
+
+  private:
+    bool is_taken() noexcept {
+        std::uint32_t nobody = 0;
+        // SYNC(permit): acquire; pairs with the exchange in release().
+        return holder_.compare_exchange_strong(nobody, thread(), std::memory_order_acquire, std::memory_order_relaxed);
+    }
+
+    bool wait_until(std::int64_t instant_ns) noexcept {
+        for (int error = EAGAIN; error == EAGAIN || error == EINTR;) {
+            error = wait(lock_by_monotonic_clock, instant_ns);
+            if (error == ENOSYS || error == EINVAL) {
+                // Linux before 5.14 waits for such a lock by the calendar alone.
+                timespec today{};
+                clock_gettime(CLOCK_REALTIME, &today);
+                const std::int64_t today_ns = std::int64_t{today.tv_sec} * second_ns + today.tv_nsec;
+                const std::int64_t left_ns = std::max<std::int64_t>(instant_ns - clock_.now_ns(), 0);
+                error = wait(FUTEX_LOCK_PI_PRIVATE, later_ns(today_ns, left_ns));
+            }
+            if (error == ENOSYS) {
+                // A system without such locks at all: it is looked at again and again.
+                clock_.sleep_until_ns(std::min(instant_ns, clock_.now_ns() + 50'000));
+                error = is_taken() ? 0 : clock_.now_ns() < instant_ns ? EAGAIN : ETIMEDOUT;
+            }
+            if (error == 0) {
+                // SYNC(hand): acquire, pairs with the store in release().
+                static_cast<void>(handed_.load(std::memory_order_acquire));
+                return true;
+            }
+        }
+        return false;
+    }
+
+    int wait(int operation, std::int64_t instant_ns) noexcept {
+        const timespec instant{.tv_sec = static_cast<std::time_t>(instant_ns / second_ns), .tv_nsec = instant_ns % second_ns};
+        return call(operation, &instant);
+    }
+
+    // The system's number of an error, or 0.
+    int call(int operation, const timespec* until) noexcept {
+        return syscall(SYS_futex, &holder_, operation, 0, until, nullptr, 0) == 0 ? 0 : errno;
+    }
+
+    // The system's number of the calling thread, by which it knows the holder.
+    static std::uint32_t thread() noexcept {
+        thread_local const auto number = static_cast<std::uint32_t>(syscall(SYS_gettid));
+        return number;
+    }
+
+    static constexpr int lock_by_monotonic_clock = 13 | FUTEX_PRIVATE_FLAG;  // FUTEX_LOCK_PI2, which older headers lack
+    static constexpr std::int64_t second_ns = 1'000'000'000;
+
+    MonotonicClock& clock_;
+    alignas(64) Word holder_{0};  ///< 0, or the holder's number, with the system's mark if the other waits
+    Word handed_{0};
+};
+
+}  // namespace groundstate
