@@ -7,7 +7,7 @@ GROUNDSTATE := target/release/groundstate
 TESTED := target/debug/groundstate
 MODELS := library/patterns library/runtime examples
 
-.PHONY: help demo test lint unit scenarios verify cpp systems robot fuzz bench bench-cpp corpus update clean
+.PHONY: help demo test lint unit scenarios verify cpp systems robot robot-sanitized fuzz bench bench-cpp corpus update clean
 
 help: ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*##/\t/' | expand -t 12
@@ -41,6 +41,10 @@ systems: $(TESTED) ## programs generated from systems: run, held to their models
 
 robot: ## the robots: servo law, vision, kinematics, and the controllers in closed loop
 	sh examples/robot.sh
+
+robot-sanitized: robot ## all four robots in closed loop under the sanitizers; `make robot` runs one under each
+	sh examples/sanitized.sh thread visual_servoing object_tracking pick_and_place micro_assembly
+	sh examples/sanitized.sh address visual_servoing object_tracking pick_and_place micro_assembly
 
 fuzz: ## the fuzz targets, for a short time
 	sh fuzz/run.sh 15

@@ -13,3 +13,5 @@ cmake -S . -B "$build" -G Ninja >/dev/null
 cmake --build "$build" -- --quiet
 ctest --test-dir "$build" --output-on-failure
 sh programs.sh "$build"
+sh sanitized.sh thread micro_assembly
+sh sanitized.sh address visual_servoing

@@ -104,6 +104,8 @@ struct DiscDetector::Buffers {
 
 DiscDetector::DiscDetector(int width, int height, const DiscSettings& settings)
     : settings_{settings}, buffers_{std::make_unique<Buffers>()} {
+    // A search would be shared among threads of OpenCV's own, which no schedule of ours knows, and waited for.
+    cv::setNumThreads(1);
     buffers_->binary.create(height, width, CV_8UC1);
     buffers_->labels.create(height, width, CV_32SC1);
     buffers_->weights.create(height, width, CV_8UC1);

@@ -8,7 +8,7 @@ namespace {
 
 TEST(Assembly, PutsThePartOntoTheSubstrate) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-        LoopSettings settings{.bench = scattered(seed)};
+        LoopSettings settings{.run = {.span_ns = 2'500'000'000}, .bench = scattered(seed)};
         settings.bench.noise = seed % 2 == 0 ? 0.0 : 4.0;
         SCOPED_TRACE(seed);
         const Loop result = run(settings);
@@ -22,7 +22,8 @@ TEST(Assembly, PutsThePartOntoTheSubstrate) {
 }
 
 TEST(Assembly, IsTheSameForASeed) {
-    const LoopSettings settings{.bench = {.x = 5e-5, .y = -3e-5, .turn = 0.05, .noise = 4, .seed = 9}};
+    const LoopSettings settings{.run = {.span_ns = 1'000'000'000},
+                                .bench = {.x = 5e-5, .y = -3e-5, .turn = 0.05, .noise = 4, .seed = 9}};
     EXPECT_EQ(run(settings).position, run(settings).position);
 }
 
@@ -35,7 +36,7 @@ TEST(Assembly, RetractsWhenTheForceIsTooLarge) {
 }
 
 TEST(Assembly, StandsWhenTheMicroscopeIsGone) {
-    const Loop result = run({.run = {.span_ns = 3'000'000'000}, .bench = {.x = 5e-5, .y = -3e-5, .turn = 0.05, .unplugged_s = 0.1}});
+    const Loop result = run({.run = {.span_ns = 2'000'000'000}, .bench = {.x = 5e-5, .y = -3e-5, .turn = 0.05, .unplugged_s = 0.1}});
     EXPECT_FALSE(result.done);
     EXPECT_LT(result.position[3], result.bench.contact_z);
     EXPECT_EQ(result.worst_force, 0);

@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::int64_t ms = 1'000'000;
 constexpr std::int64_t second = 1'000'000'000;
+// Three seconds for each of the two goals, which is enough to come to rest.
+const groundstate::closed_loop::RunSettings short_run{.span_ns = 6 * second};
 
 void expect_converged(const Loop& loop, double feature_error, double mm, double degrees) {
     EXPECT_LT(loop.feature_error, feature_error);
@@ -68,23 +70,23 @@ TEST(ClosedLoop, IsTheSameForASeedAndAnotherForAnother) {
 }
 
 TEST(ClosedLoop, ConvergesInNoise) {
-    expect_converged(run({.disturbances = {.noise = true}}), 2e-3, 2, 0.3);
+    expect_converged(run({.run = short_run, .disturbances = {.noise = true}}), 2e-3, 2, 0.3);
 }
 
 TEST(ClosedLoop, ConvergesThoughImagesAreLost) {
-    const Loop loop = run({.disturbances = {.dropped = true}});
+    const Loop loop = run({.run = short_run, .disturbances = {.dropped = true}});
     expect_converged(loop, 1e-3, 1, 0.1);
-    EXPECT_GT(loop.frames.lost, 50);
+    EXPECT_GT(loop.frames.lost, 30);
 }
 
 TEST(ClosedLoop, ConvergesThoughImagesAreSlow) {
-    const Loop loop = run({.disturbances = {.slow = true}});
+    const Loop loop = run({.run = short_run, .disturbances = {.slow = true}});
     expect_converged(loop, 1e-3, 1, 0.1);
-    EXPECT_GT(loop.frames.timeouts + loop.frames.lost, 50);
+    EXPECT_GT(loop.frames.timeouts + loop.frames.lost, 30);
 }
 
 TEST(ClosedLoop, ConvergesThoughDiscsAreCovered) {
-    const Loop loop = run({.disturbances = {.occlusion = true}});
+    const Loop loop = run({.run = short_run, .disturbances = {.occlusion = true}});
     expect_converged(loop, 2e-3, 2, 0.3);
     long predicted = 0;
     for (const Sight& sight : loop.servoing->sights()) {
@@ -96,7 +98,7 @@ TEST(ClosedLoop, ConvergesThoughDiscsAreCovered) {
 TEST(ClosedLoop, ConvergesWithAllAtOnceForManySeeds) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         SCOPED_TRACE(seed);
-        expect_converged(run({.run = {.seed = seed}, .disturbances = {.noise = true, .dropped = true, .slow = true, .occlusion = true}}),
+        expect_converged(run({.run = {.span_ns = short_run.span_ns, .seed = seed}, .disturbances = {.noise = true, .dropped = true, .slow = true, .occlusion = true}}),
                          5e-3, 5, 0.5);
     }
 }

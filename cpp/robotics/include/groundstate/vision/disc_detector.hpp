@@ -36,7 +36,8 @@ struct Disc {
 /// Who: one thread. It knows no order of discs and nothing of earlier images but the grey levels.
 class DiscDetector {
   public:
-    /// For images of at most this size. Allocates: yes.
+    /// For images of at most this size. From then on OpenCV computes in the thread that calls it, in the whole program.
+    /// Allocates: yes.
     DiscDetector(int width, int height, const DiscSettings& settings);
     ~DiscDetector();
     DiscDetector(const DiscDetector&) = delete;
