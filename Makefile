@@ -12,7 +12,7 @@ MODELS := library/patterns library/runtime examples
 help: ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*##/\t/' | expand -t 12
 
-demo: $(GROUNDSTATE) ## check the library, run the complete controller for a second, test every scenario, write out/report.html
+demo: $(GROUNDSTATE) ## the model for a second with every scenario → out/report.html; the robot in closed loop, held to its model → out/robot.html
 	@GROUNDSTATE=$(GROUNDSTATE) sh docs/demo.sh
 
 test: lint unit scenarios cpp systems robot fuzz ## everything that must hold before a change lands
@@ -39,8 +39,8 @@ cpp: ## the C++ runtime and the cameras: their tests as they are and under the s
 systems: $(TESTED) ## programs generated from systems: run, held to their models, with faults put in
 	sh cpp/systems/run.sh $(TESTED)
 
-robot: ## the robots: servo law, vision, kinematics, and the controllers in closed loop
-	sh examples/robot.sh
+robot: $(TESTED) ## the robots: servo law, vision, kinematics, the controllers in closed loop, held to their models
+	sh examples/robot.sh $(TESTED)
 
 robot-sanitized: robot ## all four robots in closed loop under the sanitizers; `make robot` runs one under each
 	sh examples/sanitized.sh thread visual_servoing object_tracking pick_and_place micro_assembly

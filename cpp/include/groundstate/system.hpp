@@ -37,6 +37,7 @@ struct TaskPlan {
     std::int64_t busy_ticks = 0;  ///< a cycle's time without any waiting
     int rank = 0;                 ///< the shorter the period, the more urgent
     bool single_phase = false;
+    const char* awaits = "";  ///< the channel whose data wake an asynchronous task
 };
 
 /// What a chart says of a system; all names are literals.
@@ -412,16 +413,34 @@ class SystemBase {
             wait_free += (wait_free.empty() ? "" : " ") + std::string{channel};
         }
         const bool modelled = contexts_[0]->pace.is_modelled();
-        const McapFile::Map about{{"system", plan_.name},
-                                  {"tick_ns", std::to_string(plan_.tick_ns)},
-                                  {"time", is_virtual ? "virtual" : "real"},
-                                  {"pace", modelled ? "modelled" : is_virtual ? "drawn" : "real"},
-                                  {"wait_free", wait_free}};
+        McapFile::Map about{{"system", plan_.name},
+                            {"tick_ns", std::to_string(plan_.tick_ns)},
+                            {"time", is_virtual ? "virtual" : "real"},
+                            {"pace", modelled ? "modelled" : is_virtual ? "drawn" : "real"},
+                            {"wait_free", wait_free}};
+        for (const TaskPlan& task : plan_.tasks) {
+            tell_timing(task, about);
+        }
         recorder_ = std::make_unique<Recorder>(options_.log, tasks,
                                                std::vector<std::string>(plan_.names.begin(), plan_.names.end()), about,
                                                is_virtual ? WhenFull::wait : WhenFull::lose);
         for (std::size_t i = 0; i < contexts_.size(); ++i) {
             contexts_[i]->record_to(&recorder_->log(i), origin_ns);
+        }
+    }
+
+    // What a reader of the log needs to say when a cycle was due.
+    void tell_timing(const TaskPlan& task, McapFile::Map& about) const {
+        const std::string name = task.name;
+        const auto tell = [&](const char* what, std::int64_t ticks) {
+            about.emplace_back(what + (" " + name), std::to_string(ticks * plan_.tick_ns));
+        };
+        if (task.period_ticks > 0) {
+            tell("period_ns", task.period_ticks);
+            tell("offset_ns", task.offset_ticks);
+            tell("deadline_ns", task.deadline_ticks > 0 ? task.deadline_ticks : task.period_ticks);
+        } else if (*task.awaits != '\0') {
+            about.emplace_back("awaits " + name, task.awaits);
         }
     }
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 
 #include <CLI/CLI.hpp>
 
@@ -146,6 +147,14 @@ std::optional<int> CommandLine::read(int count, char** words) {
     return std::nullopt;
 }
 
+std::string CommandLine::from_run_file(const std::string& path) const {
+    namespace fs = std::filesystem;
+    if (path.empty()) {
+        return path;
+    }
+    return fs::absolute(path).lexically_normal().lexically_proximate(fs::absolute(run_file_).lexically_normal().parent_path()).string();
+}
+
 int CommandLine::end(const RunAccount& account, bool is_good, const std::function<void(Json&)>& columns) {
     if (!run_file_.empty()) {
         std::FILE* file = std::fopen(run_file_.c_str(), "w");
@@ -154,6 +163,9 @@ int CommandLine::end(const RunAccount& account, bool is_good, const std::functio
             Json json{file};
             json.open('{');
             write_settings(json, settings_);
+            if (!settings_.log.empty()) {
+                json.key("log").text(from_run_file(settings_.log));
+            }
             columns(json);
             write_tasks(json, account);
             json.close('}');

@@ -3,7 +3,7 @@
 //! Exit code 0: it did. 1: the two part; where, and at which rule, is told. 3: not known, the recording having a gap.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use ::conform::untimed::Steps;
@@ -32,54 +32,83 @@ pub struct Arguments {
     untimed: bool,
 }
 
+/// How a recording was compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// Each tick is a step.
+    Timed,
+    /// One task steps at a time.
+    Untimed,
+}
+
+impl Way {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Way::Timed => "tick by tick",
+            Way::Untimed => "by the order of events",
+        }
+    }
+}
+
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
-    let path = &arguments.recording;
+    let recording = read(&arguments.recording)?;
+    let loaded = match load(shell, &arguments.model)? {
+        Ok(loaded) => loaded,
+        Err(exit) => return Ok(exit),
+    };
+    match hold(shell, loaded, &arguments.model, &recording, arguments.untimed)? {
+        Ok((sources, verdict, way)) => tell(shell, &sources, &recording, &verdict, way.words()),
+        Err(exit) => Ok(exit),
+    }
+}
+
+/// Reads the events of a generated program.
+pub fn read(path: &Path) -> Result<Recording, Failure> {
     let bytes = std::fs::read(path).map_err(|error| Failure::of_file("read", path, error))?;
-    let recording = Recording::read(&bytes).map_err(|Malformed(reason)| {
+    Recording::read(&bytes).map_err(|Malformed(reason)| {
         Failure::usage_with_help(
             format!("{} cannot be replayed: {reason}", path.display()),
             "a generated program writes its events with `--log FILE`",
         )
-    })?;
-    let mut loaded = match load(shell, &arguments.model)? {
-        Ok(loaded) => loaded,
-        Err(exit) => return Ok(exit),
-    };
+    })
+}
+
+/// Holds a recording to a model: tick by tick where it follows the model's ticks, else by the order of events.
+pub fn hold(
+    shell: &mut Shell,
+    mut loaded: Loaded,
+    path: &Path,
+    recording: &Recording,
+    untimed: bool,
+) -> Result<Result<(Sources, Verdict, Way), Exit>, Failure> {
     let limits = shell.global.limits.machine();
-    let wrong = |reason: String| Failure::usage(format!("{} cannot be replayed: {reason}", arguments.model.display()));
-    let mut way = "tick by tick";
-    let mut verdict = None;
-    if recording.pace == "modelled" && !arguments.untimed {
+    let wrong = |reason: String| Failure::usage(format!("{} cannot be replayed: {reason}", path.display()));
+    if recording.pace == "modelled" && !untimed {
         let program = Arc::new(loaded.program.clone());
-        verdict = Some(timed::check(&program, limits, &recording).map_err(wrong)?);
+        let verdict = timed::check(&program, limits, recording).map_err(wrong)?;
         // What the model has no word for is a matter of order alone.
         let passed = recording.tracks.iter().flat_map(|track| &track.events).any(|event| event.kind == "passes");
-        if passed && matches!(verdict, Some(Verdict::Unknown { .. })) {
-            verdict = None;
+        if !(passed && matches!(verdict, Verdict::Unknown { .. })) {
+            return Ok(Ok((loaded.sources, verdict, Way::Timed)));
         }
     }
-    let verdict = match verdict {
-        Some(verdict) => verdict,
-        None => {
-            way = "by the order of events";
-            let mut machine = Machine::new(Arc::new(loaded.program.clone()), limits);
-            machine.start(&mut Closed).map_err(|fault| wrong(fault.show(&loaded.program).to_string()))?;
-            let vocabulary = Vocabulary::new(&loaded.program, &mut machine).map_err(wrong)?;
-            let names: Vec<String> = vocabulary.components.iter().map(|component| component.name.clone()).collect();
-            let Loaded { sources, model, program, .. } = &mut loaded;
-            let steps = match Steps::add(&names, sources, model, program) {
-                Ok(steps) => steps,
-                Err(faults) => {
-                    shell.diagnostics(&loaded.sources, &faults)?;
-                    return Ok(Exit::Model);
-                }
-            };
-            let program = Arc::new(loaded.program.clone());
-            untimed::check(&program, limits, &recording, &steps).map_err(wrong)?
+    let mut machine = Machine::new(Arc::new(loaded.program.clone()), limits);
+    machine.start(&mut Closed).map_err(|fault| wrong(fault.show(&loaded.program).to_string()))?;
+    let vocabulary = Vocabulary::new(&loaded.program, &mut machine).map_err(wrong)?;
+    let names: Vec<String> = vocabulary.components.iter().map(|component| component.name.clone()).collect();
+    let Loaded { sources, model, program, .. } = &mut loaded;
+    let steps = match Steps::add(&names, sources, model, program) {
+        Ok(steps) => steps,
+        Err(faults) => {
+            shell.diagnostics(&loaded.sources, &faults)?;
+            return Ok(Err(Exit::Model));
         }
     };
-    tell(shell, &loaded.sources, &recording, &verdict, way)
+    let program = Arc::new(loaded.program.clone());
+    let verdict = untimed::check(&program, limits, recording, &steps).map_err(wrong)?;
+    Ok(Ok((loaded.sources, verdict, Way::Untimed)))
 }
 
 fn tell(

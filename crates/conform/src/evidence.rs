@@ -2,7 +2,7 @@
 
 use syntax::Span;
 
-use crate::recording::Event;
+use recording::Event;
 
 /// An event that a step of the model has.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -48,33 +48,4 @@ pub struct Parted {
 /// What a parting is about: the channels, or whatever else events name.
 pub(crate) fn objects<'e>(event: Option<&'e Event>, claims: &'e [Claim]) -> Vec<&'e str> {
     event.into_iter().chain(claims.iter().map(|claim| &claim.event)).map(|event| event.object.as_str()).collect()
-}
-
-impl Event {
-    /// Whether both say the same, whenever they happen.
-    pub fn same(&self, other: &Event) -> bool {
-        let key = |event: &Event| (event.number, event.array, event.next, event.fresh);
-        self.kind == other.kind && self.object == other.object && key(self) == key(other)
-    }
-
-    /// The event in words: `writes camera_to_vs 3, array 1`.
-    pub fn words(&self) -> String {
-        let mut text = format!("{} {}", self.kind, self.object);
-        match self.kind.as_str() {
-            "begins" | "ends" | "passes" | "meets" | "misses" | "faults" => text += &format!(", cycle {}", self.number),
-            "asks" | "enters" | "gives_up" | "releases" | "refuses" | "invalid" => {}
-            _ => text += &format!(", number {}", self.number),
-        }
-        for (name, value) in [("array", self.array), ("next", self.next)] {
-            if let Some(value) = value {
-                text += &format!(", {name} {value}");
-            }
-        }
-        match self.fresh {
-            Some(true) => text += ", new",
-            Some(false) => text += ", not new",
-            None => {}
-        }
-        text
-    }
 }

@@ -7,7 +7,6 @@
 //! ([`untimed`]). The meaning of a rule stays in the machine; a run that was not wholly recorded never conforms.
 
 mod evidence;
-mod recording;
 pub mod timed;
 pub mod untimed;
 pub mod vocabulary;

@@ -11,8 +11,8 @@ use program::Program;
 
 use crate::Verdict;
 use crate::evidence::{Claim, Parted, Recorded, objects};
-use crate::recording::{Event, Recording};
 use crate::vocabulary::Vocabulary;
+use recording::{Event, Recording};
 
 /// The last so many events are shown where the two part.
 const SHOWN: usize = 12;

@@ -17,9 +17,9 @@ use syntax::{Diagnostic, Severity, SourceFile, Sources};
 
 use crate::Verdict;
 use crate::evidence::{Claim, Parted, Recorded, objects};
-use crate::recording::{Event, Recording};
 use crate::timed::tracks;
 use crate::vocabulary::Vocabulary;
+use recording::{Event, Recording};
 
 /// Phases take no time, and a rest comes behind each. A deadline is said of each task, so that its period can be another
 /// while a cycle ends.

@@ -10,7 +10,7 @@ use machine::{Change, Location, Machine, Show, Value};
 use program::{FunctionId, Program};
 
 use crate::evidence::Claim;
-use crate::recording::Event;
+use recording::Event;
 
 /// The names of the library that events come from, with their numbers of arguments.
 const FUNCTIONS: &[(&str, usize)] = &[

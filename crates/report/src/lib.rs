@@ -1,8 +1,9 @@
 //! A validated run as one page: timeline, deadlines, waiting, age of data, scenarios, coverage.
 //!
-//! In: a [`Spec`] that says which terms of a model make which lane, their values state by state
-//! ([`ReportBuilder`]), and what a shell adds from elsewhere. Out: [`render_html`], a page in a single file that
-//! needs nothing else; [`render_svg`], a still picture; [`summarise`], the same in short for a terminal.
+//! In: a [`Spec`] that says which terms of a model make which lane, their values state by state ([`ReportBuilder`]), and
+//! what a shell adds from elsewhere; or the recorded events of a program ([`ProgramRun`]). Out: [`render_html`] and
+//! [`render_program`], a page in a single file that needs nothing else; [`render_svg`], a still picture; [`summarise`] and
+//! [`summarise_program`], the same in short for a terminal.
 //!
 //! It must not know what a task or a buffer of any model is called, how a model is executed, or a file; the same
 //! report gives the same bytes.
@@ -12,6 +13,7 @@ mod flow;
 mod html;
 mod lanes;
 mod markup;
+mod program;
 mod report;
 mod spec;
 mod svg;
@@ -23,7 +25,8 @@ mod track;
 
 pub use builder::{ReportBuilder, SHOWN_TICKS};
 pub use flow::{Flow, Journey};
-pub use html::render_html;
+pub use html::{render_html, render_program};
+pub use program::{ChannelAge, ClosedLoop, Held, Joint, Program, ProgramRun, TaskTiming, View};
 pub use report::{
     Buffer, Chart, Coverage, Fact, Invariant, Lights, Measure, Queue, Report, Scenario, Series, Task, Verdict,
 };
@@ -33,7 +36,7 @@ pub use spec::{
 };
 pub use svg::{SvgOptions, render_svg};
 pub use tally::Tally;
-pub use text::{SummaryOptions, summarise};
-pub use time::TimeBase;
+pub use text::{RunSummary, SummaryOptions, summarise, summarise_program};
+pub use time::{TimeBase, count};
 pub use tone::Tone;
 pub use track::{Curve, Kind, Segment, Span, Track};

@@ -62,6 +62,26 @@ impl fmt::Display for Json<'_> {
     }
 }
 
+/// Bytes as a `data:` address has them.
+pub(crate) struct Base64<'a>(pub &'a [u8]);
+
+impl fmt::Display for Base64<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+        for three in self.0.chunks(3) {
+            let bits = (0..3).fold(0, |bits, at| bits << 8 | u32::from(three.get(at).copied().unwrap_or(0)));
+            let digits: String = (0..4)
+                .map(|at| match at <= three.len() {
+                    true => char::from(DIGITS[(bits >> (18 - 6 * at) & 63) as usize]),
+                    false => '=',
+                })
+                .collect();
+            f.write_str(&digits)?;
+        }
+        Ok(())
+    }
+}
+
 /// Appends formatted text to a `String`.
 macro_rules! put {
     ($out:expr, $($format:tt)*) => {{
@@ -75,6 +95,12 @@ pub(crate) use put;
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn bytes_become_digits() {
+        let coded: Vec<String> = ["", "f", "fo", "foo", "foob"].map(|text| Base64(text.as_bytes()).to_string()).into();
+        assert_eq!(coded, ["", "Zg==", "Zm8=", "Zm9v", "Zm9vYg=="]);
+    }
 
     #[test]
     fn names_cannot_become_markup() {

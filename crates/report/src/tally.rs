@@ -12,6 +12,11 @@ pub struct Tally {
 }
 
 impl Tally {
+    /// Nothing yet.
+    pub const fn new() -> Tally {
+        Tally { counts: BTreeMap::new(), greatest_at: 0 }
+    }
+
     /// One more of this value, seen at this tick.
     pub fn add(&mut self, value: u64, tick: u64) {
         if self.greatest().is_none_or(|(greatest, _)| value > greatest) {

@@ -59,6 +59,18 @@ impl Track {
         }
     }
 
+    /// In these ticks, which follow those given before, this kind goes on; what was given before is kept.
+    pub(crate) fn extend(&mut self, start: u64, end: u64, kind: u16) {
+        let start = start.max(self.spans.last().map_or(0, |last| last.end));
+        if start >= end {
+            return;
+        }
+        match self.spans.last_mut() {
+            Some(last) if last.end == start && last.kind == kind => last.end = end,
+            _ => self.spans.push(Span { start, end, kind }),
+        }
+    }
+
     /// The spans that reach into a window.
     pub fn within(&self, start: u64, end: u64) -> &[Span] {
         let from = self.spans.partition_point(|span| span.end <= start);

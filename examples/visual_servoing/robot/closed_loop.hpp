@@ -44,9 +44,17 @@ struct Loop {
     bool holding = false;       ///< at the end, for want of set-points
     double fastest = 0;         ///< rad/s, what the fastest joint was commanded at the end
 
-    /// The last goal is reached: features to 0.005, the camera to 5 mm and half a degree.
+    static constexpr double converged_error = 5e-3;
+
+    /// It converged, or came to rest as it must without images or set-points.
+    bool as_expected(const LoopSettings& settings) const noexcept {
+        const bool must_rest = settings.disturbances.unplugged_s > 0 || settings.hook_fault != HookFault::none;
+        return converged() || (holding && must_rest && fastest < 5e-3);
+    }
+
+    /// The last goal is reached: features to `converged_error`, the camera to 5 mm and half a degree.
     bool converged() const noexcept {
-        return feature_error < 5e-3 && position_error < 5e-3 && turn_error < 0.5 * M_PI / 180 && !holding &&
+        return feature_error < converged_error && position_error < 5e-3 && turn_error < 0.5 * M_PI / 180 && !holding &&
                account.ending;
     }
 };

@@ -59,8 +59,9 @@ struct ServoingSettings {
     groundstate::servo::Intrinsics lens{};
     groundstate::servo::ServoSettings law{.gain = {3.0, 0.9, 12.0}};
     groundstate::vision::TrackerSettings tracker{.discs = {.dark = false}};
-    std::size_t images_kept = 6;  ///< for looking at afterwards
-    std::int64_t keep_every_ns = 1'900'000'000;
+    /// Images kept for looking at afterwards: so long after a target came, for so many targets.
+    std::vector<std::int64_t> keep_after_ns{100'000'000, 600'000'000, 2'000'000'000};
+    std::size_t targets_kept = 2;
 };
 
 /// What one image gave.
@@ -101,7 +102,9 @@ class ServoingByImages final : public VisualServoing {
     std::int64_t target_ = 0;
     std::vector<Sight> sights_{};
     std::vector<Kept> kept_{};
-    std::size_t keeping_ = 0;
+    std::size_t keeping_ = 0;       ///< kept so far
+    std::size_t keeping_next_ = 0;  ///< of this target
+    std::int64_t target_came_ns_ = 0;
 };
 
 struct RobotSettings {

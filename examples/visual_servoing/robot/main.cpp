@@ -27,9 +27,7 @@ int main(int count, char** words) {
     tell(loop.account);
     std::printf("camera: %lld images, %lld lost; searched whole %ld times\n", static_cast<long long>(loop.frames.delivered),
                 static_cast<long long>(loop.frames.lost), loop.servoing->searches());
-    std::printf("features %.1e, camera %.2f mm and %.3f degrees from the last goal: %s\n", loop.feature_error,
-                loop.position_error * 1e3, loop.turn_error * 180 / M_PI,
-                loop.converged() ? "converged" : loop.holding ? "holding, without set-points" : "not converged");
+    std::printf("%s\n", ending(loop).c_str());
     if (!views.empty()) {
         const std::size_t pictures = write_pictures(views, loop);
         std::printf("%zu views in %s\n", pictures, views.c_str());
@@ -38,7 +36,6 @@ int main(int count, char** words) {
             return 2;
         }
     }
-    const bool at_rest = loop.holding && (settings.disturbances.unplugged_s > 0 || fault != 0) && loop.fastest < 5e-3;
-    return line.end(loop.account, loop.converged() || at_rest,
-                    [&](Json& json) { write_columns(json, settings, loop); });
+    return line.end(loop.account, loop.as_expected(settings),
+                    [&](Json& json) { write_columns(json, settings, loop, line.from_run_file(views)); });
 }

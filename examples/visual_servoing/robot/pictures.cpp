@@ -25,7 +25,7 @@ void draw_way(cv::Mat& picture, const std::vector<Sight>& sights, std::int64_t u
         }
         if (before != nullptr && sight.tracked && sight.target == target) {
             for (std::size_t i = 0; i < servo::points; ++i) {
-                cv::line(picture, at(before->tracked.pixels[i]), at(sight.tracked.pixels[i]), colours[i], 1, cv::LINE_AA, finer);
+                cv::line(picture, at(before->tracked.pixels[i]), at(sight.tracked.pixels[i]), colours[i], 2, cv::LINE_AA, finer);
             }
         }
         before = sight.tracked && sight.target == target ? &sight : nullptr;

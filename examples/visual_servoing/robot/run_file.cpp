@@ -31,7 +31,12 @@ std::array<double, 8> flat(const servo::Pixels& pixels) {
 }
 
 void write_scene(Json& json, const LoopSettings& settings, const Loop& loop) {
+    json.key("title").text("Visual servoing on four points");
+    json.key("note").text(
+        "An arm of six joints with the camera in its hand, over a table with four discs. The operator sends two goals: views "
+        "of the discs that the camera is to have.");
     closed_loop::write_disturbances(json, settings.disturbances);
+    json.key("converged_below").number(Loop::converged_error);
     json.key("image").numbers(std::array<double, 2>{640, 480});
     json.column("goals", loop.goals, [&](Json& j, const Goal& goal) {
         servo::Pixels pixels;
@@ -44,6 +49,22 @@ void write_scene(Json& json, const LoopSettings& settings, const Loop& loop) {
         j.key("pixels").numbers(flat(pixels));
         j.close('}');
     });
+}
+
+void write_views(Json& json, const Loop& loop, const std::string& views) {
+    json.key("views").open('[');
+    int number = 0;
+    for (const Kept& kept : loop.servoing->kept()) {
+        if (kept.target == 0) {
+            continue;
+        }
+        json.open('{');
+        json.key("file").text(views + "/view-" + std::to_string(++number) + ".png");
+        json.key("t_s").number(seconds(kept.captured_ns - loop.origin_ns));
+        json.key("target").number(static_cast<double>(kept.target));
+        json.close('}');
+    }
+    json.close(']');
 }
 
 void write_sights(Json& json, const Loop& loop) {
@@ -84,7 +105,7 @@ void write_motions(Json& json, const Loop& loop) {
     json.close('}');
 }
 
-void write_results(Json& json, const Loop& loop) {
+void write_results(Json& json, const LoopSettings& settings, const Loop& loop) {
     json.key("frames").open('{');
     json.key("delivered").number(static_cast<double>(loop.frames.delivered));
     json.key("lost").number(static_cast<double>(loop.frames.lost));
@@ -97,15 +118,32 @@ void write_results(Json& json, const Loop& loop) {
     json.key("holding").truth(loop.holding);
     json.key("converged").truth(loop.converged());
     json.close('}');
+    json.key("verdict").open('{');
+    json.key("good").truth(loop.as_expected(settings));
+    json.key("words").text(ending(loop));
+    json.close('}');
 }
 
 }  // namespace
 
-void write_columns(Json& json, const LoopSettings& settings, const Loop& loop) {
+std::string ending(const Loop& loop) {
+    char text[160];
+    std::snprintf(text, sizeof text, "features %.1e, camera %.2f mm and %.3f degrees from the last goal: %s",
+                  loop.feature_error, loop.position_error * 1e3, loop.turn_error * 180 / M_PI,
+                  loop.converged() ? "converged"
+                  : loop.holding   ? "holding, without set-points"
+                                   : "not converged");
+    return text;
+}
+
+void write_columns(Json& json, const LoopSettings& settings, const Loop& loop, const std::string& views) {
     write_scene(json, settings, loop);
+    if (!views.empty()) {
+        write_views(json, loop, views);
+    }
     write_sights(json, loop);
     write_motions(json, loop);
-    write_results(json, loop);
+    write_results(json, settings, loop);
 }
 
 }  // namespace controller_system

@@ -1,4 +1,4 @@
-// What is particular to a run of this robot, as JSON for reports: README.md lists it. A run in virtual time gives the same
+// What is particular to a run of this robot, as JSON for reports: spec/run.md lists it. A run in virtual time gives the same
 // bytes each time.
 #pragma once
 
@@ -8,7 +8,12 @@
 
 namespace controller_system {
 
-/// Everything that was recorded, as keys of the object that is open.
-void write_columns(groundstate::closed_loop::Json& json, const LoopSettings& settings, const Loop& loop);
+/// Where the run came to, in a sentence.
+std::string ending(const Loop& loop);
+
+/// Everything that was recorded, as keys of the object that is open. `views` is the folder of write_pictures, from the folder
+/// of the JSON; empty: there are none.
+void write_columns(groundstate::closed_loop::Json& json, const LoopSettings& settings, const Loop& loop,
+                   const std::string& views);
 
 }  // namespace controller_system

@@ -50,24 +50,27 @@ bool ImageGrabber::grab(const Cycle& cycle, const In&, Out& out) {
 }
 
 ServoingByImages::ServoingByImages(Now now, const ServoingSettings& settings, std::size_t sights)
-    : now_{std::move(now)}, settings_{settings}, tracker_{640, 480, settings.tracker}, kept_(settings.images_kept) {
+    : now_{std::move(now)}, settings_{settings}, tracker_{640, 480, settings.tracker}, kept_(settings.keep_after_ns.size() * settings.targets_kept) {
     sights_.reserve(sights);
 }
 
 void ServoingByImages::keep(const CameraToVs& image) {
-    if (keeping_ < kept_.size() &&
-        (keeping_ == 0 || image.captured_ns - kept_[keeping_ - 1].captured_ns >= settings_.keep_every_ns)) {
+    if (keeping_ < kept_.size() && keeping_next_ < settings_.keep_after_ns.size() &&
+        image.captured_ns - target_came_ns_ >= settings_.keep_after_ns[keeping_next_]) {
         *kept_[keeping_].frame = image.frame;
         kept_[keeping_].captured_ns = image.captured_ns;
         kept_[keeping_].target = target_;
         kept_[keeping_].tracked = tracker_.present();
         ++keeping_;
+        ++keeping_next_;
     }
 }
 
 bool ServoingByImages::set_point(const Cycle&, const In& in, Out& out) {
     if (in.targets && in.targets.fresh) {
         target_ = in.targets->number;
+        target_came_ns_ = now_();
+        keeping_next_ = 0;
         desired_ = in.targets->desired;
         servo::Pixels expected;
         for (std::size_t i = 0; i < servo::points; ++i) {

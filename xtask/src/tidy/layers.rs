@@ -12,6 +12,7 @@ const LAYERS: &[&[&str]] = &[
     &["model"],
     &["program"],
     &["machine"],
+    &["recording"],
     &["simulate", "scenario", "verify", "refine", "chart", "generate", "conform", "ide", "report"],
     &["groundstate"],
     &["cli", "studio", "lsp", "python", "xtask"],

@@ -171,10 +171,16 @@ fn plan(text: &mut String, system: &System, form: &Form) {
             Timing::Synchronous { period, offset, deadline } => (period, offset, deadline),
             Timing::Asynchronous { .. } => (0, 0, 0),
         };
+        let awaits = match component.timing {
+            Timing::Asynchronous { awaits: Some(channel) } => {
+                format!(", .awaits = \"{}\"", system.channels[channel].name)
+            }
+            _ => String::new(),
+        };
         let _ = writeln!(
             text,
             "            {{.name = \"{}\", .period_ticks = {period}, .offset_ticks = {offset}, .deadline_ticks = {deadline}, \
-             .busy_ticks = {}, .rank = {rank}, .single_phase = {}}},",
+             .busy_ticks = {}, .rank = {rank}, .single_phase = {}{awaits}}},",
             component.name,
             busy(system, component),
             component.phases.len() == 1

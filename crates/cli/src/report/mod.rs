@@ -7,6 +7,7 @@
 mod charts;
 mod evidence;
 pub mod node;
+mod recorded;
 mod specification;
 mod watch;
 
@@ -97,12 +98,24 @@ pub struct Arguments {
     /// Scenarios, or folders of them, to run beside it; may be given several times
     #[arg(long, value_name = "PATH")]
     scenarios: Vec<PathBuf>,
+    /// A run of a program that was made for the model, instead of a run of the model: its events (MCAP), or its JSON,
+    /// which names them. It is held to the model; the page shows the first run in detail, and the figures of all; may be
+    /// given several times
+    #[arg(
+        long = "run",
+        value_name = "FILE",
+        conflicts_with_all = ["spec", "steps", "svg", "svg_steps", "svg_from", "scenarios", "InputArguments"]
+    )]
+    runs: Vec<PathBuf>,
     #[command(flatten)]
     inputs: inputs::InputArguments,
 }
 
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    if !arguments.runs.is_empty() {
+        return recorded::run(shell, arguments);
+    }
     let mut loaded = match load(shell, &arguments.model)? {
         Ok(loaded) => loaded,
         Err(exit) => return Ok(exit),

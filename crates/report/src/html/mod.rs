@@ -8,8 +8,11 @@ mod charts;
 mod data;
 mod figures;
 mod lanes;
+mod program;
 mod tables;
 mod verdicts;
+
+pub use program::render_program;
 
 use crate::markup::{Text, put};
 use crate::report::Report;
@@ -25,19 +28,7 @@ use crate::svg::svg_css;
 /// ```
 pub fn render_html(report: &Report) -> String {
     let mut out = String::new();
-    out.push_str("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n");
-    out.push_str("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n");
-    out.push_str(
-        "<meta name=\"color-scheme\" content=\"light dark\"/>\n<meta name=\"generator\" content=\"Groundstate\"/>\n",
-    );
-    put!(out, "<title>{}</title>\n", Text(&report.title));
-    put!(
-        out,
-        "<style>\n{}{}{}</style>\n</head>\n<body>\n",
-        include_str!("page.css"),
-        svg_css(),
-        if report.charts.is_empty() { "" } else { &report.chart_style }
-    );
+    open(&mut out, &report.title, if report.charts.is_empty() { "" } else { &report.chart_style });
     figures::header(&mut out, report);
     out.push_str("<main>\n");
     lanes::timeline_section(&mut out, report);
@@ -56,11 +47,26 @@ pub fn render_html(report: &Report) -> String {
         "<footer>Written by Groundstate from a run of {}. This page is complete: it loads nothing.</footer>\n",
         Text(&report.model)
     );
-    put!(out, "<script type=\"application/json\" id=\"run\">\n{}</script>\n", data::run_data(report));
-    let charts = if report.charts.is_empty() { "" } else { include_str!("charts.js") };
-    put!(out, "<script>\n{}{}{charts}</script>\n", include_str!("draw.js"), include_str!("explore.js"));
+    scripts(&mut out, &data::run_data(report), if report.charts.is_empty() { "" } else { include_str!("charts.js") });
     out.push_str("</body>\n</html>\n");
     out
+}
+
+/// The head of a page, up to its body.
+fn open(out: &mut String, title: &str, style: &str) {
+    out.push_str("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n");
+    out.push_str("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n");
+    out.push_str(
+        "<meta name=\"color-scheme\" content=\"light dark\"/>\n<meta name=\"generator\" content=\"Groundstate\"/>\n",
+    );
+    put!(out, "<title>{}</title>\n", Text(title));
+    put!(out, "<style>\n{}{}{style}</style>\n</head>\n<body>\n", include_str!("page.css"), svg_css());
+}
+
+/// The lanes as data, and what draws other windows of them.
+fn scripts(out: &mut String, data: &str, more: &str) {
+    put!(out, "<script type=\"application/json\" id=\"run\">\n{data}</script>\n");
+    put!(out, "<script>\n{}{}{more}</script>\n", include_str!("draw.js"), include_str!("explore.js"));
 }
 
 /// A link that moves the timeline to a tick; without the script it leads to the timeline.

@@ -2,7 +2,7 @@
 
 use crate::html::section;
 use crate::markup::{Px, Text, put};
-use crate::report::{Measure, Report, Scenario, Verdict};
+use crate::report::{Fact, Measure, Report, Scenario, Verdict};
 use crate::time::count;
 
 /// Writes the invariants.
@@ -132,12 +132,17 @@ fn bar(out: &mut String, measure: &Measure) {
 
 /// Writes the facts of the run.
 pub(super) fn facts(out: &mut String, report: &Report) {
-    if report.facts.is_empty() {
+    list_facts(out, &report.facts);
+}
+
+/// Writes facts; none: nothing.
+pub(super) fn list_facts(out: &mut String, facts: &[Fact]) {
+    if facts.is_empty() {
         return;
     }
     section(out, "facts", "The run", "");
     out.push_str("<dl class=\"facts\">\n");
-    for fact in &report.facts {
+    for fact in facts {
         put!(out, "<div><dt>{}</dt><dd>{}</dd></div>\n", Text(&fact.label), Text(&fact.value));
     }
     out.push_str("</dl>\n</section>\n");

@@ -7,14 +7,19 @@
 mod axis;
 mod chart;
 mod columns;
+mod distribution;
 mod graph;
 mod overview;
+mod plot;
+mod scale;
 mod strip;
 mod timeline;
 mod view;
 
 pub(crate) use chart::{histogram, legs, profile};
+pub(crate) use distribution::{distribution, show_ns};
 pub(crate) use overview::overview;
+pub(crate) use plot::{error_norm, joint};
 pub(crate) use timeline::{Timeline, flow_indices, timeline};
 pub(crate) use view::View;
 

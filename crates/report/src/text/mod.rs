@@ -4,7 +4,10 @@
 //! tells what it did most. A buffer's lane shows which array is on the reader's side.
 
 mod lanes;
+mod program;
 mod table;
+
+pub use program::{RunSummary, summarise_program};
 
 use crate::markup::put;
 use crate::report::{Report, Series, Task};

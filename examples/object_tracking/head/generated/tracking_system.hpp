@@ -139,11 +139,11 @@ inline groundstate::SystemPlan plan() {
         .tick_ns = 100000,
         .tasks = {
             {.name = "camera", .period_ticks = 100, .offset_ticks = 0, .deadline_ticks = 100, .busy_ticks = 42, .rank = 3, .single_phase = false},
-            {.name = "tracker", .period_ticks = 0, .offset_ticks = 0, .deadline_ticks = 0, .busy_ticks = 60, .rank = 4, .single_phase = false},
+            {.name = "tracker", .period_ticks = 0, .offset_ticks = 0, .deadline_ticks = 0, .busy_ticks = 60, .rank = 4, .single_phase = false, .awaits = "image"},
             {.name = "head", .period_ticks = 50, .offset_ticks = 0, .deadline_ticks = 50, .busy_ticks = 15, .rank = 2, .single_phase = false},
             {.name = "motor", .period_ticks = 10, .offset_ticks = 0, .deadline_ticks = 10, .busy_ticks = 8, .rank = 1, .single_phase = false},
             {.name = "encoder", .period_ticks = 5, .offset_ticks = 0, .deadline_ticks = 5, .busy_ticks = 5, .rank = 0, .single_phase = false},
-            {.name = "display", .period_ticks = 0, .offset_ticks = 0, .deadline_ticks = 0, .busy_ticks = 51, .rank = 5, .single_phase = false},
+            {.name = "display", .period_ticks = 0, .offset_ticks = 0, .deadline_ticks = 0, .busy_ticks = 51, .rank = 5, .single_phase = false, .awaits = "sightings"},
         },
         .names = {"camera_grab", "camera_write", "tracker_read_image", "tracker_read_angles", "tracker_elaborate", "tracker_write", "tracker_tell", "head_read_track", "head_read_encoder", "head_elaborate", "head_write_motor", "head_write_angles", "motor_read_encoder", "motor_read_head", "motor_elaborate", "encoder_acquire", "encoder_write_head", "encoder_write_motor", "display_receive", "display_show", "image", "head_angles", "track", "sightings", "encoder_to_head", "encoder_to_motor", "head_to_motor", "camera", "tracker", "head", "motor", "encoder", "display"},
         .wait_free = {},

@@ -161,8 +161,8 @@ inline groundstate::SystemPlan plan() {
         .tick_ns = 100000,
         .tasks = {
             {.name = "camera", .period_ticks = 400, .offset_ticks = 0, .deadline_ticks = 400, .busy_ticks = 62, .rank = 4, .single_phase = false},
-            {.name = "vision", .period_ticks = 0, .offset_ticks = 0, .deadline_ticks = 0, .busy_ticks = 156, .rank = 5, .single_phase = false},
-            {.name = "planner", .period_ticks = 0, .offset_ticks = 0, .deadline_ticks = 0, .busy_ticks = 106, .rank = 6, .single_phase = false},
+            {.name = "vision", .period_ticks = 0, .offset_ticks = 0, .deadline_ticks = 0, .busy_ticks = 156, .rank = 5, .single_phase = false, .awaits = "image"},
+            {.name = "planner", .period_ticks = 0, .offset_ticks = 0, .deadline_ticks = 0, .busy_ticks = 106, .rank = 6, .single_phase = false, .awaits = "progress"},
             {.name = "robot", .period_ticks = 50, .offset_ticks = 0, .deadline_ticks = 50, .busy_ticks = 23, .rank = 2, .single_phase = false},
             {.name = "gripper", .period_ticks = 100, .offset_ticks = 0, .deadline_ticks = 100, .busy_ticks = 11, .rank = 3, .single_phase = false},
             {.name = "motor", .period_ticks = 10, .offset_ticks = 0, .deadline_ticks = 10, .busy_ticks = 8, .rank = 1, .single_phase = false},

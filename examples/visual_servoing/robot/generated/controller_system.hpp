@@ -140,7 +140,7 @@ inline groundstate::SystemPlan plan() {
         .tasks = {
             {.name = "operator", .period_ticks = 0, .offset_ticks = 0, .deadline_ticks = 0, .busy_ticks = 301, .rank = 4, .single_phase = false},
             {.name = "camera", .period_ticks = 100, .offset_ticks = 0, .deadline_ticks = 100, .busy_ticks = 62, .rank = 3, .single_phase = false},
-            {.name = "visual_servoing", .period_ticks = 0, .offset_ticks = 0, .deadline_ticks = 0, .busy_ticks = 130, .rank = 5, .single_phase = false},
+            {.name = "visual_servoing", .period_ticks = 0, .offset_ticks = 0, .deadline_ticks = 0, .busy_ticks = 130, .rank = 5, .single_phase = false, .awaits = "camera_to_vs"},
             {.name = "robot", .period_ticks = 50, .offset_ticks = 0, .deadline_ticks = 50, .busy_ticks = 30, .rank = 2, .single_phase = false},
             {.name = "motor", .period_ticks = 10, .offset_ticks = 0, .deadline_ticks = 10, .busy_ticks = 8, .rank = 1, .single_phase = false},
             {.name = "encoder", .period_ticks = 5, .offset_ticks = 0, .deadline_ticks = 5, .busy_ticks = 5, .rank = 0, .single_phase = false},

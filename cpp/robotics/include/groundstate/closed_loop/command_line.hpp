@@ -52,7 +52,10 @@ class CommandLine {
     /// Nothing: the program may run. Else its exit status, and all is told.
     std::optional<int> read(int count, char** words);
 
-    /// Writes what --run asks for: an object with the settings, the tasks, and what `columns` adds. The exit status of
+    /// A path as it is from the folder of the file that --run names; empty: of no path.
+    std::string from_run_file(const std::string& path) const;
+
+    /// Writes what --run asks for: an object with the settings, where the log is, the tasks, and what `columns` adds. The exit status of
     /// the program, as it was told already.
     int end(const RunAccount& account, bool is_good, const std::function<void(Json&)>& columns);
 

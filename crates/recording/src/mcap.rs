@@ -1,4 +1,4 @@
-//! What a program has recorded: MCAP bytes → events, task by task.
+//! MCAP bytes → events, task by task.
 //!
 //! Reads what `cpp/include/groundstate/recorder.hpp` writes: records and uncompressed chunks, from the front, so that a
 //! file that ends early gives all that came before. INVARIANT: the events of a track are in the task's order without a
@@ -8,52 +8,7 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-/// One event of a task, as spec/conform.md lists them.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Event {
-    /// Since the origin of the run.
-    pub time_ns: i64,
-    /// What happened: `begins`, `asks`, `swaps` ….
-    pub kind: String,
-    /// The phase, channel or component.
-    pub object: String,
-    /// The number of the datum, message or cycle.
-    pub number: u64,
-    /// The array worked on; of a swap the index read.
-    pub array: Option<u64>,
-    /// Of a swap the index written.
-    pub next: Option<u64>,
-    /// Of a reading, whether it brought something new.
-    pub fresh: Option<bool>,
-}
-
-/// The events of one task.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Track {
-    /// The component.
-    pub task: String,
-    /// Its events, in order.
-    pub events: Vec<Event>,
-    /// An event after these was lost.
-    pub lost: bool,
-}
-
-/// The events of a run.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Recording {
-    /// One a task.
-    pub tracks: Vec<Track>,
-    /// The system's name.
-    pub system: String,
-    /// The length of a tick of the model.
-    pub tick_ns: i64,
-    /// `modelled`, `drawn` or `real`.
-    pub pace: String,
-    /// Channels that do not follow the model's protocol.
-    pub wait_free: Vec<String>,
-    /// When the tasks were asked to stop; none if the log ends before.
-    pub stopped_ns: Option<i64>,
-}
+use crate::{Event, Recording, Rhythm, Track};
 
 /// What is wrong with a file that is no recording.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -102,6 +57,8 @@ impl<'a> Cursor<'a> {
 struct Reader {
     recording: Recording,
     channels: BTreeMap<u64, usize>,
+    /// What is said of the tasks before they are named.
+    timing: BTreeMap<String, String>,
 }
 
 impl Recording {
@@ -125,27 +82,6 @@ impl Recording {
         }
         Ok(recording)
     }
-
-    /// Whether all that happened was recorded.
-    pub fn is_whole(&self) -> bool {
-        self.stopped_ns.is_some() && self.tracks.iter().all(|track| !track.lost)
-    }
-
-    /// How many events there are.
-    pub fn events(&self) -> usize {
-        self.tracks.iter().map(|track| track.events.len()).sum()
-    }
-
-    /// The instant from which on something is missing.
-    pub fn known_until_ns(&self) -> Option<i64> {
-        if self.is_whole() {
-            return None;
-        }
-        let last = |track: &Track| track.events.last().map_or(0, |event| event.time_ns);
-        let lost = self.tracks.iter().filter(|track| track.lost).map(last).min();
-        // A file that was cut: the writer goes from task to task, so what it had of all may end earlier than the last.
-        lost.or_else(|| self.tracks.iter().map(last).min())
-    }
 }
 
 impl Reader {
@@ -159,7 +95,8 @@ impl Reader {
                 let topic = cursor.text().ok_or_else(short)?;
                 self.channels.insert(id, self.recording.tracks.len());
                 let task = topic.trim_start_matches('/').to_string();
-                self.recording.tracks.push(Track { task, ..Track::default() });
+                let (rhythm, awaits) = (self.rhythm(&task), self.timing.get(&format!("awaits {task}")).cloned());
+                self.recording.tracks.push(Track { task, rhythm, awaits, ..Track::default() });
             }
             0x05 => self.message(&mut cursor).ok_or_else(short)??,
             0x06 => {
@@ -186,6 +123,12 @@ impl Reader {
         Ok(())
     }
 
+    fn rhythm(&self, task: &str) -> Option<Rhythm> {
+        let number = |what: &str| self.timing.get(&format!("{what} {task}")).and_then(|text| text.parse().ok());
+        let (period_ns, offset_ns) = (number("period_ns").filter(|period| *period > 0)?, number("offset_ns")?);
+        Some(Rhythm { period_ns, offset_ns, deadline_ns: number("deadline_ns")? })
+    }
+
     fn about(&mut self, name: &str, values: &BTreeMap<&str, &str>) {
         let recording = &mut self.recording;
         let text = |key: &str| values.get(key).copied().unwrap_or_default();
@@ -195,6 +138,7 @@ impl Reader {
                 recording.tick_ns = text("tick_ns").parse().unwrap_or(0);
                 recording.pace = text("pace").to_string();
                 recording.wait_free = text("wait_free").split_whitespace().map(str::to_string).collect();
+                self.timing = values.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
             }
             "end" => {
                 recording.stopped_ns = text("stopped_ns").parse().ok();

@@ -1,0 +1,162 @@
+//! `groundstate report MODEL --run FILE…`: runs of a program that was made for the model, held to it, as a page.
+//!
+//! A file is a recording (MCAP), or the JSON of a run (spec/run.md), which names its recording and pictures. The first run
+//! is shown in detail, of all runs the figures stand side by side. Exit code: as of `conform`, of the worst run; 1 also where
+//! a closed loop in virtual time did not come where it had to.
+
+mod world;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use ::conform::{Parted, Verdict};
+use ::report::{Fact, Held, Program, ProgramRun, RunSummary, render_program};
+use recording::Recording;
+
+use crate::conform::{Way, hold, read};
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::load::load;
+use crate::report::{Arguments, write_beside};
+use crate::shell::Shell;
+use world::Told;
+
+/// Runs the command.
+pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    let mut program = Program {
+        title: String::new(),
+        note: String::new(),
+        model: String::new(),
+        runs: Vec::new(),
+        facts: Vec::new(),
+    };
+    let mut worst = Exit::Good;
+    let fact = |label: &str, value: String| Fact { label: label.to_string(), value };
+    program.facts.push(fact("Model", arguments.model.display().to_string()));
+    for path in &arguments.runs {
+        let (recording, told) = find(path)?;
+        let loaded = match load(shell, &arguments.model)? {
+            Ok(loaded) => loaded,
+            Err(exit) => return Ok(exit),
+        };
+        program.model.clone_from(&loaded.program.name);
+        if program.runs.is_empty() {
+            program.facts.push(fact("Fingerprint of all texts", groundstate::fingerprint(&loaded.sources)));
+        }
+        let held = match hold(shell, loaded, &arguments.model, &recording, false)? {
+            Ok((_, verdict, way)) => verdict_in_words(&verdict, way, &recording),
+            Err(exit) => return Ok(exit),
+        };
+        worst = worst.max(match held.conforms {
+            Some(true) => Exit::Good,
+            Some(false) => Exit::Model,
+            None => Exit::Unknown,
+        });
+        let name = name(&recording, &program.runs);
+        let mut run = ProgramRun::of(name, &recording);
+        run.verdict = Some(held);
+        let Told { title, note, closed_loop } = told;
+        if program.runs.is_empty() {
+            program.title = title.unwrap_or_else(|| recording.system.clone());
+            program.note = note.unwrap_or_default();
+        }
+        if closed_loop.as_ref().is_some_and(|world| world.reached == Some(false)) {
+            worst = worst.max(Exit::Model);
+        }
+        run.closed_loop = closed_loop;
+        program.facts.push(fact(&format!("Run in {}", run.name), path.display().to_string()));
+        program.runs.push(run);
+    }
+    program.facts.push(fact("Groundstate", env!("CARGO_PKG_VERSION").to_string()));
+    if let Some(path) = &arguments.output {
+        write_beside(path, &render_program(&program))?;
+    }
+    tell(shell, &program, arguments.output.as_deref())?;
+    Ok(worst)
+}
+
+/// The recording, and what else the file tells of the run.
+fn find(path: &Path) -> Result<(Recording, Told), Failure> {
+    let is_json = path.extension().is_some_and(|extension| extension == "json");
+    if !is_json {
+        return Ok((read(path)?, Told::default()));
+    }
+    let run = world::read(path)?;
+    let beside = |name: &str| -> PathBuf { path.parent().unwrap_or(Path::new("")).join(name) };
+    let Some(log) = run.log.clone() else {
+        return Err(Failure::usage_with_help(
+            format!("{} names no recording", path.display()),
+            "the program writes its events with `--log FILE`, and names them in the JSON of the same run",
+        ));
+    };
+    Ok((read(&beside(&log))?, run.told(&beside)?))
+}
+
+/// What tells a run from the others.
+fn name(recording: &Recording, others: &[ProgramRun]) -> String {
+    let name = if recording.pace == "real" { "real time" } else { "virtual time" };
+    match others.iter().filter(|run| run.name.starts_with(name)).count() {
+        0 => name.to_string(),
+        n => format!("{name} {}", n + 1),
+    }
+}
+
+fn verdict_in_words(verdict: &Verdict, way: Way, recording: &Recording) -> Held {
+    let (way, many) = (way.words(), |n: usize| ::report::count(n as u64));
+    match verdict {
+        Verdict::Conforms { events, steps } => Held {
+            conforms: Some(true),
+            words: format!(
+                "conforms to the model {way}: {} events, {} steps of the model",
+                many(*events),
+                ::report::count(*steps)
+            ),
+        },
+        Verdict::Unknown { events, reason } => Held {
+            conforms: None,
+            words: format!(
+                "not known whether it conforms to the model: {reason}; {} events agree before",
+                many(*events)
+            ),
+        },
+        Verdict::Parts(parted) => {
+            let Parted { event, tick, task, claims, agreed, .. } = parted.as_ref();
+            let at_ns = event.as_ref().map_or(tick * recording.tick_ns, |event| event.time_ns);
+            let did = event.as_ref().map_or("nothing more".to_string(), |event| event.words());
+            let claims: Vec<String> = claims.iter().map(|claim| claim.event.words()).collect();
+            let model = if claims.is_empty() { "nothing".to_string() } else { claims.join("; ") };
+            let at = at_ns as f64 / 1e6;
+            let words = format!(
+                "parts from the model {way}, at {at:.4} ms, after {} events: {task} did: {did}; the model: {model}",
+                many(*agreed)
+            );
+            Held { conforms: Some(false), words }
+        }
+    }
+}
+
+fn tell(shell: &mut Shell, program: &Program, written: Option<&Path>) -> Result<(), Failure> {
+    let written: Vec<String> = written.iter().map(|path| path.display().to_string()).collect();
+    if shell.json() {
+        let run = |run: &ProgramRun| {
+            serde_json::json!({
+                "name": run.name, "span_ns": run.span_ns, "events": run.events,
+                "conforms": run.verdict.as_ref().and_then(|held| held.conforms),
+                "reached": run.closed_loop.as_ref().and_then(|world| world.reached),
+            })
+        };
+        let runs: Vec<_> = program.runs.iter().map(run).collect();
+        let object = serde_json::json!({
+            "type": "program", "model": program.model, "runs": runs, "troubles": program.troubles(), "files": written,
+        });
+        return shell.object(&object);
+    }
+    if shell.talks() {
+        let options = RunSummary { colour: shell.color_out() };
+        write!(shell.out(), "{}", ::report::summarise_program(program, &options))?;
+        for path in written {
+            writeln!(shell.out(), "written: {path}")?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,180 @@
+//! The JSON of a run (spec/run.md) → what a controller did to its world.
+//!
+//! Whatever is not there is not shown. Columns that belong together are read as far as the shortest goes.
+
+use std::path::{Path, PathBuf};
+
+use ::report::{ClosedLoop, Joint, Tally, View};
+use serde::Deserialize;
+
+use crate::failure::Failure;
+
+/// The file.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub struct Run {
+    title: Option<String>,
+    note: Option<String>,
+    time: String,
+    image: [f64; 2],
+    converged_below: Option<f64>,
+    goals: Vec<Goal>,
+    /// The path of the recording, from the folder of this file.
+    pub log: Option<String>,
+    views: Vec<Picture>,
+    servoing: Images,
+    robot: Motions,
+    motor: Ages,
+    verdict: Option<Ending>,
+}
+
+#[derive(Debug, Deserialize)]
+struct Goal {
+    at_s: f64,
+}
+
+#[derive(Debug, Deserialize)]
+struct Picture {
+    file: String,
+    t_s: f64,
+    target: u64,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+struct Images {
+    t_s: Vec<f64>,
+    image_age_ms: Vec<Option<f64>>,
+    error: Vec<Option<f64>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+struct Motions {
+    t_s: Vec<f64>,
+    image_age_ms: Vec<Option<f64>>,
+    set_point_rad: Vec<Vec<f64>>,
+    measured_rad: Vec<Vec<f64>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+struct Ages {
+    image_age_ms: Vec<Option<f64>>,
+}
+
+#[derive(Debug, Deserialize)]
+struct Ending {
+    good: bool,
+    words: String,
+}
+
+/// What the file tells for the page.
+#[derive(Debug, Default)]
+pub struct Told {
+    /// The title.
+    pub title: Option<String>,
+    /// A sentence or two below it.
+    pub note: Option<String>,
+    /// What was controlled.
+    pub closed_loop: Option<ClosedLoop>,
+}
+
+/// Reads the file.
+pub fn read(path: &Path) -> Result<Run, Failure> {
+    let bytes = std::fs::read(path).map_err(|error| Failure::of_file("read", path, error))?;
+    serde_json::from_slice(&bytes).map_err(|error| {
+        Failure::usage_with_help(
+            format!("{} is no run of a program: {error}", path.display()),
+            "spec/run.md lists what the file of a run has",
+        )
+    })
+}
+
+impl Run {
+    /// What it tells, with the pictures that it names.
+    pub fn told(self, beside: &dyn Fn(&str) -> PathBuf) -> Result<Told, Failure> {
+        let Some(end) = &self.verdict else {
+            return Ok(Told { title: self.title, note: self.note, closed_loop: None });
+        };
+        // How a run in real time ends depends on what else the machine does: it is told, not judged.
+        let reached = (end.good || self.time != "real").then_some(end.good);
+        let image_ages = [
+            ("visual servoing", &self.servoing.image_age_ms),
+            ("robot controller", &self.robot.image_age_ms),
+            ("motors", &self.motor.image_age_ms),
+        ];
+        let known = image_ages.into_iter().map(|(name, ages)| (name.to_string(), tally(ages)));
+        let closed_loop = ClosedLoop {
+            end: end.words.clone(),
+            reached,
+            image: (self.image[0], self.image[1]),
+            goals_s: self.goals.iter().map(|goal| goal.at_s).collect(),
+            bound: self.converged_below,
+            error: self.servoing.t_s.iter().copied().zip(self.servoing.error.iter().copied()).collect(),
+            views: self.views.iter().map(|picture| view(picture, beside)).collect::<Result<_, _>>()?,
+            joints: joints(&self.robot),
+            image_ages: known.filter(|(_, tally)| !tally.is_empty()).collect(),
+        };
+        Ok(Told { title: self.title, note: self.note, closed_loop: Some(closed_loop) })
+    }
+}
+
+fn tally(ages_ms: &[Option<f64>]) -> Tally {
+    let mut tally = Tally::default();
+    // Where it was worst is not asked of these.
+    ages_ms.iter().flatten().for_each(|ms| tally.add((ms.max(0.0) * 1e6).round() as u64, 0));
+    tally
+}
+
+fn view(picture: &Picture, beside: &dyn Fn(&str) -> PathBuf) -> Result<View, Failure> {
+    let path = beside(&picture.file);
+    let png = std::fs::read(&path).map_err(|error| Failure::of_file("read", &path, error))?;
+    if !png.starts_with(b"\x89PNG\r\n\x1a\n") {
+        return Err(Failure::usage(format!("{} is no PNG", path.display())));
+    }
+    Ok(View { png, caption: format!("after {:.2} s, on the way to goal {}", picture.t_s, picture.target) })
+}
+
+fn joints(motions: &Motions) -> Vec<Joint> {
+    let count = motions.set_point_rad.iter().map(Vec::len).min().unwrap_or(0);
+    let column = |of: &[Vec<f64>], at: usize| -> Vec<(f64, f64)> {
+        motions.t_s.iter().zip(of).filter_map(|(time, row)| Some((*time, *row.get(at)?))).collect()
+    };
+    let joint = |at| Joint {
+        name: format!("Joint {}", at + 1),
+        set: column(&motions.set_point_rad, at),
+        measured: column(&motions.measured_rad, at),
+    };
+    (0..count).map(joint).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_become_points() {
+        let text = r#"{"time":"virtual","goals":[{"at_s":0},{"at_s":5}],"unheard-of":1,
+            "servoing":{"t_s":[0.1,0.2],"error":[null,0.5],"image_age_ms":[12.5,null]},
+            "robot":{"t_s":[0.1,0.2],"set_point_rad":[[1,2],[3,4]],"measured_rad":[[5,6],[7,8]]},
+            "verdict":{"good":false,"words":"not converged"}}"#;
+        let run: Run = serde_json::from_str(text).expect("a run");
+        let told = run.told(&|name| PathBuf::from(name)).expect("it is whole");
+        let world = told.closed_loop.expect("a closed loop");
+        assert_eq!((world.reached, world.goals_s.as_slice()), (Some(false), [0.0, 5.0].as_slice()));
+        assert_eq!(world.error, [(0.1, None), (0.2, Some(0.5))]);
+        assert_eq!(
+            (world.joints[1].set.as_slice(), world.joints[0].measured[1]),
+            ([(0.1, 2.0), (0.2, 4.0)].as_slice(), (0.2, 7.0))
+        );
+        assert_eq!((world.image_ages.len(), world.image_ages[0].1.greatest()), (1, Some((12_500_000, 0))));
+    }
+
+    #[test]
+    fn a_run_in_real_time_is_not_judged_by_where_it_came() {
+        let run: Run = serde_json::from_str(r#"{"time":"real","verdict":{"good":false,"words":"w"}}"#).expect("a run");
+        let told = run.told(&|name| PathBuf::from(name)).expect("it is whole");
+        assert_eq!(told.closed_loop.and_then(|world| world.reached), None);
+    }
+}

@@ -1,0 +1,131 @@
+//! What a running program recorded: the events of its tasks, and when their cycles were due.
+//!
+//! In: the bytes of an MCAP file ([`Recording::read`]). Out: a [`Recording`], a track of events a task, as spec/conform.md
+//! lists them. It must not know what the events are held against, nor how they are shown.
+
+mod mcap;
+
+pub use mcap::Malformed;
+
+/// One event of a task, as spec/conform.md lists them.
+#[derive(Debug, Clone, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Event {
+    /// Since the origin of the run.
+    pub time_ns: i64,
+    /// What happened: `begins`, `asks`, `swaps` ….
+    pub kind: String,
+    /// The phase, channel or component.
+    pub object: String,
+    /// The number of the datum, message or cycle.
+    pub number: u64,
+    /// The array worked on; of a swap the index read.
+    pub array: Option<u64>,
+    /// Of a swap the index written.
+    pub next: Option<u64>,
+    /// Of a reading, whether it brought something new.
+    pub fresh: Option<bool>,
+}
+
+/// When the cycles of a synchronous task are due: at the offset, and a period after another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rhythm {
+    /// From one cycle to the next.
+    pub period_ns: i64,
+    /// Of the first one, from the origin of the run.
+    pub offset_ns: i64,
+    /// From when a cycle is due to when it has to be done.
+    pub deadline_ns: i64,
+}
+
+/// The events of one task.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Track {
+    /// The component.
+    pub task: String,
+    /// Of a synchronous task, where the recording tells it.
+    pub rhythm: Option<Rhythm>,
+    /// The channel whose data wake an asynchronous task; none: it awaits nothing, or the recording does not tell.
+    pub awaits: Option<String>,
+    /// Its events, in order.
+    pub events: Vec<Event>,
+    /// An event after these was lost.
+    pub lost: bool,
+}
+
+/// The events of a run.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Recording {
+    /// One a task.
+    pub tracks: Vec<Track>,
+    /// The system's name.
+    pub system: String,
+    /// The length of a tick of the model.
+    pub tick_ns: i64,
+    /// `modelled`, `drawn` or `real`.
+    pub pace: String,
+    /// Channels that do not follow the model's protocol.
+    pub wait_free: Vec<String>,
+    /// When the tasks were asked to stop; none if the log ends before.
+    pub stopped_ns: Option<i64>,
+}
+
+impl Event {
+    /// Whether both say the same, whenever they happen.
+    pub fn same(&self, other: &Event) -> bool {
+        let key = |event: &Event| (event.number, event.array, event.next, event.fresh);
+        self.kind == other.kind && self.object == other.object && key(self) == key(other)
+    }
+
+    /// The event in words: `writes camera_to_vs 3, array 1`.
+    pub fn words(&self) -> String {
+        let mut text = format!("{} {}", self.kind, self.object);
+        match self.kind.as_str() {
+            "begins" | "ends" | "passes" | "meets" | "misses" | "faults" => text += &format!(", cycle {}", self.number),
+            "asks" | "enters" | "gives_up" | "releases" | "refuses" | "invalid" => {}
+            _ => text += &format!(", number {}", self.number),
+        }
+        for (name, value) in [("array", self.array), ("next", self.next)] {
+            if let Some(value) = value {
+                text += &format!(", {name} {value}");
+            }
+        }
+        match self.fresh {
+            Some(true) => text += ", new",
+            Some(false) => text += ", not new",
+            None => {}
+        }
+        text
+    }
+}
+
+impl Recording {
+    /// Whether all that happened was recorded.
+    pub fn is_whole(&self) -> bool {
+        self.stopped_ns.is_some() && self.tracks.iter().all(|track| !track.lost)
+    }
+
+    /// How many events there are.
+    pub fn events(&self) -> usize {
+        self.tracks.iter().map(|track| track.events.len()).sum()
+    }
+
+    /// When something happened, as far as that means anything: where the pace is the model's, what happens within a tick
+    /// has no order, and parts of it tell nothing.
+    pub fn instant_ns(&self, event: &Event) -> i64 {
+        match self.pace == "modelled" && self.tick_ns > 0 {
+            true => event.time_ns - event.time_ns.rem_euclid(self.tick_ns),
+            false => event.time_ns,
+        }
+    }
+
+    /// The instant from which on something is missing.
+    pub fn known_until_ns(&self) -> Option<i64> {
+        if self.is_whole() {
+            return None;
+        }
+        let last = |track: &Track| track.events.last().map_or(0, |event| event.time_ns);
+        let lost = self.tracks.iter().filter(|track| track.lost).map(last).min();
+        // A file that was cut: the writer goes from task to task, so what it had of all may end earlier than the last.
+        lost.or_else(|| self.tracks.iter().map(last).min())
+    }
+}

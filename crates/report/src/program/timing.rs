@@ -1,0 +1,167 @@
+//! When the cycles of each task were due, began and ended.
+//!
+//! In: a recording. Out: [`TaskTiming`]s. A cycle of a synchronous task is due at its offset and a period after another;
+//! an asynchronous task is due when its producer lets go of the data that it awaits, if it rested then: what comes while it is
+//! at work wakes nobody.
+
+use recording::{Recording, Track};
+
+use crate::program::{TaskTiming, length};
+
+/// The timing of all tasks.
+pub(super) fn tasks(recording: &Recording) -> Vec<TaskTiming> {
+    recording.tracks.iter().map(|track| task(recording, track)).collect()
+}
+
+fn task(recording: &Recording, track: &Track) -> TaskTiming {
+    let count =
+        |kinds: &[&str]| track.events.iter().filter(|event| kinds.contains(&event.kind.as_str())).count() as u64;
+    let rhythm = track.rhythm;
+    let mut timing = TaskTiming {
+        name: track.task.clone(),
+        period_ns: rhythm.map(|rhythm| rhythm.period_ns.max(0) as u64),
+        awaits: track.awaits.clone(),
+        met: rhythm.map(|_| count(&["meets"])),
+        missed: rhythm.map(|_| count(&["misses"])),
+        skips: count(&["gives_up", "refuses"]),
+        ..TaskTiming::default()
+    };
+    let arrivals = track.awaits.as_ref().map_or_else(Vec::new, |channel| arrivals(recording, track, channel));
+    let mut rested_ns = i64::MIN;
+    for cycle in cycles(recording, track) {
+        let due_ns = match rhythm {
+            Some(rhythm) => Some(rhythm.offset_ns + rhythm.period_ns.saturating_mul(cycle.number as i64)),
+            None => {
+                let come = arrivals.partition_point(|time| *time <= cycle.begun_ns);
+                // The first that came while it rested is what it woke for.
+                arrivals[..come].iter().copied().skip_while(|time| *time < rested_ns).find(|_| true)
+            }
+        };
+        timing.activations += 1;
+        if let Some(due_ns) = due_ns {
+            timing.wake_ups.add(length(due_ns, cycle.begun_ns), due_ns.max(0) as u64);
+        }
+        if let Some(done_ns) = cycle.done_ns {
+            let from_ns = due_ns.unwrap_or(cycle.begun_ns);
+            timing.responses.add(length(from_ns, done_ns), from_ns.max(0) as u64);
+            rested_ns = done_ns;
+        }
+    }
+    timing
+}
+
+/// When data were there for this task: the instants at which their producer let go of them.
+fn arrivals(recording: &Recording, reader: &Track, channel: &str) -> Vec<i64> {
+    let others = recording.tracks.iter().filter(|track| track.task != reader.task);
+    let events = others.flat_map(|track| &track.events).filter(|event| event.object == channel);
+    let mut times: Vec<i64> = events
+        .filter(|event| ["releases", "sends", "stores"].contains(&event.kind.as_str()))
+        .map(|event| recording.instant_ns(event))
+        .collect();
+    times.sort_unstable();
+    times
+}
+
+/// A cycle: done is when its last phase ended, or when the deadline was looked at; none: it was cut off.
+struct Cycle {
+    number: u64,
+    begun_ns: i64,
+    done_ns: Option<i64>,
+}
+
+fn cycles(recording: &Recording, track: &Track) -> Vec<Cycle> {
+    let mut cycles: Vec<Cycle> = Vec::new();
+    for event in &track.events {
+        let time_ns = recording.instant_ns(event);
+        let last = cycles.last_mut().filter(|cycle| cycle.number == event.number);
+        match (event.kind.as_str(), last) {
+            ("begins", None) => cycles.push(Cycle { number: event.number, begun_ns: time_ns, done_ns: None }),
+            // Another phase of the same cycle.
+            ("begins", Some(cycle)) => cycle.done_ns = None,
+            ("ends" | "passes" | "meets" | "misses", Some(cycle)) => cycle.done_ns = Some(time_ns),
+            _ => {}
+        }
+    }
+    cycles
+}
+
+#[cfg(test)]
+mod tests {
+    use recording::{Event, Rhythm};
+
+    use super::*;
+
+    fn event(time_ns: i64, kind: &str, object: &str, number: u64) -> Event {
+        Event { time_ns, kind: kind.into(), object: object.into(), number, ..Event::default() }
+    }
+
+    #[test]
+    fn a_synchronous_task_is_due_on_its_grid() {
+        let rhythm = Some(Rhythm { period_ns: 100, offset_ns: 20, deadline_ns: 80 });
+        let events = vec![
+            event(20, "begins", "a", 0),
+            event(50, "ends", "a", 0),
+            event(50, "begins", "b", 0),
+            event(70, "ends", "b", 0),
+            event(71, "meets", "t", 0),
+            // Due at 120, wakes 7 late; gives up a lock.
+            event(127, "begins", "a", 1),
+            event(150, "gives_up", "c", 0),
+            event(210, "ends", "a", 1),
+            event(215, "misses", "t", 1),
+            // Cut off: it has no response.
+            event(220, "begins", "a", 2),
+        ];
+        let track = Track { task: "t".into(), rhythm, events, ..Track::default() };
+        let timing = &tasks(&Recording { tracks: vec![track], ..Recording::default() })[0];
+        assert_eq!((timing.activations, timing.met, timing.missed, timing.skips), (3, Some(1), Some(1), 1));
+        assert_eq!(timing.wake_ups.counts().iter().map(|(ns, n)| (*ns, *n)).collect::<Vec<_>>(), [(0, 2), (7, 1)]);
+        assert_eq!(timing.responses.counts().iter().map(|(ns, n)| (*ns, *n)).collect::<Vec<_>>(), [(51, 1), (95, 1)]);
+        assert_eq!((timing.responses.greatest(), timing.wake_ups.percentile(50)), (Some((95, 120)), Some(0)));
+    }
+
+    #[test]
+    fn parts_of_a_tick_tell_nothing_where_the_pace_is_the_models() {
+        let rhythm = Some(Rhythm { period_ns: 100, offset_ns: 0, deadline_ns: 100 });
+        let events = vec![event(125, "begins", "a", 1), event(225, "ends", "a", 1), event(225, "meets", "t", 1)];
+        let track = Track { task: "t".into(), rhythm, events, ..Track::default() };
+        let recording =
+            Recording { tracks: vec![track], tick_ns: 100, pace: "modelled".into(), ..Recording::default() };
+        let timing = &tasks(&recording)[0];
+        assert_eq!((timing.wake_ups.greatest(), timing.responses.greatest()), (Some((0, 100)), Some((100, 100))));
+    }
+
+    #[test]
+    fn an_asynchronous_task_wakes_when_its_data_are_let_go_of() {
+        let producer = Track {
+            task: "camera".into(),
+            events: vec![
+                event(5, "releases", "frames", 0),
+                event(8, "releases", "other", 0),
+                // While the reader is at work: nobody wakes.
+                event(40, "releases", "frames", 0),
+                event(90, "releases", "frames", 0),
+                event(95, "releases", "frames", 0),
+            ],
+            ..Track::default()
+        };
+        let reader = Track {
+            task: "servo".into(),
+            awaits: Some("frames".into()),
+            events: vec![
+                event(9, "begins", "look", 0),
+                event(60, "ends", "look", 0),
+                event(61, "begins", "look", 1),
+                event(80, "ends", "look", 1),
+                event(96, "begins", "look", 2),
+                event(99, "ends", "look", 2),
+            ],
+            ..Track::default()
+        };
+        let all = tasks(&Recording { tracks: vec![producer, reader], ..Recording::default() });
+        let timing = &all[1];
+        assert_eq!((timing.activations, timing.met, timing.wake_ups.count()), (3, None, 2));
+        assert_eq!(timing.wake_ups.counts().iter().map(|(ns, n)| (*ns, *n)).collect::<Vec<_>>(), [(4, 1), (6, 1)]);
+        assert_eq!(timing.responses.greatest(), Some((55, 5)));
+    }
+}

@@ -1,0 +1,37 @@
+#!/bin/sh
+# Holds what the applications' programs did to their models, with `groundstate conform`: undisturbed and disturbed; and wants a
+# log that tells a swap wrongly to be found out. Usage: examples/held.sh BUILD GROUNDSTATE, from anywhere.
+set -eu
+build=$(realpath "$1")
+groundstate=$(realpath "$2")
+cd "$(dirname "$0")"
+out=$(mktemp -d)
+trap 'rm -r "$out"' EXIT
+
+# record PROGRAM OPTIONS…: a run with a log; in so short a time it need not come where it has to.
+record() {
+    program=$1
+    shift
+    "$build"/*/*/"$program" "$@" --log "$out/run.mcap" >/dev/null || [ $? = 1 ]
+}
+
+# hold CODE MODEL LOG WORDS: `groundstate conform` gives that exit code and says that.
+hold() {
+    code=0
+    "$groundstate" conform "$2" "$out/$3" >"$out/said" 2>&1 || code=$?
+    [ "$code" = "$1" ] && grep -q "$4" "$out/said" || {
+        cat "$out/said"
+        echo "examples/held.sh: conform $2: exit code $code, $1 and \"$4\" wanted" >&2
+        exit 1
+    }
+}
+
+record visual_servoing --virtual 2s
+hold 0 visual_servoing/ControllerSystem.asm run.mcap "conforms by the order of events"
+LC_ALL=C sed 's/\("kind":"swaps","object":"vs_to_robot","number":9,"array":\)\(.\)\(,"next":\)\(.\)/\1\4\3\2/' \
+    "$out/run.mcap" >"$out/wrong.mcap"
+hold 1 visual_servoing/ControllerSystem.asm wrong.mcap "visual_servoing did: swaps vs_to_robot, number 9"
+record visual_servoing --virtual 1s --dropped --slow --occlusion --noise
+hold 0 visual_servoing/ControllerSystem.asm run.mcap "conforms by the order of events"
+
+echo "held: what the programs did is what their models say, and a log that tells a swap wrongly was found out"
