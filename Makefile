@@ -23,6 +23,7 @@ lint: $(TESTED)
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
 
 unit:
+	sh cpp/install.sh z3 cvc5
 	$(CARGO) test --workspace --locked
 
 scenarios: $(TESTED)

@@ -17,9 +17,9 @@ pub(crate) fn driver(bodies: &Bodies<'_>, file: &str) -> Text {
     text.line(format!("#include \"{file}.hpp\"\n"));
     text.line("#include <groundstate/machine/replay.hpp>\n");
     text.line(format!("namespace {} {{\nnamespace {{\n", plan.namespace));
-    text.open("class Answers : public Environment {");
+    text.open("class ReplayEnvironment : public Environment {");
     text.line("public:");
-    text.line("explicit Answers(gs::Script& script) : script_{script} {}\n");
+    text.line("explicit ReplayEnvironment(gs::Script& script) : script_{script} {}\n");
     for (index, function) in plan.functions.iter().enumerate() {
         let id = FunctionId(index as u32);
         if !matches!(function.role, Role::Input | Role::Shared) || !generator.reached.contains(&id) {
@@ -53,7 +53,7 @@ pub(crate) fn driver(bodies: &Bodies<'_>, file: &str) -> Text {
     text.line(format!("\n}}  // namespace\n}}  // namespace {}\n", plan.namespace));
     text.open("int main() {");
     text.line(format!(
-        "return groundstate::machine::replay<{0}::Machine, {0}::Answers>(std::cin, std::cout);",
+        "return groundstate::machine::replay<{0}::Machine, {0}::ReplayEnvironment>(std::cin, std::cout);",
         plan.namespace
     ));
     text.close("}");

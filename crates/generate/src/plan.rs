@@ -103,8 +103,18 @@ pub(crate) struct Plan {
 pub(crate) fn plan(program: &Program, started: &mut machine::Machine) -> Plan {
     let mut types = Scope::default();
     let mut members = Scope::default();
-    for kept in ["Machine", "Environment", "Value", "Maybe", "start", "step", "environment", "each_location", "commit"]
-    {
+    for kept in [
+        "Machine",
+        "Environment",
+        "ReplayEnvironment",
+        "Value",
+        "Maybe",
+        "start",
+        "step",
+        "environment",
+        "each_location",
+        "commit",
+    ] {
         types.keep(kept);
         members.keep(kept);
     }

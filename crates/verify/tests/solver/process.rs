@@ -1,4 +1,5 @@
-//! z3 as a process, for tests: found on the path, or there is none and the tests say so.
+//! z3 and cvc5 as processes, for tests: found on the path, or there is none and the tests say so. `make unit` installs
+//! them.
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
@@ -11,19 +12,23 @@ pub struct Installed {
     version: String,
 }
 
-/// The solver of a name, if it is there; that it is not is said on stderr.
-pub fn installed(name: &'static str) -> Option<Installed> {
+/// The solver of a name, if it is there.
+fn installed(name: &'static str) -> Option<Installed> {
     let output = Command::new(name).arg("--version").output().ok()?;
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let version = text.split_whitespace().find(|word| word.starts_with(|c: char| c.is_ascii_digit()))?;
     Some(Installed { name, version: version.to_string() })
 }
 
-/// z3, without which the tests of solvers have nothing to do.
-pub fn z3() -> Option<Installed> {
-    let found = installed("z3");
-    if found.is_none() {
-        eprintln!("z3 is not on the path: not tested");
+/// z3, and where no Horn clauses are to be solved cvc5: those of them that are there. That one is not is said on stderr.
+pub fn solvers(horn: bool) -> Vec<Installed> {
+    let names: &[&'static str] = if horn { &["z3"] } else { &["z3", "cvc5"] };
+    let mut found = Vec::new();
+    for name in names {
+        match installed(name) {
+            Some(solver) => found.push(solver),
+            None => eprintln!("{name} is not on the path: not tested"),
+        }
     }
     found
 }
