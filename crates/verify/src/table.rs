@@ -94,7 +94,8 @@ impl Table {
         ((u128::from(hash) * self.slots.len() as u128) >> 64) as usize
     }
 
-    #[inline]
+    // The inner loop of a search: a call here costs what a lookup does.
+    #[inline(always)]
     fn find_or_add(&mut self, state: &[u64], hash: u64) -> bool {
         let mut slot = self.slot_of(hash);
         if let [state] = state {
