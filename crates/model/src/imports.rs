@@ -1,7 +1,7 @@
 //! Reads the root file and all that it imports, each once.
 //!
 //! In: the root text and a [`Loader`]. Out: [`Unit`]s, imported files before those that import them, the root last;
-//! each import leads to the unit it names, or to none after a reported fault. INVARIANT: no unit leads back to itself:
+//! a built-in library counts as one file, wherever it is looked for (spec/standard-library.md). Each import leads to the unit it names, or to none after a reported fault. INVARIANT: no unit leads back to itself:
 //! an import that would close a circle is a fault and leads nowhere.
 
 use std::collections::BTreeMap;
@@ -21,7 +21,7 @@ pub(crate) struct Unit {
     pub(crate) tree: ast::SourceFile,
     /// Its imports in order.
     pub(crate) imports: Vec<Import>,
-    /// It is a built-in library.
+    /// It is a built-in library, or a copy that is read in its place.
     pub(crate) library: bool,
     /// A fault stands in it so early that a declaration may be lost.
     pub(crate) broken: bool,
@@ -38,7 +38,8 @@ pub(crate) struct Import {
 /// Reads everything; the units stand in the order in which they are to be checked.
 pub(crate) fn read(root: SourceFile, loader: &mut dyn Loader, sources: &mut Sources, faults: &mut Faults) -> Vec<Unit> {
     let mut reader = Reader { loader, sources, faults, seen: BTreeMap::new(), open: Vec::new(), units: Vec::new() };
-    reader.read(root);
+    let (identity, library) = (identity(&root.name), library::is_library(&root.name));
+    reader.read(root, identity, library);
     reader.units
 }
 
@@ -54,10 +55,9 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn read(&mut self, source: SourceFile) -> Option<usize> {
-        let (name, identity) = (source.name.clone(), identity(&source.name));
+    fn read(&mut self, source: SourceFile, identity: String, library: bool) -> Option<usize> {
         self.seen.insert(identity.clone(), None);
-        self.open.push((identity.clone(), name.clone()));
+        self.open.push((identity.clone(), source.name.clone()));
         let file = self.sources.add(source.clone());
         let parse = syntax::parse_asmetal(file, &source.text);
         let tree = ast::SourceFile::cast(parse.syntax());
@@ -75,7 +75,7 @@ impl Reader<'_> {
         }
         self.open.pop();
         let unit = self.units.len();
-        self.units.push(Unit { file, tree: tree?, imports, library: library::is_library(&name), broken });
+        self.units.push(Unit { file, tree: tree?, imports, library, broken });
         self.seen.insert(identity, Some(unit));
         Some(unit)
     }
@@ -83,21 +83,25 @@ impl Reader<'_> {
     fn follow(&mut self, importer: &SourceFile, file: FileId, clause: &ast::Import) -> Option<usize> {
         let span = Span::new(file, clause.path_token()?.text_range());
         let path = clause.path()?;
-        let source = match library::find(&path) {
-            Some(library) => {
-                let name = library::stem(&library.name).to_string();
-                if library::stem(&path) != name {
-                    self.faults.push(fault::import::library_path(span, library::stem(&path), &name));
-                }
-                library
+        if let Some(built_in) = library::find(&path) {
+            let name = library::stem(&built_in.name).to_string();
+            if library::stem(&path) != name {
+                self.faults.push(fault::import::library_path(span, library::stem(&path), &name));
             }
-            None => match self.loader.load(importer, &path) {
-                Ok(source) => source,
-                Err(reason) => {
-                    self.faults.push(fault::import::not_found(span, &path, &reason));
-                    return None;
-                }
-            },
+            // Whatever folder it is looked for in: a model has each library once.
+            let identity = identity(&built_in.name);
+            if let Some(Some(unit)) = self.seen.get(&identity) {
+                return Some(*unit);
+            }
+            let source = self.library(importer, &path, span, built_in);
+            return self.read(source, identity, true);
+        }
+        let source = match self.loader.load(importer, &path) {
+            Ok(source) => source,
+            Err(reason) => {
+                self.faults.push(fault::import::not_found(span, &path, &reason));
+                return None;
+            }
         };
         let identity = identity(&source.name);
         match self.seen.get(&identity) {
@@ -109,8 +113,24 @@ impl Reader<'_> {
                 self.faults.push(fault::import::circular(span, &cycle));
                 None
             }
-            None => self.read(source),
+            None => {
+                let library = library::is_library(&source.name);
+                self.read(source, identity, library)
+            }
         }
+    }
+
+    /// The library itself, or the copy that stands where the import says, if a copy can be read in its place.
+    fn library(&mut self, importer: &SourceFile, path: &str, span: Span, built_in: SourceFile) -> SourceFile {
+        let Ok(copy) = self.loader.load(importer, path) else { return built_in };
+        if library::is_all_text(&built_in.name) {
+            return copy;
+        }
+        let names = library::missing(&copy, &built_in);
+        if !names.is_empty() {
+            self.faults.push(fault::import::library_copy(span, &copy.name, &names));
+        }
+        built_in
     }
 }
 

@@ -1,10 +1,13 @@
 //! The built-in libraries: their texts, and how an import finds them.
 //!
 //! In: the path of an import. Out: the text, shown under `<std>/NAME.asm`. A library is known by the file name at
-//! the end of the path, whatever folder stands before it, so a copy beside a model is never read
+//! the end of the path, whatever folder stands before it. What a copy of it declares can be compared
 //! (spec/standard-library.md).
 
-use syntax::SourceFile;
+use std::collections::BTreeSet;
+
+use syntax::ast::{self, AstNode};
+use syntax::{FileId, SourceFile};
 
 /// Name and text of each library.
 const LIBRARIES: [(&str, &str); 5] = [
@@ -25,6 +28,31 @@ pub(crate) fn find(path: &str) -> Option<SourceFile> {
 /// A file of that name is one of the built-in libraries, or stands for one.
 pub(crate) fn is_library(path: &str) -> bool {
     LIBRARIES.iter().any(|(name, _)| *name == stem(path))
+}
+
+/// The library's text says all that it means, so that a copy can be read in its place: the time libraries. What the
+/// others declare is known to the machine alone.
+pub(crate) fn is_all_text(path: &str) -> bool {
+    stem(path).starts_with("TimeLibrary")
+}
+
+/// Names of functions and domains that a copy of a library declares and the built-in one does not, in order.
+pub(crate) fn missing(copy: &SourceFile, built_in: &SourceFile) -> Vec<String> {
+    let known: BTreeSet<String> = declared_names(built_in).into_iter().collect();
+    let mut names: Vec<String> = declared_names(copy).into_iter().filter(|name| !known.contains(name)).collect();
+    let mut seen = BTreeSet::new();
+    names.retain(|name| seen.insert(name.clone()));
+    names
+}
+
+fn declared_names(source: &SourceFile) -> Vec<String> {
+    let parse = syntax::parse_asmetal(FileId(0), &source.text);
+    let Some(signature) = ast::SourceFile::cast(parse.syntax()).and_then(|tree| tree.signature()) else {
+        return Vec::new();
+    };
+    let domains = signature.domains().filter_map(|domain| domain.name());
+    let functions = signature.functions().filter_map(|function| function.name());
+    domains.chain(functions).map(|name| name.text().to_string()).collect()
 }
 
 /// The file name at the end of a path, without `.asm`; either slash separates.
@@ -60,6 +88,17 @@ mod tests {
         assert_eq!(name("C:\\models\\CTLLibrary.asm"), "<std>/CTLLibrary.asm");
         assert_eq!(name("TimeLibrarySimple"), "<std>/TimeLibrarySimple.asm");
         assert_eq!(name("MyTimeLibrary"), "");
+    }
+
+    #[test]
+    fn a_copy_is_told_apart_by_what_it_declares() {
+        let file = |text: &str| SourceFile::new("a/StandardLibrary.asm", text);
+        let built_in = find("StandardLibrary").unwrap();
+        assert!(missing(&built_in, &built_in).is_empty());
+        let copy = file(
+            "module StandardLibrary export * signature: basic domain Integer static plus: Integer -> Integer static two: Integer static two: Integer -> Integer definitions: function two = 2",
+        );
+        assert_eq!(missing(&copy, &built_in), ["two"]);
     }
 
     #[test]

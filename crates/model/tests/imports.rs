@@ -113,3 +113,16 @@ fn equal_functions_of_two_imports_are_one() {
     let checked = check_file("t.asm", text, &[("one.asm", one), ("two.asm", two)]);
     expect![[""]].assert_eq(&faults(&checked));
 }
+
+#[test]
+fn a_copy_of_a_time_library_is_read_once_and_in_its_place() {
+    let copy = "module TimeLibrary import StandardLibrary export * signature: abstract domain Timer derived expired: Timer -> Boolean definitions: function expired($t in Timer) = mine($t) > 1";
+    let copy = copy.replace("derived expired", "controlled mine: Timer -> Integer derived expired");
+    let module = "module other import elsewhere/TimeLibrary import StandardLibrary export * signature: static u: Timer definitions:";
+    let text = "asm t import lib/TimeLibrary import other import StandardLibrary signature: static t: Timer controlled x: Boolean \
+        definitions: main rule r_Main = x := expired(t) and expired(u) and mine(t) = 1";
+    let check = |others: &[(&str, &str)]| check_file("t.asm", text, others);
+    let copied = check(&[("lib/TimeLibrary.asm", &copy), ("other.asm", module)]);
+    assert_eq!(faults(&copied), "");
+    assert!(faults(&check(&[("other.asm", module)])).contains("`mine`"), "the built-in one has no such function");
+}

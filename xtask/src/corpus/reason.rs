@@ -5,7 +5,8 @@
 /// What kind of reason it is, from the best to the worst.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Class {
-    /// A defect of the peer, or something that it parses and does not run, which the language page names.
+    /// A defect of the peer, or something that it parses and does not run: the language page names it, or the sentence
+    /// argues it.
     Defect,
     /// The record does not hold what a comparison needs.
     Record,
@@ -24,7 +25,7 @@ impl Class {
     /// Heading of its part of the page.
     pub fn title(self) -> &'static str {
         match self {
-            Class::Defect => "Defects of the peer that the language page names",
+            Class::Defect => "Defects of the peer",
             Class::Record => "What the record does not hold",
             Class::Superset => "The peer refuses or stops, Groundstate does not",
             Class::BetterFault => "Groundstate finds a fault, the peer does not",
@@ -35,7 +36,7 @@ impl Class {
     /// The same for the head of a column.
     pub fn column(self) -> &'static str {
         match self {
-            Class::Defect => "named defect",
+            Class::Defect => "defect",
             Class::Record => "not recorded",
             Class::Superset => "superset",
             Class::BetterFault => "better fault",
@@ -78,14 +79,20 @@ reasons! {
         "The peer's parser takes a range that names a variable bound before it in the same `choose`; its simulator finds that variable unbound. Here it has the value that the variable has.";
     DIFFERENCE = Defect "symmetric difference":
         "`difference` of the peer is the symmetric difference (10.1).";
+    GENERATED = Defect "scenario that the peer cannot translate":
+        "The peer writes a machine for a scenario of its own language (12), of a model that its parser takes, and its parser refuses that machine. Here the scenario is run.";
     INITIAL_OUTSIDE = Defect "initial value outside the parameters' domains":
         "The peer applies an initial value's term when a location is first read, to any arguments, undef and values outside the declared domains included (8.1, 9.2, 14).";
     LAZY_INITIAL = Defect "lazy initial values":
         "The peer evaluates an initial value when the location is first read, in the state of that time (9.2, 14). Here it is evaluated in the initial state.";
+    LENIENT_SCENARIO = Defect "scenario with syntax errors":
+        "The peer passes over errors of a scenario's syntax (12) and runs the rest; doing the same here gives its verdict and its number of checks. Here the faults are reported.";
     NEGATIVE_NATURAL = Defect "negative Natural":
         "The peer lets a Natural become negative, by `iton` of a negative number (10.1, 14). Here it is a fault.";
     NEW_ELEMENT = Defect "new element as a value":
         "Where a function has a growing subset as codomain, the peer refuses the very element that the step adds to that subset, as it looks in the state before the step (9.1). In the state that the step leads to the element is in the subset, and of an abstract domain the peer takes it. Here it is taken.";
+    NO_END = Defect "step until without end":
+        "A scenario passes whose run reaches its end (12). The condition of a `step until` does not come true; the peer ends the run some time, comes to none of the checks behind it and passes. Here the bound is a failure.";
     NOT_IMPLEMENTED = Defect "library function not implemented":
         "The peer declares the library function but has no implementation for these values, and stops (10). Here it is evaluated.";
     NOT_RUN = Defect "construct that is parsed and not run":
@@ -104,10 +111,10 @@ reasons! {
         "An initial value or an invariant asks for an input before the first step, which the record does not hold.";
     BUILT_IN_LIBRARY = Superset "library found":
         "The peer looks for the file of a standard library where the import says and does not find it. Here the standard libraries are built in.";
-    GENERATED = Superset "scenario that the peer cannot translate":
-        "The peer writes a machine for the scenario and then cannot parse it. Here the scenario is run.";
     INTERNAL_FAILURE = Superset "internal failure of the peer":
         "The peer ends with a failure of its own program text (a null pointer, a class cast of undef). The model goes on here.";
+    LITERAL_OPERAND = Superset "collection as an operand":
+        "The peer's grammar takes no set or sequence in brackets for an operand (6.1), so it refuses a check such as `f = [1, 2]`. Here it is a term like any other.";
     MODEL_PATH = Superset "path of the model":
         "The peer does not find the model by a path with backslashes. Here either slash separates.";
     NO_CONTENTS = Superset "domain without contents":
@@ -126,12 +133,8 @@ reasons! {
         "The peer draws any number. Here the elements to choose from must be enumerable.";
     INITIAL_UNCHECKED = BetterFault "initial value outside its domain":
         "The peer does not look whether an initial value lies in the function's domain. Here it is a fault.";
-    LENIENT_SCENARIO = BetterFault "scenario with syntax errors":
-        "The peer runs a scenario that its own grammar does not allow. Here the faults are reported.";
     MODEL_MISSING = BetterFault "scenario without its model":
         "The model that the scenario loads does not exist. The peer passes a scenario that makes no step.";
-    NO_END = BetterFault "step until without end":
-        "The condition of a `step until` does not come true. The peer ends the run some time, comes to none of the checks and passes. Here the bound is a failure.";
     OTHER_FAULT = BetterFault "another fault first":
         "Both stop in this step, each at the fault that it meets first.";
     UNBOUND = BetterFault "variable out of scope":
@@ -142,6 +145,23 @@ reasons! {
         "Beside the model lies an older copy of a standard library with other declarations, which the peer reads. Here the built-in one is read.";
     SPLIT = Decision "split by a pattern":
         "The peer takes the second argument of `split` for a regular expression. Here it is the separator itself.";
+}
+
+/// What one of the two refuses to read and the other reads: the reason is about a text, not about a run.
+const OF_TEXTS: [&str; 8] = [
+    BUILT_IN_LIBRARY,
+    LITERAL_OPERAND,
+    MODEL_MISSING,
+    MODEL_PATH,
+    RULE_TERM,
+    STATIC_OVER_DYNAMIC,
+    UNBOUND,
+    WIDER_NUMBERS,
+];
+
+/// All the reasons are about a text that one of the two refuses.
+pub fn are_of_texts(names: &[String]) -> bool {
+    names.iter().all(|name| OF_TEXTS.contains(&name.as_str()))
 }
 
 /// A reason by its name.

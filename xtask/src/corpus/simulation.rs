@@ -8,7 +8,6 @@ use std::sync::Arc;
 
 use model::Loader;
 use program::Program;
-use syntax::ast::AstNode;
 use syntax::{Severity, Sources};
 
 use super::accept::{refusal, refused};
@@ -17,9 +16,9 @@ use super::difference::{Difference, What};
 use super::excuse::Excuses;
 use super::job::Answer;
 use super::loader::Checkout;
+use super::reason;
 use super::replay::{Replayed, replay};
 use super::trace::{self, Trace};
-use super::{reason, text};
 
 /// Replays and compares.
 pub fn compare(checkout: &Checkout, path: &str, file: &str) -> Answer {
@@ -42,7 +41,7 @@ pub fn compare(checkout: &Checkout, path: &str, file: &str) -> Answer {
     let own = elements_of_own_library(checkout, path, &program);
     let lists_own = trace.forget_elements(&own);
     let replayed = replay(&program, &checked.sources, &trace);
-    match judge(checkout, path, &program, &checked.sources, &trace, replayed) {
+    match judge(&program, &checked.sources, &trace, replayed) {
         Answer::Same { .. } if lists_own => {
             Answer::different(Some(reason::OWN_LIBRARY), "agrees but for the elements that this explains".to_string())
         }
@@ -70,14 +69,7 @@ fn elements_of_own_library(checkout: &Checkout, path: &str, program: &Program) -
     declared.filter(|(domain, name)| abstracts(domain) && !known(name)).collect()
 }
 
-fn judge(
-    checkout: &Checkout,
-    path: &str,
-    program: &Arc<Program>,
-    sources: &Sources,
-    trace: &Trace,
-    replayed: Replayed,
-) -> Answer {
+fn judge(program: &Arc<Program>, sources: &Sources, trace: &Trace, replayed: Replayed) -> Answer {
     if replayed.difference.is_none() && replayed.reasons.is_empty() {
         return Answer::Same { note: note(&replayed) };
     }
@@ -92,7 +84,6 @@ fn judge(
     let line = |difference: Option<Difference>| difference.map_or_else(agrees, |difference| difference.line());
     let Some(difference) = &replayed.difference else { return different(reasons, line(first)) };
     let found = Excuses::new(program, trace).parting(&difference.what, difference.step);
-    let found = found.or_else(|| own_library(checkout, path, program, difference));
     let initial =
         difference.step <= 1 && !replayed.beyond.is_empty() && matches!(difference.what, What::Violation { .. });
     let found = found.or_else(|| initial.then_some(reason::INITIAL_INPUTS));
@@ -124,27 +115,4 @@ fn list(names: &BTreeSet<String>) -> String {
     let few: Vec<&str> = names.iter().map(String::as_str).take(4).collect();
     let more = if names.len() > few.len() { format!(" and {} more", names.len() - few.len()) } else { String::new() };
     format!("{}{more}", few.join(", "))
-}
-
-/// What differs is of a library of which another copy lies beside the model.
-fn own_library(checkout: &Checkout, path: &str, program: &Program, difference: &Difference) -> Option<&'static str> {
-    let of_library = match &difference.what {
-        What::Value { location, .. } => {
-            text::location_of(program, location).is_some_and(|location| program.function(location.function).library)
-        }
-        What::Fault { text, .. } => text.contains("(<std>/"),
-        _ => false,
-    };
-    if !of_library {
-        return None;
-    }
-    let root = checkout.source(path).ok()?;
-    let parse = syntax::parse_asmetal(syntax::FileId(0), &root.text);
-    let imports =
-        syntax::ast::SourceFile::cast(parse.syntax())?.imports().filter_map(|import| import.path()).collect::<Vec<_>>();
-    let library = imports.iter().find(|path| path.contains("TimeLibrary"))?;
-    let copy = checkout.clone().load(&root, library).ok()?;
-    // The built-in one has units; the old ones have seconds alone.
-    (!copy.text.contains("controlled timerUnit") || copy.text.contains("// controlled timerUnit"))
-        .then_some(reason::OWN_LIBRARY)
 }

@@ -56,6 +56,17 @@ pub(crate) fn library_path(span: Span, written: &str, name: &str) -> Diagnostic 
         .with_help(format!("write `{name}`; elsewhere the letters' case matters"))
 }
 
+/// A copy of a built-in library is not read, and declares what the library does not.
+pub(crate) fn library_copy(span: Span, copy: &str, names: &[String]) -> Diagnostic {
+    const SHOWN: usize = 4;
+    let shown: Vec<String> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
+    let more = if names.len() > SHOWN { format!(" and {} more", names.len() - SHOWN) } else { String::new() };
+    let message =
+        format!("the built-in library is read, not `{copy}`, which alone declares {}{more}", shown.join(", "));
+    Diagnostic::warning("library-copy", span, message)
+        .with_help("move what the model needs of it into a module of another name, and import that too")
+}
+
 /// Something of the standard library is used, but it is not imported.
 pub(crate) fn missing_library(span: Span, what: &str) -> Diagnostic {
     Diagnostic::error(

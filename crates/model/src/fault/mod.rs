@@ -45,6 +45,7 @@ pub const IDS: &[&str] = &[
     "import-not-found",
     "import-without-export",
     "init-static-function",
+    "library-copy",
     "library-path",
     "main-with-parameters",
     "malformed-character",
