@@ -20,7 +20,7 @@ const BINS: u64 = 32;
 /// Bins of a decade.
 const PER_DECADE: u32 = 6;
 /// A greatest value so many times the median makes decades.
-const FAR: u64 = 25;
+const FAR: u64 = 10;
 
 /// The unit in which lengths up to this one are told, and its nanoseconds.
 pub(crate) fn unit(most_ns: u64) -> (&'static str, f64) {
