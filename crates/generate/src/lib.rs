@@ -5,6 +5,7 @@
 //! machine's; agreement tests hold the generated code to it step by step. It must not know files or compilers.
 
 mod body;
+mod choice;
 mod class;
 mod driver;
 mod form;
