@@ -65,7 +65,18 @@ class PairLock<MonotonicClock> {
     bool is_taken() noexcept {
         std::uint32_t nobody = 0;
         // SYNC(permit): acquire; pairs with the exchange in release().
-        return holder_.compare_exchange_strong(nobody, thread(), std::memory_order_acquire, std::memory_order_relaxed);
+        if (!holder_.compare_exchange_strong(nobody, thread(), std::memory_order_acquire, std::memory_order_relaxed)) {
+            return false;
+        }
+        // The holder before may have released by the system, for somebody who has given up waiting since.
+        take_over();
+        return true;
+    }
+
+    /// What the holder before did is seen from here on.
+    void take_over() const noexcept {
+        // SYNC(hand): acquire; pairs with the store in release().
+        static_cast<void>(handed_.load(std::memory_order_acquire));
     }
 
     bool wait_until(std::int64_t instant_ns) noexcept {
@@ -85,8 +96,7 @@ class PairLock<MonotonicClock> {
                 error = is_taken() ? 0 : clock_.now_ns() < instant_ns ? EAGAIN : ETIMEDOUT;
             }
             if (error == 0) {
-                // SYNC(hand): acquire, pairs with the store in release().
-                static_cast<void>(handed_.load(std::memory_order_acquire));
+                take_over();
                 return true;
             }
         }
