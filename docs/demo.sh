@@ -5,7 +5,8 @@ set -eu
 groundstate=${GROUNDSTATE:-target/release/groundstate}
 study=examples/visual_servoing
 
-say() { printf '\n\033[1m%s\033[0m\n' "$1"; }
+# A heading, bold where it is looked at.
+say() { if [ -t 1 ]; then printf '\n\033[1m%s\033[0m\n' "$1"; else printf '\n%s\n' "$1"; fi; }
 fail() {
     echo "docs/demo.sh: $*" >&2
     exit 1
