@@ -3,7 +3,6 @@
 // Compiled once a model, beside what was generated: HEADER is its header, MODEL its namespace.
 #include HEADER
 
-#include <array>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -39,16 +38,11 @@ struct Generated final : MODEL::Environment {
         }
     }
 
-    // Generated code knows its literals by number: a value of an enum domain is printed as `#number`.
+    // Generated code knows its literals by number: a value of an enum domain is printed as `?number`.
     template <class Scalar>
     static std::string show(const Scalar& scalar) {
-        static constexpr std::array<std::string_view, 4> literals{"#0", "#1", "#2", "#3"};
-        static constexpr std::array<gs::Names::Domain, 64> domains = [] {
-            std::array<gs::Names::Domain, 64> all{};
-            all.fill({"", false, literals});
-            return all;
-        }();
-        return gs::show(gs::box(scalar), gs::Names{domains, {}});
+        const gs::Value value = gs::box(scalar);
+        return value.is(gs::Kind::enumeration) ? "?" + std::to_string(value.index()) : gs::show(value, gs::Names{});
     }
 
     void print() const {

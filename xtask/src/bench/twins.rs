@@ -211,7 +211,7 @@ fn difference(native: &Path, program: &Arc<Program>, steps: u64) -> Result<Optio
     for (location, value) in &theirs {
         let mine = ours.get(location).map_or("undef", String::as_str);
         // Generated code knows its literals by number.
-        let literal = value.strip_prefix('#').and_then(|number| number.parse().ok()).and_then(|number: usize| {
+        let literal = value.strip_prefix('?').and_then(|number| number.parse().ok()).and_then(|number: usize| {
             let name = location.split('(').next().unwrap_or(location);
             let function = program.functions.iter().find(|function| function.name == name)?;
             match &program.domain(function.codomain).kind {
