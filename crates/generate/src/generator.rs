@@ -10,9 +10,10 @@ use model::Basic;
 use program::{DomainId, DomainKind, FunctionId, ProcedureId, Program, Slot, TermId};
 use syntax::{Diagnostic, Span};
 
+use cpp_names::Scope;
+
 use crate::form::Form;
 use crate::interval::Interval;
-use crate::names::Scope;
 use crate::plan::Plan;
 use crate::sites::Sites;
 use crate::types::{Code, Type};

@@ -11,7 +11,6 @@ mod driver;
 mod form;
 mod generator;
 mod interval;
-mod names;
 mod operation;
 mod plan;
 mod project;

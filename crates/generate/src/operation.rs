@@ -5,9 +5,10 @@
 
 use program::{Builtin, TermId, TermList};
 
+use cpp_names::{identifier, snake};
+
 use crate::generator::{Generator, Need};
 use crate::interval::Outcome;
-use crate::names::snake;
 use crate::rule::unwrapped;
 use crate::types::{Code, Type};
 
@@ -78,7 +79,7 @@ impl Generator<'_> {
             }
             ToString | AgentId | GetAgent => {
                 self.needs.insert(Need::Names);
-                format!("gs::{}({list}, names(), {site})", snake(&format!("{builtin:?}")))
+                format!("gs::{}({list}, names(), {site})", function_of(builtin))
             }
             Component(index) => format!("gs::component({index}, {list}, {site})"),
             SetSum | SeqSum | BagSum => {
@@ -87,10 +88,10 @@ impl Generator<'_> {
                     Type::Value => "gs::Value::complex(0.0, 0.0)",
                     _ => "gs::Value::integer(0)",
                 };
-                format!("gs::{}({list}, {zero}, {site})", snake(&format!("{builtin:?}")))
+                format!("gs::{}({list}, {zero}, {site})", function_of(builtin))
             }
-            Xor | Not => format!("gs::{}_({list}, {site})", snake(&format!("{builtin:?}"))),
-            _ => format!("gs::{}({list}, {site})", snake(&format!("{builtin:?}"))),
+            Xor | Not => format!("gs::{}_({list}, {site})", function_of(builtin)),
+            _ => format!("gs::{}({list}, {site})", function_of(builtin)),
         };
         Code::value(text)
     }
@@ -252,6 +253,11 @@ impl Generator<'_> {
         let text = format!("gs::{name}({left}, [&]() -> gs::Maybe<bool> {{ return {right}; }})");
         Code { defined: false, ..truth(text, pure) }
     }
+}
+
+/// The name of the library function that works on dynamic values.
+fn function_of(builtin: Builtin) -> String {
+    identifier(&snake(&format!("{builtin:?}")))
 }
 
 /// Two integers with an operator between; a literal is written without its type where the other one has it.

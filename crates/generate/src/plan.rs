@@ -8,8 +8,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use model::Basic;
 use program::{DomainId, DomainKind, FunctionId, FunctionKind, ProcedureId, Program};
 
+use cpp_names::{Scope, identifier, snake};
+
 use crate::interval::Interval;
-use crate::names::{Scope, identifier, snake};
 use crate::types::{Type, type_of};
 
 /// LIMIT: a function with more locations than this has no array.
@@ -150,7 +151,7 @@ pub(crate) fn plan(program: &Program, started: &mut machine::Machine) -> Plan {
     for domain in &domains {
         members.keep(&domain.name);
     }
-    Plan { namespace: snake(&program.name), domains, functions, procedures, members }
+    Plan { namespace: identifier(&snake(&program.name)), domains, functions, procedures, members }
 }
 
 fn role(program: &Program, id: FunctionId, used: bool) -> Role {

@@ -4,9 +4,11 @@
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
+mod models;
+
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use machine::{Location, Value};
@@ -14,26 +16,7 @@ use program::Program;
 use syntax::SourceFile;
 use verify::{Engine, Options, Outcome, Report, Subject, Trace, Unreduced, verify};
 
-struct Disk;
-
-impl Disk {
-    fn read(path: &Path) -> Result<SourceFile, String> {
-        let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
-        Ok(SourceFile::new(path.display().to_string(), text))
-    }
-}
-
-impl model::Loader for Disk {
-    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        Disk::read(&Path::new(&importer.name).parent().unwrap_or(Path::new("")).join(format!("{path}.asm")))
-    }
-}
-
-fn lowered(file: SourceFile) -> Arc<Program> {
-    let checked = model::check(file, &mut Disk);
-    assert!(checked.diagnostics.is_empty(), "{:#?}", checked.diagnostics);
-    Arc::new(program::lower(&checked.model).expect("it can be lowered"))
-}
+use models::{Disk, lowered};
 
 fn program(path: &str) -> Arc<Program> {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..").join(path);

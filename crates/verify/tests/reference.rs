@@ -3,35 +3,20 @@
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
-use std::path::{Path, PathBuf};
+mod models;
+
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use machine::Show;
 use program::Program;
-use syntax::SourceFile;
 use verify::{Options, Outcome, Report, Subject, verify};
 
-struct Disk;
-
-impl Disk {
-    fn read(path: &Path) -> Result<SourceFile, String> {
-        let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
-        Ok(SourceFile::new(path.display().to_string(), text))
-    }
-}
-
-impl model::Loader for Disk {
-    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        Disk::read(&Path::new(&importer.name).parent().unwrap_or(Path::new("")).join(format!("{path}.asm")))
-    }
-}
+use models::{Disk, lowered};
 
 fn program(name: &str) -> Arc<Program> {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../bench/models/verify/{name}.asm"));
-    let root = Disk::read(&path).expect("the model is there");
-    let checked = model::check(root, &mut Disk);
-    assert!(checked.diagnostics.is_empty(), "{:#?}", checked.diagnostics);
-    Arc::new(program::lower(&checked.model).expect("it can be lowered"))
+    lowered(Disk::read(&path).expect("the model is there"))
 }
 
 fn check(program: &Arc<Program>, options: &Options) -> Report {

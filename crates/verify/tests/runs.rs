@@ -2,7 +2,9 @@
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
-use std::path::{Path, PathBuf};
+mod models;
+
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use machine::{Machine, Value};
@@ -12,26 +14,7 @@ use verify::Trace;
 use verify::runs::{OfRuns, Question, Why, decide};
 use verify::temporal::fairness::AgentFairness;
 
-struct Disk;
-
-impl Disk {
-    fn read(path: &Path) -> Result<SourceFile, String> {
-        let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
-        Ok(SourceFile::new(path.display().to_string(), text))
-    }
-}
-
-impl model::Loader for Disk {
-    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        Disk::read(&Path::new(&importer.name).parent().unwrap_or(Path::new("")).join(format!("{path}.asm")))
-    }
-}
-
-fn lowered(file: SourceFile) -> Arc<Program> {
-    let checked = model::check(file, &mut Disk);
-    assert!(checked.diagnostics.is_empty(), "{:#?}", checked.diagnostics);
-    Arc::new(program::lower(&checked.model).expect("it can be lowered"))
-}
+use models::{Disk, lowered};
 
 /// The swinging buffer, with more assumptions before its properties.
 fn swing(assumptions: &str) -> Arc<Program> {

@@ -2,8 +2,10 @@
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
+mod models;
+
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use machine::{Location, Value};
@@ -11,26 +13,7 @@ use program::{Program, PropertyKind};
 use syntax::SourceFile;
 use verify::{Engine, Options, Outcome, Reason, Report, Storage, Subject, Trace, verify};
 
-struct Disk;
-
-impl Disk {
-    fn read(path: &Path) -> Result<SourceFile, String> {
-        let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
-        Ok(SourceFile::new(path.display().to_string(), text))
-    }
-}
-
-impl model::Loader for Disk {
-    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        Disk::read(&Path::new(&importer.name).parent().unwrap_or(Path::new("")).join(format!("{path}.asm")))
-    }
-}
-
-fn lowered(file: SourceFile) -> Arc<Program> {
-    let checked = model::check(file, &mut Disk);
-    assert!(checked.diagnostics.is_empty(), "{:#?}", checked.diagnostics);
-    Arc::new(program::lower(&checked.model).expect("it can be lowered"))
-}
+use models::{Disk, lowered};
 
 fn program(name: &str) -> Arc<Program> {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../bench/models/verify/{name}.asm"));

@@ -12,7 +12,7 @@ const LAYERS: &[&[&str]] = &[
     &["model"],
     &["program"],
     &["machine"],
-    &["recording"],
+    &["recording", "cpp_names"],
     &["simulate", "scenario", "verify", "refine", "chart", "generate", "conform", "ide", "report"],
     &["groundstate"],
     &["cli", "studio", "lsp", "python", "xtask"],

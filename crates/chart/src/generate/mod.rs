@@ -42,7 +42,7 @@ pub fn ungenerated(system: &System) -> Vec<Diagnostic> {
         let mut hooks: Vec<String> = Vec::new();
         for phase in &component.phases {
             match phase.action {
-                Action::Elaborate(_) if hooks.contains(&names::snake(&phase.subject)) => {
+                Action::Elaborate(_) if hooks.contains(&cpp_names::snake(&phase.subject)) => {
                     faults.push(fault::not_generated(
                         phase.span,
                         format!("a second elaboration `{}` of `{}` cannot be generated", phase.subject, component.name),
@@ -50,7 +50,7 @@ pub fn ungenerated(system: &System) -> Vec<Diagnostic> {
                         "rename one of them",
                     ))
                 }
-                Action::Elaborate(_) => hooks.push(names::snake(&phase.subject)),
+                Action::Elaborate(_) => hooks.push(cpp_names::snake(&phase.subject)),
                 Action::Write(_) if hooks.is_empty() => faults.push(fault::not_generated(
                     phase.span,
                     format!("`{}` writes `{}` before it has elaborated anything", component.name, phase.subject),
@@ -80,7 +80,7 @@ pub fn ungenerated(system: &System) -> Vec<Diagnostic> {
 
 /// The program of a system of which nothing is [`ungenerated`]. `file` names the chart in comments.
 pub fn generate(chart: &Chart, system: &System, file: &str, form: &Form) -> Generated {
-    let name = names::snake(&system.name);
+    let name = cpp_names::snake(&system.name);
     let space = form.namespace.clone().unwrap_or_else(|| name.clone());
     let header = header::header(system, file, &space, form);
     let mut once = vec![

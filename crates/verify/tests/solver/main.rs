@@ -3,9 +3,11 @@
 #![allow(clippy::disallowed_methods, reason = "a test runs a solver and reads the repository's own models")]
 #![allow(clippy::disallowed_macros, reason = "a test says that it has no solver")]
 
+#[path = "../models/mod.rs"]
+mod models;
 mod process;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use machine::explore::Bounds;
@@ -16,26 +18,7 @@ use syntax::{Severity, SourceFile};
 use verify::solver::{Left, Method, Proof};
 use verify::{Engine, NoStart, Options, Outcome, Reason, Report, Subject, verify, verify_with};
 
-struct Disk;
-
-impl Disk {
-    fn read(path: &Path) -> Result<SourceFile, String> {
-        let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
-        Ok(SourceFile::new(path.display().to_string(), text))
-    }
-}
-
-impl model::Loader for Disk {
-    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        Disk::read(&Path::new(&importer.name).parent().unwrap_or(Path::new("")).join(format!("{path}.asm")))
-    }
-}
-
-fn lowered(file: SourceFile) -> Arc<Program> {
-    let checked = model::check(file, &mut Disk);
-    assert!(checked.diagnostics.is_empty(), "{:#?}", checked.diagnostics);
-    Arc::new(program::lower(&checked.model).expect("it can be lowered"))
-}
+use models::{Disk, lowered};
 
 fn model(text: &str) -> Arc<Program> {
     lowered(SourceFile::new("example.asm", format!("asm example\nimport StandardLibrary\nsignature:\n{text}\n")))

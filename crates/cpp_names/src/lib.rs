@@ -1,6 +1,6 @@
-//! Names of the model as identifiers of C++.
+//! Names of models and charts as identifiers of C++.
 //!
-//! In: names as the model writes them. Out: identifiers, distinct within their scope, that are no word of C++, no macro
+//! In: names as they are written there. Out: identifiers, distinct within their scope, that are no word of C++, no macro
 //! of its library and none that the language keeps for itself.
 
 use std::collections::BTreeSet;
@@ -142,7 +142,7 @@ const RESERVED: &[&str] = &[
 
 /// The identifiers of one scope.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Scope {
+pub struct Scope {
     taken: BTreeSet<String>,
 }
 
@@ -170,8 +170,14 @@ impl Scope {
     }
 }
 
+/// A word of C++, a macro of its library, or a name that generated code has.
+pub fn is_reserved(name: &str) -> bool {
+    let upper = |rest: &str| rest.starts_with(|letter: char| letter.is_ascii_uppercase());
+    RESERVED.contains(&name) || name.strip_prefix("SIG").is_some_and(upper) || name.starts_with("FE_")
+}
+
 /// A name as an identifier: other letters become `_`, reserved ones get one at their end.
-pub(crate) fn identifier(name: &str) -> String {
+pub fn identifier(name: &str) -> String {
     let mut out = String::new();
     for letter in name.trim_start_matches('$').chars() {
         let fitting = letter.is_ascii_alphanumeric() || letter == '_';
@@ -186,15 +192,11 @@ pub(crate) fn identifier(name: &str) -> String {
     }
     // A trailing underscore is for members that hold state.
     let out = out.trim_end_matches('_').to_string();
-    let upper = |rest: &str| rest.starts_with(|letter: char| letter.is_ascii_uppercase());
-    if RESERVED.contains(&out.as_str()) || (out.starts_with("SIG") && upper(&out[3..])) || out.starts_with("FE_") {
-        return format!("{out}_1");
-    }
-    out
+    if is_reserved(&out) { format!("{out}_1") } else { out }
 }
 
-/// A name in `snake_case`, for namespaces and files.
-pub(crate) fn snake(name: &str) -> String {
+/// A name in `snake_case`, which may be a reserved one.
+pub fn snake(name: &str) -> String {
     let mut out = String::new();
     let letters: Vec<char> = name.chars().collect();
     for (place, letter) in letters.iter().enumerate() {
@@ -209,7 +211,7 @@ pub(crate) fn snake(name: &str) -> String {
             out.push(*letter);
         }
     }
-    identifier(&out)
+    out
 }
 
 #[cfg(test)]
@@ -232,6 +234,8 @@ mod tests {
         assert_eq!(snake("CarSystem002main"), "car_system002main");
         assert_eq!(snake("ABCTest"), "abc_test");
         assert_eq!(snake("IntAdd"), "int_add");
+        assert_eq!(snake("setPoint"), "set_point");
+        assert_eq!(snake("camera_to_vs"), "camera_to_vs");
     }
 
     #[test]
