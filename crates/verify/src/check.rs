@@ -23,6 +23,7 @@ use crate::runs::{OfRuns, Question, Why, decide};
 use crate::search::{Plan, Progress, Stop, Target};
 use crate::solver::{Left, Method, Proof};
 use crate::storage::Storage;
+use crate::storage::disk::Disk;
 use crate::temporal::fairness::AgentFairness;
 use crate::trace::Trace;
 
@@ -70,6 +71,8 @@ pub struct Options {
     pub seed: u64,
     /// Where the main rule chooses who moves: of moves that do not concern each other one order is enough.
     pub partial_order: bool,
+    /// Where states go that memory has no room for, if all of each is kept. They are gone through one by one then.
+    pub disk: Option<Arc<dyn Disk>>,
 }
 
 impl Default for Options {
@@ -88,6 +91,7 @@ impl Default for Options {
             storage: Storage::Exact,
             seed: 0,
             partial_order: false,
+            disk: None,
         }
     }
 }
@@ -430,6 +434,7 @@ impl Questions {
             storage: options.storage,
             seed: options.seed,
             partial_order: options.partial_order,
+            disk: options.disk.clone(),
             ..Plan::default()
         };
         let mut property_of = Vec::new();

@@ -68,7 +68,9 @@ pub(crate) fn run_engine(
         Engine::Symbolic if !bounded => Ok(symbolic(program, plan, watch)?),
         Engine::Solver(method) => by_solver(program, plan, method, solvers, watch),
         // Only states that are gone through one by one are kept in one way or another.
-        Engine::Automatic if plan.storage == Storage::Exact && !plan.partial_order && keeper.is_none() => {
+        Engine::Automatic
+            if plan.storage == Storage::Exact && !plan.partial_order && plan.disk.is_none() && keeper.is_none() =>
+        {
             let few = Plan { max_states: if bounded { plan.max_states } else { FEW }, ..plan.clone() };
             let mut ended = explicit(program, &few, None, watch)?;
             let full = matches!(ended.stop, Some(Stop::States | Stop::Memory));
@@ -162,6 +164,9 @@ fn explicit(
     keeper: Option<&mut dyn Keeper>,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Ended, NoStart> {
+    // LIMIT: a search that is kept has its states in memory.
+    let spills = plan.storage == Storage::Exact && keeper.is_none();
+    let plan = &Plan { disk: plan.disk.clone().filter(|_| spills), ..plan.clone() };
     let mut search = Search::run(program, plan, keeper, watch).map_err(|unfit| match unfit {
         Unfit::Refused(refusal) => NoStart::Refused(refusal),
         Unfit::Trouble(trouble) => NoStart::from(trouble),

@@ -31,4 +31,5 @@ pub use checkpoint::{Keeper, Refusal};
 pub use partial_order::Unreduced;
 pub use search::{Progress, Stop};
 pub use storage::Storage;
+pub use storage::disk::{Disk, Tape};
 pub use trace::Trace;

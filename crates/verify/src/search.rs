@@ -15,6 +15,7 @@ use program::Program;
 use crate::checkpoint::{Journal, Keeper, Past, Resumed, Unfit, keep, made, resume};
 use crate::partial_order::{Reduction, Unreduced, reduction};
 use crate::shard::{Crew, Decision, Report, Shard, note};
+use crate::storage::disk::Disk;
 use crate::storage::{Storage, Store};
 
 /// What is looked for in a state.
@@ -59,6 +60,8 @@ pub struct Plan {
     pub seed: u64,
     /// Of moves that do not concern each other one order is enough.
     pub partial_order: bool,
+    /// Where states go that memory has no room for; only where all of them is kept, and the search is not.
+    pub disk: Option<Arc<dyn Disk>>,
 }
 
 /// How far a search is.
@@ -72,8 +75,10 @@ pub struct Progress {
     pub queue: u64,
     /// The greatest distance of a state from an initial one.
     pub depth: u64,
-    /// Bytes that states take.
+    /// Bytes of memory that states take.
     pub bytes: u64,
+    /// Bytes of files.
+    pub spilled: u64,
 }
 
 impl Progress {
@@ -84,9 +89,10 @@ impl Progress {
         Progress {
             states: sum(|report| report.states),
             transitions: sum(|report| report.transitions),
-            queue: sum(|report| report.left) + fresh,
+            queue: sum(|report| report.left + report.pending) + fresh,
             depth: if fresh > 0 { depth } else { depth.saturating_sub(1) },
             bytes: sum(|report| report.bytes),
+            spilled: sum(|report| report.spilled),
         }
     }
 }
@@ -100,6 +106,8 @@ pub enum Stop {
     Depth,
     /// As many bytes as are allowed.
     Memory,
+    /// A file could not be written or read.
+    Disk,
     /// Whoever watches the search has had enough.
     Asked,
     /// Something was found and that is enough.
@@ -261,7 +269,10 @@ fn begun(program: &Arc<Program>, plan: &Plan, is_kept: bool, past: &mut Past) ->
     let is_numbered = is_kept && !maker.interner.is_empty();
     let count = if is_numbered { 1 } else { plan.workers.max(1) };
     let (reduction, unreduced) = reduction(program, plan, &mut explorer);
-    let store = || Store::new(explorer.words(), plan.storage, plan.seed, count);
+    let store = || match &plan.disk {
+        Some(disk) => Store::with_disk(explorer.words(), disk, plan.max_bytes / count as u64),
+        None => Store::new(explorer.words(), plan.storage, plan.seed, count),
+    };
     let mut shards: Vec<Shard> = (0..count).map(|_| Shard::new(store(), &reduction)).collect();
     shards[0].journal = is_numbered.then(|| Journal::new(&maker.interner));
     let starts = explorer.initial().iter().map(|(state, _)| state.clone()).collect();
@@ -284,7 +295,7 @@ fn search<'k>(
         let mut paused = false;
         let mut decide = |reports: &[Report], depth: u64| {
             let decision = decide(reports, depth, plan, &mut progress, watch);
-            let goes_on = matches!(decision, Decision::Round | Decision::Level);
+            let goes_on = !matches!(decision, Decision::Stop(_));
             paused = goes_on && kept.as_mut().is_some_and(|(keeper, _)| keeper.is_due());
             if paused { Decision::Stop(None) } else { decision }
         };
@@ -325,13 +336,20 @@ fn decide(
 ) -> Decision {
     let sum = |of: fn(&Report) -> u64| reports.iter().map(of).sum::<u64>();
     let any = |of: fn(&Report) -> bool| reports.iter().any(of);
-    let (left, fresh) = (sum(|report| report.left), sum(|report| report.fresh));
+    let (left, fresh, pending) = (sum(|report| report.left), sum(|report| report.fresh), sum(|report| report.pending));
     *progress = Progress::of(reports, depth);
     let go_on = watch(progress);
-    if any(|report| report.narrow || report.broken) || left + fresh == 0 {
+    if any(|report| report.narrow || report.broken) {
         return Decision::Stop(None);
     }
-    if any(|report| report.full) || progress.bytes > plan.max_bytes {
+    if any(|report| report.lost) {
+        return Decision::Stop(Some(Stop::Disk));
+    }
+    if left + fresh + pending == 0 {
+        return Decision::Stop(None);
+    }
+    // What goes to files keeps to its room by itself.
+    if any(|report| report.full) || (progress.bytes > plan.max_bytes && plan.disk.is_none()) {
         return Decision::Stop(Some(Stop::Memory));
     }
     if !go_on {
@@ -340,6 +358,9 @@ fn decide(
     // The rest is decided between levels, where it does not depend on how the work is shared.
     if left > 0 {
         return Decision::Round;
+    }
+    if pending > 0 {
+        return Decision::Settle;
     }
     if plan.first && any(|report| report.found) {
         return Decision::Stop(Some(Stop::Found));

@@ -76,8 +76,14 @@ pub(crate) struct Report {
     pub left: u64,
     /// States of the next level.
     pub fresh: u64,
+    /// States of which it is not known yet whether they are of the next level.
+    pub pending: u64,
     pub bytes: u64,
+    /// Bytes of files.
+    pub spilled: u64,
     pub full: bool,
+    /// Files have met trouble.
+    pub lost: bool,
     pub narrow: bool,
     pub found: bool,
     /// The worker has panicked.
@@ -89,6 +95,8 @@ pub(crate) struct Report {
 pub(crate) enum Decision {
     /// The level goes on.
     Round,
+    /// The level has ended: states that are pending are settled.
+    Settle,
     /// The next level begins.
     Level,
     /// All workers stop.
@@ -183,6 +191,7 @@ impl Shard {
         leader: &mut Leader<'_>,
     ) -> Option<Stop> {
         let mut sent = vec![Vec::new(); mail.len()];
+        let mut settles = false;
         if self.reduction.is_some() {
             // Parts are told apart once the steps of some state were made.
             let initial = explorer.initial().first().map(|(state, _)| state.clone());
@@ -203,7 +212,10 @@ impl Shard {
             barrier.wait();
             guard(&mut || {
                 for received in &mail[index] {
-                    self.take_in(explorer, plan, &mut lock(received));
+                    self.take_in(explorer, plan, &mut lock(received), false);
+                }
+                if settles && self.store.pending() > 0 {
+                    self.take_in(explorer, plan, &mut Vec::new(), true);
                 }
             });
             let broken = panic.is_some();
@@ -224,8 +236,9 @@ impl Shard {
                 resume_unwind(panic);
             }
             let decision = lock(board).decision;
+            settles = decision == Decision::Settle;
             match decision {
-                Decision::Round => {}
+                Decision::Round | Decision::Settle => {}
                 Decision::Level => {
                     self.store.forget_before(self.next);
                     self.levels.push(self.store.len());
@@ -249,8 +262,11 @@ impl Shard {
             transitions: self.transitions,
             left: (end - self.next) as u64,
             fresh: (self.store.len() - end) as u64,
+            pending: self.store.pending() as u64,
             bytes: self.store.bytes() as u64,
+            spilled: self.store.spilled() as u64,
             full: self.store.is_full(),
+            lost: self.store.is_lost(),
             narrow: !self.widening.is_empty(),
             found: !self.found.is_empty(),
             broken: false,
@@ -262,6 +278,9 @@ impl Shard {
         let end = self.levels.last().copied().unwrap_or(0).min(self.next + ROUND);
         let words = explorer.words();
         let mut successors = Vec::new();
+        if self.next < end && !self.store.load(self.next..end) {
+            return;
+        }
         while self.next < end {
             let state = self.store.state(self.next);
             self.next += 1;
@@ -334,8 +353,8 @@ impl Shard {
         }
     }
 
-    /// Adds states that have come in.
-    fn take_in(&mut self, explorer: &mut Explorer, plan: &Plan, states: &mut Vec<u64>) {
+    /// Adds states that have come in, or settles those that are pending.
+    fn take_in(&mut self, explorer: &mut Explorer, plan: &Plan, states: &mut Vec<u64>, settles: bool) {
         let Shard { store, levels, found, unknown, lineage, .. } = self;
         if !plan.assumed.is_empty() {
             let mut admitted = Vec::with_capacity(states.len());
@@ -356,7 +375,7 @@ impl Shard {
             *states = admitted;
         }
         let depth = levels.len();
-        store.insert_all(states, &mut |state| {
+        let mut meet = |state: &[u64]| {
             if let Some(lineage) = lineage {
                 lineage.meet(depth, state);
                 return;
@@ -373,7 +392,11 @@ impl Shard {
                     }
                 }
             }
-        });
+        };
+        match settles {
+            false => store.insert_all(states, &mut meet),
+            true => store.settle(&mut meet),
+        }
         states.clear();
     }
 }

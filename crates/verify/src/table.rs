@@ -5,8 +5,6 @@
 //! half, so that states and table together take at most 22 bytes for a state of one word. The order of states is theirs of arrival
 //! and nothing else; no hash order comes out.
 
-/// LIMIT: states of one table.
-const MOST: usize = u32::MAX as usize - 1;
 /// States in a chunk.
 const CHUNK: usize = 1 << 14;
 /// How many lookups are begun before the first is ended, so that their memory is fetched at the same time.
@@ -40,6 +38,9 @@ pub struct Table {
 }
 
 impl Table {
+    /// LIMIT: states of one table.
+    pub const MOST: usize = u32::MAX as usize - 1;
+
     /// An empty set of states of so many words.
     pub fn new(words: usize) -> Table {
         Table { words, chunks: Vec::new(), len: 0, slots: vec![0; 1 << 10], full: false }
@@ -58,6 +59,40 @@ impl Table {
     /// How many bytes it takes.
     pub fn bytes(&self) -> usize {
         8 * self.slots.len() + self.chunks.iter().map(|chunk| 8 * chunk.capacity()).sum::<usize>()
+    }
+
+    /// How many bytes it would take with so many states, at least as many as it has.
+    pub fn bytes_of(&self, len: usize) -> usize {
+        let mut slots = self.slots.len();
+        while (len + AHEAD) * FULL.1 > slots * FULL.0 {
+            slots += slots / 2;
+        }
+        8 * slots + len.div_ceil(CHUNK) * CHUNK * self.words * 8
+    }
+
+    /// The states, as they came.
+    pub fn chunks(&self) -> impl Iterator<Item = &[u64]> {
+        self.chunks.iter().map(Vec::as_slice)
+    }
+
+    /// The states, in the order of their words.
+    pub fn sorted(self) -> Vec<u64> {
+        let Table { words, chunks, len, slots, .. } = self;
+        drop(slots);
+        let mut all = Vec::with_capacity(len * words);
+        if words == 1 {
+            chunks.into_iter().for_each(|chunk| all.extend(chunk));
+            all.sort_unstable();
+            return all;
+        }
+        let state = |index: u32| {
+            let (index, start) = (index as usize / CHUNK, index as usize % CHUNK * words);
+            &chunks[index][start..start + words]
+        };
+        let mut order: Vec<u32> = (0..len as u32).collect();
+        order.sort_unstable_by_key(|index| state(*index));
+        order.into_iter().for_each(|index| all.extend_from_slice(state(index)));
+        all
     }
 
     /// A state by its place.
@@ -128,7 +163,7 @@ impl Table {
 
     #[inline]
     fn add(&mut self, slot: usize, entry: u64, state: &[u64]) -> bool {
-        if self.len >= MOST {
+        if self.len >= Table::MOST {
             self.full = true;
             return false;
         }
@@ -189,6 +224,10 @@ mod tests {
         for (place, state) in expected.iter().enumerate() {
             assert_eq!(table.state(place), state);
         }
+        assert_eq!(table.bytes_of(table.len()), table.bytes());
+        assert_eq!(table.chunks().collect::<Vec<_>>().concat(), expected.concat());
+        expected.sort();
+        assert_eq!(table.sorted(), expected.concat());
     }
 
     #[test]

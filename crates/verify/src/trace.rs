@@ -10,9 +10,13 @@ use std::ops::ControlFlow;
 use machine::explore::{Explorer, FaultClass, Outcome, Path, Told};
 use machine::{Location, Value};
 
-use crate::search::{Found, Progress, Search, Target};
+use crate::search::{Found, Progress, Search, Stop, Target};
 use crate::shard::Shard;
 use crate::storage::Storage;
+use crate::storage::disk::Lost;
+
+/// So many states of a level are read at a time.
+const LOADED: usize = 1 << 12;
 
 /// A run from an initial state.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -30,32 +34,37 @@ pub struct Trace {
 }
 
 impl Search {
-    /// A shortest run to each state found, in the order of `found`.
+    /// A shortest run to each state found, in the order of `found`. Where files cannot be read, nothing was found.
     pub fn traces(&mut self, watch: &mut dyn FnMut(&Progress) -> bool) -> Vec<Trace> {
-        let chains = if self.plan.storage == Storage::Exact { self.chains() } else { self.chains_again(watch) };
+        let chains = if self.plan.storage == Storage::Exact { self.chains() } else { Ok(self.chains_again(watch)) };
+        let Ok(chains) = chains else {
+            self.found.clear();
+            self.stop = Some(Stop::Disk);
+            return Vec::new();
+        };
         let explorer = &mut self.explorer;
         self.found.iter().zip(&chains).map(|(found, chain)| tell(explorer, chain, found)).collect()
     }
 
     /// The states on the way to each state found.
-    fn chains(&mut self) -> Vec<Vec<Box<[u64]>>> {
+    fn chains(&mut self) -> Result<Vec<Vec<Box<[u64]>>>, Lost> {
         let mut chains: Vec<Vec<Box<[u64]>>> = self.found.iter().map(|found| vec![found.state.clone()]).collect();
         let deepest = self.found.iter().map(|found| found.depth).max().unwrap_or(0);
         for level in (0..deepest).rev() {
             let open: Vec<usize> = (0..chains.len()).filter(|index| self.found[*index].depth > level).collect();
             let wanted: Vec<Box<[u64]>> =
                 open.iter().map(|index| chains[*index][chains[*index].len() - 1].clone()).collect();
-            let parents = self.parents(level, &wanted);
+            let parents = self.parents(level, &wanted)?;
             for (index, parent) in open.into_iter().zip(parents) {
                 chains[index].push(parent);
             }
         }
         chains.iter_mut().for_each(|chain| chain.reverse());
-        chains
+        Ok(chains)
     }
 
     /// For each state that is wanted the least state of a level that leads to it.
-    fn parents(&mut self, level: usize, wanted: &[Box<[u64]>]) -> Vec<Box<[u64]>> {
+    fn parents(&mut self, level: usize, wanted: &[Box<[u64]>]) -> Result<Vec<Box<[u64]>>, Lost> {
         let mut least: Vec<Option<Box<[u64]>>> = vec![None; wanted.len()];
         let Search { explorer, shards, .. } = self;
         let words = explorer.words();
@@ -63,6 +72,9 @@ impl Search {
         for Shard { store, levels, .. } in shards {
             let begin = if level == 0 { 0 } else { levels[level - 1] };
             for place in begin..levels[level] {
+                if (place - begin) % LOADED == 0 && !store.load(place..levels[level].min(place + LOADED)) {
+                    return Err(Lost);
+                }
                 let state = store.state(place);
                 successors.clear();
                 if explorer.expand(state, &mut successors).is_err() {
@@ -76,7 +88,8 @@ impl Search {
                 }
             }
         }
-        least.into_iter().map(|state| state.expect("a state is met from one of the level before")).collect()
+        let found = least.into_iter().map(|state| state.expect("a state is met from one of the level before"));
+        Ok(found.collect())
     }
 }
 

@@ -7,6 +7,7 @@ mod bound;
 mod bounded;
 mod checkpoint;
 mod counterexample;
+mod disk;
 mod tell;
 mod watch;
 
@@ -17,7 +18,7 @@ use clap::Args;
 use groundstate::own_files;
 use groundstate::verify::solver::Method;
 use groundstate::verify::temporal::fairness::AgentFairness;
-use groundstate::verify::{Keeper, NoStart, Options, Outcome, Report, verify_kept};
+use groundstate::verify::{Disk, Keeper, NoStart, Options, Outcome, Report, verify_kept};
 
 use program::PropertyKind;
 
@@ -29,6 +30,7 @@ use crate::solver::Process;
 pub use bounded::Bounded;
 use checkpoint::Checkpoint;
 pub use counterexample::relative;
+use disk::Folder;
 pub use tell::{Explored, StepLine, Teller};
 
 /// Arguments of `verify`.
@@ -55,6 +57,9 @@ pub struct Arguments {
     /// is there; it is removed when the search has ended
     #[arg(long, value_name = "FILE")]
     checkpoint: Option<PathBuf>,
+    /// Where memory ends, go on with the states in files of this folder
+    #[arg(long, value_name = "FOLDER")]
+    disk: Option<PathBuf>,
     /// Where the main rule chooses who moves: of moves that do not concern each other make one order, not all
     #[arg(long, value_enum, default_value_t, value_name = "HOW")]
     partial_order: Switch,
@@ -195,6 +200,20 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
             return Err(Failure::usage_with_help("a search that keeps less than the states has no checkpoint", help));
         }
     }
+    if arguments.disk.is_some() {
+        if !matches!(arguments.engine, Engine::Auto | Engine::Explicit) {
+            let help = "leave out --engine, or --disk";
+            return Err(Failure::usage_with_help("--disk is of states that are gone through one by one", help));
+        }
+        if arguments.storage != Storage::Exact {
+            let help = "leave out --storage, or --disk";
+            return Err(Failure::usage_with_help("--disk takes states of which all is kept", help));
+        }
+        if arguments.checkpoint.is_some() {
+            let help = "leave out --checkpoint, or --disk";
+            return Err(Failure::usage_with_help("a search with states on disk has no checkpoint", help));
+        }
+    }
     if arguments.counterexample.is_some() && arguments.model.as_os_str() == "-" {
         return Err(Failure::usage("no scenario can load standard input: write the model to a file"));
     }
@@ -224,6 +243,10 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let (root, users) = (loaded.model.root, own_files(&sources));
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
     let (options, mut watch) = bounded.options(shell, &program, &beside)?;
+    let folder = match &arguments.disk {
+        Some(path) => Some(Folder::new(path)?),
+        None => None,
+    };
     let options = Options {
         engine: arguments.engine.chosen(),
         workers: arguments.workers.map_or(processors, |workers| workers as usize),
@@ -237,6 +260,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         },
         seed: arguments.hash_seed,
         partial_order: arguments.partial_order == Switch::On,
+        disk: folder.clone().map(|folder| folder as Arc<dyn Disk>),
         ..options
     };
     let fair = match (arguments.fair, beside.fair.as_deref()) {
@@ -273,6 +297,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         counterexample::write(shell, path, model, &program, &mut loaded, &report)?;
     }
     checkpoint.map_or(Ok(()), Checkpoint::done)?;
+    folder.map_or(Ok(()), |folder| folder.done())?;
     Ok(exit(&report))
 }
 

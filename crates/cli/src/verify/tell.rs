@@ -82,6 +82,8 @@ struct ExploredLine<'a> {
     transitions: u64,
     depth: u64,
     bytes: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    disk: Option<u64>,
     #[serde(flatten)]
     more: &'a Explored,
 }
@@ -148,6 +150,7 @@ impl Teller<'_> {
                 transitions: progress.transitions,
                 depth: progress.depth,
                 bytes: progress.bytes,
+                disk: (progress.spilled > 0).then_some(progress.spilled),
                 more,
             });
         }
@@ -160,7 +163,11 @@ impl Teller<'_> {
             let states = plural(progress.states as usize, "state");
             let transitions = plural(progress.transitions as usize, "transition");
             let depth = progress.depth;
-            writeln!(shell.out(), "{states} ({whole}), {transitions}, depth {depth}")?;
+            let disk = match progress.spilled {
+                0 => String::new(),
+                bytes => format!(", {} MiB on disk", bytes.div_ceil(1 << 20)),
+            };
+            writeln!(shell.out(), "{states} ({whole}), {transitions}, depth {depth}{disk}")?;
         }
         Ok(())
     }
@@ -383,6 +390,7 @@ impl Teller<'_> {
             Reason::Stopped(Stop::States) => "the limit of states is reached".to_string(),
             Reason::Stopped(Stop::Depth) => "the limit of depth is reached".to_string(),
             Reason::Stopped(Stop::Memory) => "the limit of memory is reached".to_string(),
+            Reason::Stopped(Stop::Disk) => "a file of states could not be written or read".to_string(),
             Reason::Stopped(Stop::Found) => "the search ended at the first violation (--first)".to_string(),
             Reason::Stopped(Stop::Asked) if self.timed_out => "the time is up".to_string(),
             Reason::Stopped(Stop::Asked) => "interrupted".to_string(),

@@ -37,8 +37,12 @@ impl Watch {
         if self.wanted && elapsed > PATIENCE {
             let bar = self.bar.get_or_insert_with(bar);
             let rate = progress.states as f64 / elapsed.as_secs_f64();
+            let disk = match progress.spilled {
+                0 => String::new(),
+                bytes => format!(", {} MiB on disk", bytes >> 20),
+            };
             bar.set_message(format!(
-                "{} states, {:.0} a second, {} to do, depth {}, {} MiB",
+                "{} states, {:.0} a second, {} to do, depth {}, {} MiB{disk}",
                 progress.states,
                 rate,
                 progress.queue,

@@ -1,13 +1,22 @@
 //! What a search keeps of the states it has met.
 //!
 //! In: [`Storage`], as it is asked for. Out: a [`Store`], which says whether a state is new. All of a state ([`crate::table`]),
-//! or only a hash or a few bits of it ([`compact`]), where states are too many to be kept. INVARIANT: a store that keeps less
+//! in files where memory ends ([`spilled`]); or only a hash or a few bits of it ([`compact`]), where states are too many to be
+//! kept. INVARIANT: a store that keeps less
 //! than the state says how likely it is that it has taken a state for another.
 
 pub(crate) mod compact;
+pub(crate) mod disk;
 mod fingerprint;
+mod run;
+mod spilled;
+
+use std::ops::Range;
+use std::sync::Arc;
 
 use crate::storage::compact::Compact;
+use crate::storage::disk::Disk;
+use crate::storage::spilled::Spilled;
 use crate::table::Table;
 
 /// What is kept of each state.
@@ -26,6 +35,7 @@ pub enum Storage {
 #[derive(Debug)]
 pub(crate) enum Store {
     Exact(Table),
+    Spilled(Box<Spilled>),
     Compact(Box<Compact>),
 }
 
@@ -41,10 +51,17 @@ impl Store {
         }
     }
 
+    /// One that keeps all of the states, in files where there is no room for them in so many bytes.
+    pub fn with_disk(words: usize, disk: &Arc<dyn Disk>, room: u64) -> Store {
+        Store::Spilled(Box::new(Spilled::new(words, disk, room)))
+    }
+
     /// The same, in which so many words go with each state.
     pub fn with_more(self, more: usize) -> Store {
         match self {
-            Store::Exact(_) => unreachable!("states that are kept need nothing that goes with them"),
+            Store::Exact(_) | Store::Spilled(_) => {
+                unreachable!("states that are kept need nothing that goes with them")
+            }
             Store::Compact(compact) => Store::Compact(Box::new(compact.with_more(more))),
         }
     }
@@ -53,6 +70,7 @@ impl Store {
     pub fn len(&self) -> usize {
         match self {
             Store::Exact(table) => table.len(),
+            Store::Spilled(spilled) => spilled.len(),
             Store::Compact(compact) => compact.len(),
         }
     }
@@ -61,7 +79,28 @@ impl Store {
     pub fn is_full(&self) -> bool {
         match self {
             Store::Exact(table) => table.is_full(),
-            Store::Compact(_) => false,
+            Store::Spilled(_) | Store::Compact(_) => false,
+        }
+    }
+
+    /// How many states have come in of which it is not known yet whether they are new.
+    pub fn pending(&self) -> usize {
+        match self {
+            Store::Spilled(spilled) => spilled.pending(),
+            Store::Exact(_) | Store::Compact(_) => 0,
+        }
+    }
+
+    /// Files have met trouble, so that not all states are known.
+    pub fn is_lost(&self) -> bool {
+        matches!(self, Store::Spilled(spilled) if spilled.is_lost())
+    }
+
+    /// How many bytes of files it takes.
+    pub fn spilled(&self) -> usize {
+        match self {
+            Store::Spilled(spilled) => spilled.spilled(),
+            Store::Exact(_) | Store::Compact(_) => 0,
         }
     }
 
@@ -69,24 +108,42 @@ impl Store {
     pub fn bytes(&self) -> usize {
         match self {
             Store::Exact(table) => table.bytes(),
+            Store::Spilled(spilled) => spilled.bytes(),
             Store::Compact(compact) => compact.bytes(),
         }
     }
 
-    /// A state by its place, one that was not forgotten.
+    /// A state by its place, one that was not forgotten, and that was loaded.
     #[inline]
     pub fn state(&self, index: usize) -> &[u64] {
         match self {
             Store::Exact(table) => table.state(index),
+            Store::Spilled(spilled) => spilled.state(index),
             Store::Compact(compact) => compact.state(index),
         }
     }
 
-    /// Adds states, one after the other; calls `new` with each that is.
+    /// Makes the states of these places ready to be read, and no others; false where they cannot be read.
+    pub fn load(&mut self, places: Range<usize>) -> bool {
+        match self {
+            Store::Spilled(spilled) => spilled.load(places),
+            Store::Exact(_) | Store::Compact(_) => true,
+        }
+    }
+
+    /// Adds states, one after the other; calls `new` with each that is known to be.
     pub fn insert_all(&mut self, states: &[u64], new: &mut impl FnMut(&[u64])) {
         match self {
             Store::Exact(table) => table.insert_all(states, new),
+            Store::Spilled(spilled) => spilled.insert_all(states, new),
             Store::Compact(compact) => compact.insert_all(states, new),
+        }
+    }
+
+    /// Finds out which of the pending states are new; calls `new` with them.
+    pub fn settle(&mut self, new: &mut impl FnMut(&[u64])) {
+        if let Store::Spilled(spilled) = self {
+            spilled.settle(new);
         }
     }
 
@@ -101,7 +158,7 @@ impl Store {
     /// that any was.
     pub fn omission(&self) -> f64 {
         match self {
-            Store::Exact(_) => 0.0,
+            Store::Exact(_) | Store::Spilled(_) => 0.0,
             Store::Compact(compact) => compact.omission(),
         }
     }

@@ -192,6 +192,7 @@ impl Reach {
             queue: self.diagrams.count(frontier) as u64,
             depth: self.progress.depth + 1,
             bytes: self.diagrams.nodes() as u64 * NODE,
+            spilled: 0,
         };
         if watch(&self.progress) { Ok(()) } else { Err(Halt::Stopped(Stop::Asked)) }
     }
