@@ -17,4 +17,5 @@ ctest --test-dir "$build" --output-on-failure
 sh programs.sh "$build"
 sh held.sh "$build" "$groundstate"
 sh sanitized.sh thread micro_assembly
-sh sanitized.sh address micro_assembly
+sh sanitized.sh address visual_servoing
+sh seeded.sh "$build-address" "$groundstate"

@@ -11,7 +11,7 @@ build=../target/cpp/robot-$sanitizer
 said=$(mktemp)
 trap 'rm -f "$said" "$said.mcap"' EXIT
 
-cmake -S . -B "$build" -G Ninja -DGROUNDSTATE_SANITIZER="$sanitizer" -DCMAKE_CXX_FLAGS=-O1 >/dev/null
+cmake -S . -B "$build" -G Ninja -DGROUNDSTATE_SANITIZER="$sanitizer" -DCMAKE_CXX_FLAGS=-O0 -DGROUNDSTATE_SEEDED_FAULTS=ON >/dev/null
 cmake --build "$build" --target "$@" -- --quiet
 
 # A code of its own for what a sanitizer finds, whatever the verdict.

@@ -42,6 +42,9 @@ expect 0 "$out/controller/program" --virtual 0.5 --log "$out/controller.mcap"
 expect 0 "$groundstate" conform $model.asm "$out/controller.mcap"
 said "conforms tick by tick: 27"
 expect 0 "$groundstate" conform --untimed $model.asm "$out/controller.mcap"
+expect 0 "$groundstate" conform --follow $model.asm "$out/controller.mcap"
+said "conforms tick by tick: 27"
+expect 0 sh viewers/run.sh "$out/controller.mcap"
 
 # Files of the user's stay as they are.
 mkdir -p "$out/contention"
@@ -84,6 +87,28 @@ for fault in 1 2 3; do
     said "parts by the order of events"
 done
 
+# Read along: a parting is told while the program goes on. Of one that was killed nobody knows the end.
+following() {
+    rm -f "$log"
+    "$program" --real 300 "$@" --log "$log" >/dev/null &
+    running=$!
+    trap 'kill $running 2>/dev/null || true' EXIT
+}
+following --seed-fault 2
+expect 1 $conform --follow
+said "parts by the order of events"
+kill $running 2>/dev/null || fail "the program had ended before the parting was told"
+following
+expect 3 timeout --preserve-status -s INT 3 $conform --follow
+said "not known, by the order of events: the run went on"
+kill $running
+wait $running 2>/dev/null || true
+trap - EXIT
+expect 3 $conform
+"$program" --real 0.5 --log "$log" >/dev/null &
+expect 0 $conform --follow
+wait
+
 # Hooks that fail.
 expect 1 env HOOK=throw "$program" --virtual 1 --log "$log"
 said "task slow failed in cycle 20, phase slow_law: the law has no solution; the others were stopped safely"
@@ -121,11 +146,24 @@ else
 fi
 said "no permission for real-time scheduling"
 
-# Without a lock: other events, which are refused and not misjudged.
+# Without a lock: the channels are held to the model as shared values.
 expect 0 "$groundstate" generate cpp --wait-free Contention.chart -o "$out/contention"
-compile "$out/contention" -O1 -g1 -fsanitize=thread
+compile "$out/contention" -O1 -g1 -fsanitize=thread -DGROUNDSTATE_SEEDED_FAULTS
+expect 0 env HOOK=none "$program" --virtual 0.5 --log "$log"
+expect 0 $conform
+said "conforms tick by tick"
+expect 0 "$program" --virtual 0.5 --seed 1 --log "$log"
+expect 0 $conform
+said "conforms by the order of events"
 expect 0 "$program" --real 0.3 --log "$log"
-expect 2 $conform
-said "the channel position was generated wait-free"
+expect 0 $conform
+for fault in 2 3; do
+    expect 0 env HOOK=none "$program" --virtual 0.1 --seed-fault $fault --log "$log"
+    expect 1 $conform
+    said "parts tick by tick"
+    expect 0 "$program" --virtual 0.1 --seed 1 --seed-fault $fault --log "$log"
+    expect 1 $conform
+    said "parts by the order of events"
+done
 
 echo "systems: the generated programs conform, and every fault was found"

@@ -129,6 +129,15 @@ class McapFile {
         }
     }
 
+    /// Says that all messages before an instant have been written. A record of our own, as the format allows them from
+    /// 0x80 on; other readers pass over it.
+    void horizon(std::int64_t time_ns) {
+        flush();
+        std::string content;
+        number(content, time_ns);
+        record(0x80, content);
+    }
+
     /// Writes the messages so far as a chunk.
     void flush() {
         if (chunk_.empty()) {

@@ -36,9 +36,10 @@ class TaskContext {
     void record(Kind kind, std::uint16_t object, std::uint64_t number = 0, std::size_t array = 0, std::size_t next = 0,
                 bool fresh = false) noexcept {
         if (log_ != nullptr) {
-            log_->record({.time_ns = clock_.now_ns() - origin_ns_, .number = number, .order = 0, .object = object,
+            log_->record({.time_ns = 0, .number = number, .order = 0, .object = object,
                           .kind = kind, .array = static_cast<std::uint8_t>(array),
-                          .next = static_cast<std::uint8_t>(next), .fresh = fresh});
+                          .next = static_cast<std::uint8_t>(next), .fresh = fresh},
+                         [this] { return clock_.now_ns() - origin_ns_; });
         }
     }
 

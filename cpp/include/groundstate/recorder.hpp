@@ -3,9 +3,10 @@
 // A topic a task, a message an event, as JSON with a schema, so that every viewer of MCAP files shows them. When the file
 // cannot be written any more, the disk being full, the log ends and the robot goes on: `error` tells why. What a
 // metadata record "end" says (how many events each task had, when the run was stopped) tells a reader whether the log
-// is whole.
+// is whole. A record "stop" stands before the first event of a task that was asked to stop, for who reads along.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <functional>
@@ -28,16 +29,24 @@ class TaskLog {
   public:
     explicit TaskLog(WhenFull when_full) noexcept : when_full_{when_full} {}
 
-    /// Who: the task. Blocks: no, unless told to wait. Allocates: no. Worst case: one store of 32 bytes into the ring.
-    void record(Event event) noexcept {
+    /// Records an event; `now` gives its instant. Who: the task. Blocks: no, unless told to wait. Allocates: no. Worst
+    /// case: one store of 32 bytes into the ring.
+    template <class Now>
+    void record(Event event, Now&& now) noexcept {
+        // SYNC(stamping): before the clock is read. Relaxed: the writer of the log gives it two milliseconds to arrive.
+        stamping_.store(true, std::memory_order_relaxed);
+        std::atomic_signal_fence(std::memory_order_seq_cst);
+        event.time_ns = now();
         event.order = order_++;
         while (!ring_.push(event)) {
             if (when_full_ == WhenFull::lose) {
                 lost_.add();
-                return;
+                break;
             }
             std::this_thread::yield();
         }
+        // SYNC(stamping): release: who sees this finds the event in the ring.
+        stamping_.store(false, std::memory_order_release);
     }
 
     /// Who: everybody. Blocks: no.
@@ -46,6 +55,7 @@ class TaskLog {
   private:
     friend class Recorder;
     EventRing ring_{};
+    std::atomic<bool> stamping_{false};
     std::uint32_t order_ = 0;
     WhenFull when_full_;
     Counter lost_{};
@@ -54,11 +64,11 @@ class TaskLog {
 /// The log of all tasks. Built before the tasks start, finished after they have ended.
 class Recorder {
   public:
-    /// Opens the file and starts the writer. `names` are those of the objects that events name by their numbers.
-    /// Allocates, starts a thread.
+    /// Opens the file and starts the writer. `names` are those of the objects that events name by their numbers, `now`
+    /// is the time of events. Allocates, starts a thread.
     Recorder(const std::string& path, const std::vector<std::string>& tasks, std::vector<std::string> names,
-             const McapFile::Map& about, WhenFull when_full)
-        : file_{path}, names_{std::move(names)}, tasks_{tasks} {
+             const McapFile::Map& about, WhenFull when_full, std::function<std::int64_t()> now)
+        : file_{path}, names_{std::move(names)}, tasks_{tasks}, now_{std::move(now)} {
         const std::uint16_t schema = file_.schema("groundstate.Event", "jsonschema", json_schema);
         file_.metadata("groundstate", about);
         for (const std::string& task : tasks) {
@@ -74,6 +84,12 @@ class Recorder {
 
     /// Who: whoever builds the system.
     TaskLog& log(std::size_t task) noexcept { return *logs_[task]; }
+
+    /// Tells that the tasks will be asked to stop. Who: the owner, before he asks them. Blocks: no.
+    //
+    // Pairs with the load in `tell_stop`: an event of a task that was asked is pushed after this store, and popped after
+    // that; so whoever pops it sees the store, and writes the record first.
+    void stopping(std::int64_t stopped_ns) noexcept { stopped_ns_.store(stopped_ns, std::memory_order_release); }
 
     /// Writes what is left, and the end of the file. Who: the owner, when no task records any more.
     void finish(McapFile::Map about) {
@@ -120,9 +136,27 @@ class Recorder {
                 std::this_thread::sleep_for(milliseconds{2});
             }
             if (turn % 50 == 0) {
-                file_.flush();  // whoever follows the file sees it
+                tell_horizon();  // whoever follows the file sees it
                 error_.store(file_.error(), std::memory_order_relaxed);
             }
+        }
+    }
+
+    // Brings the file up to date, and says up to when it is: who follows it knows of a task without events that it had
+    // none, and not that they are still to come. An instant is looked at two milliseconds later. A task that has read
+    // the clock before it has raised its flag by then, for what waits in a processor is written within microseconds, and
+    // a task that is interrupted has it written; if the flag is down again, the event is in the ring.
+    void tell_horizon() {
+        const std::int64_t now_ns = now_();
+        std::this_thread::sleep_for(std::chrono::milliseconds{2});
+        // SYNC(stamping): acquire: the events of before are in the rings, and drained next.
+        const bool settled = std::none_of(logs_.begin(), logs_.end(), [](const auto& log) {
+            return log->stamping_.load(std::memory_order_acquire);
+        });
+        drain();
+        file_.flush();
+        if (settled) {
+            file_.horizon(now_ns);
         }
     }
 
@@ -132,12 +166,21 @@ class Recorder {
             Event event;
             while (logs_[i]->ring_.pop(event)) {
                 any = true;
+                tell_stop();
                 if (file_.error() == 0) {
                     file_.message(channels_[i], event.order, static_cast<std::uint64_t>(event.time_ns), json(event));
                 }
             }
         }
         return any;
+    }
+
+    void tell_stop() {
+        const std::int64_t stopped_ns = stopped_ns_.load(std::memory_order_acquire);
+        if (stopped_ns != never_ns && !stop_told_) {
+            stop_told_ = true;
+            file_.metadata("stop", {{"stopped_ns", std::to_string(stopped_ns)}});
+        }
     }
 
     std::string_view json(const Event& event) {
@@ -170,10 +213,13 @@ class Recorder {
     McapFile file_;
     std::vector<std::string> names_;
     std::vector<std::string> tasks_;
+    std::function<std::int64_t()> now_;
     std::vector<std::unique_ptr<TaskLog>> logs_{};
     std::vector<std::uint16_t> channels_{};
     std::array<char, 512> text_{};
     std::atomic<bool> stop_{false};
+    std::atomic<std::int64_t> stopped_ns_{never_ns};
+    bool stop_told_ = false;
     std::atomic<int> error_{0};
     std::thread thread_{};
 };

@@ -152,6 +152,9 @@ class SystemBase {
         clock_.enter(first_rank);
         outcome = watch(origin_ns, later_ns(origin_ns, span_ns));
         const std::int64_t stopped_ns = clock_.now_ns() - origin_ns;
+        if (recorder_ != nullptr) {
+            recorder_->stopping(stopped_ns);
+        }
         for (const auto& unit : units_) {
             unit->ask_to_stop();
         }
@@ -423,7 +426,8 @@ class SystemBase {
         }
         recorder_ = std::make_unique<Recorder>(options_.log, tasks,
                                                std::vector<std::string>(plan_.names.begin(), plan_.names.end()), about,
-                                               is_virtual ? WhenFull::wait : WhenFull::lose);
+                                               is_virtual ? WhenFull::wait : WhenFull::lose,
+                                               [this, origin_ns] { return clock_.now_ns() - origin_ns; });
         for (std::size_t i = 0; i < contexts_.size(); ++i) {
             contexts_[i]->record_to(&recorder_->log(i), origin_ns);
         }

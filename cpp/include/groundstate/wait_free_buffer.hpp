@@ -59,7 +59,7 @@ class WaitFreeBuffer {
     /// Begins to read the latest datum, in place. Who: the consumer. Blocks: no. Allocates: no.
     /// Worst case: one atomic exchange.
     Reading<WaitFreeBuffer> read(Watchdog&) noexcept {
-        const bool fresh = available();
+        const bool fresh = available() && !observer_.seeded(Fault::stale_read);
         if (fresh) {
             newest_ = (newest_ + 1) % kept;
             // SYNC(exchange): acquire: the datum was written before the producer's exchange, and is read after this
@@ -110,6 +110,9 @@ class WaitFreeBuffer {
         array.sequence = static_cast<std::uint64_t>(written_.value());
         array.stamp_ns = stamp_ns;
         observer_.stores(array.sequence);
+        if (observer_.seeded(Fault::index_not_swapped)) {
+            return true;
+        }
         // SYNC(exchange): release: the datum was written before this exchange, and is read after the consumer's.
         // Acquire: what comes back was read before the consumer's exchange, and is written after this one.
         const Index back =

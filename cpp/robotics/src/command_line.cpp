@@ -76,6 +76,11 @@ CommandLine::CommandLine(const char* program, const char* what, RunSettings& set
         ->check(whole_number());
     app.add_option("--realtime", settings_.priority, "SCHED_FIFO from this priority on")->check(CLI::Range(1, 90))->needs(real);
     seconds("--patience", settings_.patience_s, "a task that makes no progress for so long hangs (virtual time: 10s, real: 0.5s)");
+#ifdef GROUNDSTATE_SEEDED_FAULTS
+    app.add_option_function<int>(
+           "--seed-fault", [](int number) { seeded_fault = static_cast<Fault>(number); }, "what the runtime does wrong")
+        ->check(CLI::Range(0, 4));
+#endif
     app.add_option("--log", settings_.log, "write the tasks' events to this file, as MCAP")->type_name("FILE");
     app.add_option("--run", run_file_, "write what was recorded to this file, as JSON")->type_name("FILE");
 }

@@ -11,98 +11,129 @@ use program::Program;
 
 use crate::Verdict;
 use crate::evidence::{Claim, Parted, Recorded, objects};
+use crate::steps::Steps;
 use crate::vocabulary::Vocabulary;
 use recording::{Event, Recording};
 
 /// The last so many events are shown where the two part.
 const SHOWN: usize = 12;
 
-/// Holds a recording against the model's own run.
-///
-/// # Errors
-/// The model cannot be replayed, in words: it does not start, or is not made of the library's patterns.
-pub fn check(program: &Arc<Program>, limits: Limits, recording: &Recording) -> Result<Verdict, String> {
-    let mut machine = Machine::new(Arc::clone(program), limits);
-    machine.start(&mut Closed).map_err(|fault| fault.show(program).to_string())?;
-    let vocabulary = Vocabulary::new(program, &mut machine)?;
-    let tracks = tracks(&vocabulary, recording)?;
-    let tick_of = |event: &Event| event.time_ns / recording.tick_ns;
-    let end = match (recording.known_until_ns(), recording.stopped_ns) {
-        (Some(known), _) => known / recording.tick_ns,
-        (None, Some(stopped)) => stopped / recording.tick_ns,
-        (None, None) => 0,
-    };
-    let mut cursors = vec![0; vocabulary.components.len()];
-    let mut agreed = 0;
-    for tick in 0..end {
-        if let Err(fault) = machine.step(&mut Closed) {
-            let reason = format!("the model cannot make the step of tick {tick}: {}", fault.show(program));
-            return Ok(Verdict::Unknown { events: agreed, reason });
+/// The model's own run, held against a recording that may still be written.
+#[derive(Debug)]
+pub struct Replay {
+    machine: Machine,
+    vocabulary: Vocabulary,
+    /// The next tick.
+    tick: i64,
+    cursors: Vec<usize>,
+    agreed: usize,
+}
+
+impl Replay {
+    /// Starts the model.
+    ///
+    /// # Errors
+    /// It cannot be replayed, in words: it does not start, or is not made of the library's patterns.
+    pub fn new(program: &Arc<Program>, limits: Limits, steps: &Steps) -> Result<Replay, String> {
+        let (machine, vocabulary) = steps.start(program, limits)?;
+        let cursors = vec![0; vocabulary.components.len()];
+        Ok(Replay { machine, vocabulary, tick: 0, cursors, agreed: 0 })
+    }
+
+    /// How many events agreed.
+    pub fn agreed(&self) -> usize {
+        self.agreed
+    }
+
+    /// Goes on as far as the recording is known; none: it agrees so far, and `more` may come.
+    ///
+    /// # Errors
+    /// The recording is of another system, in words.
+    pub fn go_on(&mut self, recording: &Recording, more: bool) -> Result<Option<Verdict>, String> {
+        let tracks = tracks(&self.vocabulary, recording)?;
+        let known = recording.known_until_ns().unwrap_or(i64::MAX).min(recording.stopped_ns.unwrap_or(i64::MAX));
+        let end = known / recording.tick_ns;
+        while self.tick < end {
+            let stopped = self.step(&tracks, recording);
+            if stopped.is_some() {
+                return Ok(stopped);
+            }
+            self.tick += 1;
         }
-        let claims = vocabulary.claims(&machine, &machine.changes());
-        for component in 0..vocabulary.components.len() {
-            let events = tracks[component];
-            let start = cursors[component];
-            let count = events[start..].iter().take_while(|event| tick_of(event) == tick).count();
-            let recorded = &events[start..start + count];
+        if more {
+            return Ok(None);
+        }
+        if !recording.is_whole() {
+            let reason = format!("the recording has a gap, or ends early, after tick {end}");
+            return Ok(Some(Verdict::Unknown { events: self.agreed, reason }));
+        }
+        Ok(Some(Verdict::Conforms { events: self.agreed, steps: self.machine.steps() }))
+    }
+
+    /// The step of a tick; none: it agrees.
+    fn step(&mut self, tracks: &[&[Event]], recording: &Recording) -> Option<Verdict> {
+        let tick = self.tick;
+        if let Err(fault) = self.machine.step(&mut Closed) {
+            let fault = fault.show(self.machine.program()).to_string();
+            let reason = format!("the model cannot make the step of tick {tick}: {fault}");
+            return Some(Verdict::Unknown { events: self.agreed, reason });
+        }
+        let claims = self.vocabulary.claims(&self.machine, &self.machine.changes());
+        for component in 0..self.vocabulary.components.len() {
+            let events = &tracks[component][self.cursors[component]..];
+            let count = events.iter().take_while(|event| event.time_ns / recording.tick_ns == tick).count();
+            let recorded = &events[..count];
+            let task = &self.vocabulary.components[component].name;
             if let Some(event) = recorded.iter().find(|event| ["passes", "faults"].contains(&event.kind.as_str())) {
-                let task = &vocabulary.components[component].name;
                 let reason = match event.kind.as_str() {
                     "passes" => format!("{task} had nothing to hand over in tick {tick}, which the model always has"),
                     _ => format!("{task} failed in tick {tick}"),
                 };
-                return Ok(Verdict::Unknown { events: agreed, reason });
+                return Some(Verdict::Unknown { events: self.agreed, reason });
             }
             let own: Vec<&Claim> = claims.iter().filter(|(of, _)| *of == component).map(|(_, claim)| claim).collect();
-            if let Some((event, at)) = differs(recorded, &own) {
-                cursors[component] += at;
+            if let Some(event) = differs(recorded, &own) {
                 let mut claims: Vec<Claim> = own.into_iter().cloned().collect();
                 if event.is_none() {
                     claims.retain(|claim| !recorded.iter().any(|event| event.same(&claim.event)));
                 }
-                let state = vocabulary.state(&machine, component, &objects(event.as_ref(), &claims));
-                return Ok(Verdict::Parts(Box::new(Parted {
+                let state = self.vocabulary.state(&self.machine, component, &objects(event.as_ref(), &claims));
+                return Some(Verdict::Parts(Box::new(Parted {
                     tick,
-                    task: vocabulary.components[component].name.clone(),
+                    task: task.clone(),
                     event,
                     claims,
                     reason: None,
-                    agreed,
-                    before: before(&vocabulary, &tracks, recording, tick),
+                    agreed: self.agreed,
+                    before: before(&self.vocabulary, tracks, recording, tick),
                     state,
                 })));
             }
-            agreed += count;
-            cursors[component] += count;
+            self.agreed += count;
+            self.cursors[component] += count;
         }
+        None
     }
-    if !recording.is_whole() {
-        let reason = format!("the recording has a gap, or ends early, after tick {end}");
-        return Ok(Verdict::Unknown { events: agreed, reason });
-    }
-    Ok(Verdict::Conforms { events: agreed, steps: machine.steps() })
 }
 
-/// The first recorded event that is no claim, or none and its place behind all, if a claim is left over.
-fn differs(recorded: &[Event], claims: &[&Claim]) -> Option<(Option<Event>, usize)> {
+/// The first recorded event that is no claim; or no event, if a claim is left over.
+#[expect(clippy::option_option, reason = "whether they differ, and by which event if by one")]
+fn differs(recorded: &[Event], claims: &[&Claim]) -> Option<Option<Event>> {
     let mut open: Vec<&&Claim> = claims.iter().collect();
-    for (at, event) in recorded.iter().enumerate() {
+    for event in recorded {
         if event.kind == "invalid" {
             continue;
         }
         match open.iter().position(|claim| claim.event.same(event)) {
             Some(found) => _ = open.swap_remove(found),
-            None => return Some((Some(event.clone()), at)),
+            None => return Some(Some(event.clone())),
         }
     }
-    (!open.is_empty()).then_some((None, recorded.len()))
+    (!open.is_empty()).then_some(None)
 }
 
 /// The tracks in the order of the components.
 pub(crate) fn tracks<'r>(vocabulary: &Vocabulary, recording: &'r Recording) -> Result<Vec<&'r [Event]>, String> {
-    if let Some(channel) = recording.wait_free.first() {
-        return Err(format!("the channel {channel} was generated wait-free, and the model has its lock"));
-    }
     if let Some(track) = recording.tracks.iter().find(|track| vocabulary.component_named(&track.task).is_none()) {
         return Err(format!("the model has no component {}, which the recording has", track.task));
     }

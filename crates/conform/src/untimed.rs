@@ -10,27 +10,14 @@
 use std::sync::Arc;
 
 use machine::{Change, Closed, Limits, Machine, Snapshot, Value};
-use model::{DomainKind, Model};
 use program::{ProcedureId, Program};
-use syntax::ast::{self, AstNode};
-use syntax::{Diagnostic, Severity, SourceFile, Sources};
 
 use crate::Verdict;
 use crate::evidence::{Claim, Parted, Recorded, objects};
+use crate::steps::Steps;
 use crate::timed::tracks;
 use crate::vocabulary::Vocabulary;
 use recording::{Event, Recording};
-
-/// Phases take no time, and a rest comes behind each. A deadline is said of each task, so that its period can be another
-/// while a cycle ends.
-const PREPARE: &str = "par \
-     forall $t in Task with isUndef(task_deadline($t)) do task_deadline($t) := task_period($t) \
-     forall $p in SchedulePhase with true do time($p) := 0 \
-     forall $q in SchedulePhase with action($q) != WAITING_TRIGGER do \
-       extend SchedulePhase with $r do par \
-         action($r) := ELABORATING time($r) := 0 nextPhase($r) := nextPhase($q) nextPhase($q) := $r \
-       endpar \
-   endpar";
 
 /// LIMIT: so many decisions are kept to go back to.
 const KEPT: usize = 64;
@@ -41,84 +28,35 @@ const LOCAL: &[&str] = &["begins", "ends", "passes", "meets", "misses", "invalid
 /// The last so many events are shown where the two part.
 const SHOWN: usize = 12;
 
-/// The steps of the tasks, added to a program.
-#[derive(Debug, Clone)]
-pub struct Steps {
-    prepare: ProcedureId,
-    /// One a component, by its name.
-    each: Vec<(String, ProcedureId)>,
-}
-
-impl Steps {
-    /// Adds the steps of these components to a program.
-    ///
-    /// # Errors
-    /// The model lacks what they call.
-    pub fn add(
-        components: &[String],
-        sources: &mut Sources,
-        model: &mut Model,
-        program: &mut Program,
-    ) -> Result<Steps, Vec<Diagnostic>> {
-        // The rests are new phases, which the library, where all phases are known, has no need of.
-        if let Some(phases) = model.domain_named("SchedulePhase") {
-            if let DomainKind::Abstract { dynamic } = &mut model.domains.get_mut(phases).kind {
-                *dynamic = true;
-            }
-            *program = program::lower(model)?;
-        }
-        let mut rule = |text: &str| -> Result<ProcedureId, Vec<Diagnostic>> {
-            let text = format!("scenario conformance\nload model.asm\nexec {text};\n");
-            let file = sources.add(SourceFile::new("conformance", text.as_str()));
-            let parse = syntax::parse_avalla(file, &text);
-            let scenario = ast::ScenarioFile::cast(parse.syntax());
-            let rule = scenario.and_then(|scenario| {
-                scenario.commands().find_map(|command| match command {
-                    ast::Command::Exec(exec) => exec.rule(),
-                    _ => None,
-                })
-            });
-            let Some(rule) = rule.filter(|_| parse.diagnostics.is_empty()) else { return Err(parse.diagnostics) };
-            let fragment = model.check_rule(file, &rule);
-            if fragment.diagnostics.iter().any(|fault| fault.severity == Severity::Error) {
-                return Err(fragment.diagnostics);
-            }
-            let span = fragment.item.span;
-            let rule = model::Rule {
-                name: "exec".to_string(),
-                turbo: false,
-                variables: fragment.variables,
-                parameters: Vec::new(),
-                result: None,
-                body: fragment.item,
-                span,
-            };
-            program::lower_rule(program, model, &rule)
-        };
-        let prepare = rule(PREPARE)?;
-        let step = |name: &String| {
-            format!("par r_scheduler_execute[{name}] forall $s in Semaphore with true do r_sem_arbitrate[$s] endpar")
-        };
-        let each: Result<Vec<_>, _> =
-            components.iter().map(|name| rule(&step(name)).map(|procedure| (name.clone(), procedure))).collect();
-        Ok(Steps { prepare, each: each? })
-    }
-}
-
-/// A replay on its way.
-struct Replay<'r> {
+/// A run of the model's tasks one by one, held against a recording that may still be written.
+///
+/// While more may come, an action is looked at when all tasks are known beyond its end: by an event of their own, so that a
+/// run that is followed takes the same decisions as one that is read when it is over; or by the recording's word that they
+/// had none, where that may differ in a parting that a later event explains.
+#[derive(Debug)]
+pub struct Replay {
     machine: Machine,
     vocabulary: Vocabulary,
     procedures: Vec<ProcedureId>,
-    tracks: Vec<&'r [Event]>,
     tick_ns: i64,
+    /// The events of each component, as far as they are looked at.
+    tracks: Vec<Vec<Event>>,
+    /// More may come.
+    more: bool,
     cursors: Vec<usize>,
     /// The last tick of each component: its clock does not go back.
     ticks: Vec<i64>,
     agreed: usize,
+    /// The decisions to go back to.
+    stack: Vec<Node>,
+    /// The last decision waits for more events.
+    waits: bool,
+    /// The parting that comes latest.
+    deepest: Option<Box<Parted>>,
 }
 
 /// A point to go back to.
+#[derive(Debug)]
 struct Node {
     snapshot: Snapshot,
     cursors: Vec<usize>,
@@ -128,71 +66,97 @@ struct Node {
     open: Vec<usize>,
 }
 
-/// Holds a recording against the model.
-///
-/// # Errors
-/// The model cannot be replayed, in words.
-pub fn check(program: &Arc<Program>, limits: Limits, recording: &Recording, steps: &Steps) -> Result<Verdict, String> {
-    let mut machine = Machine::new(Arc::clone(program), limits);
-    machine.start(&mut Closed).map_err(|fault| fault.show(program).to_string())?;
-    let vocabulary = Vocabulary::new(program, &mut machine)?;
-    let procedure = |name: &String| {
-        let found = steps.each.iter().find(|(known, _)| known == name).map(|(_, procedure)| *procedure);
-        found.ok_or(format!("there is no step of {name}"))
-    };
-    let procedures: Result<Vec<_>, String> = vocabulary.components.iter().map(|known| procedure(&known.name)).collect();
-    // What tasks do to come to an end is no run of the model.
-    let known = recording.known_until_ns().or(recording.stopped_ns).unwrap_or(i64::MAX);
-    let tracks = tracks(&vocabulary, recording)?;
-    let tracks: Vec<&[Event]> =
-        tracks.into_iter().map(|events| &events[..events.partition_point(|event| event.time_ns < known)]).collect();
-    let fault = |fault: machine::Fault| fault.show(program).to_string();
-    machine.prepare_procedure(steps.prepare, &mut Closed).map_err(fault)?;
-    machine.commit();
-    let (cursors, ticks) = (vec![0; tracks.len()], vec![0; tracks.len()]);
-    let replay = Replay {
-        machine,
-        vocabulary,
-        procedures: procedures?,
-        tracks,
-        tick_ns: recording.tick_ns,
-        cursors,
-        ticks,
-        agreed: 0,
-    };
-    Ok(replay.run(recording.is_whole()))
+/// Why a component does not go on.
+enum Stop {
+    Parted(Box<Parted>),
+    /// Its step has more events than are known.
+    Waits,
 }
 
-impl Replay<'_> {
-    fn run(mut self, is_whole: bool) -> Verdict {
-        let mut stack: Vec<Node> = Vec::new();
-        let mut deepest: Option<Parted> = None;
-        loop {
-            let open = self.candidates();
-            if open.is_empty() {
-                break;
+impl From<Box<Parted>> for Stop {
+    fn from(parted: Box<Parted>) -> Stop {
+        Stop::Parted(parted)
+    }
+}
+
+impl Replay {
+    /// Starts the model, with the steps added to its program.
+    ///
+    /// # Errors
+    /// It cannot be replayed, in words.
+    pub fn new(program: &Arc<Program>, limits: Limits, steps: &Steps, tick_ns: i64) -> Result<Replay, String> {
+        let (mut machine, vocabulary) = steps.start(program, limits)?;
+        let procedures: Result<Vec<_>, String> =
+            vocabulary.components.iter().map(|known| steps.of(&known.name)).collect();
+        steps.loosen(&mut machine)?;
+        let count = vocabulary.components.len();
+        Ok(Replay {
+            machine,
+            vocabulary,
+            procedures: procedures?,
+            tick_ns,
+            tracks: vec![Vec::new(); count],
+            more: true,
+            cursors: vec![0; count],
+            ticks: vec![0; count],
+            agreed: 0,
+            stack: Vec::new(),
+            waits: false,
+            deepest: None,
+        })
+    }
+
+    /// How many events agree, as far as it looks.
+    pub fn agreed(&self) -> usize {
+        self.agreed
+    }
+
+    /// Goes on as far as the recording is known; none: it agrees so far, and `more` may come.
+    ///
+    /// # Errors
+    /// The recording is of another system, in words.
+    pub fn go_on(&mut self, recording: &Recording, more: bool) -> Result<Option<Verdict>, String> {
+        // What tasks do to come to an end is no run of the model.
+        let known = recording.known_until_ns().unwrap_or(i64::MAX).min(recording.stopped_ns.unwrap_or(i64::MAX));
+        for (own, events) in self.tracks.iter_mut().zip(tracks(&self.vocabulary, recording)?) {
+            own.extend_from_slice(&events[own.len().min(events.len())..]);
+            if !more {
+                own.truncate(own.partition_point(|event| event.time_ns < known));
             }
-            let node = Node {
-                snapshot: self.machine.snapshot(),
-                cursors: self.cursors.clone(),
-                ticks: self.ticks.clone(),
-                agreed: self.agreed,
-                open,
-            };
-            stack.push(node);
-            if stack.len() > KEPT {
-                stack.remove(0);
+        }
+        self.more = more;
+        Ok(self.run(known, recording.is_whole()))
+    }
+
+    fn run(&mut self, known: i64, is_whole: bool) -> Option<Verdict> {
+        loop {
+            if !std::mem::take(&mut self.waits) {
+                let open = self.candidates();
+                let first = open.last().and_then(|first| self.span(*first)).map_or(i64::MAX, |(_, to)| to);
+                if self.more && first >= known {
+                    return None;
+                }
+                if open.is_empty() {
+                    break;
+                }
+                self.stack.push(Node {
+                    snapshot: self.machine.snapshot(),
+                    cursors: self.cursors.clone(),
+                    ticks: self.ticks.clone(),
+                    agreed: self.agreed,
+                    open,
+                });
+                if self.stack.len() > KEPT {
+                    self.stack.remove(0);
+                }
             }
             // The first way on that is possible; where there is none, back to the last decision that has another.
             loop {
-                let Some(node) = stack.last_mut() else {
-                    let parted = deepest.unwrap_or_else(|| unreachable!("a way was tried"));
-                    return Verdict::Parts(Box::new(parted));
+                let Some(mut node) = self.stack.pop() else {
+                    let parted = self.deepest.take().unwrap_or_else(|| unreachable!("a way was tried"));
+                    return Some(Verdict::Parts(parted));
                 };
-                let Some(component) = node.open.pop() else {
-                    stack.pop();
-                    continue;
-                };
+                let Some(component) = node.open.pop() else { continue };
                 self.machine.restore(&node.snapshot);
                 self.cursors.clone_from(&node.cursors);
                 self.ticks.clone_from(&node.ticks);
@@ -202,21 +166,29 @@ impl Replay<'_> {
                     // Other orders matter only among actions on one channel.
                     Ok(()) => {
                         node.open.retain(|other| rivals.contains(other));
+                        self.stack.push(node);
                         break;
                     }
-                    Err(parted) => {
-                        if deepest.as_ref().is_none_or(|deepest| deepest.agreed < parted.agreed) {
-                            deepest = Some(*parted);
+                    Err(Stop::Waits) => {
+                        node.open.push(component);
+                        self.stack.push(node);
+                        self.waits = true;
+                        return None;
+                    }
+                    Err(Stop::Parted(parted)) => {
+                        if self.deepest.as_ref().is_none_or(|deepest| deepest.agreed < parted.agreed) {
+                            self.deepest = Some(parted);
                         }
+                        self.stack.push(node);
                     }
                 }
             }
         }
-        if is_whole {
+        Some(if is_whole {
             Verdict::Conforms { events: self.agreed, steps: self.machine.steps() }
         } else {
             Verdict::Unknown { events: self.agreed, reason: "the recording has a gap, or ends early".to_string() }
-        }
+        })
     }
 
     /// Components that may act next, the first one last: those whose action cannot have come after another one's.
@@ -248,7 +220,7 @@ impl Replay<'_> {
 
     /// The event by which a component acts next: what comes with a beginning, or else the next one.
     fn acts(&self, index: usize) -> usize {
-        let (events, at) = (self.tracks[index], self.cursors[index]);
+        let (events, at) = (&self.tracks[index], self.cursors[index]);
         match (events.get(at), events.get(at + 1)) {
             (Some(event), Some(next))
                 if event.kind == "begins" && ["asks", "takes", "loads", "writes"].contains(&next.kind.as_str()) =>
@@ -261,20 +233,22 @@ impl Replay<'_> {
 
     /// Between which instants the next action of a component was taken.
     fn span(&self, index: usize) -> Option<(i64, i64)> {
-        let events = self.tracks[index];
+        let events = &self.tracks[index];
         let at = self.cursors[index];
         let event = events.get(at)?;
         let before = at.checked_sub(1).map_or(i64::MIN, |before| events[before].time_ns);
         let acts = self.acts(index);
+        // With what a beginning comes is not known yet.
+        let is_last = self.more && at + 1 == events.len();
         let told_before = ["asks", "releases", "sends", "stores", "refuses"].contains(&events[acts].kind.as_str());
-        let from = if told_before || acts > at { event.time_ns } else { before };
+        let from = if told_before || acts > at || is_last { event.time_ns } else { before };
         let to =
             if told_before { events.get(acts + 1).map_or(i64::MAX, |next| next.time_ns) } else { events[acts].time_ns };
         Some((from, to))
     }
 
     /// Makes the steps that the component's next events are of.
-    fn advance(&mut self, component: usize) -> Result<(), Box<Parted>> {
+    fn advance(&mut self, component: usize) -> Result<(), Stop> {
         let event = self.tracks[component][self.cursors[component]].clone();
         match event.kind.as_str() {
             "invalid" | "faults" => {
@@ -282,7 +256,7 @@ impl Replay<'_> {
                 self.agreed += 1;
                 return Ok(());
             }
-            "passes" => return self.pass(component, &event),
+            "passes" => return Ok(self.pass(component, &event)?),
             _ => {}
         }
         let tick = event.time_ns.div_euclid(self.tick_ns).max(self.ticks[component]);
@@ -296,25 +270,27 @@ impl Replay<'_> {
         for tick in ticks {
             self.machine.restore(&start);
             match self.advance_at(component, tick) {
-                Ok(()) => return Ok(()),
-                Err(found) => _ = parted.get_or_insert(found),
+                Err(Stop::Parted(found)) => _ = parted.get_or_insert(found),
+                other => return other,
             }
         }
-        Err(parted.unwrap_or_else(|| self.parted(component, Vec::new(), "no step is possible".to_string())))
+        Err(parted.unwrap_or_else(|| self.parted(component, Vec::new(), "no step is possible".to_string())).into())
     }
 
-    fn advance_at(&mut self, component: usize, tick: i64) -> Result<(), Box<Parted>> {
-        let next = &self.tracks[component][self.cursors[component]..];
+    fn advance_at(&mut self, component: usize, tick: i64) -> Result<(), Stop> {
+        let at = self.cursors[component];
+        let next = &self.tracks[component][at];
+        let gives_up = ["gives_up", "refuses"].contains(&next.kind.as_str());
+        let ends = ["meets", "misses"].contains(&next.kind.as_str());
         // Before giving up a lock the model counts each tick that it waits; between phases it rests for a step.
-        let waited = match (next[0].kind.as_str(), self.cursors[component].checked_sub(1)) {
-            ("gives_up" | "refuses", Some(before)) => {
+        let waited = match at.checked_sub(1) {
+            Some(before) if gives_up => {
                 let asked = self.tracks[component][before].time_ns;
-                ((next[0].time_ns - asked) / self.tick_ns).max(0)
+                ((next.time_ns - asked) / self.tick_ns).max(0)
             }
             _ => 0,
         };
         for _ in 0..waited + 3 {
-            let ends = ["meets", "misses"].contains(&next[0].kind.as_str());
             let changes =
                 self.step(component, tick, ends).map_err(|fault| self.parted(component, Vec::new(), fault))?;
             let claims = self.vocabulary.claims(&self.machine, &changes);
@@ -322,13 +298,12 @@ impl Replay<'_> {
             debug_assert!(others.is_empty(), "one task steps");
             let own: Vec<Claim> = own.into_iter().map(|(_, claim)| claim).collect();
             if own.is_empty() {
-                let waits = !changes.is_empty()
-                    && (["gives_up", "refuses"].contains(&next[0].kind.as_str()) || self.rests(&changes));
-                if waits {
+                if !changes.is_empty() && (gives_up || self.rests(&changes)) {
                     continue;
                 }
-                return Err(self.parted(component, own, "the model's task cannot go on here".to_string()));
+                return Err(self.parted(component, own, "the model's task cannot go on here".to_string()).into());
             }
+            let next = &self.tracks[component][at..];
             let recorded = &next[..own.len().min(next.len())];
             let mut open: Vec<&Claim> = own.iter().collect();
             for event in recorded {
@@ -338,17 +313,21 @@ impl Replay<'_> {
                         let mut parted = self.parted(component, own.clone(), String::new());
                         parted.event = Some(event.clone());
                         parted.reason = None;
-                        return Err(parted);
+                        return Err(parted.into());
                     }
                 }
             }
-            self.ticks[component] = tick;
+            if self.more && recorded.len() < own.len() {
+                return Err(Stop::Waits);
+            }
             // The recording may end within a step.
-            self.cursors[component] += recorded.len();
-            self.agreed += recorded.len();
+            let count = recorded.len();
+            self.ticks[component] = tick;
+            self.cursors[component] += count;
+            self.agreed += count;
             return Ok(());
         }
-        Err(self.parted(component, Vec::new(), "the model's task would still wait for the lock".to_string()))
+        Err(self.parted(component, Vec::new(), "the model's task would still wait for the lock".to_string()).into())
     }
 
     /// The step led from one phase to the next, or to the waiting one.

@@ -70,6 +70,8 @@ pub struct Vocabulary {
     locks: BTreeMap<Value, Value>,
     /// The component that does this to a channel.
     ends: BTreeMap<(Value, End), usize>,
+    /// What is called otherwise than the model does.
+    called: BTreeMap<Value, String>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -84,13 +86,14 @@ impl Vocabulary {
     ///
     /// # Errors
     /// What of the library of patterns it lacks, in words.
-    pub fn new(program: &Program, machine: &mut Machine) -> Result<Vocabulary, String> {
+    pub fn new(program: &Program, machine: &Machine) -> Result<Vocabulary, String> {
         let mut functions = BTreeMap::new();
         for (name, arity) in FUNCTIONS {
             let found = program.find_function(name, *arity);
             functions.insert(*name, found.ok_or(format!("the model has no `{name}` of library/patterns"))?);
         }
-        let mut this = Vocabulary { functions, components: Vec::new(), locks: BTreeMap::new(), ends: BTreeMap::new() };
+        let (locks, ends, called) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+        let mut this = Vocabulary { functions, components: Vec::new(), locks, ends, called };
         for (location, value) in machine.locations() {
             if this.is(&location, "scheduler_mainThread") {
                 let scheduler = location.arguments[0].clone();
@@ -127,6 +130,22 @@ impl Vocabulary {
             phase = self.get(machine, "nextPhase", std::slice::from_ref(&phase));
         }
         Component { name: scheduler.show(machine.program()).to_string(), scheduler, task, phases }
+    }
+
+    /// The names of the components.
+    pub fn names(&self) -> Vec<String> {
+        self.components.iter().map(|component| component.name.clone()).collect()
+    }
+
+    /// The phases that work on the buffer of that name.
+    pub fn phases_on(&self, machine: &Machine, buffer: &str) -> Vec<Value> {
+        let works_on = |phase: &&Value| self.show(machine, "sharedMemory", phase) == buffer;
+        self.components.iter().flat_map(|component| &component.phases).filter(works_on).cloned().collect()
+    }
+
+    /// From now on that element is called so.
+    pub fn call(&mut self, element: Value, name: String) {
+        self.called.insert(element, name);
     }
 
     fn is(&self, location: &Location, name: &str) -> bool {
@@ -199,7 +218,7 @@ impl Vocabulary {
             let mut event = Event {
                 time_ns: 0,
                 kind: kind.to_string(),
-                object: object.show(program).to_string(),
+                object: self.called.get(object).cloned().unwrap_or_else(|| object.show(program).to_string()),
                 number: 0,
                 array: None,
                 next: None,
@@ -305,7 +324,7 @@ impl Vocabulary {
     pub fn state(&self, machine: &Machine, component: usize, names: &[&str]) -> Vec<(String, String)> {
         let program = machine.program();
         let known = &self.components[component];
-        let shown = |value: &Value| value.show(program).to_string();
+        let shown = |value: &Value| self.called.get(value).cloned().unwrap_or_else(|| value.show(program).to_string());
         let about = |location: &Location, value: &Value| {
             let function = program.function(location.function).name.as_str();
             let Some(first) = location.arguments.first() else { return false };
@@ -326,6 +345,11 @@ impl Vocabulary {
             }
         };
         let all = machine.locations().into_iter().filter(|(location, value)| about(location, value));
-        all.map(|(location, value)| (location.show(program).to_string(), shown(&value))).collect()
+        let place = |location: &Location| {
+            let renamed =
+                |text: String, (value, name): (&Value, &String)| text.replace(&value.show(program).to_string(), name);
+            self.called.iter().fold(location.show(program).to_string(), renamed)
+        };
+        all.map(|(location, value)| (place(&location), shown(&value))).collect()
     }
 }

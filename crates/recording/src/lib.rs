@@ -1,11 +1,12 @@
 //! What a running program recorded: the events of its tasks, and when their cycles were due.
 //!
-//! In: the bytes of an MCAP file ([`Recording::read`]). Out: a [`Recording`], a track of events a task, as spec/conform.md
-//! lists them. It must not know what the events are held against, nor how they are shown.
+//! In: the bytes of an MCAP file, whole ([`Recording::read`]) or as they are written ([`Reader`]). Out: a [`Recording`], a
+//! track of events a task, as spec/conform.md lists them. It must not know what the events are held against, nor how they
+//! are shown.
 
 mod mcap;
 
-pub use mcap::Malformed;
+pub use mcap::{Malformed, Reader};
 
 /// One event of a task, as spec/conform.md lists them.
 #[derive(Debug, Clone, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -67,6 +68,10 @@ pub struct Recording {
     pub wait_free: Vec<String>,
     /// When the tasks were asked to stop; none if the log ends before.
     pub stopped_ns: Option<i64>,
+    /// The log was written to its end.
+    pub ended: bool,
+    /// All events before this instant have been read.
+    pub horizon_ns: Option<i64>,
 }
 
 impl Event {
@@ -101,7 +106,7 @@ impl Event {
 impl Recording {
     /// Whether all that happened was recorded.
     pub fn is_whole(&self) -> bool {
-        self.stopped_ns.is_some() && self.tracks.iter().all(|track| !track.lost)
+        self.ended && self.stopped_ns.is_some() && self.tracks.iter().all(|track| !track.lost)
     }
 
     /// How many events there are.
@@ -118,14 +123,19 @@ impl Recording {
         }
     }
 
-    /// The instant from which on something is missing.
+    /// The instant from which on something is missing, or is still to come.
     pub fn known_until_ns(&self) -> Option<i64> {
         if self.is_whole() {
             return None;
         }
         let last = |track: &Track| track.events.last().map_or(0, |event| event.time_ns);
         let lost = self.tracks.iter().filter(|track| track.lost).map(last).min();
-        // A file that was cut: the writer goes from task to task, so what it had of all may end earlier than the last.
-        lost.or_else(|| self.tracks.iter().map(last).min())
+        lost.or(self.covered_until_ns().max(self.horizon_ns))
+    }
+
+    /// Up to when each task is known by an event of its own: the writer goes from task to task, so what it had of all may
+    /// end earlier than the last.
+    pub fn covered_until_ns(&self) -> Option<i64> {
+        self.tracks.iter().map(|track| track.events.last().map_or(0, |event| event.time_ns)).min()
     }
 }

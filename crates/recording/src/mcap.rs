@@ -52,13 +52,17 @@ impl<'a> Cursor<'a> {
     }
 }
 
-/// A recording on its way.
-#[derive(Default)]
-struct Reader {
+/// Reads a file that may still be written: whatever comes, in pieces of any size.
+#[derive(Debug, Default)]
+pub struct Reader {
     recording: Recording,
     channels: BTreeMap<u64, usize>,
     /// What is said of the tasks before they are named.
     timing: BTreeMap<String, String>,
+    /// The beginning of a record whose rest has not come yet.
+    rest: Vec<u8>,
+    began: bool,
+    ended: bool,
 }
 
 impl Recording {
@@ -67,24 +71,61 @@ impl Recording {
     /// # Errors
     /// It is none, or none of a generated program.
     pub fn read(bytes: &[u8]) -> Result<Recording, Malformed> {
-        let mut cursor = Cursor(bytes.strip_prefix(MAGIC).ok_or(Malformed("it is no MCAP file".to_string()))?);
         let mut reader = Reader::default();
-        while let Some((code, content)) = cursor.record() {
-            // Behind the end of the data everything is said again.
-            if code == 0x0f {
-                break;
-            }
-            reader.record(code, content)?;
+        reader.feed(bytes)?;
+        if !reader.began {
+            return Err(Malformed("it is no MCAP file".to_string()));
         }
-        let Reader { recording, .. } = reader;
-        if recording.tick_ns <= 0 {
+        if reader.recording.tick_ns <= 0 {
             return Err(Malformed("it is not the recording of a generated program".to_string()));
         }
-        Ok(recording)
+        Ok(reader.recording)
     }
 }
 
 impl Reader {
+    /// Reads on.
+    ///
+    /// # Errors
+    /// It is no MCAP file, or none of a generated program.
+    pub fn feed(&mut self, bytes: &[u8]) -> Result<(), Malformed> {
+        let mut all = std::mem::take(&mut self.rest);
+        all.extend_from_slice(bytes);
+        let mut cursor = Cursor(&all);
+        if !self.began {
+            if all.len() < MAGIC.len() && MAGIC.starts_with(&all) {
+                self.rest = all;
+                return Ok(());
+            }
+            cursor = Cursor(all.strip_prefix(MAGIC).ok_or(Malformed("it is no MCAP file".to_string()))?);
+            self.began = true;
+        }
+        // Behind the end of the data everything is said again.
+        while !self.ended
+            && let Some((code, content)) = cursor.record()
+        {
+            if code == 0x0f {
+                self.ended = true;
+            } else {
+                self.record(code, content)?;
+            }
+        }
+        if !self.ended {
+            self.rest = cursor.0.to_vec();
+        }
+        Ok(())
+    }
+
+    /// What has come so far: the run's head first, then its events.
+    pub fn recording(&self) -> &Recording {
+        &self.recording
+    }
+
+    /// Whether the end of the data has come, behind which is nothing new.
+    pub fn has_ended(&self) -> bool {
+        self.ended
+    }
+
     fn record(&mut self, code: u8, content: &[u8]) -> Result<(), Malformed> {
         let short = || Malformed("a record is shorter than it says".to_string());
         let mut cursor = Cursor(content);
@@ -105,7 +146,8 @@ impl Reader {
                     return Err(Malformed("its chunks are compressed; `mcap` can write them anew without".to_string()));
                 }
                 cursor.number::<8>();
-                while let Some((code, content)) = cursor.record() {
+                // A chunk holds no chunks.
+                while let Some((code, content)) = cursor.record().filter(|(code, _)| *code != 0x06) {
                     self.record(code, content)?;
                 }
             }
@@ -118,6 +160,7 @@ impl Reader {
                 }
                 self.about(name, &values);
             }
+            0x80 => self.recording.horizon_ns = Some(cursor.number::<8>().ok_or_else(short)? as i64),
             _ => {}
         }
         Ok(())
@@ -140,8 +183,11 @@ impl Reader {
                 recording.wait_free = text("wait_free").split_whitespace().map(str::to_string).collect();
                 self.timing = values.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
             }
+            // Told before any event of a task that was asked to stop.
+            "stop" => recording.stopped_ns = text("stopped_ns").parse().ok(),
             "end" => {
                 recording.stopped_ns = text("stopped_ns").parse().ok();
+                recording.ended = true;
                 for track in &mut recording.tracks {
                     let all: usize = text(&format!("events {}", track.task)).parse().unwrap_or(usize::MAX);
                     track.lost |= all != track.events.len();
@@ -159,13 +205,15 @@ impl Reader {
         let Some(track) = self.channels.get(&channel) else {
             return Some(Err(Malformed("a message has no channel".to_string())));
         };
+        // What comes behind the horizon after all is lost for who has gone on.
+        let late = self.recording.horizon_ns.is_some_and(|horizon| time_ns < horizon);
         let track = &mut self.recording.tracks[*track];
         let Ok(Value::Object(fields)) = serde_json::from_slice::<Value>(cursor.0) else {
             return Some(Err(Malformed("a message is no JSON object".to_string())));
         };
         let number = |key: &str| fields.get(key).and_then(Value::as_u64);
         let text = |key: &str| fields.get(key).and_then(Value::as_str).unwrap_or_default().to_string();
-        if track.lost || number("order") != Some(track.events.len() as u64) {
+        if track.lost || late || number("order") != Some(track.events.len() as u64) {
             track.lost = true;
             return Some(Ok(()));
         }
@@ -194,6 +242,51 @@ mod tests {
         check(b"", "it is no MCAP file");
         check(MAGIC, "it is not the recording of a generated program");
         check(b"\x89MCAP0\r\n\x05\x02\x00\x00\x00\x00\x00\x00\x00\x00\x00", "a record is shorter than it says");
+    }
+
+    #[test]
+    fn pieces_of_any_size_say_what_the_whole_says() {
+        let text = |text: &str| [&(text.len() as u32).to_le_bytes()[..], text.as_bytes()].concat();
+        let record = |code: u8, content: &[u8]| [&[code][..], &(content.len() as u64).to_le_bytes(), content].concat();
+        let map = |pairs: &[(&str, &str)]| {
+            text(
+                &pairs
+                    .iter()
+                    .map(|(key, value)| String::from_utf8([text(key), text(value)].concat()).expect("text"))
+                    .collect::<String>(),
+            )
+        };
+        let about = |name: &str, pairs: &[(&str, &str)]| record(0x0c, &[text(name), map(pairs)].concat());
+        let channel = record(0x04, &[&[0; 4][..], &text("/task"), &text("json"), &[0; 4]].concat());
+        let event = |order: u32, time_ns: u64| {
+            let fields = format!("{{\"order\":{order},\"kind\":\"begins\",\"object\":\"p\",\"number\":1}}");
+            record(0x05, &[&[0; 6][..], &time_ns.to_le_bytes(), &[0; 8], fields.as_bytes()].concat())
+        };
+        let inner = [event(0, 5), event(1, 9)].concat();
+        let length = (inner.len() as u64).to_le_bytes();
+        let chunk = record(0x06, &[&[0; 28][..], &text(""), &length, &inner].concat());
+        let whole = [
+            MAGIC,
+            &about("groundstate", &[("tick_ns", "1000"), ("pace", "real")]),
+            &channel,
+            &chunk,
+            &about("stop", &[("stopped_ns", "7")]),
+            &about("end", &[("stopped_ns", "7"), ("events task", "2")]),
+            &record(0x0f, &[0; 4]),
+            &channel,
+        ]
+        .concat();
+        let read = Recording::read(&whole).expect("a recording");
+        assert_eq!((read.tracks[0].events.len(), read.stopped_ns, read.is_whole()), (2, Some(7), true));
+        for size in [1, 7, 64] {
+            let mut reader = Reader::default();
+            for piece in whole.chunks(size) {
+                assert!(!reader.recording().is_whole() || reader.recording() == &read);
+                reader.feed(piece).expect("a piece");
+            }
+            assert!(reader.has_ended());
+            assert_eq!(reader.recording(), &read);
+        }
     }
 
     #[test]

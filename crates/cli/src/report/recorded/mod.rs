@@ -9,11 +9,11 @@ mod world;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use ::conform::{Parted, Verdict};
+use ::conform::{Parted, Verdict, Way};
 use ::report::{Fact, Held, Program, ProgramRun, RunSummary, render_program};
 use recording::Recording;
 
-use crate::conform::{Way, hold, read};
+use crate::conform::{hold, read};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::load::load;

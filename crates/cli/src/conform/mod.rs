@@ -2,16 +2,14 @@
 //!
 //! Exit code 0: it did. 1: the two part; where, and at which rule, is told. 3: not known, the recording having a gap.
 
+mod follow;
+
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
-use ::conform::untimed::Steps;
-use ::conform::vocabulary::Vocabulary;
-use ::conform::{Malformed, Parted, Recording, Verdict, timed, untimed};
+use ::conform::{Malformed, Parted, Recording, Refusal, Session, Verdict, Way};
 use clap::Args;
 use groundstate::Loaded;
-use machine::{Closed, Machine};
 use syntax::{Diagnostic, Sources};
 
 use crate::exit::Exit;
@@ -30,29 +28,16 @@ pub struct Arguments {
     /// Compare the order of events alone, also where the recording follows the model's ticks
     #[arg(long)]
     untimed: bool,
-}
-
-/// How a recording was compared.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Way {
-    /// Each tick is a step.
-    Timed,
-    /// One task steps at a time.
-    Untimed,
-}
-
-impl Way {
-    /// In words.
-    pub fn words(self) -> &'static str {
-        match self {
-            Way::Timed => "tick by tick",
-            Way::Untimed => "by the order of events",
-        }
-    }
+    /// Read along while the program writes the recording, and tell at once where the two part; Ctrl-C ends it
+    #[arg(long)]
+    follow: bool,
 }
 
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    if arguments.follow {
+        return follow::run(shell, arguments);
+    }
     let recording = read(&arguments.recording)?;
     let loaded = match load(shell, &arguments.model)? {
         Ok(loaded) => loaded,
@@ -67,48 +52,58 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
 /// Reads the events of a generated program.
 pub fn read(path: &Path) -> Result<Recording, Failure> {
     let bytes = std::fs::read(path).map_err(|error| Failure::of_file("read", path, error))?;
-    Recording::read(&bytes).map_err(|Malformed(reason)| {
-        Failure::usage_with_help(
-            format!("{} cannot be replayed: {reason}", path.display()),
-            "a generated program writes its events with `--log FILE`",
-        )
-    })
+    Recording::read(&bytes).map_err(|malformed| unreadable(path, &malformed))
+}
+
+fn unreadable(path: &Path, Malformed(reason): &Malformed) -> Failure {
+    Failure::usage_with_help(
+        format!("{} cannot be replayed: {reason}", path.display()),
+        "a generated program writes its events with `--log FILE`",
+    )
 }
 
 /// Holds a recording to a model: tick by tick where it follows the model's ticks, else by the order of events.
 pub fn hold(
     shell: &mut Shell,
-    mut loaded: Loaded,
+    loaded: Loaded,
     path: &Path,
     recording: &Recording,
     untimed: bool,
 ) -> Result<Result<(Sources, Verdict, Way), Exit>, Failure> {
-    let limits = shell.global.limits.machine();
-    let wrong = |reason: String| Failure::usage(format!("{} cannot be replayed: {reason}", path.display()));
-    if recording.pace == "modelled" && !untimed {
-        let program = Arc::new(loaded.program.clone());
-        let verdict = timed::check(&program, limits, recording).map_err(wrong)?;
-        // What the model has no word for is a matter of order alone.
-        let passed = recording.tracks.iter().flat_map(|track| &track.events).any(|event| event.kind == "passes");
-        if !(passed && matches!(verdict, Verdict::Unknown { .. })) {
-            return Ok(Ok((loaded.sources, verdict, Way::Timed)));
+    let mut session = match session(shell, loaded, path, recording, untimed)? {
+        Ok(session) => session,
+        Err(exit) => return Ok(Err(exit)),
+    };
+    match session.go_on(recording, false) {
+        Ok(Some(verdict)) => Ok(Ok((session.sources().clone(), verdict, session.way()))),
+        Ok(None) => unreachable!("nothing more comes"),
+        Err(refusal) => refused(shell, path, refusal).map(Err),
+    }
+}
+
+/// A session for a recording whose head is known.
+fn session(
+    shell: &mut Shell,
+    loaded: Loaded,
+    path: &Path,
+    head: &Recording,
+    untimed: bool,
+) -> Result<Result<Session, Exit>, Failure> {
+    let Loaded { sources, model, program, .. } = loaded;
+    match Session::new(sources, model, program, shell.global.limits.machine(), head, untimed) {
+        Ok(session) => Ok(Ok(session)),
+        Err(refusal) => refused(shell, path, refusal).map(Err),
+    }
+}
+
+fn refused(shell: &mut Shell, path: &Path, refusal: Refusal) -> Result<Exit, Failure> {
+    match refusal {
+        Refusal::Words(reason) => Err(Failure::usage(format!("{} cannot be replayed: {reason}", path.display()))),
+        Refusal::Model(sources, faults) => {
+            shell.diagnostics(&sources, &faults)?;
+            Ok(Exit::Model)
         }
     }
-    let mut machine = Machine::new(Arc::new(loaded.program.clone()), limits);
-    machine.start(&mut Closed).map_err(|fault| wrong(fault.show(&loaded.program).to_string()))?;
-    let vocabulary = Vocabulary::new(&loaded.program, &mut machine).map_err(wrong)?;
-    let names: Vec<String> = vocabulary.components.iter().map(|component| component.name.clone()).collect();
-    let Loaded { sources, model, program, .. } = &mut loaded;
-    let steps = match Steps::add(&names, sources, model, program) {
-        Ok(steps) => steps,
-        Err(faults) => {
-            shell.diagnostics(&loaded.sources, &faults)?;
-            return Ok(Err(Exit::Model));
-        }
-    };
-    let program = Arc::new(loaded.program.clone());
-    let verdict = untimed::check(&program, limits, recording, &steps).map_err(wrong)?;
-    Ok(Ok((loaded.sources, verdict, Way::Untimed)))
 }
 
 fn tell(

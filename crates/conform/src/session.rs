@@ -1,0 +1,179 @@
+//! A recording held to a model, from its head to its end, in the way that suits it.
+//!
+//! In: a checked model with its program, and a recording as far as it has come. Out: a [`Verdict`], at once where the run is
+//! over, else as soon as the two part or the run ends. Which way, tick by tick or by the order of events, is decided here:
+//! the first where the run follows the model's ticks, as long as nothing comes that is a matter of order alone.
+
+use std::sync::Arc;
+
+use machine::{Limits, Machine};
+use model::Model;
+use program::Program;
+use syntax::{Diagnostic, Sources};
+
+use crate::Verdict;
+use crate::steps::Steps;
+use crate::vocabulary::Vocabulary;
+use crate::{timed, untimed};
+use recording::Recording;
+
+/// How a recording is compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// Each tick is a step.
+    Timed,
+    /// One task steps at a time.
+    Untimed,
+}
+
+impl Way {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Way::Timed => "tick by tick",
+            Way::Untimed => "by the order of events",
+        }
+    }
+}
+
+/// Why a recording cannot be held to a model.
+#[derive(Debug)]
+pub enum Refusal {
+    /// In words.
+    Words(String),
+    /// The model lacks what the replay calls.
+    Model(Sources, Vec<Diagnostic>),
+}
+
+impl From<String> for Refusal {
+    fn from(words: String) -> Refusal {
+        Refusal::Words(words)
+    }
+}
+
+/// A replay on its way.
+#[derive(Debug)]
+pub struct Session {
+    sources: Sources,
+    /// The model's program with the steps of its tasks.
+    program: Arc<Program>,
+    steps: Steps,
+    limits: Limits,
+    replay: Replay,
+    /// A parting that is told when all is known up to this instant.
+    suspected_ns: Option<i64>,
+}
+
+/// So long after an action its event may be read from the clock: the task may be interrupted between the two.
+const GRACE_NS: i64 = 1_000_000_000;
+
+#[derive(Debug)]
+enum Replay {
+    Timed(Box<timed::Replay>),
+    Untimed(Box<untimed::Replay>),
+}
+
+impl Session {
+    /// Starts a replay for a recording whose head, its tasks and its pace, has come.
+    ///
+    /// # Errors
+    /// The model cannot be replayed, or the recording is of another system.
+    pub fn new(
+        mut sources: Sources,
+        mut model: Model,
+        mut program: Program,
+        limits: Limits,
+        head: &Recording,
+        by_order: bool,
+    ) -> Result<Session, Refusal> {
+        let mut machine = Machine::new(Arc::new(program.clone()), limits);
+        machine.start(&mut machine::Closed).map_err(|fault| fault.show(&program).to_string())?;
+        let names = Vocabulary::new(&program, &machine)?.names();
+        let steps = match Steps::add(&names, &head.wait_free, &mut sources, &mut model, &mut program) {
+            Ok(steps) => steps,
+            Err(faults) => return Err(Refusal::Model(sources, faults)),
+        };
+        let program = Arc::new(program);
+        let replay = if head.pace == "modelled" && !by_order {
+            Replay::Timed(Box::new(timed::Replay::new(&program, limits, &steps)?))
+        } else {
+            Replay::Untimed(Box::new(untimed::Replay::new(&program, limits, &steps, head.tick_ns)?))
+        };
+        Ok(Session { sources, program, steps, limits, replay, suspected_ns: None })
+    }
+
+    /// Goes on as far as the recording is known; none: it agrees so far, and `more` may come.
+    ///
+    /// # Errors
+    /// The recording is of another system.
+    pub fn go_on(&mut self, recording: &Recording, more: bool) -> Result<Option<Verdict>, Refusal> {
+        // Nothing is known behind a lost event.
+        let more = more && recording.tracks.iter().all(|track| !track.lost);
+        let verdict = match &mut self.replay {
+            Replay::Timed(replay) => replay.go_on(recording, more)?,
+            Replay::Untimed(_) => return self.by_order(recording, more),
+        };
+        // What the model has no word for is a matter of order alone.
+        let passed = |recording: &Recording| {
+            recording.tracks.iter().flat_map(|track| &track.events).any(|event| event.kind == "passes")
+        };
+        if !(matches!(verdict, Some(Verdict::Unknown { .. })) && passed(recording)) {
+            return Ok(verdict);
+        }
+        self.begin_by_order(recording)?;
+        self.by_order(recording, more)
+    }
+
+    fn begin_by_order(&mut self, recording: &Recording) -> Result<(), Refusal> {
+        let replay = untimed::Replay::new(&self.program, self.limits, &self.steps, recording.tick_ns)?;
+        self.replay = Replay::Untimed(Box::new(replay));
+        Ok(())
+    }
+
+    /// A task without events may have acted and tell it later; the replay went on without it. So a parting is looked at
+    /// anew, with all that came since, before it is told.
+    fn by_order(&mut self, recording: &Recording, more: bool) -> Result<Option<Verdict>, Refusal> {
+        if let Some(instant_ns) = self.suspected_ns {
+            let covered = recording.covered_until_ns().is_some_and(|covered| covered > instant_ns);
+            let known = recording.known_until_ns().is_none_or(|known| known > instant_ns.saturating_add(GRACE_NS));
+            if more && !covered && !known {
+                return Ok(None);
+            }
+            self.begin_by_order(recording)?;
+        }
+        let suspected = self.suspected_ns.take();
+        let Replay::Untimed(replay) = &mut self.replay else { unreachable!("it was begun") };
+        let verdict = replay.go_on(recording, more)?;
+        let Some(Verdict::Parts(parted)) = &verdict else { return Ok(verdict) };
+        let instant_ns = parted.event.as_ref().map_or(0, |event| event.time_ns);
+        if !more || suspected == Some(instant_ns) {
+            return Ok(verdict);
+        }
+        self.suspected_ns = Some(instant_ns);
+        Ok(None)
+    }
+
+    /// How it is compared now.
+    pub fn way(&self) -> Way {
+        match &self.replay {
+            Replay::Timed(_) => Way::Timed,
+            Replay::Untimed(_) => Way::Untimed,
+        }
+    }
+
+    /// How many events agree so far.
+    pub fn agreed(&self) -> usize {
+        match &self.replay {
+            Replay::Timed(replay) => replay.agreed(),
+            Replay::Untimed(replay) => replay.agreed(),
+        }
+    }
+
+    /// The texts that places of a verdict point into.
+    pub fn sources(&self) -> &Sources {
+        &self.sources
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,148 @@
+//! What the model itself does, written down as a recording, conforms; with one event changed it does not; and whoever reads
+//! along hears the same as who reads the whole.
+
+#![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
+
+use std::path::{Path, PathBuf};
+
+use machine::Closed;
+use recording::Track;
+use syntax::SourceFile;
+
+use super::*;
+
+struct Disk;
+
+impl model::Loader for Disk {
+    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        read(&Path::new(&importer.name).parent().unwrap_or(Path::new("")).join(format!("{path}.asm")))
+    }
+}
+
+fn read(path: &Path) -> Result<SourceFile, String> {
+    let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    Ok(SourceFile::new(path.display().to_string(), text))
+}
+
+fn model() -> (Sources, Model, Program) {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../examples/visual_servoing/VisionSystem.asm");
+    let checked = model::check(read(&path).expect("the model is there"), &mut Disk);
+    let program = program::lower(&checked.model).expect("it can be lowered");
+    (checked.sources, checked.model, program)
+}
+
+const TICK_NS: i64 = 1_000;
+const TICKS: i64 = 300;
+
+/// The events of the model's own run. By the order of events an instant is within its tick, one event after another.
+fn recorded(pace: &str) -> Recording {
+    let (_, _, program) = model();
+    let mut machine = Machine::new(Arc::new(program.clone()), Limits::default());
+    machine.start(&mut Closed).expect("it starts");
+    let vocabulary = Vocabulary::new(&program, &machine).expect("the library's patterns");
+    let track = |task: String| Track { task, ..Track::default() };
+    let mut tracks: Vec<Track> = vocabulary.names().into_iter().map(track).collect();
+    for tick in 0..TICKS {
+        machine.step(&mut Closed).expect("a step");
+        for (component, claim) in vocabulary.claims(&machine, &machine.changes()) {
+            let mut event = claim.event;
+            event.time_ns = tick * TICK_NS;
+            tracks[component].events.push(event);
+        }
+    }
+    Recording {
+        tracks,
+        system: "vision_system".to_string(),
+        tick_ns: TICK_NS,
+        pace: pace.to_string(),
+        stopped_ns: Some(TICKS * TICK_NS),
+        ended: true,
+        ..Recording::default()
+    }
+}
+
+fn session(head: &Recording) -> Session {
+    let (sources, model, program) = model();
+    Session::new(sources, model, program, Limits::default(), head, false).expect("it can be replayed")
+}
+
+fn whole(recording: &Recording) -> Verdict {
+    let verdict = session(recording).go_on(recording, false).expect("of this system");
+    verdict.expect("nothing more comes")
+}
+
+/// Hears of each task's events a few at a time, the tasks in turn, and says when the verdict came.
+fn along(recording: &Recording, at_once: usize) -> (Verdict, bool) {
+    let mut heard = Recording { stopped_ns: None, ended: false, ..recording.clone() };
+    heard.tracks.iter_mut().for_each(|track| track.events.clear());
+    let mut session = session(&heard);
+    loop {
+        let mut grew = false;
+        for (track, all) in heard.tracks.iter_mut().zip(&recording.tracks) {
+            let from = track.events.len();
+            let to = (from + at_once).min(all.events.len());
+            track.events.extend_from_slice(&all.events[from..to]);
+            grew |= to > from;
+        }
+        if !grew {
+            let verdict = session.go_on(recording, false).expect("of this system");
+            return (verdict.expect("nothing more comes"), false);
+        }
+        if let Some(verdict) = session.go_on(&heard, true).expect("of this system") {
+            return (verdict, true);
+        }
+    }
+}
+
+#[test]
+fn the_models_own_run_conforms() {
+    let recording = recorded("modelled");
+    assert!(recording.events() > 50, "{} events", recording.events());
+    let verdict = whole(&recording);
+    assert!(matches!(verdict, Verdict::Conforms { .. }), "{verdict:#?}");
+    for at_once in [2] {
+        assert_eq!(along(&recording, at_once), (verdict.clone(), false));
+    }
+}
+
+#[test]
+fn who_reads_along_hears_what_the_whole_says() {
+    let good = recorded("modelled");
+    for (task, at) in [(0, 3), (1, 5), (2, 9)] {
+        let mut wrong = good.clone();
+        wrong.tracks[task].events[at].number += 7;
+        let verdict = whole(&wrong);
+        assert!(matches!(verdict, Verdict::Parts(_)), "{verdict:#?}");
+        assert_eq!(along(&wrong, 2), (verdict, true));
+    }
+}
+
+/// The model's tasks act at once, which no order of single steps is: so it parts somewhere, and there for both.
+#[test]
+fn by_the_order_of_events_too() {
+    let recording = recorded("real");
+    let verdict = whole(&recording);
+    assert!(matches!(verdict, Verdict::Parts(_)), "{verdict:#?}");
+    for at_once in [1, 7] {
+        assert_eq!(along(&recording, at_once), (verdict.clone(), true));
+    }
+}
+
+/// A task that has nothing to tell holds nobody up, if the recording says that it had nothing.
+#[test]
+fn the_horizon_stands_for_events_of_the_silent() {
+    let mut wrong = recorded("real");
+    let silent = wrong.tracks.iter().position(|track| track.task == "camera").expect("there is a camera");
+    let other = (silent + 1) % wrong.tracks.len();
+    wrong.tracks[silent].events.clear();
+    let event = &mut wrong.tracks[other].events[0];
+    event.object = "another".to_string();
+    let heard = Recording { stopped_ns: None, ended: false, ..wrong };
+    let mut session = session(&heard);
+    assert_eq!(session.go_on(&heard, true).expect("of this system"), None);
+    let mut later = Recording { horizon_ns: Some(TICKS * TICK_NS), ..heard };
+    assert_eq!(session.go_on(&later, true).expect("of this system"), None, "it is looked at anew, later");
+    later.horizon_ns = Some(TICKS * TICK_NS + 2 * GRACE_NS);
+    let verdict = session.go_on(&later, true).expect("of this system");
+    assert!(matches!(verdict, Some(Verdict::Parts(_))), "{verdict:?}");
+}

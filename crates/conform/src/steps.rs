@@ -1,0 +1,166 @@
+//! What a replay needs of a model beside its own main rule: the steps of single tasks, and changes of the configuration.
+//!
+//! In: a checked model. Out: procedures, added to its program. The rules are the library's own and stay as they are; only
+//! the configuration, which is state, is changed before a run: where nobody keeps time phases take none, and wait-free
+//! channels, which have no lock and keep the latest datum alone, are shared values.
+
+use std::sync::Arc;
+
+use machine::{Closed, Limits, Machine};
+use model::{DomainKind, Model};
+use program::{ProcedureId, Program};
+use syntax::ast::{self, AstNode};
+use syntax::{Diagnostic, Severity, SourceFile, Sources};
+
+use crate::vocabulary::Vocabulary;
+
+/// Phases take no time, and a rest comes behind each. A deadline is said of each task, so that its period can be another
+/// while a cycle ends.
+const LOOSEN: &str = "par \
+     forall $t in Task with isUndef(task_deadline($t)) do task_deadline($t) := task_period($t) \
+     forall $p in SchedulePhase with true do time($p) := 0 \
+     forall $q in SchedulePhase with action($q) != WAITING_TRIGGER do \
+       extend SchedulePhase with $r do par \
+         action($r) := ELABORATING time($r) := 0 nextPhase($r) := nextPhase($q) nextPhase($q) := $r \
+       endpar \
+   endpar";
+
+/// Adds the steps of tasks to a program.
+#[derive(Debug, Clone)]
+pub struct Steps {
+    loosen: ProcedureId,
+    /// One a component, by its name.
+    each: Vec<(String, ProcedureId)>,
+    /// One a wait-free channel, by its name: it becomes a shared value.
+    cells: Vec<(String, ProcedureId)>,
+}
+
+impl Steps {
+    /// Adds the steps of these components to a program, and what makes these channels shared values.
+    ///
+    /// # Errors
+    /// The model lacks what they call.
+    pub fn add(
+        components: &[String],
+        wait_free: &[String],
+        sources: &mut Sources,
+        model: &mut Model,
+        program: &mut Program,
+    ) -> Result<Steps, Vec<Diagnostic>> {
+        // The rests and the cells are new, which the library, where all phases and values are known, has no need of.
+        for name in ["SchedulePhase", "SharedValue"] {
+            if let Some(domain) = model.domain_named(name)
+                && let DomainKind::Abstract { dynamic } = &mut model.domains.get_mut(domain).kind
+            {
+                *dynamic = true;
+            }
+        }
+        *program = program::lower(model)?;
+        let mut add = |text: &str| rule(text, sources, model, program);
+        let loosen = add(LOOSEN)?;
+        let step = |name: &String| {
+            format!("par r_scheduler_execute[{name}] forall $s in Semaphore with true do r_sem_arbitrate[$s] endpar")
+        };
+        let each: Result<Vec<_>, _> =
+            components.iter().map(|name| add(&step(name)).map(|procedure| (name.clone(), procedure))).collect();
+        let cell = |name: &String| {
+            format!(
+                "extend SharedValue with $v do par \
+                   sv_staged($v) := 0 sv_sequence($v) := 0 sv_overwritten($v) := 0 \
+                   sv_received($v) := 0 sv_receivedSequence($v) := 0 sv_fresh($v) := false \
+                   forall $p in SchedulePhase with sharedMemory($p) = {name} do par \
+                     sharedValue($p) := $v sharedMemory($p) := undef \
+                     switch action($p) case WRITING_ON_SB: action($p) := STORING \
+                       case READING_FROM_SB: action($p) := LOADING endswitch \
+                   endpar \
+                 endpar"
+            )
+        };
+        let cells: Result<Vec<_>, _> =
+            wait_free.iter().map(|name| add(&cell(name)).map(|procedure| (name.clone(), procedure))).collect();
+        Ok(Steps { loosen, each: each?, cells: cells? })
+    }
+
+    /// The model in its initial state, with the wait-free channels as they are, and what of it is known.
+    ///
+    /// # Errors
+    /// It does not start, or is not made of the library of patterns; in words.
+    pub fn start(&self, program: &Arc<Program>, limits: Limits) -> Result<(Machine, Vocabulary), String> {
+        let mut machine = Machine::new(Arc::clone(program), limits);
+        machine.start(&mut Closed).map_err(|fault| fault.show(program).to_string())?;
+        let before = Vocabulary::new(program, &machine)?;
+        if self.cells.is_empty() {
+            return Ok((machine, before));
+        }
+        let mut names = Vec::new();
+        for (name, procedure) in &self.cells {
+            let phases = before.phases_on(&machine, name);
+            run(&mut machine, *procedure)?;
+            let phase =
+                phases.first().ok_or(format!("the model has no channel {name}, which was generated wait-free"))?;
+            names.push((before.get(&machine, "sharedValue", std::slice::from_ref(phase)), name.clone()));
+        }
+        let mut vocabulary = Vocabulary::new(program, &machine)?;
+        names.into_iter().for_each(|(value, name)| vocabulary.call(value, name));
+        Ok((machine, vocabulary))
+    }
+
+    /// The step of a component.
+    ///
+    /// # Errors
+    /// There is none, in words.
+    pub fn of(&self, component: &str) -> Result<ProcedureId, String> {
+        let found = self.each.iter().find(|(known, _)| known == component).map(|(_, procedure)| *procedure);
+        found.ok_or(format!("there is no step of {component}"))
+    }
+
+    /// From now on phases take no time, and a rest comes behind each.
+    ///
+    /// # Errors
+    /// It is a fault of the model, in words.
+    pub fn loosen(&self, machine: &mut Machine) -> Result<(), String> {
+        run(machine, self.loosen)
+    }
+}
+
+fn run(machine: &mut Machine, procedure: ProcedureId) -> Result<(), String> {
+    let program = Arc::clone(machine.program());
+    machine.prepare_procedure(procedure, &mut Closed).map_err(|fault| fault.show(&program).to_string())?;
+    machine.commit();
+    Ok(())
+}
+
+/// Adds a rule, given as text, to a program.
+fn rule(
+    text: &str,
+    sources: &mut Sources,
+    model: &mut Model,
+    program: &mut Program,
+) -> Result<ProcedureId, Vec<Diagnostic>> {
+    let text = format!("scenario conformance\nload model.asm\nexec {text};\n");
+    let file = sources.add(SourceFile::new("conformance", text.as_str()));
+    let parse = syntax::parse_avalla(file, &text);
+    let scenario = ast::ScenarioFile::cast(parse.syntax());
+    let rule = scenario.and_then(|scenario| {
+        scenario.commands().find_map(|command| match command {
+            ast::Command::Exec(exec) => exec.rule(),
+            _ => None,
+        })
+    });
+    let Some(rule) = rule.filter(|_| parse.diagnostics.is_empty()) else { return Err(parse.diagnostics) };
+    let fragment = model.check_rule(file, &rule);
+    if fragment.diagnostics.iter().any(|fault| fault.severity == Severity::Error) {
+        return Err(fragment.diagnostics);
+    }
+    let span = fragment.item.span;
+    let rule = model::Rule {
+        name: "exec".to_string(),
+        turbo: false,
+        variables: fragment.variables,
+        parameters: Vec::new(),
+        result: None,
+        body: fragment.item,
+        span,
+    };
+    program::lower_rule(program, model, &rule)
+}
