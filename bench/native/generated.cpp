@@ -1,7 +1,8 @@
 // The step code that `groundstate generate cpp` makes of a model, in the frame of the programs written by hand.
 //
-// Compiled once a model, beside what was generated: HEADER is its header, MODEL its namespace.
-#include HEADER
+// Compiled once a model, with what was generated in the same translation unit, as a program written by hand is: SOURCE is
+// its source, MODEL its namespace.
+#include SOURCE
 
 #include <iostream>
 #include <optional>

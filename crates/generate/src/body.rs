@@ -7,7 +7,7 @@ use program::{Expression, FunctionId, FunctionKind, ProcedureId, Program};
 use syntax::Diagnostic;
 
 use crate::form::Form;
-use crate::generator::{Assumptions, Generator, Options};
+use crate::generator::{Assumptions, Generator, Need, Options};
 use crate::interval::Interval;
 use crate::plan::{FunctionPlan, Plan, Role};
 use crate::text::Text;
@@ -138,12 +138,14 @@ fn procedure(generator: &mut Generator<'_>, id: ProcedureId) -> Member {
     let assumed: Vec<_> = defined.zip(generator.assumed.parameter_ranges[id.0 as usize].iter().copied()).collect();
     let parameters = generator.enter(&procedure.parameters, &assumed, procedure.frame, &procedure.names);
     let name = generator.plan.procedure(id).to_string();
+    let parameters: Vec<String> = std::iter::once("Next& next".to_string()).chain(parameters).collect();
     let list = parameters.join(", ");
     let mut text = Text::default();
     text.open_marked(procedure.span, format!("void Machine::{name}({}) {{", silenced(&parameters)));
     let recursive = is_recursive(program, id);
     if recursive {
         let site = generator.sites.number(procedure.span);
+        generator.needs.insert(Need::Depth);
         text.line(format!("gs::enter(calls_, {site});"));
     }
     generator.rule(procedure.body, &mut text);
@@ -190,6 +192,7 @@ fn definition(generator: &mut Generator<'_>, id: FunctionId) -> Member {
         generator.refuted.pure[id.0 as usize] = false;
     }
     if recursive {
+        generator.needs.insert(Need::Depth);
         text.line(format!("gs::enter(calls_, {site});"));
         text.marked(program.term_span(expression.body), format!("auto value = {body};"));
         text.line("--calls_;");
@@ -297,7 +300,7 @@ fn set_initial(generator: &mut Generator<'_>, index: usize, plan: &FunctionPlan,
     if plan.role == Role::Shared {
         text.marked(initial.span, format!("{}.set({site}, initial_{}({list}){comma}{list});", plan.member, plan.name));
     } else {
-        text.marked(initial.span, format!("{}.at({place}) = initial_{}({list});", plan.member, plan.name));
+        text.marked(initial.span, format!("{}.put({place}, initial_{}({list}));", plan.member, plan.name));
     }
     ranges.iter().for_each(|_| text.close("}"));
 }
@@ -326,7 +329,7 @@ fn set_as_computed(
             });
         }
         let value = generator.constant(&value, plan.ty);
-        text.line(format!("{}.at({}.number({})) = {value};", plan.member, plan.member, list.join(", ")));
+        text.line(format!("{}.put({}.number({}), {value});", plan.member, plan.member, list.join(", ")));
     }
 }
 

@@ -7,15 +7,12 @@ use std::collections::BTreeSet;
 
 use program::{DomainId, DomainKind, FunctionId, Program};
 
+use crate::accessors::accessors;
 use crate::body::Bodies;
-use crate::form::Form;
 use crate::generator::{Generator, Need};
 use crate::plan::{DomainPlan, FunctionPlan, Role};
 use crate::text::{Text, escaped};
 use crate::types::Type;
-
-/// LIMIT: locations whose updates stand within the object; those of larger functions are on the heap.
-const LOG_IN_PLACE: u64 = 64;
 
 /// The header of a source; it declares the types that one of the two names.
 pub(crate) fn header(bodies: &Bodies<'_>, source: &Text, title: &str) -> Text {
@@ -35,8 +32,18 @@ pub(crate) fn header(bodies: &Bodies<'_>, source: &Text, title: &str) -> Text {
     if generator.options.bare {
         text.line("#ifndef GROUNDSTATE_BARE\n#define GROUNDSTATE_BARE\n#endif\n");
     }
-    let mut includes =
-        vec!["elements", "inputs", "locations", "maybe", "membership", "numbers", "ranges", "units", "unsequenced"];
+    let mut includes = vec![
+        "elements",
+        "inputs",
+        "locations",
+        "maybe",
+        "membership",
+        "numbers",
+        "ranges",
+        "units",
+        "unsequenced",
+        "word",
+    ];
     if !generator.options.bare {
         includes.push("boxing");
         includes.push("text");
@@ -115,7 +122,7 @@ fn signature(program: &Program, id: FunctionId) -> String {
 }
 
 /// The functions of these roles that the code reaches, or that others may set.
-fn functions<'p>(generator: &'p Generator<'_>, roles: &[Role]) -> Vec<(FunctionId, &'p FunctionPlan)> {
+pub(crate) fn functions<'p>(generator: &'p Generator<'_>, roles: &[Role]) -> Vec<(FunctionId, &'p FunctionPlan)> {
     let all = generator.plan.functions.iter().enumerate();
     all.map(|(index, plan)| (FunctionId(index as u32), plan))
         .filter(|(id, plan)| roles.contains(&plan.role) && generator.reached.contains(id))
@@ -123,7 +130,7 @@ fn functions<'p>(generator: &'p Generator<'_>, roles: &[Role]) -> Vec<(FunctionI
 }
 
 /// A function's parameters, each possibly undef where some reader's argument may be, and their names.
-fn parameters(generator: &Generator<'_>, id: FunctionId) -> (String, String) {
+pub(crate) fn parameters(generator: &Generator<'_>, id: FunctionId) -> (String, String) {
     let defined = generator.assumed.inside[id.0 as usize];
     let mut declared = Vec::new();
     let mut names = Vec::new();
@@ -156,7 +163,7 @@ fn class(bodies: &Bodies<'_>, text: &mut Text) {
     text.line("/// Makes a step. After a fault, or an exception of the environment, the state is the one before.");
     text.line("[[nodiscard]] gs::Fault step();");
     text.line("/// Whether the last step had any update.");
-    text.line("[[nodiscard]] bool changed() const noexcept { return updates_ > 0; }\n");
+    text.line("[[nodiscard]] bool changed() const noexcept { return changed_; }\n");
     for (id, function) in functions(generator, &[Role::State]) {
         let (list, names) = parameters(generator, id);
         let total = generator.assumed.total[id.0 as usize];
@@ -187,6 +194,7 @@ fn class(bodies: &Bodies<'_>, text: &mut Text) {
     }
     text.close("}");
     text.line("\nprivate:");
+    text.line("struct Next;\n");
     for member in bodies.procedures.iter().chain(&bodies.definitions).chain(bodies.initials.iter().map(|(_, m)| m)) {
         text.line(&member.declaration);
     }
@@ -199,13 +207,25 @@ fn class(bodies: &Bodies<'_>, text: &mut Text) {
     text.line("");
     members(generator, text);
     text.line("Environment& environment_;");
-    text.line("std::uint64_t step_ = 1;");
-    text.line("std::size_t updates_ = 0;");
-    text.line("std::uint32_t iterations_ = 0;");
-    text.line("[[maybe_unused]] std::uint32_t calls_ = 0;");
+    text.line("bool changed_ = false;");
+    if counts_steps(generator) {
+        text.line("std::uint64_t step_ = 1;");
+    }
+    if generator.needs.contains(&Need::Rounds) {
+        text.line("std::uint32_t iterations_ = 0;");
+    }
+    if generator.needs.contains(&Need::Depth) {
+        text.line("std::uint32_t calls_ = 0;");
+    }
     if generator.needs.contains(&Need::Clock) {
         text.line("std::array<gs::Answer<std::int64_t>, 3> clock_{};");
     }
+    text.line("\n/// What the running step has updated of functions that no `seq` updates.");
+    text.open("struct Next {");
+    for function in stepped(generator) {
+        text.line(format!("decltype({})::Next {};", function.member, function.name));
+    }
+    text.close("};");
     text.close("};");
 }
 
@@ -213,7 +233,9 @@ fn class(bodies: &Bodies<'_>, text: &mut Text) {
 fn helpers(bodies: &Bodies<'_>, text: &mut Text) {
     let generator = &bodies.generator;
     text.line("std::size_t choose(std::size_t candidates, gs::Site site);");
-    text.line("void iteration(gs::Site site);");
+    if generator.needs.contains(&Need::Rounds) {
+        text.line("void iteration(gs::Site site);");
+    }
     text.line("void roll_back();");
     if !generator.options.bare {
         text.open("gs::Value choose_one(const gs::Value& set, gs::Site site) {");
@@ -232,7 +254,7 @@ fn helpers(bodies: &Bodies<'_>, text: &mut Text) {
             None => "gs::Value".to_string(),
         };
         text.line(format!("std::int64_t program_of(const {agent}& agent);"));
-        text.line(format!("void run_agent(const {agent}& agent, gs::Site site);"));
+        text.line(format!("void run_agent(Next& next, const {agent}& agent, gs::Site site);"));
         if !generator.options.bare {
             text.line("gs::Value agent_program(const gs::Value& agent);");
         }
@@ -240,23 +262,36 @@ fn helpers(bodies: &Bodies<'_>, text: &mut Text) {
     text.line("/// A term in the state before the step.");
     text.line("template <class Term>");
     text.open("auto before(Term&& term) {");
-    for member in storage(generator) {
+    for member in logs(generator) {
         text.line(format!("{member}.swap_original(false);"));
     }
     text.line("auto value = term();");
-    for member in storage(generator) {
+    for member in logs(generator) {
         text.line(format!("{member}.swap_original(true);"));
     }
     text.line("return value;");
     text.close("}");
 }
 
-/// All members that hold locations or elements, and so take part in a step.
-fn storage(generator: &Generator<'_>) -> Vec<String> {
+/// Whether what was asked for is remembered by the number of the step.
+fn counts_steps(generator: &Generator<'_>) -> bool {
+    generator.needs.contains(&Need::Clock) || !functions(generator, &[Role::Input]).is_empty()
+}
+
+/// The functions whose updates in the running step are in a `Next`.
+fn stepped<'p>(generator: &'p Generator<'_>) -> Vec<&'p FunctionPlan> {
+    let all = functions(generator, &[Role::State, Role::Local]).into_iter();
+    all.filter(|(id, _)| generator.storage(*id).stepped).map(|(_, function)| function).collect()
+}
+
+/// The members that have a log of the running step.
+fn logs(generator: &Generator<'_>) -> Vec<String> {
     let mut all = Vec::new();
-    for (_, function) in functions(generator, &[Role::State, Role::Local, Role::Shared]) {
-        let dot = if function.role == Role::Shared { ".locations" } else { "" };
-        all.push(format!("{}{dot}", function.member));
+    for (id, function) in functions(generator, &[Role::State, Role::Local, Role::Shared]) {
+        if !generator.storage(id).stepped {
+            let dot = if function.role == Role::Shared { ".locations" } else { "" };
+            all.push(format!("{}{dot}", function.member));
+        }
     }
     all.extend(carriers(generator).into_iter().filter_map(|(_, domain)| domain.carrier.clone()));
     all
@@ -286,40 +321,7 @@ fn members(generator: &Generator<'_>, text: &mut Text) {
             text.line(format!("{} {}{{}};", plan.cpp(function.ty, false), function.member));
             continue;
         }
-        let total = generator.assumed.total[id.0 as usize];
-        let cell = plan.cpp(function.ty, total);
-        let whole = generator.is_whole(id);
-        let capacity = generator.capacity(&generator.program.function(id).name);
-        let sparse = match (whole, generator.options.bare) {
-            (true, _) => "gs::Nowhere".to_string(),
-            (false, false) => "gs::Growing".to_string(),
-            (false, true) => format!("gs::AtMost<{}>", capacity.unwrap_or(0)),
-        };
-        let locations = function.dense() + u64::from(capacity.unwrap_or(0));
-        let log = match (whole && locations <= LOG_IN_PLACE, generator.options.bare) {
-            (true, _) | (_, true) => locations.max(1) * 9,
-            _ => 0,
-        };
-        let dimensions: String = function.dimensions.iter().map(|dimension| format!(", {}", dimension.text)).collect();
-        let declared = match function.role {
-            Role::Input => format!("gs::Inputs<{cell}, {sparse}{dimensions}>"),
-            Role::Shared => format!("gs::SharedLocations<{cell}, {sparse}, {log}{dimensions}>"),
-            _ => match generator.form(id) {
-                Form::Unsequenced | Form::Disjoint | Form::Whole if function.dimensions.is_empty() => {
-                    format!("gs::Location<{cell}>")
-                }
-                Form::Unsequenced | Form::Disjoint if whole && locations <= LOG_IN_PLACE => {
-                    format!("gs::FewLocations<{cell}{dimensions}>")
-                }
-                Form::Whole => {
-                    let capacity = if generator.options.bare { function.dense() } else { 0 };
-                    format!("gs::WholeArray<{cell}, {capacity}{dimensions}>")
-                }
-                Form::Disjoint => format!("gs::DisjointLocations<{cell}, {sparse}, {log}{dimensions}>"),
-                Form::General | Form::Unsequenced => format!("gs::Locations<{cell}, {sparse}, {log}{dimensions}>"),
-            },
-        };
-        text.line(format!("{declared} {}{{}};", function.member));
+        text.line(format!("{} {}{{}};", generator.storage(id).class, function.member));
     }
 }
 
@@ -356,7 +358,9 @@ fn frame(bodies: &Bodies<'_>, text: &mut Text) {
     let own: Vec<String> =
         functions(generator, &[Role::Agent]).iter().map(|(_, function)| function.member.clone()).collect();
     text.open("gs::Fault Machine::start() {");
-    text.line("calls_ = 0;");
+    if generator.needs.contains(&Need::Depth) {
+        text.line("calls_ = 0;");
+    }
     text.open("return gs::attempt([&] {");
     bodies.start.clone().pour(text);
     text.between("}, [&] {");
@@ -364,16 +368,24 @@ fn frame(bodies: &Bodies<'_>, text: &mut Text) {
     text.close("});");
     text.close("}\n");
     text.open("gs::Fault Machine::step() {");
-    text.line("++step_;");
-    text.line("iterations_ = 0;");
-    text.line("calls_ = 0;");
+    if counts_steps(generator) {
+        text.line("++step_;");
+    }
+    if generator.needs.contains(&Need::Rounds) {
+        text.line("iterations_ = 0;");
+    }
+    if generator.needs.contains(&Need::Depth) {
+        text.line("calls_ = 0;");
+    }
     for member in &own {
         text.line(format!("const auto former = {member};"));
     }
     let main = match program.main {
-        Some(main) => format!("{}();", plan.procedure(main)),
+        Some(main) => format!("{}(next);", plan.procedure(main)),
         None => "gs::fail(gs::FaultKind::no_main, 0, 0);".to_string(),
     };
+    let begun: Vec<String> = stepped(generator).iter().map(|function| format!("{}.begin()", function.member)).collect();
+    text.line(format!("[[maybe_unused]] Next next{{{}}};", begun.join(", ")));
     text.open("const gs::Fault fault = gs::attempt([&] {");
     text.line(main);
     text.between("}, [&] {");
@@ -383,14 +395,18 @@ fn frame(bodies: &Bodies<'_>, text: &mut Text) {
     text.open("if (fault) {");
     text.line("return fault;");
     text.close("}");
-    text.line("updates_ = 0;");
-    for member in storage(generator) {
-        text.line(format!("updates_ += {member}.commit();"));
+    text.line("bool changed = false;");
+    for function in stepped(generator) {
+        text.line(format!("changed |= {}.commit(next.{});", function.member, function.name));
     }
-    text.line("return fault;");
+    for member in logs(generator) {
+        text.line(format!("changed |= {member}.commit() > 0;"));
+    }
+    text.line("changed_ = changed;");
+    text.line("return {};");
     text.close("}\n");
     text.open("void Machine::roll_back() {");
-    for member in storage(generator) {
+    for member in logs(generator) {
         text.line(format!("{member}.roll_back();"));
     }
     text.close("}\n");
@@ -401,90 +417,19 @@ fn frame(bodies: &Bodies<'_>, text: &mut Text) {
     text.close("}");
     text.line("return chosen;");
     text.close("}\n");
-    text.open("void Machine::iteration(gs::Site site) {");
-    text.line("// LIMIT: rounds of loops in one step, as the machine has it.");
-    text.open("if (++iterations_ > 1'000'000) {");
-    text.line("gs::fail(gs::FaultKind::limit, site, site);");
-    text.close("}");
-    text.close("}");
-    inputs(generator, text);
-    lazy(generator, text);
-    clock(generator, text);
+    if generator.needs.contains(&Need::Rounds) {
+        text.open("void Machine::iteration(gs::Site site) {");
+        text.line("// LIMIT: rounds of loops in one step, as the machine has it.");
+        text.open("if (++iterations_ > 1'000'000) {");
+        text.line("gs::fail(gs::FaultKind::limit, site, site);");
+        text.close("}");
+        text.close("}");
+    }
+    accessors(generator, text);
     agents(bodies, text);
     if generator.needs.contains(&Need::Names) {
         names(generator, text);
     }
-}
-
-fn inputs(generator: &Generator<'_>, text: &mut Text) {
-    let plan = generator.plan;
-    for (id, function) in functions(generator, &[Role::Input, Role::Shared]) {
-        let (list, names) = parameters(generator, id);
-        let comma = if list.is_empty() { "" } else { ", " };
-        let result = plan.cpp(function.ty, false);
-        text.open(format!("\n{result} Machine::{}({list}{comma}gs::Site site) {{", function.name));
-        let checked = generator.asked.get(&id).cloned().unwrap_or_default();
-        match function.role {
-            Role::Shared => {
-                let first = match function.initial {
-                    Some(_) => format!("{result}{{initial_{}({names})}}", function.name),
-                    None => checked,
-                };
-                text.line(format!(
-                    "return {}.read(site, [&]() -> {result} {{ return {first}; }}{comma}{names});",
-                    function.member
-                ));
-            }
-            _ => text.line(format!(
-                "return {}.read(step_, site, [&]() -> {result} {{ return {checked}; }}{comma}{names});",
-                function.member
-            )),
-        }
-        text.close("}");
-    }
-}
-
-/// Accessors of functions whose initial values may be due only when they are read.
-fn lazy(generator: &Generator<'_>, text: &mut Text) {
-    for (id, function) in functions(generator, &[Role::State]) {
-        if !generator.is_lazy(id) {
-            continue;
-        }
-        let (list, names) = parameters(generator, id);
-        let total = generator.assumed.total[id.0 as usize];
-        let result = generator.plan.cpp(function.ty, total);
-        let initial = &generator.program.initials[function.initial.unwrap_or_default()];
-        let fixed = generator.program.reads(&initial.value).is_some_and(|read| read.is_empty());
-        let site = 0;
-        text.open(format!("\n{result} Machine::{}({list}) {{", function.name));
-        text.line(format!("const std::uint32_t found = {}.find({names});", function.member));
-        text.open(format!("if (found != decltype({})::none) {{", function.member));
-        text.line(format!("return {}.at(found);", function.member));
-        text.close("}");
-        if fixed {
-            // It depends on its arguments alone, so that it does not matter that the initial state is gone.
-            text.line(format!("const auto value = initial_{}({names});", function.name));
-            text.line(format!("{0}.at({0}.number({site}, {names})) = value;", function.member));
-            text.line("return value;");
-        } else {
-            // LIMIT: an initial value that reads the state is known for the elements that there were at the start.
-            text.line(format!("gs::fail(gs::FaultKind::no_definition, {site}, {site});"));
-        }
-        text.close("}");
-    }
-}
-
-fn clock(generator: &Generator<'_>, text: &mut Text) {
-    if !generator.needs.contains(&Need::Clock) {
-        return;
-    }
-    text.open("\nstd::int64_t Machine::clock(gs::TimeUnit unit) {");
-    text.line("auto& reading = clock_[static_cast<std::size_t>(unit)];");
-    text.open("if (reading.step != step_) {");
-    text.line("reading = {environment_.time(unit), step_};");
-    text.close("}");
-    text.line("return reading.value;");
-    text.close("}");
 }
 
 fn agents(bodies: &Bodies<'_>, text: &mut Text) {
@@ -505,7 +450,9 @@ fn agents(bodies: &Bodies<'_>, text: &mut Text) {
     }
     text.line("return -1;");
     text.close("}");
-    text.open(format!("\nvoid Machine::run_agent(const {agent}& agent, gs::Site site) {{"));
+    text.open(format!(
+        "\nvoid Machine::run_agent([[maybe_unused]] Next& next, const {agent}& agent, gs::Site site) {{"
+    ));
     let own = functions(generator, &[Role::Agent]);
     // `self` may have been declared over a wider type than the agents'.
     let own = own.first().filter(|(_, function)| function.ty == ty).map(|(_, function)| function.member.clone());
@@ -522,7 +469,7 @@ fn agents(bodies: &Bodies<'_>, text: &mut Text) {
         if let Some(own) = &own {
             text.line(format!("    {own} = agent;"));
         }
-        text.line(format!("    {}();", generator.plan.procedure(entry.procedure)));
+        text.line(format!("    {}(next);", generator.plan.procedure(entry.procedure)));
         text.line("    break;");
     }
     text.line("default: gs::fail(gs::FaultKind::not_a_rule, site, site);");

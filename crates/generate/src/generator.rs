@@ -149,6 +149,10 @@ pub(crate) enum Need {
     AgentProgram,
     /// The clock.
     Clock,
+    /// Rounds of loops are counted.
+    Rounds,
+    /// Calls inside each other are counted.
+    Depth,
 }
 
 impl<'a> Generator<'a> {

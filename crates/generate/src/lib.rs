@@ -4,6 +4,7 @@
 //! [`Generated`] files, or the parts that cannot be generated, each with its place. The meaning of a rule is the
 //! machine's; agreement tests hold the generated code to it step by step. It must not know files or compilers.
 
+mod accessors;
 mod body;
 mod choice;
 mod class;
@@ -18,6 +19,7 @@ mod range;
 pub mod replay;
 mod rule;
 mod sites;
+mod storage;
 mod term;
 mod text;
 mod types;

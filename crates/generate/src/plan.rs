@@ -107,6 +107,8 @@ pub(crate) fn plan(program: &Program, started: &mut machine::Machine) -> Plan {
     for kept in [
         "Machine",
         "Environment",
+        "Next",
+        "next",
         "ReplayEnvironment",
         "Value",
         "Maybe",

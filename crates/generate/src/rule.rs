@@ -48,7 +48,7 @@ impl Generator<'_> {
                 self.needs.insert(Need::AgentProgram);
                 let code = self.term(*agent);
                 let agent = self.agent(code, site);
-                text.marked(span, format!("run_agent({agent}, {site});"));
+                text.marked(span, format!("run_agent(next, {agent}, {site});"));
             }
             Rule::Par(rules) => {
                 for rule in program.rule_list(*rules) {
@@ -110,33 +110,9 @@ impl Generator<'_> {
                 });
             }
             Rule::Extend { domain, first, count, body } => self.extend(*domain, *first, *count, *body, id, text),
-            Rule::Iterate(body) => self.sequence(id, text, &mut |this, name, text| {
-                text.open("for (;;) {");
-                this.rule(*body, text);
-                text.open(format!("if (!{name}.part()) {{"));
-                text.line("break;");
-                text.close("}");
-                text.line(format!("iteration({site});"));
-                text.close("}");
-            }),
-            Rule::While { condition, body } => self.sequence(id, text, &mut |this, name, text| {
-                let guard = this.guard(*condition);
-                text.open_marked(span, format!("while ({}) {{", unwrapped(&guard)));
-                this.rule(*body, text);
-                text.open(format!("if (!{name}.part()) {{"));
-                text.line("break;");
-                text.close("}");
-                text.line(format!("iteration({site});"));
-                text.close("}");
-            }),
-            Rule::RecursiveWhile { condition, body } => self.sequence(id, text, &mut |this, name, text| {
-                let guard = this.guard(*condition);
-                text.open_marked(span, format!("while ({}) {{", unwrapped(&guard)));
-                this.rule(*body, text);
-                text.line(format!("{name}.part();"));
-                text.line(format!("iteration({site});"));
-                text.close("}");
-            }),
+            Rule::Iterate(body) => self.looped(None, *body, true, id, text),
+            Rule::While { condition, body } => self.looped(Some(*condition), *body, true, id, text),
+            Rule::RecursiveWhile { condition, body } => self.looped(Some(*condition), *body, false, id, text),
             Rule::Local { start, len, initialisations, body } => {
                 let locals = program.function_lists[*start as usize..(*start + *len) as usize].to_vec();
                 self.local(&locals, *initialisations, *body, id, text);
@@ -187,6 +163,9 @@ impl Generator<'_> {
             text.marked(span, format!("(void){}({}{place});", plan.name, listed(&codes)));
         }
         let mut list = vec![site.to_string(), unwrapped(&value).to_string()];
+        if self.storage(function).stepped {
+            list.insert(0, format!("next.{}", plan.name));
+        }
         list.extend(codes.into_iter().map(|code| unwrapped(&code.text).to_string()));
         let call = match plan.role {
             Role::Shared => format!("{}.write({});", plan.member, list.join(", ")),
@@ -252,7 +231,7 @@ impl Generator<'_> {
             sites.push(site);
         }
         let (statements, codes) = self.hoist(codes, false);
-        let mut list = Vec::new();
+        let mut list = vec!["next".to_string()];
         for (place, (code, domain)) in codes.into_iter().zip(&parameters).enumerate() {
             let ty = self.parameter_type(*domain);
             let text = self.convert(code, ty, assumed[place], sites[place]);
@@ -298,6 +277,29 @@ impl Generator<'_> {
         text.line(format!("{name}.end();"));
         text.close("}");
         self.frame.scope.release(&name);
+    }
+
+    /// A loop while the condition holds, whose rounds are parts of a sequence; it may end with a round without updates.
+    fn looped(&mut self, condition: Option<TermId>, body: RuleId, ends_idle: bool, id: RuleId, text: &mut Text) {
+        let span = self.program.rule_span(id);
+        let site = self.sites.number(span);
+        self.needs.insert(Need::Rounds);
+        self.sequence(id, text, &mut |this, name, text| {
+            match condition.map(|condition| this.guard(condition)) {
+                Some(guard) => text.open_marked(span, format!("while ({}) {{", unwrapped(&guard))),
+                None => text.open("for (;;) {"),
+            }
+            this.rule(body, text);
+            if ends_idle {
+                text.open(format!("if (!{name}.part()) {{"));
+                text.line("break;");
+                text.close("}");
+            } else {
+                text.line(format!("{name}.part();"));
+            }
+            text.line(format!("iteration({site});"));
+            text.close("}");
+        });
     }
 
     /// `target <- procedure(arguments)`

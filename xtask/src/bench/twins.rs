@@ -93,9 +93,9 @@ fn generate(binary: &Path, model: &str, folder: &Path) -> Result<PathBuf, Failur
     let header = header.ok_or_else(|| format!("nothing was generated from {model}.asm"))?;
     let name = header.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let mut command = Command::new("g++");
-    command.args(["-std=c++20", "-O2"]).arg(format!("-DHEADER=\"{name}.hpp\"")).arg(format!("-DMODEL={name}"));
+    command.args(["-std=c++20", "-O2"]).arg(format!("-DSOURCE=<{name}.cpp>")).arg(format!("-DMODEL={name}"));
     command.arg("-I").arg(&made).arg("-I").arg(made.join("runtime/include")).arg("-o").arg(&target);
-    done(command.arg(root.join("native/generated.cpp")).arg(header.with_extension("cpp")))?;
+    done(command.arg(root.join("native/generated.cpp")))?;
     Ok(target)
 }
 

@@ -17,8 +17,9 @@
 
 namespace groundstate::machine {
 
-/// What happened; the kinds of the machine, in its order.
-enum class FaultKind : std::uint8_t {
+/// What happened; the kinds of the machine, in its order. As wide as a site, so that a fault is given back without gaps:
+/// a step that gives none then writes two words and reads the same two.
+enum class FaultKind : std::uint32_t {
     none,
     inconsistent_update,
     out_of_domain,

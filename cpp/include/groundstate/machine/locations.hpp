@@ -185,6 +185,7 @@ class Locations {
 
     Cell& at(std::uint32_t number) { return values_[number]; }
     const Cell& at(std::uint32_t number) const { return values_[number]; }
+    void put(std::uint32_t number, Cell value) { values_[number] = std::move(value); }
 
     /// Calls visit(arguments, value) for each location.
     template <class Visit>

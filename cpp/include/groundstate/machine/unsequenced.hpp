@@ -1,8 +1,12 @@
 // Locations that no `seq` and no turbo rule updates, so that the step is their only unit: cheaper than Locations.
 //
-// `Location` is a function without arguments, `FewLocations` one with 64 locations at most. `DisjointLocations` are those of which a step never updates one twice with
-// different values, `WholeArray` those that a step updates all or not at all. The generator proves which of them a
-// function can be (crates/generate/src/form.rs); whatever it cannot prove has the form Locations, which takes all.
+// `Location` is a function without arguments, `FewLocations` one with 64 locations at most, `Word` (word.hpp) one whose
+// values all fit in a machine word. `WholeArray` are locations that a step updates all or not at all, `DisjointLocations`
+// those of which a step never updates one twice with different values. The generator proves which of them a function can
+// be (crates/generate/src/form.rs); whatever it cannot prove has the form Locations, which takes all.
+//
+// All but the last keep what they know of a running step in a `Next`, which `begin` gives and `commit` takes. It is a
+// local variable of the step, so that compilers hold it in registers; a step that fails just leaves it.
 #pragma once
 
 #include <array>
@@ -10,62 +14,21 @@
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "locations.hpp"
 
 namespace groundstate::machine {
 
-/// The one location of a function without arguments.
-template <class Cell>
-class Location {
-  public:
-    std::uint32_t number(Site) const noexcept { return 0; }
-    const Cell& read() const noexcept { return value_; }
-    Cell& at(std::uint32_t) noexcept { return value_; }
+/// Whether updates of one step may clash; where they cannot, nobody looks for it.
+enum class Clashes : bool { impossible, possible };
 
-    template <class Visit>
-    void each(Visit&& visit) const {
-        visit(std::tuple<>{}, value_);
-    }
-
-    void update(Site site, Cell value) {
-        if (updated_ != 0) {
-            if (!(next_ == value)) [[unlikely]] {
-                fail(FaultKind::inconsistent_update, rule_, site);
-            }
-            return;
-        }
-        next_ = std::move(value);
-        rule_ = site;
-        updated_ = 1;
-    }
-
-    std::size_t commit() {
-        const std::size_t count = updated_;
-        if (count != 0) {
-            value_ = std::move(next_);
-            updated_ = 0;
-        }
-        return count;
-    }
-    void roll_back() noexcept { updated_ = 0; }
-    /// No intermediate state is ever made.
-    void swap_original(bool) const noexcept {}
-
-  private:
-    Cell value_{};
-    Cell next_{};
-    Site rule_ = 0;
-    std::uint32_t updated_ = 0;
-};
-
-/// An array of at most 64 locations: a bit says which of them the step has updated.
-template <class Cell, class... Dimensions>
-class FewLocations {
+/// What all forms have in common whose locations are numbered by their place in an array. `Form` has `cell(place)`.
+template <class Form, class Cell, class... Dimensions>
+class Placed {
   public:
     static constexpr std::size_t size = (std::size_t{1} * ... * Dimensions::size);
-    static_assert(size <= 64);
 
     template <class... Arguments>
     std::uint32_t number(Site site, const Arguments&... arguments) const {
@@ -78,53 +41,109 @@ class FewLocations {
     template <class... Arguments>
     Cell read(const Arguments&... arguments) const {
         std::size_t place = 0;
-        return find_place<Dimensions...>(place, arguments...) ? values_[place] : Cell{};
+        return find_place<Dimensions...>(place, arguments...) ? Cell{form().cell(place)} : Cell{};
     }
     template <class... Arguments>
-    const Cell& get(const Arguments&... arguments) const {
-        return values_[place_of<Dimensions...>(arguments...)];
+    decltype(auto) get(const Arguments&... arguments) const {
+        return form().cell(place_of<Dimensions...>(arguments...));
     }
-    Cell& at(std::uint32_t number) noexcept { return values_[number]; }
-
     template <class Visit>
     void each(Visit&& visit) const {
         for (std::size_t place = 0; place < size; ++place) {
-            visit(arguments_at<Dimensions...>(place), values_[place]);
+            visit(arguments_at<Dimensions...>(place), form().cell(place));
         }
     }
 
-    template <class... Arguments>
-    void update(Site site, Cell value, const Arguments&... arguments) {
-        const std::size_t place = place_of<Dimensions...>(arguments...);
-        const std::uint64_t bit = std::uint64_t{1} << place;
-        if ((updated_ & bit) != 0) {
-            if (!(next_[place] == value)) [[unlikely]] {
-                fail(FaultKind::inconsistent_update, rules_[place], site);
+  private:
+    const Form& form() const noexcept { return static_cast<const Form&>(*this); }
+};
+
+/// The one location of a function without arguments.
+template <Clashes clashes, class Cell>
+class Location : public Placed<Location<clashes, Cell>, Cell> {
+  public:
+    struct Next {
+        Cell value;
+        Site rule;  ///< that updates it; 0: none
+    };
+
+    const Cell& cell(std::size_t) const noexcept { return value_; }
+    void put(std::uint32_t, Cell value) noexcept { value_ = std::move(value); }
+
+    Next begin() const {
+        if constexpr (copied) {
+            return {value_, 0};
+        } else {
+            return {Cell{}, 0};
+        }
+    }
+    void update(Next& next, Site site, Cell value) const {
+        if (clashes == Clashes::possible && next.rule != 0) {
+            if (!(next.value == value)) [[unlikely]] {
+                fail(FaultKind::inconsistent_update, next.rule, site);
             }
             return;
         }
-        updated_ |= bit;
-        next_[place] = std::move(value);
-        rules_[place] = site;
+        next.value = std::move(value);
+        next.rule = site;
+    }
+    bool commit(Next& next) {
+        if (copied || next.rule != 0) {
+            value_ = std::move(next.value);
+        }
+        return next.rule != 0;
     }
 
-    std::size_t commit() {
-        std::size_t count = 0;
-        for (; updated_ != 0; updated_ &= updated_ - 1) {
-            ++count;
-            const auto place = static_cast<std::size_t>(std::countr_zero(updated_));
+  private:
+    // What is copied in no time needs no branch at the end of a step.
+    static constexpr bool copied = std::is_trivially_copyable_v<Cell>;
+
+    Cell value_{};
+};
+
+/// An array of at most 64 locations: a bit says which of them the step has updated.
+template <Clashes clashes, class Cell, class... Dimensions>
+class FewLocations : public Placed<FewLocations<clashes, Cell, Dimensions...>, Cell, Dimensions...> {
+  public:
+    static constexpr std::size_t size = (std::size_t{1} * ... * Dimensions::size);
+    static_assert(size <= 64);
+
+    struct Next {
+        std::uint64_t updated = 0;
+    };
+
+    const Cell& cell(std::size_t place) const noexcept { return values_[place]; }
+    void put(std::uint32_t number, Cell value) noexcept { values_[number] = std::move(value); }
+
+    Next begin() const noexcept { return {}; }
+    template <class... Arguments>
+    void update(Next& next, Site site, Cell value, const Arguments&... arguments) {
+        const std::size_t place = place_of<Dimensions...>(arguments...);
+        const std::uint64_t bit = std::uint64_t{1} << place;
+        if constexpr (clashes == Clashes::possible) {
+            if ((next.updated & bit) != 0) {
+                if (!(next_[place] == value)) [[unlikely]] {
+                    fail(FaultKind::inconsistent_update, rules_[place], site);
+                }
+                return;
+            }
+            rules_[place] = site;
+        }
+        next.updated |= bit;
+        next_[place] = std::move(value);
+    }
+    bool commit(Next& next) {
+        for (std::uint64_t left = next.updated; left != 0; left &= left - 1) {
+            const auto place = static_cast<std::size_t>(std::countr_zero(left));
             values_[place] = std::move(next_[place]);
         }
-        return count;
+        return next.updated != 0;
     }
-    void roll_back() noexcept { updated_ = 0; }
-    void swap_original(bool) const noexcept {}
 
   private:
     std::array<Cell, size> values_{};
     std::array<Cell, size> next_{};
-    std::array<Site, size> rules_{};
-    std::uint64_t updated_ = 0;
+    std::array<Site, clashes == Clashes::possible ? size : 0> rules_{};
 };
 
 /// As Locations, without looking for clashes. INVARIANT: a step updates each location with one value at most.
@@ -140,60 +159,36 @@ class DisjointLocations : public Locations<Cell, Sparse, Capacity, Dimensions...
 /// Two arrays: the values of this state and of the next one. INVARIANT: a step that updates one location updates all.
 /// `Capacity` is its size, or 0 if it stands on the heap.
 template <class Cell, std::size_t Capacity, class... Dimensions>
-class WholeArray {
+class WholeArray : public Placed<WholeArray<Cell, Capacity, Dimensions...>, Cell, Dimensions...> {
   public:
-    static constexpr std::size_t size = (std::size_t{1} * ... * Dimensions::size);
+    struct Next {
+        bool updated = false;
+    };
 
     WholeArray() {
-        values_.resize(size);
-        next_.resize(size);
+        values_.resize(this->size);
+        next_.resize(this->size);
     }
 
-    template <class... Arguments>
-    std::uint32_t number(Site site, const Arguments&... arguments) const {
-        std::size_t place = 0;
-        if (!find_place<Dimensions...>(place, arguments...)) [[unlikely]] {
-            fail(FaultKind::limit, site, site);
-        }
-        return static_cast<std::uint32_t>(place);
-    }
-    template <class... Arguments>
-    Cell read(const Arguments&... arguments) const {
-        std::size_t place = 0;
-        return find_place<Dimensions...>(place, arguments...) ? values_[place] : Cell{};
-    }
-    template <class... Arguments>
-    const Cell& get(const Arguments&... arguments) const {
-        return values_[place_of<Dimensions...>(arguments...)];
-    }
-    Cell& at(std::uint32_t number) noexcept { return values_[number]; }
+    const Cell& cell(std::size_t place) const noexcept { return values_[place]; }
+    void put(std::uint32_t number, Cell value) noexcept { values_[number] = std::move(value); }
 
-    template <class Visit>
-    void each(Visit&& visit) const {
-        for (std::size_t number = 0; number < size; ++number) {
-            visit(arguments_at<Dimensions...>(number), values_[number]);
-        }
-    }
-
+    Next begin() const noexcept { return {}; }
     template <class... Arguments>
-    void update(Site, Cell value, const Arguments&... arguments) {
+    void update(Next& next, Site, Cell value, const Arguments&... arguments) {
         next_[place_of<Dimensions...>(arguments...)] = std::move(value);
-        updated_ = true;
+        next.updated = true;
     }
-
-    std::size_t commit() {
-        if (!updated_) return 0;
-        std::swap(values_, next_);
-        updated_ = false;
-        return size;
+    bool commit(Next& next) {
+        if (next.updated) {
+            std::swap(values_, next_);
+        }
+        return next.updated;
     }
-    void roll_back() noexcept { updated_ = false; }
-    void swap_original(bool) const noexcept {}
 
   private:
     Series<Cell, Capacity> values_;
     Series<Cell, Capacity> next_;
-    bool updated_ = false;
 };
 
 }  // namespace groundstate::machine

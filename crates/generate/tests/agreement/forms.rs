@@ -32,16 +32,34 @@ fn case(name: &str, main: &str, member: &str) -> Case {
 
 #[test]
 fn forms() {
-    let few = "FewLocations<std::int64_t, gs::Between<0, 3>> f_";
+    let few = "FewLocations<gs::Clashes::possible, std::int64_t, gs::Between<0, 3>> f_";
     let cases = vec![
         case("two loops", "par forall $i in D do f($i) := $i forall $j in D do f($j) := $j + n n := n + 1 endpar", few),
-        case("a variable that names nothing", "forall $i in D, $j in D do f($i) := $j", few),
+        case(
+            "a variable that names nothing",
+            "forall $i in D, $j in D do f($i) := $j",
+            "gs::Word<gs::Clashes::possible, gs::IntegerCode<0, 3>, gs::Between<0, 3>> f_",
+        ),
+        case(
+            "undef in a word, below zero",
+            "par forall $i in D do if f($i) = 3 then f($i) := undef else f($i) := -$i endif n := n + 1 endpar",
+            "gs::Word<gs::Clashes::impossible, gs::MaybeCode<gs::IntegerCode<-3, 3>>, gs::Between<0, 3>> f_",
+        ),
+        case(
+            "one bit too many",
+            "forall $i in D with f($i) >= 0 do f($i) := (f($i) + 1) mod 65537",
+            "gs::FewLocations<gs::Clashes::impossible, std::int64_t, gs::Between<0, 3>> f_",
+        ),
         case(
             "branches apart",
-            "forall $i in D do if $i < 2 then f($i) := 1 else f(($i + 2) mod 4) := 2 + n endif",
+            "forall $i in D do if $i < 2 then f($i) := 1 else f(($i + 2) mod 4) := 2 + f($i) * 3 endif",
             few,
         ),
-        case("one place for two", "forall $i in D, $j in D do g($i, $i) := $j", "gs::FewLocations<std::int64_t, gs::B"),
+        case(
+            "one place for two",
+            "forall $i in D, $j in D do g($i, $i) := $j",
+            "IntegerCode<0, 3>, gs::Between<0, 3>, gs::B",
+        ),
         case(
             "whole, in a branch",
             "par if n mod 2 = 0 then forall $i in Large do l($i) := l(99 - $i) + n endif n := n + 1 endpar",
@@ -66,7 +84,7 @@ fn forms() {
         case(
             "one location twice",
             "par n := 1 if f(0) = 0 then n := 2 - n endif endpar",
-            "gs::Location<std::int64_t> n_",
+            "gs::Location<gs::Clashes::possible, std::int64_t> n_",
         ),
         case("sums beyond 64 bits", "par n := n * 2 + 4000000000000000000 f(n mod 4) := n endpar", "n_"),
     ];

@@ -1,0 +1,110 @@
+//! In which class of the runtime the locations of a function stand.
+//!
+//! In: what the generator assumes of the function, and its [`Form`]. Out: a [`Storage`], the class as C++ writes it. Few
+//! locations whose values take few bits stand in one machine word: how many bits an integer takes is what intervals say.
+
+use program::{DomainKind, FunctionId};
+
+use crate::form::Form;
+use crate::generator::Generator;
+use crate::plan::{FunctionPlan, Role, integer};
+use crate::types::Type;
+
+/// LIMIT: locations whose updates stand within the object; those of larger functions are on the heap.
+const LOG_IN_PLACE: u64 = 64;
+/// The bits of a machine word.
+const WORD: u64 = 64;
+
+/// See the module.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Storage {
+    /// The class.
+    pub class: String,
+    /// What it knows of a running step is a local variable of the step, not its own.
+    pub stepped: bool,
+}
+
+impl Generator<'_> {
+    /// Where the locations of a function stand that has any.
+    pub fn storage(&self, id: FunctionId) -> Storage {
+        let function = self.plan.function(id);
+        let total = self.assumed.total[id.0 as usize];
+        let cell = self.plan.cpp(function.ty, total);
+        let whole = self.is_whole(id);
+        let capacity = self.capacity(&self.program.function(id).name);
+        let sparse = match (whole, self.options.bare) {
+            (true, _) => "gs::Nowhere".to_string(),
+            (false, false) => "gs::Growing".to_string(),
+            (false, true) => format!("gs::AtMost<{}>", capacity.unwrap_or(0)),
+        };
+        let locations = function.dense() + u64::from(capacity.unwrap_or(0));
+        let log = match (whole && locations <= LOG_IN_PLACE, self.options.bare) {
+            (true, _) | (_, true) => locations.max(1) * 9,
+            _ => 0,
+        };
+        let dimensions: String = function.dimensions.iter().map(|dimension| format!(", {}", dimension.text)).collect();
+        let kept = |class: String| Storage { class, stepped: false };
+        let stepped = |class: String| Storage { class, stepped: true };
+        match function.role {
+            Role::Input => return kept(format!("gs::Inputs<{cell}, {sparse}{dimensions}>")),
+            Role::Shared => return kept(format!("gs::SharedLocations<{cell}, {sparse}, {log}{dimensions}>")),
+            _ => {}
+        }
+        let form = self.form(id);
+        let clashes = match form {
+            Form::General | Form::Unsequenced => "gs::Clashes::possible",
+            Form::Disjoint | Form::Whole => "gs::Clashes::impossible",
+        };
+        match form {
+            Form::General => {}
+            _ if function.dimensions.is_empty() => return stepped(format!("gs::Location<{clashes}, {cell}>")),
+            Form::Unsequenced | Form::Disjoint | Form::Whole if whole && locations <= LOG_IN_PLACE => {
+                if let Some((code, bits)) = self.code(id, function, total)
+                    && bits * locations <= WORD
+                {
+                    return stepped(format!("gs::Word<{clashes}, {code}{dimensions}>"));
+                }
+                if form != Form::Whole {
+                    return stepped(format!("gs::FewLocations<{clashes}, {cell}{dimensions}>"));
+                }
+            }
+            _ => {}
+        }
+        match form {
+            Form::Whole => {
+                let capacity = if self.options.bare { function.dense() } else { 0 };
+                stepped(format!("gs::WholeArray<{cell}, {capacity}{dimensions}>"))
+            }
+            Form::Disjoint => kept(format!("gs::DisjointLocations<{cell}, {sparse}, {log}{dimensions}>")),
+            Form::General | Form::Unsequenced => kept(format!("gs::Locations<{cell}, {sparse}, {log}{dimensions}>")),
+        }
+    }
+
+    /// How a function's values are written in a few bits, and in how many.
+    fn code(&self, id: FunctionId, function: &FunctionPlan, total: bool) -> Option<(String, u64)> {
+        let ordinals = |count: usize| -> Option<(String, u64)> {
+            let count = u64::try_from(count).ok().filter(|count| *count > 0)?;
+            Some((format!("gs::OrdinalCode<{}, {count}>", self.plan.cpp(function.ty, true)), count))
+        };
+        let (code, count) = match function.ty {
+            Type::Boolean => ordinals(2),
+            Type::Enum(domain) => match &self.program.domain(domain).kind {
+                DomainKind::Enum { literals } => ordinals(literals.len()),
+                _ => None,
+            },
+            Type::Element(domain) => match &self.program.domain(domain).kind {
+                DomainKind::Abstract { elements, dynamic: false } => ordinals(elements.len()),
+                _ => None,
+            },
+            Type::Integer => {
+                let values = self.assumed.values[id.0 as usize];
+                let count = i128::from(values.high) - i128::from(values.low) + 1;
+                let count = u64::try_from(count).ok().filter(|count| (1..1 << 32).contains(count))?;
+                Some((format!("gs::IntegerCode<{}, {}>", integer(values.low), integer(values.high)), count))
+            }
+            _ => None,
+        }?;
+        let (code, count) = if total { (code, count) } else { (format!("gs::MaybeCode<{code}>"), count + 1) };
+        Some((code, u64::from(64 - (count - 1).leading_zeros()).max(1)))
+    }
+}
