@@ -54,9 +54,7 @@ bench: ## steps per second and peak memory; with CORPUS=path also of the public 
 	$(CARGO) xtask bench $(if $(CORPUS),--corpus $(CORPUS)) $(if $(PEER),--peer $(PEER)) $(if $(TLC),--tlc $(TLC))
 
 bench-cpp: ## what it costs to hand data over in C++, and to draw a simulated frame
-	sh cpp/run.sh plain
-	target/cpp/plain/bench/hand_over
-	target/cpp/plain/adapters/simulated/tests/simulated_frame
+	sh cpp/bench/run.sh
 
 corpus: ## make corpus CORPUS=path: compare with recorded results of the public corpus, count charts, hold generated code to it
 	$(CARGO) xtask corpus $(CORPUS)

@@ -157,6 +157,9 @@ void table(const char* title, Rates rates, std::int64_t overhead_ns, double seco
 #ifdef GROUNDSTATE_BENCH_BOOST
     measure<BoostQueue<T>, T>("boost::lockfree::spsc_queue", rates, overhead_ns, seconds);
 #endif
+#ifdef GROUNDSTATE_BENCH_ICEORYX2
+    measure<Iceoryx2<T>, T>("iceoryx2", rates, overhead_ns, seconds);
+#endif
 }
 
 // What this thread has worked, whatever else the machine does.
@@ -198,6 +201,9 @@ void table_alone(const char* title) {
     measure_alone<SequenceLock<T>, T>("sequence lock");
 #ifdef GROUNDSTATE_BENCH_BOOST
     measure_alone<BoostQueue<T>, T>("boost::lockfree::spsc_queue");
+#endif
+#ifdef GROUNDSTATE_BENCH_ICEORYX2
+    measure_alone<Iceoryx2<T>, T>("iceoryx2");
 #endif
 }
 

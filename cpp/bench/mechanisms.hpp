@@ -16,6 +16,16 @@
 
 #include "groundstate/runtime.hpp"
 
+#ifdef GROUNDSTATE_BENCH_ICEORYX2
+// Of bench/iceoryx2.
+extern "C" {
+void* bench_iceoryx2_open(std::uint32_t number, std::size_t words);
+std::uint64_t* bench_iceoryx2_loan(void* channel);
+void bench_iceoryx2_send(void* channel);
+const std::uint64_t* bench_iceoryx2_take(void* channel);
+}
+#endif
+
 namespace bench {
 
 using namespace groundstate;
@@ -239,6 +249,49 @@ class BoostQueue {
     using Queue = boost::lockfree::spsc_queue<T, boost::lockfree::capacity<8>>;
     std::unique_ptr<Queue> queue_ = std::make_unique<Queue>();
     T staged_, taken_;
+};
+#endif
+
+#ifdef GROUNDSTATE_BENCH_ICEORYX2
+// iceoryx2, made for processes: a publisher and a subscriber in shared memory, in place, the latest datum alone.
+template <class T>
+class Iceoryx2 {
+  public:
+    void prepare() {
+        static std::uint32_t number = 0;
+        channel_ = bench_iceoryx2_open(number++, std::tuple_size_v<T>);
+        if (channel_ == nullptr) {
+            std::abort();
+        }
+    }
+
+    template <class Fill, class Watch>
+    void write(Fill fill, Watch& timer) {
+        timer.go();
+        std::uint64_t* const words = bench_iceoryx2_loan(channel_);
+        timer.rest();
+        if (words == nullptr) {
+            std::abort();
+        }
+        fill(*reinterpret_cast<T*>(words));
+        timer.go();
+        bench_iceoryx2_send(channel_);
+        timer.rest();
+    }
+
+    template <class Look, class Watch>
+    bool read(Look look, Watch& timer) {
+        timer.go();
+        const std::uint64_t* const words = bench_iceoryx2_take(channel_);
+        timer.rest();
+        if (words != nullptr) {
+            look(*reinterpret_cast<const T*>(words));
+        }
+        return words != nullptr;
+    }
+
+  private:
+    void* channel_ = nullptr;
 };
 #endif
 
