@@ -1,5 +1,6 @@
 #!/bin/sh
-# Runs every fuzz target for a while. Usage: fuzz/run.sh [SECONDS]. The work is done by `cargo xtask fuzz`.
+# Runs every fuzz target for a while. Usage: fuzz/run.sh [SECONDS]. The work is done by `cargo xtask fuzz`, here as the other
+# tests have built it.
 set -eu
 cd "$(dirname "$0")/.."
-exec cargo xtask fuzz --seconds "${1:-20}"
+exec cargo run --quiet --locked --package xtask -- fuzz --seconds "${1:-20}"
