@@ -15,6 +15,8 @@ import ../../library/patterns/ControlTask
 import VisionTasks
 import MotionTasks
 
+export *
+
 signature:
 	static operator: Scheduler
 	static operator_task: Task

@@ -5,6 +5,8 @@ import ../../library/std/StandardLibrary
 import ../../library/patterns/ControlTask
 import VisionTasks
 
+export *
+
 signature:
 
 definitions:

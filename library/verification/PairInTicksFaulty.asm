@@ -6,7 +6,7 @@ import ../std/CTLLibrary
 import ../patterns/ControlTask
 import BufferPair
 import Ticking
-import PairFaults
+import BufferFaults
 
 signature:
 

@@ -7,7 +7,7 @@ import ../std/LTLLibrary
 import ../patterns/ControlTask
 import BufferPair
 import Interleaving
-import PairFaults
+import BufferFaults
 
 signature:
 

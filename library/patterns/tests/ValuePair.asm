@@ -5,6 +5,8 @@ asm ValuePair
 import ../../std/StandardLibrary
 import ../ControlTask
 
+export *
+
 signature:
 	static sense: Scheduler
 	static sense_task: Task

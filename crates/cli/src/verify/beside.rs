@@ -1,7 +1,7 @@
 //! `MODEL.verify.yaml`: what is to be verified of a model, and with which inputs, in a file beside it.
 //!
-//! In: the file, if it is there. Out: a [`Beside`]. What the command line says of an input or of `terminal` and `fair` counts
-//! before it; properties are added to those of the model.
+//! In: the file, if it is there. Out: a [`Beside`]. What the command line says of an input, of `terminal` and `fair`, and what it
+//! assumes, counts before it; properties are added to those of the model.
 
 use std::path::{Path, PathBuf};
 
@@ -21,6 +21,8 @@ pub struct Beside {
     pub fair: Option<String>,
     /// Invariants, CTL and LTL formulas.
     pub properties: [Vec<String>; 3],
+    /// Further assumptions, as `--assume` takes them.
+    pub assumptions: Vec<String>,
 }
 
 /// Where the file of a model is.
@@ -60,7 +62,9 @@ fn understood(root: &Node) -> Result<Beside, Box<Diagnostic>> {
     let entries = match &root.shape {
         Shape::Map(entries) => entries,
         Shape::Text(text) if text.is_empty() => return Ok(beside),
-        _ => return Err(fault(root.span, "a mapping is expected: bounds, terminal, fair, invariants, ctl, ltl")),
+        _ => {
+            return Err(fault(root.span, "a mapping is expected: bounds, assume, terminal, fair, invariants, ctl, ltl"));
+        }
     };
     for (Key { text: key, span }, node) in entries {
         match key.as_str() {
@@ -77,6 +81,7 @@ fn understood(root: &Node) -> Result<Beside, Box<Diagnostic>> {
             "invariants" => beside.properties[0] = texts(node)?,
             "ctl" => beside.properties[1] = texts(node)?,
             "ltl" => beside.properties[2] = texts(node)?,
+            "assume" => beside.assumptions = texts(node)?,
             other => return Err(fault(*span, format!("`{other}` says nothing here"))),
         }
     }

@@ -75,6 +75,10 @@ pub struct Arguments {
     /// Another formula over the LTL library, which the model imports; may be repeated
     #[arg(long, value_name = "FORMULA")]
     ltl: Vec<String>,
+    /// Another assumption, as INVAR: states in which it is not true are left out, or steps if it reads inputs; may be
+    /// repeated
+    #[arg(long = "assume", value_name = "TERM")]
+    assumptions: Vec<String>,
     /// Stop at the first violation
     #[arg(long)]
     first: bool,
@@ -218,6 +222,14 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         return Err(Failure::usage("no scenario can load standard input: write the model to a file"));
     }
     let Some(beside) = bounded.beside(shell, &mut loaded.sources, &arguments.model)? else { return Ok(Exit::World) };
+    // What the command line assumes counts instead of what the file does.
+    let assumed = if arguments.assumptions.is_empty() { &beside.assumptions } else { &arguments.assumptions };
+    for text in assumed {
+        if let Err(faults) = loaded.property(PropertyKind::Invar, "--assume", text) {
+            shell.diagnostics(&loaded.sources, &faults)?;
+            return Ok(Exit::World);
+        }
+    }
     let said = [&arguments.invariants, &arguments.ctl, &arguments.ltl];
     let kinds = [PropertyKind::Invariant, PropertyKind::Ctl, PropertyKind::Ltl];
     for (((kind, option), said), beside) in kinds.into_iter().zip(OPTIONS).zip(said).zip(&beside.properties) {
@@ -291,6 +303,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Err(trouble) => return no_start(shell, &teller, trouble),
     };
     report.unreachable.retain(|span| span.file == root || (arguments.imports && users(span.file)));
+    teller.assumed(shell, assumed)?;
     teller.report(shell, &report)?;
     if let Some(path) = &arguments.counterexample {
         let model = (arguments.model.as_path(), fingerprint.as_str());

@@ -101,7 +101,26 @@ pub struct Explored {
     partial_order: Option<&'static str>,
 }
 
+/// `{"type":"assumed",…}`
+#[derive(Debug, Serialize)]
+struct AssumedLine<'a> {
+    r#type: &'static str,
+    term: &'a str,
+}
+
 impl Teller<'_> {
+    /// Tells under which assumptions that are not the model's the verdicts are given.
+    pub fn assumed(&self, shell: &mut Shell, assumptions: &[String]) -> Result<(), Failure> {
+        for term in assumptions.iter().map(|text| text.trim()) {
+            if shell.json() {
+                shell.object(&AssumedLine { r#type: "assumed", term })?;
+            } else if shell.talks() {
+                writeln!(shell.out(), "assumed   {term}")?;
+            }
+        }
+        Ok(())
+    }
+
     /// Tells everything.
     pub fn report(&self, shell: &mut Shell, report: &Report) -> Result<(), Failure> {
         for span in &report.unreachable {

@@ -1,0 +1,152 @@
+//! The models that verify a system do what the system does: from the same initial state, with the lengths of elaborations that
+//! the system has, step by step, up to the quotient. So what is found of them is found of it.
+
+#![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use groundstate::simulate::read_value;
+use machine::{Choice, Environment, Limits, LocationRef, Machine, Show, TimeUnit, Value};
+use program::{DomainId, Program};
+use syntax::SourceFile;
+
+/// Reads files beside the importing one; one of them with a changed time.
+struct Disk {
+    elaboration: u32,
+}
+
+impl Disk {
+    fn read(&self, path: &Path) -> Result<SourceFile, String> {
+        let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+        let text = text.replace("case vs_elaborate: 120", &format!("case vs_elaborate: {}", self.elaboration));
+        Ok(SourceFile::new(path.display().to_string(), text))
+    }
+}
+
+impl model::Loader for Disk {
+    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        let path = Path::new(&importer.name).parent().unwrap_or(Path::new("")).join(format!("{path}.asm"));
+        // One file has one name however it is reached.
+        self.read(&path.canonicalize().map_err(|error| format!("{}: {error}", path.display()))?)
+    }
+}
+
+/// No fault is seeded; elaborations end when they do in the system. An endless one has to be told: the operator plans for
+/// 300 ticks.
+#[derive(Default)]
+struct Nominal {
+    planning: u32,
+}
+
+impl Environment for Nominal {
+    fn monitored(&mut self, program: &Program, location: LocationRef<'_>, codomain: DomainId) -> Result<Value, String> {
+        let location = location.show(program).to_string();
+        let text = match location.as_str() {
+            "seeded" => "NONE",
+            "endsNow(operator)" => {
+                self.planning = (self.planning + 1) % 300;
+                if self.planning == 0 { "true" } else { "false" }
+            }
+            _ => "false",
+        };
+        read_value(program, codomain, text)
+    }
+
+    fn choose(&mut self, _program: &Program, choice: &Choice<'_>) -> Result<usize, String> {
+        Err(format!("nothing is to be chosen among {}", choice.candidates()))
+    }
+
+    fn time(&mut self, _unit: TimeUnit) -> Result<i64, String> {
+        Err("no time is asked for".to_string())
+    }
+}
+
+struct Run {
+    machine: Machine,
+    environment: Nominal,
+}
+
+impl Run {
+    fn new(name: &str, elaboration: u32) -> Self {
+        let mut disk = Disk { elaboration };
+        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../examples/{name}.asm"));
+        let root = disk.read(&path).expect("the example is there");
+        let loaded = groundstate::load(root, &mut disk).unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics));
+        let mut machine = Machine::new(Arc::new(loaded.program), Limits::default());
+        let mut environment = Nominal::default();
+        machine.start(&mut environment).unwrap_or_else(|fault| panic!("{fault:?}"));
+        Self { machine, environment }
+    }
+
+    fn step(&mut self) {
+        self.machine.prepare(&mut self.environment).unwrap_or_else(|fault| panic!("{fault:?}"));
+        self.machine.commit();
+    }
+
+    /// What locations hold, undef left out.
+    fn state(&self) -> BTreeMap<String, String> {
+        let program = self.machine.program();
+        let all = self.machine.locations().into_iter();
+        all.map(|(location, value)| (location.show(program).to_string(), value.show(program).to_string()))
+            .filter(|(_, value)| value != "undef")
+            .collect()
+    }
+
+    /// What the quotient keeps: control states, locks and flags as they are, ticks as ages.
+    fn quotient(&self) -> BTreeMap<String, String> {
+        const SAME: [&str; 9] = [
+            "scheduler_currentPhase",
+            "sb_ctrlState",
+            "sem_state",
+            "semaq",
+            "indexUpdated",
+            "sb_pending",
+            "sb_fresh",
+            "task_deadlinesMissed",
+            "sem_illegalPost",
+        ];
+        const TICKS: [&str; 2] = ["task_periodStart", "sb_received"];
+        let state = self.state();
+        let clock: i64 = state["clock"].parse().expect("the clock is a number");
+        let kept = state.iter().filter_map(|(location, value)| {
+            let function = location.split('(').next().unwrap_or_default();
+            if SAME.contains(&function) {
+                return Some((location.clone(), value.clone()));
+            }
+            // The period of an asynchronous task begins never.
+            let tick: i64 = value.parse().ok()?;
+            (TICKS.contains(&function) && state.contains_key(&location.replace("periodStart", "period")))
+                .then(|| (location.clone(), (clock - tick).to_string()))
+        });
+        kept.collect()
+    }
+}
+
+fn check(system: &str, verified: &str, elaborations: &[u32], steps: u32) {
+    for &elaboration in elaborations {
+        let (mut system, mut verified) = (Run::new(system, elaboration), Run::new(verified, elaboration));
+        let (first, second) = (system.state(), verified.state());
+        for (location, value) in &first {
+            assert_eq!(second.get(location), Some(value), "{location} at the start");
+        }
+        for number in 0..steps {
+            system.step();
+            verified.step();
+            assert_eq!(system.quotient(), verified.quotient(), "elaboration {elaboration}, step {number}");
+        }
+    }
+}
+
+#[test]
+fn the_visual_servoing_robot() {
+    // As it is, and far above the period of the camera.
+    check("visual_servoing/VisualServoing", "visual_servoing/verification/VisualServoingInTicks", &[120, 230], 260);
+}
+
+#[test]
+fn the_complete_controller() {
+    // The operator's plan is sent.
+    check("visual_servoing/CompleteController", "visual_servoing/verification/CompleteControllerInTicks", &[120], 310);
+}

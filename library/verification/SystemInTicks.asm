@@ -1,0 +1,85 @@
+/* A system of tasks, to the tick: all of them step at once and the clock goes on, as the system's own main rule says.
+
+   An elaboration whose length varies may end at any tick up to its longest. All else, and so every bound, is as the system
+   has it. */
+module SystemInTicks
+
+import ../std/StandardLibrary
+import ../std/CTLLibrary
+import ../patterns/ControlTask
+import Quotient
+import SystemProperties
+
+export *
+
+signature:
+	// the elaboration that a task is at ends now, if it may
+	monitored endsNow: Scheduler -> Boolean
+
+	// The most ticks of an elaboration whose length varies, `oldest` of one without end; undef of all other phases.
+	controlled longest: SchedulePhase -> Integer
+
+	// the datum that the consumer works with is at most so many ticks old
+	derived isWithin: Prod(SwingingBuffer, Integer) -> Boolean
+	derived mayEnd: Scheduler -> Boolean
+	derived isEndless: Scheduler -> Boolean
+	// in the first phase of its cycle
+	derived isBeginning: Task -> Boolean
+
+definitions:
+	function isWithin($b in SwingingBuffer, $ticks in Integer) =
+		if isDef(sb_received($b)) then clock - sb_received($b) <= $ticks else true endif
+
+	function mayEnd($c in Scheduler) =
+		isDef(longest(scheduler_currentPhase($c)))
+
+	function isEndless($c in Scheduler) =
+		longest(scheduler_currentPhase($c)) = oldest
+
+	function isBeginning($t in Task) =
+		(exists $c in Scheduler, $p in SchedulePhase with
+			scheduler_mainThread($c) = $t
+			and action($p) = WAITING_TRIGGER
+			and nextPhase($p) = scheduler_currentPhase($c))
+
+	rule r_setTimes =
+		forall $c in Scheduler with mayEnd($c) do
+			if endsNow($c) then
+				time(scheduler_currentPhase($c)) := 0
+			endif
+
+	rule r_resetTimes =
+		forall $c in Scheduler with isDef(longest(before_phase($c))) do
+			time(before_phase($c)) := longest(before_phase($c))
+
+	// How long it has lasted does not matter.
+	rule r_stopEndless =
+		forall $c in Scheduler with isEndless($c) do
+			scheduler_actionStart($c) := 0
+
+	// A tick of the system; its main rule is the parameter.
+	rule r_tick($main in Rule) =
+		seq
+			r_setTimes[]
+			$main[]
+			r_observe[]
+			r_resetTimes[]
+			r_forget[]
+			r_stopEndless[]
+			r_remember[]
+		endseq
+
+	// a synchronous task never waits past its watchdog
+	invariant inv_watchdog over task_timeInWait:
+		(forall $t in Task with
+			task_kind($t) = SYNCHRONOUS
+			implies task_timeInWait($t) <= task_timeAllowed($t) - task_timeForElaboration($t))
+	// it begins each cycle at the tick at which the period before ends
+	invariant inv_periods over task_periodStart:
+		(forall $t in Task with
+			task_kind($t) = SYNCHRONOUS
+			implies (task_elapsedTimeOfPeriod($t) >= 0 and task_elapsedTimeOfPeriod($t) <= task_period($t)))
+
+	// with no assumption of fairness: whoever asks for a lock gets it or gives up, and everybody begins again and again
+	CTLSPEC ctlSpec_served: (forall $t in Task with ag(af(not isAsking($t))))
+	CTLSPEC ctlSpec_works: (forall $t in Task with ag(af(isBeginning($t)) and af(not isBeginning($t))))
