@@ -114,6 +114,13 @@ definitions:
 	invariant inv_nothingLost over unaccounted:
 		(forall $b in SwingingBuffer with
 			unaccounted($b) = (if (exists $c in Scheduler with isDue($c, $b)) then 1 else 0 endif))
+	// a buffer has two users, and nobody else comes to it
+	invariant inv_twoUsers over scheduler_currentPhase:
+		(forall $c in Scheduler with
+			contains({WRITING_ON_SB, READING_FROM_SB}, action(scheduler_currentPhase($c)))
+			implies (
+				contains(sem_users(sem(sharedMemory(scheduler_currentPhase($c)))), scheduler_mainThread($c))
+				and length(sem_users(sem(sharedMemory(scheduler_currentPhase($c))))) = 2))
 	// nobody asks for a lock while holding another, so tasks never wait for each other in a circle
 	invariant inv_oneLock over sem_state:
 		(forall $t in Task with size({$s in Semaphore | sem_state($s, $t) != READY : $s}) <= 1)

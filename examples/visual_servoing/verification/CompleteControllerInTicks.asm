@@ -2,13 +2,13 @@
    the paper, and however long the operator plans. */
 asm CompleteControllerInTicks
 
-import ../../../../../sys3/library/std/StandardLibrary
-import ../../../../../sys3/library/std/CTLLibrary
-import ../../../../../sys3/library/patterns/ControlTask
-import ../../../../../sys3/library/verification/BufferFaults
-import ../../../../../sys3/library/verification/Quotient
-import ../../../../../sys3/library/verification/SystemProperties
-import ../../../../../sys3/library/verification/SystemInTicks
+import ../../../library/std/StandardLibrary
+import ../../../library/std/CTLLibrary
+import ../../../library/patterns/ControlTask
+import ../../../library/verification/BufferFaults
+import ../../../library/verification/Quotient
+import ../../../library/verification/SystemProperties
+import ../../../library/verification/SystemInTicks
 import ../VisionTasks
 import ../MotionTasks
 import ../CompleteController

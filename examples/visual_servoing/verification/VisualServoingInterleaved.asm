@@ -1,14 +1,14 @@
 /* The visual servoing application without time: any of its tasks move in each step, one or several at once. */
 asm VisualServoingInterleaved
 
-import ../../../../../sys3/library/std/StandardLibrary
-import ../../../../../sys3/library/std/CTLLibrary
-import ../../../../../sys3/library/std/LTLLibrary
-import ../../../../../sys3/library/patterns/ControlTask
-import ../../../../../sys3/library/verification/BufferFaults
-import ../../../../../sys3/library/verification/Quotient
-import ../../../../../sys3/library/verification/SystemProperties
-import ../../../../../sys3/library/verification/SystemInterleaved
+import ../../../library/std/StandardLibrary
+import ../../../library/std/CTLLibrary
+import ../../../library/std/LTLLibrary
+import ../../../library/patterns/ControlTask
+import ../../../library/verification/BufferFaults
+import ../../../library/verification/Quotient
+import ../../../library/verification/SystemProperties
+import ../../../library/verification/SystemInterleaved
 import ../VisionTasks
 import ../VisualServoing
 
