@@ -30,6 +30,20 @@ impl<'a> Executor<'a> {
     pub fn for_each_binding(&mut self, binders: &[Binder], visit: &mut Visit<'_, 'a>) -> Outcome<ControlFlow<()>> {
         let Some((binder, rest)) = binders.split_first() else { return visit(self) };
         let elements = self.range_elements(binder.range)?;
+        let visited = self.for_each_element(elements, binder, rest, visit);
+        if visited.is_err() && self.is_unordered(binder.range) {
+            self.note_order(binder.range);
+        }
+        visited
+    }
+
+    fn for_each_element(
+        &mut self,
+        elements: Elements,
+        binder: &Binder,
+        rest: &[Binder],
+        visit: &mut Visit<'_, 'a>,
+    ) -> Outcome<ControlFlow<()>> {
         let visit_one = |this: &mut Self, visit: &mut Visit<'_, 'a>, value: Value| {
             this.bind(binder.slot, value);
             if rest.is_empty() { visit(this) } else { this.for_each_binding(rest, visit) }
@@ -70,6 +84,21 @@ impl<'a> Executor<'a> {
             }
         }
         Ok(ControlFlow::Continue(()))
+    }
+
+    /// Whether the elements of a range are to be interchangeable.
+    #[inline]
+    pub fn is_unordered(&self, range: TermId) -> bool {
+        self.core.unordered.get(range.0 as usize).is_some_and(|unordered| *unordered)
+    }
+
+    /// A fault was met among elements that are to be interchangeable: in another order it might have been another one, or
+    /// none. An alternative that is dead has met none.
+    #[cold]
+    fn note_order(&mut self, range: TermId) {
+        if !self.environment.branches().is_some_and(|branches| branches.dead) {
+            self.core.order_mattered.get_or_insert(self.program.term_span(range));
+        }
     }
 
     fn range_elements(&mut self, range: TermId) -> Outcome<Elements> {

@@ -225,7 +225,10 @@ impl<'a> Executor<'a> {
     ) -> Outcome<Value> {
         let program = self.program;
         let (mut satisfied, mut refuted) = (0u64, false);
-        let _ = self.for_each_binding(program.binder_list(binders), &mut |this| {
+        let binders = program.binder_list(binders);
+        // Whether there is a fault must not depend on which element comes first.
+        let looks_at_all = binders.iter().any(|binder| self.is_unordered(binder.range));
+        let _ = self.for_each_binding(binders, &mut |this| {
             let holds = match condition {
                 Some(condition) => this.holds(condition)?,
                 None => true,
@@ -237,7 +240,7 @@ impl<'a> Executor<'a> {
                 Quantifier::Exists => satisfied > 0,
                 Quantifier::ExistsUnique => satisfied > 1,
             };
-            Ok(if decided { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+            Ok(if decided && !looks_at_all { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
         })?;
         Ok(Value::Boolean(match quantifier {
             Quantifier::Forall => !refuted,

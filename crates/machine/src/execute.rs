@@ -66,6 +66,10 @@ pub(crate) struct Core {
     pub choices: Choices,
     /// Every alternative is wanted, and what is looked at is noted: see [`crate::explore`].
     pub exploring: bool,
+    /// By term: see [`crate::explore::Settings::unordered`].
+    pub unordered: std::sync::Arc<[bool]>,
+    /// Where a fault may depend on the order of elements.
+    pub order_mattered: Option<Span>,
     /// A location was set to undef from outside.
     pub unset: bool,
     /// Some function is shared.

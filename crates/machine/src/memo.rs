@@ -89,6 +89,11 @@ impl Memo {
         self.values[place as usize] = value;
     }
 
+    /// Keeps nothing of what it has kept.
+    pub fn forget(&mut self) {
+        self.versions.fill(0);
+    }
+
     /// Where the values of each function are kept.
     pub fn shelves(&self) -> &[Option<Shelf>] {
         &self.shelves

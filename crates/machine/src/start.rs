@@ -49,6 +49,8 @@ impl Core {
             plain: vec![false; program.functions.len()],
             choices: crate::execute::Choices::default(),
             exploring: false,
+            unordered: std::sync::Arc::default(),
+            order_mattered: None,
             unset: false,
             shared: program.functions.iter().any(|function| function.kind == FunctionKind::Shared),
             compacted: 0,

@@ -24,6 +24,7 @@ use crate::search::{Plan, Progress, Stop, Target};
 use crate::solver::{Left, Method, Proof};
 use crate::storage::Storage;
 use crate::storage::disk::Disk;
+use crate::symmetry::Symmetry;
 use crate::temporal::fairness::AgentFairness;
 use crate::trace::Trace;
 
@@ -71,6 +72,9 @@ pub struct Options {
     pub seed: u64,
     /// Where the main rule chooses who moves: of moves that do not concern each other one order is enough.
     pub partial_order: bool,
+    /// States that differ by a permutation of elements that nothing tells apart are one. They are gone through one by one then;
+    /// not with `partial_order`, nor where the search is kept.
+    pub symmetry: bool,
     /// Where states go that memory has no room for, if all of each is kept. They are gone through one by one then.
     pub disk: Option<Arc<dyn Disk>>,
 }
@@ -91,6 +95,7 @@ impl Default for Options {
             storage: Storage::Exact,
             seed: 0,
             partial_order: false,
+            symmetry: false,
             disk: None,
         }
     }
@@ -178,6 +183,8 @@ pub struct Report {
     pub omission: Option<Expected>,
     /// Where partial-order reduction was asked for: that states were reduced, or why not.
     pub reduced: Option<Result<(), Unreduced>>,
+    /// Where interchangeable elements were to be found: which there are. States are counted up to their permutations.
+    pub symmetry: Option<Symmetry>,
     /// How it was proved what a solver has proved.
     pub proofs: BTreeMap<Subject, Proof>,
     /// Why a solver left something open.
@@ -316,7 +323,7 @@ pub fn verify_kept(
     let complete = complete && ended.omission.is_none();
     let (storage, omission) = (options.storage, ended.omission.map(Expected));
     let reduced = options.partial_order.then_some(ended.unreduced.map_or(Ok(()), Err));
-    let Ended { progress, stop, width, engine, solver, .. } = ended;
+    let Ended { progress, stop, width, engine, solver, symmetry, .. } = ended;
     Ok(Report {
         verdicts,
         progress,
@@ -327,6 +334,7 @@ pub fn verify_kept(
         storage,
         omission,
         reduced,
+        symmetry,
         runs,
         engine,
         proofs,
@@ -434,6 +442,7 @@ impl Questions {
             storage: options.storage,
             seed: options.seed,
             partial_order: options.partial_order,
+            symmetry: options.symmetry,
             disk: options.disk.clone(),
             ..Plan::default()
         };

@@ -18,6 +18,7 @@ use crate::search::{Plan, Progress, Search, Stop, Target};
 use crate::solver::{Left, Method, Proof, Solved, Unsolved, solve};
 use crate::storage::Storage;
 use crate::symbolic::Reach;
+use crate::symmetry::Symmetry;
 use crate::trace::Trace;
 
 /// LIMIT: so many states are gone through one by one before sets are tried.
@@ -33,6 +34,8 @@ pub(crate) struct Ended {
     pub omission: Option<f64>,
     /// Why all steps were made, where fewer were wanted.
     pub unreduced: Option<Unreduced>,
+    /// Which elements were interchangeable, where that was to be found out.
+    pub symmetry: Option<Symmetry>,
     /// How far it came.
     pub progress: Progress,
     /// What could not be gone through.
@@ -69,7 +72,10 @@ pub(crate) fn run_engine(
         Engine::Solver(method) => by_solver(program, plan, method, solvers, watch),
         // Only states that are gone through one by one are kept in one way or another.
         Engine::Automatic
-            if plan.storage == Storage::Exact && !plan.partial_order && plan.disk.is_none() && keeper.is_none() =>
+            if plan.storage == Storage::Exact
+                && !(plan.partial_order || plan.symmetry)
+                && plan.disk.is_none()
+                && keeper.is_none() =>
         {
             let few = Plan { max_states: if bounded { plan.max_states } else { FEW }, ..plan.clone() };
             let mut ended = explicit(program, &few, None, watch)?;
@@ -131,6 +137,7 @@ fn by_solver(
         stop: None,
         omission: None,
         unreduced: None,
+        symmetry: None,
         progress,
         unbounded: BTreeSet::new(),
         unknown: BTreeSet::new(),
@@ -166,7 +173,8 @@ fn explicit(
 ) -> Result<Ended, NoStart> {
     // LIMIT: a search that is kept has its states in memory.
     let spills = plan.storage == Storage::Exact && keeper.is_none();
-    let plan = &Plan { disk: plan.disk.clone().filter(|_| spills), ..plan.clone() };
+    let symmetry = plan.symmetry && !plan.partial_order && keeper.is_none();
+    let plan = &Plan { disk: plan.disk.clone().filter(|_| spills), symmetry, ..plan.clone() };
     let mut search = Search::run(program, plan, keeper, watch).map_err(|unfit| match unfit {
         Unfit::Refused(refusal) => NoStart::Refused(refusal),
         Unfit::Trouble(trouble) => NoStart::from(trouble),
@@ -177,6 +185,7 @@ fn explicit(
         stop: search.stop,
         omission: (plan.storage != Storage::Exact).then_some(search.omission),
         unreduced: search.unreduced,
+        symmetry: search.symmetry.take(),
         progress: search.progress,
         width: search.width(),
         executed: search.executed,
@@ -197,6 +206,7 @@ fn symbolic(program: &Arc<Program>, plan: &Plan, watch: &mut dyn FnMut(&Progress
         stop: reach.stop,
         omission: None,
         unreduced: None,
+        symmetry: None,
         progress: reach.progress,
         width: reach.width(),
         executed: reach.executed(),

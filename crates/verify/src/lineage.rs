@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 use rustc_hash::FxHashSet;
 
-use crate::search::{Found, Progress, Search, Stop};
+use crate::search::{Found, Progress, Search, Stop, representatives};
 use crate::shard::{Crew, Decision, Report, Shard};
 use crate::storage::Store;
 
@@ -57,7 +57,8 @@ impl Search {
         let way = |found: &Found| Way::from([(found.depth, found.state.clone())]);
         let mut ways: Vec<Way> = self.found.iter().map(way).collect();
         let mut every = (deepest + 1).next_power_of_two() / 2;
-        while ways.iter().any(|way| !way.contains_key(&0)) {
+        let depths: Vec<usize> = self.found.iter().map(|found| found.depth).collect();
+        while ways.iter().zip(&depths).any(|(way, depth)| way.len() <= *depth) {
             let before = |level: usize| (level - 1) / every * every;
             let asked = |way: &Way| {
                 let all = way.iter().map(|(level, state)| (*level, state.clone()));
@@ -99,11 +100,13 @@ impl Search {
                 let mut shard =
                     Shard::new(Store::new(words, plan.storage, plan.seed, count).with_more(words), &self.reduction);
                 shard.lineage = Some(lineage.clone());
+                shard.orbits.clone_from(&self.orbits);
                 shard
             })
             .collect();
-        let starts = self.explorer.initial().iter().map(|(state, _)| [&**state, &**state].concat().into_boxed_slice());
-        let starts: Vec<Box<[u64]>> = starts.collect();
+        let starts = representatives(&mut self.explorer, self.orbits.as_deref());
+        let starts: Vec<Box<[u64]>> =
+            starts.iter().map(|state| [&**state, &**state].concat().into_boxed_slice()).collect();
         let deepest = lineage.wanted.last_key_value().map_or(0, |(level, _)| *level as u64);
         let mut decide = |reports: &[Report], depth: u64| {
             let progress = Progress::of(reports, depth);

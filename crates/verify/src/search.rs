@@ -9,14 +9,16 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use machine::explore::{Explorer, Interner, Settings, Trouble, Unbounded, Widening};
+use machine::explore::{Explorer, Interner, Orbits, Settings, Trouble, Unbounded, Widening};
 use program::Program;
+use syntax::Span;
 
 use crate::checkpoint::{Journal, Keeper, Past, Resumed, Unfit, keep, made, resume};
 use crate::partial_order::{Reduction, Unreduced, reduction};
 use crate::shard::{Crew, Decision, Report, Shard, note};
 use crate::storage::disk::Disk;
 use crate::storage::{Storage, Store};
+use crate::symmetry::{Distinct, Interchange, Symmetry};
 
 /// What is looked for in a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -60,6 +62,9 @@ pub struct Plan {
     pub seed: u64,
     /// Of moves that do not concern each other one order is enough.
     pub partial_order: bool,
+    /// States that differ by a permutation of interchangeable elements are one; not with `partial_order`, nor where the search is
+    /// kept.
+    pub symmetry: bool,
     /// Where states go that memory has no room for; only where all of them is kept, and the search is not.
     pub disk: Option<Arc<dyn Disk>>,
 }
@@ -172,6 +177,9 @@ pub struct Search {
     pub(crate) reduction: Option<Arc<Reduction>>,
     /// Why all steps were made, where fewer were wanted.
     pub unreduced: Option<Unreduced>,
+    /// Which elements were interchangeable, where that was to be found out.
+    pub symmetry: Option<Symmetry>,
+    pub(crate) orbits: Option<Arc<Orbits>>,
 }
 
 impl Search {
@@ -190,20 +198,37 @@ impl Search {
             None => None,
         };
         let mut past = Past::default();
+        let mut plan = plan.clone();
+        let mut symmetry = plan.symmetry.then(|| Interchange::new(program, &plan));
         loop {
+            plan.settings.unordered = symmetry.as_ref().map(|found| Arc::clone(&found.unordered)).unwrap_or_default();
             let Begun { maker, mut explorer, mut shards, unreduced, starts } = match resumed.take() {
                 Some(Resumed { past: before, maker, explorer, shards, unreduced }) => {
                     past = before;
                     Begun { maker, explorer, shards, unreduced, starts: Vec::new() }
                 }
-                None => begun(program, plan, keeper.is_some(), &mut past)?,
+                None => begun(program, &plan, keeper.is_some(), &mut past, &mut symmetry)?,
             };
+            if let Some(found) = &symmetry
+                && found.unordered.is_empty() != plan.settings.unordered.is_empty()
+            {
+                // There are none after all, so that quantifiers need not look at all elements.
+                continue;
+            }
             let kept = keeper.as_mut().map(|keeper| (&mut **keeper, &past));
-            let (stop, progress) = search(&maker, &mut explorer, &mut shards, starts, plan, kept, watch);
+            let (stop, progress) = search(&maker, &mut explorer, &mut shards, starts, &plan, kept, watch);
+            if let Some(span) = ordered(&shards)
+                && let Some(found) = symmetry.as_mut().filter(|found| !found.unordered.is_empty())
+            {
+                found.refuse(Distinct::Ordered(span));
+                continue;
+            }
             match shards.iter().find(|shard| !shard.widening.is_empty()) {
                 Some(shard) => past.close(shard, explorer.words(), &shard.widening),
                 None => {
-                    return Ok(Search { unreduced, ..Search::gather(maker, explorer, plan, shards, stop, progress) });
+                    let symmetry = symmetry.map(|found| found.symmetry);
+                    let search = Search::gather(maker, explorer, &plan, shards, stop, progress);
+                    return Ok(Search { unreduced, symmetry, ..search });
                 }
             }
         }
@@ -228,7 +253,7 @@ impl Search {
         let ran = |rule: usize| shards.iter().any(|shard| shard.executed[rule] > 0);
         let executed = (0..rules).map(ran).collect();
         let omission = shards.iter().map(|shard| shard.store.omission()).sum();
-        let (plan, reduction) = (plan.clone(), shards[0].reduction.clone());
+        let (plan, reduction, orbits) = (plan.clone(), shards[0].reduction.clone(), shards[0].orbits.clone());
         Search {
             explorer,
             maker,
@@ -243,6 +268,8 @@ impl Search {
             omission,
             reduction,
             unreduced: None,
+            symmetry: None,
+            orbits,
         }
     }
 
@@ -263,8 +290,15 @@ struct Begun {
 }
 
 /// A search that has not begun yet, with the states it begins with.
-fn begun(program: &Arc<Program>, plan: &Plan, is_kept: bool, past: &mut Past) -> Result<Begun, Unfit> {
+fn begun(
+    program: &Arc<Program>,
+    plan: &Plan,
+    is_kept: bool,
+    past: &mut Past,
+    symmetry: &mut Option<Interchange>,
+) -> Result<Begun, Unfit> {
     let (maker, mut explorer) = made(program, plan, &mut past.widening)?;
+    let orbits = symmetry.as_mut().and_then(|found| found.orbits(program, &explorer));
     // The order in which values come up can be told of one worker alone.
     let is_numbered = is_kept && !maker.interner.is_empty();
     let count = if is_numbered { 1 } else { plan.workers.max(1) };
@@ -274,9 +308,26 @@ fn begun(program: &Arc<Program>, plan: &Plan, is_kept: bool, past: &mut Past) ->
         None => Store::new(explorer.words(), plan.storage, plan.seed, count),
     };
     let mut shards: Vec<Shard> = (0..count).map(|_| Shard::new(store(), &reduction)).collect();
+    shards.iter_mut().for_each(|shard| shard.orbits.clone_from(&orbits));
     shards[0].journal = is_numbered.then(|| Journal::new(&maker.interner));
-    let starts = explorer.initial().iter().map(|(state, _)| state.clone()).collect();
+    let starts = representatives(&mut explorer, orbits.as_deref());
     Ok(Begun { maker, explorer, shards, unreduced, starts })
+}
+
+/// Where the order of elements was found to matter, or what could not be gone through: perhaps by a quantifier that looked at
+/// more elements than it has to.
+fn ordered(shards: &[Shard]) -> Option<Span> {
+    let unbounded = shards.iter().flat_map(|shard| &shard.unbounded).map(|unbounded| unbounded.span);
+    shards.iter().find_map(|shard| shard.order_mattered).or(unbounded.min())
+}
+
+/// The initial states, up to interchangeable elements.
+pub(crate) fn representatives(explorer: &mut Explorer, orbits: Option<&Orbits>) -> Vec<Box<[u64]>> {
+    let mut starts: Vec<Box<[u64]>> = explorer.initial().iter().map(|(state, _)| state.clone()).collect();
+    if let Some(orbits) = orbits {
+        starts.iter_mut().for_each(|state| explorer.normalise(orbits, state));
+    }
+    starts
 }
 
 /// Searches until all states are met or something ends it, with pauses in which the search is kept.

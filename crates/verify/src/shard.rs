@@ -9,7 +9,8 @@ use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::{Arc, Barrier, Mutex, PoisonError};
 
-use machine::explore::{Expansion, Explorer, Trouble, Truth, Unbounded, Widening};
+use machine::explore::{Expansion, Explorer, Orbits, Trouble, Truth, Unbounded, Widening};
+use syntax::Span;
 
 use crate::checkpoint::Journal;
 use crate::lineage::Lineage;
@@ -41,6 +42,10 @@ pub(crate) struct Shard {
     pub journal: Option<Journal>,
     /// Which steps are enough, where not all of them have to be made.
     pub reduction: Option<Arc<Reduction>>,
+    /// Which states are one, where elements are interchangeable.
+    pub orbits: Option<Arc<Orbits>>,
+    /// Where it was found that they are not.
+    pub order_mattered: Option<Span>,
     /// Where nothing but the ways to some states is looked for.
     pub lineage: Option<Lineage>,
 }
@@ -84,6 +89,7 @@ pub(crate) struct Report {
     pub full: bool,
     /// Files have met trouble.
     pub lost: bool,
+    /// It all begins anew.
     pub narrow: bool,
     pub found: bool,
     /// The worker has panicked.
@@ -174,6 +180,8 @@ impl Shard {
             executed: Vec::new(),
             journal: None,
             reduction: reduction.clone(),
+            orbits: None,
+            order_mattered: None,
             lineage: None,
         }
     }
@@ -218,6 +226,7 @@ impl Shard {
                     self.take_in(explorer, plan, &mut Vec::new(), true);
                 }
             });
+            self.order_mattered = explorer.order_mattered();
             let broken = panic.is_some();
             lock(board).reports[index] = Report { broken, ..self.report() };
             barrier.wait();
@@ -267,7 +276,7 @@ impl Shard {
             spilled: self.store.spilled() as u64,
             full: self.store.is_full(),
             lost: self.store.is_lost(),
-            narrow: !self.widening.is_empty(),
+            narrow: !self.widening.is_empty() || self.order_mattered.is_some(),
             found: !self.found.is_empty(),
             broken: false,
         }
@@ -286,10 +295,14 @@ impl Shard {
             self.next += 1;
             let direct = sent.len() == 1 && self.lineage.is_none();
             let out = if direct { &mut sent[0] } else { &mut successors };
+            let begin = out.len();
             let expanded = match &self.reduction {
                 None => explorer.expand(state, out),
                 Some(reduction) => reduction.expand(explorer, state, out),
             };
+            if let (Some(orbits), Ok(_)) = (&self.orbits, &expanded) {
+                explorer.normalise(orbits, &mut out[begin..]);
+            }
             match expanded {
                 Ok(expansion) => {
                     self.transitions += u64::from(expansion.moved);

@@ -42,7 +42,9 @@ impl Search {
             self.stop = Some(Stop::Disk);
             return Vec::new();
         };
+        let chains: Vec<_> = chains.into_iter().map(|chain| self.concrete(chain)).collect();
         let explorer = &mut self.explorer;
+        explorer.look_in_order();
         self.found.iter().zip(&chains).map(|(found, chain)| tell(explorer, chain, found)).collect()
     }
 
@@ -63,10 +65,43 @@ impl Search {
         Ok(chains)
     }
 
+    /// A run that has these representatives: each state is one that the state before leads to. From the representative before
+    /// lead steps to a state that the next one represents; the permutation that leads from there to the run's own state leads
+    /// to the run's next state, too.
+    fn concrete(&mut self, chain: Vec<Box<[u64]>>) -> Vec<Box<[u64]>> {
+        let Some(orbits) = self.orbits.clone() else { return chain };
+        let explorer = &mut self.explorer;
+        let starts: Vec<Box<[u64]>> = explorer.initial().iter().map(|(state, _)| state.clone()).collect();
+        let mut represented = starts.into_iter().map(|state| {
+            let (representative, permutation) = explorer.normalised(&orbits, &state);
+            (state, representative, permutation)
+        });
+        let (start, _, permutation) =
+            represented.find(|(_, representative, _)| *representative == chain[0]).expect("a run begins with it");
+        drop(represented);
+        // From the representative to the run's own state.
+        let (mut way, mut back) = (vec![start], permutation.inverse());
+        let words = explorer.words();
+        for pair in chain.windows(2) {
+            let mut successors = Vec::new();
+            let _ = explorer.expand(&pair[0], &mut successors);
+            let (successor, permutation) = successors
+                .chunks_exact(words)
+                .find_map(|state| {
+                    let (representative, permutation) = explorer.normalised(&orbits, state);
+                    (representative == pair[1]).then_some((state, permutation))
+                })
+                .expect("the step was made before");
+            way.push(explorer.permuted(&orbits, successor, &back));
+            back = permutation.inverse().then(&back);
+        }
+        way
+    }
+
     /// For each state that is wanted the least state of a level that leads to it.
     fn parents(&mut self, level: usize, wanted: &[Box<[u64]>]) -> Result<Vec<Box<[u64]>>, Lost> {
         let mut least: Vec<Option<Box<[u64]>>> = vec![None; wanted.len()];
-        let Search { explorer, shards, .. } = self;
+        let Search { explorer, shards, orbits, .. } = self;
         let words = explorer.words();
         let mut successors = Vec::new();
         for Shard { store, levels, .. } in shards {
@@ -79,6 +114,9 @@ impl Search {
                 successors.clear();
                 if explorer.expand(state, &mut successors).is_err() {
                     continue;
+                }
+                if let Some(orbits) = orbits {
+                    explorer.normalise(orbits, &mut successors);
                 }
                 for (wanted, least) in wanted.iter().zip(&mut least) {
                     let leads = successors.chunks_exact(words).any(|successor| *successor == **wanted);

@@ -121,3 +121,17 @@ fn a_small_array_leaves_states_out_and_says_so() {
         assert_eq!(other.progress.states == report.progress.states, omission < 0.5);
     }
 }
+
+/// Ways are found by halves: those as long as a power of two are no exception.
+#[test]
+fn ways_of_all_lengths_are_found() {
+    for steps in 1..18 {
+        let text = format!(
+            "asm Walk\nimport StandardLibrary\nsignature:\n domain Place subsetof Integer\n controlled place: Place\n\
+             definitions:\n domain Place = {{0 : 20}}\n invariant inv_p over place: place != {steps}\n \
+             main rule r_Main = if place < 20 then place := place + 1 endif\ndefault init s0:\n function place = 0\n"
+        );
+        let options = Options { terminal: None, first: true, ..Options::default() };
+        agrees(&lowered(SourceFile::new("Walk.asm", text)), &options);
+    }
+}

@@ -8,6 +8,7 @@ mod bounded;
 mod checkpoint;
 mod counterexample;
 mod disk;
+mod symmetry;
 mod tell;
 mod watch;
 
@@ -63,6 +64,9 @@ pub struct Arguments {
     /// Where the main rule chooses who moves: of moves that do not concern each other make one order, not all
     #[arg(long, value_enum, default_value_t, value_name = "HOW")]
     partial_order: Switch,
+    /// Elements that nothing tells apart are interchangeable: states that differ by a permutation of them are one
+    #[arg(long, value_enum, default_value_t, value_name = "HOW")]
+    symmetry: Switch,
     /// How many workers search; as many as there are processors if not said
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=256))]
     workers: Option<u64>,
@@ -190,6 +194,20 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         let help = "leave out --engine, or --partial-order";
         return Err(Failure::usage_with_help("--partial-order is of states that are gone through one by one", help));
     }
+    if arguments.symmetry == Switch::On {
+        if !matches!(arguments.engine, Engine::Auto | Engine::Explicit) {
+            let help = "leave out --engine, or --symmetry";
+            return Err(Failure::usage_with_help("--symmetry is of states that are gone through one by one", help));
+        }
+        if arguments.partial_order == Switch::On {
+            let help = "leave out the one or the other";
+            return Err(Failure::usage_with_help("--symmetry and --partial-order do not go together", help));
+        }
+        if arguments.checkpoint.is_some() {
+            let help = "leave out --checkpoint, or --symmetry";
+            return Err(Failure::usage_with_help("a search up to symmetry has no checkpoint", help));
+        }
+    }
     if arguments.storage != Storage::Exact && !matches!(arguments.engine, Engine::Auto | Engine::Explicit) {
         let help = "leave out --engine, or --storage";
         return Err(Failure::usage_with_help("--storage is of states that are gone through one by one", help));
@@ -272,6 +290,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         },
         seed: arguments.hash_seed,
         partial_order: arguments.partial_order == Switch::On,
+        symmetry: arguments.symmetry == Switch::On,
         disk: folder.clone().map(|folder| folder as Arc<dyn Disk>),
         ..options
     };

@@ -17,6 +17,7 @@ use syntax::{Diagnostic, Sources, Span};
 use crate::check::plural;
 use crate::failure::Failure;
 use crate::shell::Shell;
+use crate::verify::symmetry::DomainLine;
 use crate::wire::Place;
 
 /// Tells what verification came to.
@@ -99,6 +100,9 @@ pub struct Explored {
     /// Where one order of moves was to be enough: whether it was.
     #[serde(skip_serializing_if = "Option::is_none")]
     partial_order: Option<&'static str>,
+    /// Where interchangeable elements were to be found: which there are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    symmetry: Option<Vec<DomainLine>>,
 }
 
 /// `{"type":"assumed",…}`
@@ -147,9 +151,13 @@ impl Teller<'_> {
         if let (Some(Err(unreduced)), false, true) = (report.reduced, shell.json(), shell.talks()) {
             writeln!(shell.out(), "all steps were made: {}", why_unreduced(unreduced))?;
         }
+        if let (Some(symmetry), false, true) = (&report.symmetry, shell.json(), shell.talks()) {
+            self.symmetry(shell, symmetry)?;
+        }
+        let symmetry = report.symmetry.as_ref().map(|symmetry| self.symmetry_lines(symmetry));
         let omission = report.omission.map(|expected| expected.0);
         let reduced = report.reduced.map(|reduced| reduced.map_or_else(why_unreduced, |()| "reduced"));
-        let explored = Explored { bits: Some(report.width.1), omission, partial_order: reduced };
+        let explored = Explored { bits: Some(report.width.1), omission, partial_order: reduced, symmetry };
         self.explored(shell, &report.progress, report.complete, &explored)
     }
 
@@ -174,8 +182,10 @@ impl Teller<'_> {
             });
         }
         if shell.talks() {
+            let up_to = more.symmetry.iter().flatten().any(|line| line.is_class());
             let whole = match (complete, more.partial_order) {
                 (true, Some("reduced")) => "all that can be reached, but for the order of moves",
+                (true, _) if up_to => "all that can be reached, up to interchangeable elements",
                 (true, _) => "all that can be reached",
                 (false, _) => "not all that can be reached",
             };
@@ -473,7 +483,7 @@ impl Teller<'_> {
         }
     }
 
-    fn place(&self, span: Span) -> String {
+    pub(super) fn place(&self, span: Span) -> String {
         let file = self.sources.file(span.file);
         let start = file.line_column(span.start);
         let name = file.name.rsplit(['/', '\\']).next().unwrap_or(&file.name);

@@ -62,6 +62,15 @@ enum Codes {
     Interned,
 }
 
+/// How a function's values become codes, for who asks.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Coding<'e> {
+    /// The place in this list.
+    Listed(&'e [Value]),
+    /// The number of the value.
+    Numbered,
+}
+
 /// A field of the words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Field {
@@ -220,6 +229,19 @@ impl Encoding {
             },
             _ => Ok(view.number(value)),
         }
+    }
+
+    /// How the values of a function that has fields become codes.
+    pub fn coding(&self, function: FunctionId) -> Coding<'_> {
+        match &self.codes[function.0 as usize] {
+            Some(Codes::Listed { values, .. }) => Coding::Listed(values),
+            _ => Coding::Numbered,
+        }
+    }
+
+    /// Whether the declared locations of a function have fields.
+    pub fn has_fields(&self, function: FunctionId) -> bool {
+        self.codes[function.0 as usize].is_some()
     }
 
     /// The value that stands in a field.

@@ -12,6 +12,7 @@ use std::sync::Arc;
 use hashbrown::HashMap;
 use program::{Expression, Program};
 use rustc_hash::{FxBuildHasher, FxHashSet};
+use syntax::Span;
 
 use crate::coverage::Coverage;
 use crate::explore::branches::{Bounds, Branches, REST, Unbounded, UnboundedKind};
@@ -45,6 +46,9 @@ pub struct Settings {
     pub forgetful: bool,
     /// What happens within steps is told: see [`Explorer::sightings`].
     pub observed: bool,
+    /// By term, where any is: a range whose elements are to be interchangeable. Quantifiers look at all of them, and where a
+    /// fault may depend on their order [`Explorer::order_mattered`] tells.
+    pub unordered: Arc<[bool]>,
 }
 
 /// Why there is no explorer.
@@ -196,6 +200,11 @@ impl Explorer {
             machine.restore(&snapshot);
             let words = encoding.pack(program, &mut machine, &mut view);
             initial.push((words.map_err(|TooNarrow(widening)| Trouble::TooNarrow(widening))?, told));
+        }
+        if !settings.unordered.is_empty() {
+            machine.core.unordered = Arc::clone(&settings.unordered);
+            // Values that were kept may come from quantifiers that did not look at all elements.
+            machine.core.memo.forget();
         }
         branches.fields = Arc::clone(&encoding.of_location);
         branches.rest = encoding.rest;
@@ -457,27 +466,64 @@ impl Explorer {
     }
 
     /// What a condition comes to in a state.
-    #[inline]
+    // The inner loop of a search.
+    #[inline(always)]
     pub fn truth(&mut self, condition: usize, state: &[u64]) -> Truth {
-        let mut whole = Truth::True;
         for part in 0..self.conditions[condition].parts.len() {
-            let tree = &mut self.conditions[condition].parts[part].tree;
-            let mut truth = Truth::True;
-            let walked = tree.is_used() && {
-                let mut worst = |end| truth = truth.max(Truth::of_end(end));
-                tree.walk(state, &mut worst).is_ok()
-            };
-            if !walked {
-                truth = self.decide(condition, part, state);
+            let truth = self.truth_of_part(condition, part, state);
+            if truth != Truth::True {
+                return self.truth_from(condition, part, truth, state);
             }
-            match truth {
-                Truth::True => {}
-                // What comes after an undefined conjunct may still make the whole false.
-                Truth::Undef => whole = Truth::Undef,
-                Truth::False | Truth::Fault | Truth::Unknown => return truth,
+        }
+        Truth::True
+    }
+
+    /// What a condition comes to in which a part is the first that is not true.
+    #[cold]
+    fn truth_from(&mut self, condition: usize, part: usize, first: Truth, state: &[u64]) -> Truth {
+        let (mut whole, mut others) = (first, part + 1..self.conditions[condition].parts.len());
+        // What comes after an undefined conjunct may still make the whole false.
+        while whole == Truth::Undef
+            && let Some(part) = others.next()
+        {
+            whole = match self.truth_of_part(condition, part, state) {
+                Truth::True | Truth::Undef => Truth::Undef,
+                truth => truth,
+            };
+        }
+        if !self.settings.unordered.is_empty() {
+            // Whether a part after the one that decides would have decided otherwise.
+            for part in others {
+                let other = self.truth_of_part(condition, part, state);
+                if matches!(other, Truth::False | Truth::Fault | Truth::Unknown) && other != whole {
+                    let span = self.program.term_span(self.conditions[condition].parts[part].term);
+                    self.machine.core.order_mattered.get_or_insert(span);
+                }
             }
         }
         whole
+    }
+
+    #[inline(always)]
+    fn truth_of_part(&mut self, condition: usize, part: usize, state: &[u64]) -> Truth {
+        let tree = &mut self.conditions[condition].parts[part].tree;
+        let mut truth = Truth::True;
+        let walked = tree.is_used() && {
+            let mut worst = |end| truth = truth.max(Truth::of_end(end));
+            tree.walk(state, &mut worst).is_ok()
+        };
+        if walked { truth } else { self.decide(condition, part, state) }
+    }
+
+    /// Where it was found that a fault may depend on the order of elements that are to be interchangeable.
+    pub fn order_mattered(&self) -> Option<Span> {
+        self.machine.core.order_mattered
+    }
+
+    /// From now on steps are made as they are without interchangeable elements; only for telling them.
+    pub fn look_in_order(&mut self) {
+        self.machine.core.unordered = Arc::default();
+        self.machine.core.memo.forget();
     }
 
     /// Decides a part of a condition by evaluating it.

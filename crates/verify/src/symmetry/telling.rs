@@ -1,0 +1,213 @@
+//! What a program's text tells apart: elements that are named, and operations that show an order.
+//!
+//! In: a program, the conditions that are asked for, the domains in question. Out: a [`Telling`]. Walked are the main rule, the
+//! programs of agents, the conditions, and whatever these call; initial values by themselves, as most of them are evaluated before
+//! the first step. INVARIANT: what is walked and not told apart means the same for all elements but the order in which a
+//! quantifier, a comprehension or a `forall` goes through them.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use machine::Value;
+use machine::explore::Settings;
+use program::{
+    Builtin, CollectionKind, DomainId, DomainKind, FunctionId, Literal, ProcedureId, Program, Rule, RuleId, Term,
+    TermId,
+};
+use syntax::Span;
+
+use crate::symmetry::{Distinct, element};
+
+/// See the module.
+#[derive(Debug, Default)]
+pub struct Telling {
+    /// Elements that are named, and where first.
+    pub named: BTreeMap<Value, Distinct>,
+    /// Domains whose elements are told apart, and where first.
+    pub told: BTreeMap<DomainId, Span>,
+    /// Where elements are made.
+    pub extended: Option<Span>,
+    /// The ranges of what goes through elements.
+    pub ranges: BTreeSet<TermId>,
+    /// By function: the elements that its initial value names.
+    pub initial: BTreeMap<FunctionId, BTreeMap<Value, Span>>,
+}
+
+struct Walk<'p> {
+    program: &'p Program,
+    domains: &'p [DomainId],
+    found: Telling,
+    terms: BTreeSet<TermId>,
+    rules: BTreeSet<RuleId>,
+    open: Vec<Next>,
+}
+
+enum Next {
+    Term(TermId),
+    Rule(RuleId),
+    Procedure(ProcedureId),
+}
+
+/// Whether values of a domain may be, or have inside, elements of another.
+pub fn mentions(program: &Program, domain: DomainId, of: DomainId) -> bool {
+    match &program.domain(domain).kind {
+        _ if domain == of => true,
+        DomainKind::Any => true,
+        DomainKind::Concrete { base, .. } => mentions(program, *base, of),
+        DomainKind::Prod(parts) => parts.iter().any(|part| mentions(program, *part, of)),
+        DomainKind::Seq(part) | DomainKind::Powerset(part) | DomainKind::Bag(part) => mentions(program, *part, of),
+        DomainKind::Map(key, value) => mentions(program, *key, of) || mentions(program, *value, of),
+        DomainKind::Error
+        | DomainKind::Basic(_)
+        | DomainKind::Enum { .. }
+        | DomainKind::Abstract { .. }
+        | DomainKind::Rule(_) => false,
+    }
+}
+
+impl Telling {
+    /// What a program tells apart of the elements of these domains.
+    pub fn of(program: &Program, settings: &Settings, domains: &[DomainId]) -> Telling {
+        let (terms, rules) = (BTreeSet::new(), BTreeSet::new());
+        let mut walk = Walk { program, domains, found: Telling::default(), terms, rules, open: Vec::new() };
+        let procedures = program.main.iter().copied().chain(program.agents.iter().map(|agent| agent.procedure));
+        walk.open.extend(procedures.map(Next::Procedure));
+        let steps = settings.step_conditions.iter().map(|(formula, _)| formula);
+        walk.open.extend(settings.conditions.iter().chain(steps).map(|formula| Next::Term(formula.body)));
+        walk.all();
+        let mut found = std::mem::take(&mut walk.found);
+        for initial in &program.initials {
+            // What is looked at in the end is what each names by itself.
+            walk.terms.clear();
+            walk.rules.clear();
+            walk.open.push(Next::Term(initial.value.body));
+            walk.all();
+            let Telling { named, told, extended, ranges, .. } = std::mem::take(&mut walk.found);
+            let mut of_initial: BTreeMap<Value, Span> = BTreeMap::new();
+            for (element, distinct) in named {
+                if let Distinct::Named(span) = distinct {
+                    of_initial.insert(element, span);
+                }
+            }
+            // An order that shows is as good as all elements' names.
+            for (domain, span) in told.into_iter().chain(extended.into_iter().flat_map(|span| walk.in_all(span))) {
+                let count = crate::symmetry::count(program, domain) as u32;
+                of_initial.extend((0..count).map(|index| (element(program, domain, index), span)));
+            }
+            found.ranges.extend(ranges);
+            found.initial.entry(initial.function).or_default().extend(of_initial);
+        }
+        found
+    }
+
+    /// An input is tried with some values.
+    pub fn bound(&mut self, function: FunctionId, values: &[Value]) {
+        let mut open: Vec<Value> = values.to_vec();
+        while let Some(value) = open.pop() {
+            match &value {
+                Value::Enum(..) | Value::Element(..) => {
+                    self.named.entry(value).or_insert(Distinct::Bounded(function));
+                }
+                Value::Tuple(items) | Value::Seq(items) | Value::Set(items) => open.extend(items.iter().cloned()),
+                Value::Bag(items) => open.extend(items.keys().cloned()),
+                Value::Map(items) => open.extend(items.iter().flat_map(|(key, value)| [key.clone(), value.clone()])),
+                _ => {}
+            }
+        }
+    }
+}
+
+impl Walk<'_> {
+    fn in_all(&self, span: Span) -> Vec<(DomainId, Span)> {
+        self.domains.iter().map(|domain| (*domain, span)).collect()
+    }
+
+    fn all(&mut self) {
+        let program = self.program;
+        while let Some(next) = self.open.pop() {
+            match next {
+                Next::Procedure(procedure) => self.open.push(Next::Rule(program.procedure(procedure).body)),
+                Next::Rule(id) if self.rules.insert(id) => self.rule(id),
+                Next::Term(id) if self.terms.insert(id) => self.term(id),
+                Next::Rule(_) | Next::Term(_) => {}
+            }
+        }
+    }
+
+    fn name(&mut self, element: Value, span: Span) {
+        self.found.named.entry(element).or_insert(Distinct::Named(span));
+    }
+
+    /// Elements in the values of a domain are told apart.
+    fn tell(&mut self, domain: DomainId, span: Span) {
+        let program = self.program;
+        for told in self.domains.iter().filter(|of| mentions(program, domain, **of)) {
+            self.found.told.entry(*told).or_insert(span);
+        }
+    }
+
+    fn term(&mut self, id: TermId) {
+        let program = self.program;
+        let span = program.term_span(id);
+        match program.term(id) {
+            Term::Constant(index) => {
+                if let Literal::Enum(domain, index) = program.constants[*index as usize] {
+                    self.name(Value::Enum(domain, index), span);
+                }
+            }
+            Term::Read { function, .. } => {
+                let function = program.function(*function);
+                if let Some(index) = function.element {
+                    self.name(element(program, program.base_domain(function.codomain), index), span);
+                }
+            }
+            Term::Define { function, .. } => {
+                let definition = program.function(*function).definition.as_ref();
+                self.open.extend(definition.map(|definition| Next::Term(definition.body)));
+            }
+            Term::Rule(procedure) => self.open.push(Next::Procedure(*procedure)),
+            Term::Quantified { binders, .. } => {
+                self.found.ranges.extend(program.binder_list(*binders).iter().map(|binder| binder.range));
+            }
+            Term::Comprehension { kind, binders, .. } => {
+                for binder in program.binder_list(*binders) {
+                    self.found.ranges.insert(binder.range);
+                    // A sequence has their order; of equal keys of a map the last counts.
+                    if matches!(kind, CollectionKind::Seq | CollectionKind::Map) {
+                        self.tell(program.term_domain(binder.range), span);
+                    }
+                }
+            }
+            Term::Builtin { builtin, arguments } => {
+                use Builtin::{AgentId, AsSequence, Ge, GetAgent, Gt, Le, Lt, ToString};
+                if matches!(builtin, ToString | AsSequence | AgentId | Lt | Le | Gt | Ge) {
+                    for operand in program.term_list(*arguments) {
+                        self.tell(program.term_domain(*operand), span);
+                    }
+                }
+                if *builtin == GetAgent {
+                    self.tell(program.term_domain(id), span);
+                }
+            }
+            _ => {}
+        }
+        program.each_child_of_term(id, &mut |child| self.open.push(Next::Term(child)));
+    }
+
+    fn rule(&mut self, id: RuleId) {
+        let program = self.program;
+        match program.rule(id) {
+            Rule::Call { procedure, .. } | Rule::TurboCall { procedure, .. } | Rule::Return { procedure, .. } => {
+                self.open.push(Next::Procedure(*procedure));
+            }
+            Rule::Choose { binders, .. } | Rule::Forall { binders, .. } => {
+                self.found.ranges.extend(program.binder_list(*binders).iter().map(|binder| binder.range));
+            }
+            Rule::Extend { .. } => {
+                self.found.extended.get_or_insert(program.rule_span(id));
+            }
+            _ => {}
+        }
+        program.each_term_of_rule(id, &mut |term| self.open.push(Next::Term(term)));
+        program.each_child_of_rule(id, &mut |rule| self.open.push(Next::Rule(rule)));
+    }
+}
