@@ -152,15 +152,5 @@ fn rule(
     if fragment.diagnostics.iter().any(|fault| fault.severity == Severity::Error) {
         return Err(fragment.diagnostics);
     }
-    let span = fragment.item.span;
-    let rule = model::Rule {
-        name: "exec".to_string(),
-        turbo: false,
-        variables: fragment.variables,
-        parameters: Vec::new(),
-        result: None,
-        body: fragment.item,
-        span,
-    };
-    program::lower_rule(program, model, &rule)
+    program::lower_rule(program, model, &fragment.into_rule())
 }

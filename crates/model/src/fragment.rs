@@ -13,7 +13,7 @@ use crate::coerce::can_coerce;
 use crate::domain::{DomainId, Domains};
 use crate::fault::{self, Faults};
 use crate::macros;
-use crate::model::{Model, Variable};
+use crate::model::{Model, Rule, Variable};
 use crate::rule::{RuleNode, Target};
 use crate::site::Site;
 use crate::term::Term;
@@ -27,6 +27,21 @@ pub struct Fragment<T> {
     pub variables: Vec<Variable>,
     /// Faults, in the order of their positions.
     pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Fragment<RuleNode> {
+    /// As a rule of its own, without parameters.
+    pub fn into_rule(self) -> Rule {
+        Rule {
+            name: "exec".to_string(),
+            turbo: false,
+            variables: self.variables,
+            parameters: Vec::new(),
+            result: None,
+            span: self.item.span,
+            body: self.item,
+        }
+    }
 }
 
 impl Model {

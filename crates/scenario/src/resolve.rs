@@ -188,23 +188,14 @@ impl Resolver<'_> {
     }
 
     fn rule(&mut self, rule: &ast::Rule, file: FileId) -> Option<program::ProcedureId> {
-        let fragment = self.model.check_rule(file, rule);
-        let bad = has_errors(&fragment.diagnostics);
-        self.faults.extend(fragment.diagnostics);
+        let mut fragment = self.model.check_rule(file, rule);
+        let faults = std::mem::take(&mut fragment.diagnostics);
+        let bad = has_errors(&faults);
+        self.faults.extend(faults);
         if bad {
             return None;
         }
-        let span = fragment.item.span;
-        let rule = model::Rule {
-            name: "exec".to_string(),
-            turbo: false,
-            variables: fragment.variables,
-            parameters: Vec::new(),
-            result: None,
-            body: fragment.item,
-            span,
-        };
-        match program::lower_rule(self.program, self.model, &rule) {
+        match program::lower_rule(self.program, self.model, &fragment.into_rule()) {
             Ok(procedure) => Some(procedure),
             Err(faults) => {
                 self.faults.extend(faults);
