@@ -1,5 +1,5 @@
 /* The visual servoing application, to the tick: in every state, however long visual servoing elaborates, up to the 12 ms that it
-   has in the paper. The ages of data stay below bounds that some run reaches. */
+   has in the paper, and if asked however long camera and robot do. The ages of data stay below bounds that some run reaches. */
 asm VisualServoingInTicks
 
 import ../../../library/std/StandardLibrary
@@ -13,6 +13,8 @@ import ../VisionTasks
 import ../VisualServoing
 
 signature:
+	// camera and robot may be done early, too; asked for in the initial state
+	monitored othersVary: Boolean
 	// ticks
 	static ageBound: SwingingBuffer -> Integer
 
@@ -107,7 +109,8 @@ default init s0:
 		endswitch
 
 	// what varies, what is observed, what is seeded
-	function longest($p in SchedulePhase) = if $p = vs_elaborate then vision_time($p) else undef endif
+	function longest($p in SchedulePhase) =
+		if $p = vs_elaborate or (othersVary and action($p) = ELABORATING) then vision_time($p) else undef endif
 	function handedOver($b in SwingingBuffer) = 0
 	function unaccounted($b in SwingingBuffer) = 0
 	function before_read($b in SwingingBuffer) = indexRead($b)

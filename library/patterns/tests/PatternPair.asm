@@ -9,6 +9,8 @@ asm PatternPair
 import ../../std/StandardLibrary
 import ../ControlTask
 
+export *
+
 signature:
 	static producer: Scheduler
 	static consumer: Scheduler
