@@ -63,7 +63,10 @@ fn understood(root: &Node) -> Result<Beside, Box<Diagnostic>> {
         Shape::Map(entries) => entries,
         Shape::Text(text) if text.is_empty() => return Ok(beside),
         _ => {
-            return Err(fault(root.span, "a mapping is expected: bounds, assume, terminal, fair, invariants, ctl, ltl"));
+            return Err(fault(
+                root.span,
+                "a mapping is expected: bounds, assume, terminal, fair, invariants, ctl, ltl",
+            ));
         }
     };
     for (Key { text: key, span }, node) in entries {
