@@ -11,6 +11,7 @@ mod conditions;
 mod encoding;
 mod explorer;
 mod interner;
+mod judge;
 mod orbit;
 mod paths;
 mod sets;
