@@ -32,9 +32,13 @@ struct Update {
 };
 
 // Makes the steps given on the command line and prints the time they took.
-// Flattened, so that the step is part of the loop as it would be in a program written out.
+// Flattened, so that the step is part of the loop as it would be in a program written out; a LARGE one is left to the
+// compiler.
 template <typename Program>
-[[gnu::flatten]] int run(int argc, char** argv) {
+#if !defined(LARGE)
+[[gnu::flatten]]
+#endif
+int run(int argc, char** argv) {
     const long steps = argc > 1 ? std::atol(argv[1]) : 1000;
     const long rounds = argc > 2 ? std::atol(argv[2]) : 1;
     std::chrono::duration<double> spent{};

@@ -1,7 +1,8 @@
 // The step code that `groundstate generate cpp` makes of a model, in the frame of the programs written by hand.
 //
 // Compiled once a model, with what was generated in the same translation unit, as a program written by hand is: SOURCE is
-// its source, MODEL its namespace.
+// its source, MODEL its namespace. NAMES has a function `names()`, what values are printed by: generated code knows its
+// literals and elements by number.
 #include SOURCE
 
 #include <iostream>
@@ -11,6 +12,7 @@
 #include <groundstate/machine/boxing.hpp>
 #include <groundstate/machine/text.hpp>
 
+#include NAMES
 #include "driver.hpp"
 
 namespace gs = groundstate::machine;
@@ -39,19 +41,18 @@ struct Generated final : MODEL::Environment {
         }
     }
 
-    // Generated code knows its literals by number: a value of an enum domain is printed as `?number`.
-    template <class Scalar>
-    static std::string show(const Scalar& scalar) {
-        const gs::Value value = gs::box(scalar);
-        return value.is(gs::Kind::enumeration) ? "?" + std::to_string(value.index()) : gs::show(value, gs::Names{});
-    }
-
     void print() const {
         machine->each_location([](const char* name, const auto& arguments, const auto& value) {
             std::string list;
-            const auto add = [&](const auto& argument) { list += (list.empty() ? "(" : ",") + show(argument); };
+            bool listed = true;
+            const auto add = [&](const auto& argument) {
+                const gs::Value boxed = gs::box(argument);
+                listed &= !boxed.is(gs::Kind::undef);
+                list += (list.empty() ? "(" : ",") + gs::show(boxed, names());
+            };
             std::apply([&](const auto&... parts) { (add(parts), ...); }, arguments);
-            std::cout << name << list << (list.empty() ? "=" : ")=") << show(value) << '\n';
+            // Of locations whose arguments are undef the machine tells nothing.
+            if (listed) std::cout << name << list << (list.empty() ? "=" : ")=") << gs::show(gs::box(value), names()) << '\n';
         });
         std::cout.flush();
     }

@@ -1,9 +1,14 @@
 //! Members that answer what is not simply read: inputs, initial values that are due late, the clock.
 //!
 //! In: what the generated code reaches. Out: the definitions of those members. An input is asked for once a step and then
-//! kept; so is the clock. A location whose initial value was not due at the start gets it when it is first read.
+//! kept; so is the clock. A location whose initial value was not due at the start gets it when it is first read, as it
+//! would have been then: of what such a value reads the initial state is kept.
 
-use crate::class::{functions, parameters};
+use std::collections::BTreeSet;
+
+use program::FunctionId;
+
+use crate::class::{carriers, functions, parameters};
 use crate::generator::{Generator, Need};
 use crate::plan::Role;
 use crate::text::Text;
@@ -54,6 +59,7 @@ fn lazy(generator: &Generator<'_>, text: &mut Text) {
         let result = generator.plan.cpp(function.ty, total);
         let initial = &generator.program.initials[function.initial.unwrap_or_default()];
         let fixed = generator.program.reads(&initial.value).is_some_and(|read| read.is_empty());
+        let late = read_late(generator, id).is_some();
         let site = 0;
         text.open(format!("\n{result} Machine::{}({list}) {{", function.name));
         text.line(format!("const std::uint32_t found = {}.find({names});", function.member));
@@ -65,12 +71,86 @@ fn lazy(generator: &Generator<'_>, text: &mut Text) {
             text.line(format!("const auto value = initial_{}({names});", function.name));
             text.line(format!("{0}.put({0}.number({site}, {names}), value);", function.member));
             text.line("return value;");
+        } else if late {
+            text.line(format!(
+                "const auto value = in_initial_state([&] {{ return initial_{}({names}); }});",
+                function.name
+            ));
+            text.line(format!("{0}.put({0}.number({site}, {names}), value);", function.member));
+            text.line("return value;");
         } else {
-            // LIMIT: an initial value that reads the state is known for the elements that there were at the start.
+            // LIMIT: bare code keeps no initial state, and an input is not asked for again: such an initial value is
+            // known for what there was at the start.
             text.line(format!("gs::fail(gs::FaultKind::no_definition, {site}, {site});"));
         }
         text.close("}");
     }
+}
+
+/// What a lazy function's initial values read, directly or through those of others, in the initial state; none if that
+/// cannot be kept.
+fn read_late(generator: &Generator<'_>, id: FunctionId) -> Option<BTreeSet<FunctionId>> {
+    if generator.options.bare {
+        return None;
+    }
+    let mut found = BTreeSet::new();
+    let mut open = vec![id];
+    while let Some(next) = open.pop() {
+        let Some(initial) = generator.plan.function(next).initial else { continue };
+        for read in generator.program.reads(&generator.program.initials[initial].value)? {
+            if read == id {
+                return None;
+            }
+            if found.insert(read) && generator.is_lazy(read) {
+                open.push(read);
+            }
+        }
+    }
+    Some(found)
+}
+
+/// The members whose initial state is kept, each with the name of its copy.
+pub(crate) fn kept_from_start(generator: &Generator<'_>) -> Vec<(String, String)> {
+    let lazy = functions(generator, &[Role::State]).into_iter().filter(|(id, _)| generator.is_lazy(*id));
+    let read: BTreeSet<FunctionId> = lazy.filter_map(|(id, _)| read_late(generator, id)).flatten().collect();
+    if read.is_empty() {
+        return Vec::new();
+    }
+    let states = functions(generator, &[Role::State, Role::Local]).into_iter();
+    let states = states.filter(|(id, _)| read.contains(id)).map(|(_, function)| function.member.clone());
+    let domains = carriers(generator).into_iter().filter_map(|(_, domain)| domain.carrier.clone());
+    states.chain(domains).map(|member| (member.clone(), member.trim_end_matches('_').to_string())).collect()
+}
+
+/// The members that evaluate a term in the initial state.
+pub(crate) fn initial_state(generator: &Generator<'_>, text: &mut Text) {
+    let kept = kept_from_start(generator);
+    if kept.is_empty() {
+        return;
+    }
+    text.line("/// What initial values read that are due late.");
+    text.open("struct Start {");
+    kept.iter().for_each(|(member, copy)| text.line(format!("decltype({member}) {copy}{{}};")));
+    text.close("};");
+    text.line("Start at_start_{};");
+    text.line("bool started_ = false;");
+    text.open("void swap_start() {");
+    kept.iter().for_each(|(member, copy)| text.line(format!("std::swap({member}, at_start_.{copy});")));
+    text.line("started_ = !started_;");
+    text.close("}");
+    text.line("template <class Term>");
+    text.open("auto in_initial_state(Term&& term) {");
+    text.line("const bool swaps = started_;");
+    text.open("struct Swapped {");
+    text.line("Machine& machine;");
+    text.line("bool swaps;");
+    text.line("~Swapped() { if (swaps) machine.swap_start(); }");
+    text.close("} swapped{*this, swaps};");
+    text.open("if (swaps) {");
+    text.line("swap_start();");
+    text.close("}");
+    text.line("return term();");
+    text.close("}");
 }
 
 fn clock(generator: &Generator<'_>, text: &mut Text) {

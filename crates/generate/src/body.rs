@@ -24,6 +24,9 @@ pub(crate) struct Member {
 /// LIMIT: how often intervals may grow step by step, before they grow at once.
 const EXACT_ROUNDS: u32 = 8;
 
+/// LIMIT: how many lines of a procedure are made part of its caller.
+const INLINED_LINES: usize = 200;
+
 /// The member functions, in the order of the model.
 #[derive(Debug)]
 pub(crate) struct Bodies<'a> {
@@ -85,6 +88,9 @@ fn once(generator: &mut Generator<'_>, started: &machine::Machine) -> Parts {
     if !program.agents.is_empty() {
         run_agent(generator, &mut agents);
     }
+    for procedure in program.main.into_iter().chain(program.agents.iter().map(|agent| agent.procedure)) {
+        *generator.calls.entry(procedure).or_default() += 1;
+    }
     generator.entered.extend(program.main);
     let mut procedures = Vec::new();
     let mut definitions = Vec::new();
@@ -124,6 +130,9 @@ fn once(generator: &mut Generator<'_>, started: &machine::Machine) -> Parts {
     start_carriers(generator, &mut whole);
     start.pour(&mut whole);
     procedures.sort_by_key(|(id, _)| *id);
+    for (id, member) in &mut procedures {
+        inline_once(generator, *id, member);
+    }
     definitions.sort_by_key(|(id, _)| *id);
     initials.sort_by_key(|(id, _)| *id);
     let members = |all: Vec<(ProcedureId, Member)>| all.into_iter().map(|(_, member)| member).collect();
@@ -154,6 +163,15 @@ fn procedure(generator: &mut Generator<'_>, id: ProcedureId) -> Member {
     }
     text.close("}");
     Member { declaration: format!("inline void {name}({list});"), definition: text }
+}
+
+/// A procedure that is called at one place is part of its caller, whatever compilers estimate: what a step updates then
+/// stays in registers.
+fn inline_once(generator: &Generator<'_>, id: ProcedureId, member: &mut Member) {
+    let once = generator.calls.get(&id) == Some(&1) && !is_recursive(generator.program, id);
+    if once && member.definition.plain().lines().count() <= INLINED_LINES {
+        member.declaration = format!("[[gnu::always_inline]] {}", member.declaration);
+    }
 }
 
 /// Parameters that the body may not use.

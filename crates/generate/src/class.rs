@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use program::{DomainId, DomainKind, FunctionId, Program};
 
-use crate::accessors::accessors;
+use crate::accessors::{accessors, initial_state, kept_from_start};
 use crate::body::Bodies;
 use crate::generator::{Generator, Need};
 use crate::plan::{DomainPlan, FunctionPlan, Role};
@@ -49,7 +49,7 @@ pub(crate) fn header(bodies: &Bodies<'_>, source: &Text, title: &str) -> Text {
         includes.push("text");
     }
     includes.sort_unstable();
-    text.line("#include <array>\n#include <cstddef>\n#include <cstdint>\n#include <limits>\n#include <tuple>\n");
+    text.line("#include <array>\n#include <cstddef>\n#include <cstdint>\n#include <limits>\n#include <tuple>\n#include <utility>\n");
     includes.iter().for_each(|name| text.line(format!("#include <groundstate/machine/{name}.hpp>")));
     text.line(format!("\nnamespace {} {{\n\nnamespace gs = groundstate::machine;\n", plan.namespace));
     let words = words(&[&body.plain(), &source.plain()]);
@@ -220,6 +220,7 @@ fn class(bodies: &Bodies<'_>, text: &mut Text) {
     if generator.needs.contains(&Need::Clock) {
         text.line("std::array<gs::Answer<std::int64_t>, 3> clock_{};");
     }
+    initial_state(generator, text);
     text.line("\n/// What the running step has updated of functions that no `seq` updates.");
     text.open("struct Next {");
     for function in stepped(generator) {
@@ -232,7 +233,7 @@ fn class(bodies: &Bodies<'_>, text: &mut Text) {
 /// The small functions that generated rules call.
 fn helpers(bodies: &Bodies<'_>, text: &mut Text) {
     let generator = &bodies.generator;
-    text.line("std::size_t choose(std::size_t candidates, gs::Site site);");
+    text.line("[[gnu::always_inline]] inline std::size_t choose(std::size_t candidates, gs::Site site);");
     if generator.needs.contains(&Need::Rounds) {
         text.line("void iteration(gs::Site site);");
     }
@@ -298,7 +299,7 @@ fn logs(generator: &Generator<'_>) -> Vec<String> {
 }
 
 /// The growing domains that the code ranges over, asks or extends.
-fn carriers<'p>(generator: &'p Generator<'_>) -> Vec<(usize, &'p DomainPlan)> {
+pub(crate) fn carriers<'p>(generator: &'p Generator<'_>) -> Vec<(usize, &'p DomainPlan)> {
     let all = generator.plan.domains.iter().enumerate();
     all.filter(|(index, plan)| plan.carrier.is_some() && generator.carriers.contains(&DomainId(*index as u32)))
         .collect()
@@ -363,6 +364,11 @@ fn frame(bodies: &Bodies<'_>, text: &mut Text) {
     }
     text.open("return gs::attempt([&] {");
     bodies.start.clone().pour(text);
+    let kept: Vec<String> = kept_from_start(generator).into_iter().map(|(member, _)| member).collect();
+    if !kept.is_empty() {
+        text.line(format!("at_start_ = {{{}}};", kept.join(", ")));
+        text.line("started_ = true;");
+    }
     text.between("}, [&] {");
     text.line("roll_back();");
     text.close("});");

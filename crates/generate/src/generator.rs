@@ -132,6 +132,8 @@ pub(crate) struct Generator<'a> {
     pub reached: BTreeSet<FunctionId>,
     /// Procedures whose code is needed.
     pub entered: BTreeSet<ProcedureId>,
+    /// How often each procedure is called in the code.
+    pub calls: BTreeMap<ProcedureId, u32>,
     /// Parts of the class that are made only where something asks for them.
     pub needs: BTreeSet<Need>,
     /// Growing domains whose elements matter.
@@ -179,6 +181,7 @@ impl<'a> Generator<'a> {
             refused: Vec::new(),
             reached: BTreeSet::new(),
             entered: BTreeSet::new(),
+            calls: BTreeMap::new(),
             needs: BTreeSet::new(),
             carriers: BTreeSet::new(),
             asked: BTreeMap::new(),

@@ -214,6 +214,7 @@ impl Generator<'_> {
 
     fn call_with(&mut self, procedure: ProcedureId, arguments: Vec<(Code, u32)>) -> String {
         self.entered.insert(procedure);
+        *self.calls.entry(procedure).or_default() += 1;
         let index = procedure.0 as usize;
         let parameters = self.program.procedure(procedure).parameters.clone();
         let assumed = self.assumed.parameters[index].clone();

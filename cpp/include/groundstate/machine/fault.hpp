@@ -85,7 +85,7 @@ struct Fault {
 
 /// Does what may fail, and gives its fault, if any. Other exceptions pass.
 template <typename Action>
-[[nodiscard]] Fault attempt(Action&& action) {
+[[nodiscard, gnu::always_inline]] inline Fault attempt(Action&& action) {
     try {
         action();
         return {};
@@ -141,7 +141,7 @@ template <typename Action>
 
 /// The same; what was done is undone after a fault, and before an exception that is no fault passes.
 template <typename Action, typename Undo>
-[[nodiscard]] Fault attempt(Action&& action, Undo&& undo) {
+[[nodiscard, gnu::always_inline]] inline Fault attempt(Action&& action, Undo&& undo) {
 #if defined(__cpp_exceptions)
     try {
         const Fault fault = attempt(action);

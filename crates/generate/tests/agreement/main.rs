@@ -13,6 +13,7 @@
 mod bare;
 mod compile;
 mod forms;
+mod late;
 mod run;
 
 use std::path::{Path, PathBuf};
