@@ -178,6 +178,11 @@ fn elements_that_are_told_apart_are_not_interchangeable() {
     );
     let derived = " function first($p in Part) = ($p = p1 or $p = p2)\n invariant inv_p over count: (forall $p in Part with first($p) or count($p) < 4)";
     judge(&model(" static first: Part -> Boolean", derived, STEP, ""), "Part: named");
+    // A rule that is a value names one.
+    let by_value = " rule r_First = count(p1) := 1\n";
+    let signature = " controlled todo: Rule";
+    let run = "par choose $p in Part with count($p) < 3 and $p != undef do count($p) := count($p) + 1 if total = 7 then todo[] endif endpar";
+    judge(&model(signature, by_value, run, " function todo = <<r_First>>"), "Part p2 p3");
     // An order shows.
     let list = " invariant inv_p over count: first(asSequence({$p in Part | count($p) < 4 : $p})) != undef";
     judge(&model("", list, STEP, ""), "Part: told");

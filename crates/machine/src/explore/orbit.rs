@@ -189,15 +189,15 @@ impl Orbits {
 
     /// Each exchange of two neighbours of a class.
     fn exchanges(&self) -> Vec<Permutation> {
-        let identity: Vec<Vec<u32>> = self.classes.iter().map(|class| (0..class.len() as u32).collect()).collect();
-        let exchange = |class: usize, at: usize| {
-            let mut images = identity.clone();
-            images[class].swap(at, at + 1);
-            Permutation(images)
-        };
         let pairs =
-            self.classes.iter().enumerate().flat_map(|(class, all)| (1..all.len()).map(move |at| (class, at - 1)));
-        pairs.map(|(class, at)| exchange(class, at)).collect()
+            self.classes.iter().enumerate().flat_map(|(class, all)| (1..all.len() as u32).map(move |at| (class, at)));
+        pairs.map(|(class, at)| self.exchange(class, at - 1, at)).collect()
+    }
+
+    fn exchange(&self, class: usize, a: u32, b: u32) -> Permutation {
+        let mut images: Vec<Vec<u32>> = self.classes.iter().map(|class| (0..class.len() as u32).collect()).collect();
+        images[class].swap(a as usize, b as usize);
+        Permutation(images)
     }
 
     /// A value with other elements inside.
@@ -400,6 +400,12 @@ impl Orbits {
 
     fn normalised(&self, state: &[u64], encoding: &Encoding, view: &mut View) -> (Box<[u64]>, Permutation) {
         let (mut orders, mut ties) = self.sorted(state, encoding, view);
+        // Where an exchange of neighbours changes nothing no order does.
+        ties.retain(|Tie { class, begin, end }| {
+            let mut neighbours = orders[*class][*begin..*end].windows(2);
+            neighbours
+                .any(|pair| *self.apply(state, &self.exchange(*class, pair[0], pair[1]), encoding, view) != *state)
+        });
         let mut tried = 1;
         ties.retain(|Tie { begin, end, .. }| {
             let orders = (1..=end - begin).try_fold(tried, |product: usize, factor| product.checked_mul(factor));

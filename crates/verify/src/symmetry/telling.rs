@@ -1,7 +1,7 @@
 //! What a program's text tells apart: elements that are named, and operations that show an order.
 //!
 //! In: a program, the conditions that are asked for, the domains in question. Out: a [`Telling`]. Walked are the main rule, the
-//! programs of agents, the conditions, and whatever these call; initial values by themselves, as most of them are evaluated before
+//! programs of agents, the conditions, rules that are values, and whatever these call; initial values by themselves, as most of them are evaluated before
 //! the first step. INVARIANT: what is walked and not told apart means the same for all elements but the order in which a
 //! quantifier, a comprehension or a `forall` goes through them.
 
@@ -39,6 +39,8 @@ struct Walk<'p> {
     terms: BTreeSet<TermId>,
     rules: BTreeSet<RuleId>,
     open: Vec<Next>,
+    /// In an initial value: the rules that it may be, which are run later.
+    values: Option<Vec<ProcedureId>>,
 }
 
 enum Next {
@@ -68,34 +70,38 @@ impl Telling {
     /// What a program tells apart of the elements of these domains.
     pub fn of(program: &Program, settings: &Settings, domains: &[DomainId]) -> Telling {
         let (terms, rules) = (BTreeSet::new(), BTreeSet::new());
-        let mut walk = Walk { program, domains, found: Telling::default(), terms, rules, open: Vec::new() };
-        let procedures = program.main.iter().copied().chain(program.agents.iter().map(|agent| agent.procedure));
-        walk.open.extend(procedures.map(Next::Procedure));
-        let steps = settings.step_conditions.iter().map(|(formula, _)| formula);
-        walk.open.extend(settings.conditions.iter().chain(steps).map(|formula| Next::Term(formula.body)));
-        walk.all();
-        let mut found = std::mem::take(&mut walk.found);
+        let found = Telling::default();
+        let mut walk = Walk { program, domains, found, terms, rules, open: Vec::new(), values: Some(Vec::new()) };
+        let (mut ranges, mut initials) = (BTreeSet::new(), BTreeMap::new());
         for initial in &program.initials {
             // What is looked at in the end is what each names by itself.
             walk.terms.clear();
-            walk.rules.clear();
             walk.open.push(Next::Term(initial.value.body));
             walk.all();
-            let Telling { named, told, extended, ranges, .. } = std::mem::take(&mut walk.found);
-            let mut of_initial: BTreeMap<Value, Span> = BTreeMap::new();
+            let Telling { named, told, ranges: more, .. } = std::mem::take(&mut walk.found);
+            let of_initial: &mut BTreeMap<Value, Span> = initials.entry(initial.function).or_default();
             for (element, distinct) in named {
                 if let Distinct::Named(span) = distinct {
                     of_initial.insert(element, span);
                 }
             }
             // An order that shows is as good as all elements' names.
-            for (domain, span) in told.into_iter().chain(extended.into_iter().flat_map(|span| walk.in_all(span))) {
+            for (domain, span) in told {
                 let count = crate::symmetry::count(program, domain) as u32;
                 of_initial.extend((0..count).map(|index| (element(program, domain, index), span)));
             }
-            found.ranges.extend(ranges);
-            found.initial.entry(initial.function).or_default().extend(of_initial);
+            ranges.extend(more);
         }
+        walk.terms.clear();
+        let values = walk.values.take().unwrap_or_default();
+        let procedures = program.main.iter().copied().chain(program.agents.iter().map(|agent| agent.procedure));
+        walk.open.extend(procedures.chain(values).map(Next::Procedure));
+        let steps = settings.step_conditions.iter().map(|(formula, _)| formula);
+        walk.open.extend(settings.conditions.iter().chain(steps).map(|formula| Next::Term(formula.body)));
+        walk.all();
+        let mut found = walk.found;
+        found.ranges.extend(ranges);
+        found.initial = initials;
         found
     }
 
@@ -117,10 +123,6 @@ impl Telling {
 }
 
 impl Walk<'_> {
-    fn in_all(&self, span: Span) -> Vec<(DomainId, Span)> {
-        self.domains.iter().map(|domain| (*domain, span)).collect()
-    }
-
     fn all(&mut self) {
         let program = self.program;
         while let Some(next) = self.open.pop() {
@@ -164,7 +166,10 @@ impl Walk<'_> {
                 let definition = program.function(*function).definition.as_ref();
                 self.open.extend(definition.map(|definition| Next::Term(definition.body)));
             }
-            Term::Rule(procedure) => self.open.push(Next::Procedure(*procedure)),
+            Term::Rule(procedure) => match &mut self.values {
+                Some(values) => values.push(*procedure),
+                None => self.open.push(Next::Procedure(*procedure)),
+            },
             Term::Quantified { binders, .. } => {
                 self.found.ranges.extend(program.binder_list(*binders).iter().map(|binder| binder.range));
             }
