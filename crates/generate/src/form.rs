@@ -13,7 +13,7 @@ use program::{
     Binder, DomainKind, FunctionId, Literal, ProcedureId, Program, Rule, RuleId, Slot, Term, TermId, TermList,
 };
 
-use crate::writes::{Target, Writes};
+use crate::writes::{Target, Writes, runnable};
 
 /// See the module.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,12 +62,19 @@ fn sequenced(program: &Program, writes: &Writes) -> BTreeSet<FunctionId> {
             | Rule::RecursiveWhile { .. }
             | Rule::Local { .. }
             | Rule::TurboCall { .. }
-            | Rule::Return { .. }
-            | Rule::RunValue { .. } => {
+            | Rule::Return { .. } => {
                 found.extend(writes.of(program, id).into_iter().filter_map(function_of));
                 if let Rule::Local { start, len, .. } = program.rule(id) {
                     found.extend(&program.function_lists[*start as usize..(*start + *len) as usize]);
                 }
+            }
+            // A rule value is a unit of its own only if it is a turbo rule.
+            Rule::RunValue { arguments, .. } => {
+                let fits = |procedure: &program::Procedure| {
+                    procedure.turbo && procedure.parameters.len() == arguments.len as usize
+                };
+                let turbo = runnable(program).filter(|procedure| fits(program.procedure(*procedure)));
+                found.extend(turbo.flat_map(|procedure| writes.procedure(procedure)).copied().filter_map(function_of));
             }
             _ => {}
         }

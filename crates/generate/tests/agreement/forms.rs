@@ -19,7 +19,10 @@ fn model(main: &str) -> String {
 }
 
 fn case(name: &str, main: &str, member: &str) -> Case {
-    let text = model(main);
+    case_of(name, model(main), member)
+}
+
+fn case_of(name: &str, text: String, member: &str) -> Case {
     let prepared = match prepare(SourceFile::new("Forms.asm", text.clone()), &mut Disk, 6, 1) {
         Ok(Some(prepared)) => prepared,
         Ok(None) => panic!("{name}: nothing to run"),
@@ -89,4 +92,25 @@ fn forms() {
         case("sums beyond 64 bits", "par n := n * 2 + 4000000000000000000 f(n mod 4) := n endpar", "n_"),
     ];
     judge("forms", cases);
+}
+
+/// A rule value is a unit of its own only where it may be a turbo rule.
+#[test]
+fn rule_values() {
+    let model = |kind: &str| {
+        format!(
+            "asm Forms\n\nimport StandardLibrary\n\nsignature:\n\tdomain D subsetof Integer\n\tcontrolled n: Integer\n\
+             \tcontrolled f: D -> Integer\n\tcontrolled act: D -> Rule(D)\n\n\
+             definitions:\n\tdomain D = {{0 : 3}}\n\n\
+             \t{kind} r_first($d in D){} = par f($d) := f($d) * 3 + n if n > 4 then f(0) := 7 endif endpar\n\n\
+             \trule r_second($d in D) = f(($d + 1) mod 4) := f($d) + 70000\n\n\
+             \tmain rule r_Main = par n := n + 1 if isDef(act(n mod 4)) then act(n mod 4)[n mod 4] endif endpar\n\n\
+             default init s0:\n\tfunction n = 0\n\tfunction f($d in D) = $d\n\
+             \tfunction act($d in D) = switch $d case 0: <<r_first(D)>> case 2: <<r_second(D)>> otherwise undef endswitch\n",
+            if kind.starts_with("turbo") { " in Integer" } else { "" }
+        )
+    };
+    let few = "gs::FewLocations<gs::Clashes::possible, std::int64_t, gs::Between<0, 3>> f_";
+    let general = "gs::Locations<std::int64_t, gs::Nowhere, 36, gs::Between<0, 3>> f_";
+    judge("rule_values", vec![case_of("plain", model("rule"), few), case_of("turbo", model("turbo rule"), general)]);
 }
