@@ -25,6 +25,8 @@ signature:
 	derived isEndless: Scheduler -> Boolean
 	// in the first phase of its cycle
 	derived isBeginning: Task -> Boolean
+	// at an elaboration that may last for ever
+	derived isFree: Task -> Boolean
 
 definitions:
 	function isWithin($b in SwingingBuffer, $ticks in Integer) =
@@ -41,6 +43,9 @@ definitions:
 			scheduler_mainThread($c) = $t
 			and action($p) = WAITING_TRIGGER
 			and nextPhase($p) = scheduler_currentPhase($c))
+
+	function isFree($t in Task) =
+		(exists $c in Scheduler with scheduler_mainThread($c) = $t and isEndless($c))
 
 	rule r_setTimes =
 		forall $c in Scheduler with mayEnd($c) do
@@ -82,4 +87,4 @@ definitions:
 
 	// with no assumption of fairness: whoever asks for a lock gets it or gives up, and everybody begins again and again
 	CTLSPEC ctlSpec_served: (forall $t in Task with ag(af(not isAsking($t))))
-	CTLSPEC ctlSpec_works: (forall $t in Task with ag(af(isBeginning($t)) and af(not isBeginning($t))))
+	CTLSPEC ctlSpec_works: (forall $t in Task with ag(af(isBeginning($t)) and af(not isBeginning($t) or isFree($t))))
