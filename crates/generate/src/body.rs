@@ -367,7 +367,7 @@ fn initial_order(program: &Program) -> (Vec<usize>, std::collections::BTreeSet<u
         cyclic: &mut std::collections::BTreeSet<usize>,
     ) {
         state[index] = 1;
-        for read in program.reads(&program.initials[index].value).unwrap_or_default() {
+        for read in program.all_reads(&program.initials[index].value).0 {
             let Some(next) = of.get(&read) else { continue };
             match state[*next] {
                 0 => visit(program, of, *next, state, order, cyclic),

@@ -46,3 +46,15 @@ fn late_initial_values() {
         ],
     );
 }
+
+/// Also where a value depends on inputs.
+#[test]
+fn initial_values_come_after_those_that_they_read() {
+    let text = "asm Order\n\nimport StandardLibrary\n\nsignature:\n\tmonitored asked: Boolean\n\tcontrolled start: Integer\n\
+                \tcontrolled first: Integer\n\ndefinitions:\n\tmain rule r_Main =\n\t\tstart := start + first\n\n\
+                default init s0:\n\tfunction start = if asked then first else first * 3 endif\n\tfunction first = 5\n";
+    let prepared = prepare(SourceFile::new("Order.asm", text), &mut Disk, 4, 1);
+    let prepared = prepared.unwrap_or_else(|reason| panic!("{}", reason.why)).expect("something to run");
+    assert!(!prepared.expected.contains("fault"), "{}", prepared.expected);
+    judge("order", vec![Case { name: "order".to_string(), text: text.to_string(), prepared }]);
+}

@@ -128,32 +128,36 @@ impl Program {
     /// The dynamic functions that a closed term reads, directly or through definitions, in order; none if its value
     /// depends on more than these and the elements of domains: on inputs, the clock, a choice, what an agent runs.
     pub fn reads(&self, expression: &Expression) -> Option<Vec<FunctionId>> {
+        let (functions, depends_on_more) = self.all_reads(expression);
+        (!depends_on_more).then_some(functions)
+    }
+
+    /// The dynamic functions that a closed term reads, inputs included, directly or through definitions, in order; and
+    /// whether its value depends on more than those of the state and the elements of domains.
+    pub fn all_reads(&self, expression: &Expression) -> (Vec<FunctionId>, bool) {
         let mut read = BTreeSet::new();
+        let mut depends_on_more = false;
         let mut entered = vec![false; self.functions.len()];
         let mut open = vec![expression.body];
         while let Some(id) = open.pop() {
             match self.term(id) {
                 Term::Read { function, .. } | Term::Define { function, .. } => {
-                    if Some(*function) == self.self_function {
-                        return None;
-                    }
-                    match self.function(*function).kind {
-                        FunctionKind::Monitored | FunctionKind::Shared => return None,
-                        FunctionKind::Controlled | FunctionKind::Out | FunctionKind::Local => {
-                            read.insert(*function);
-                        }
-                        FunctionKind::Static | FunctionKind::Derived => {}
+                    let kind = self.function(*function).kind;
+                    depends_on_more |= Some(*function) == self.self_function
+                        || matches!(kind, FunctionKind::Monitored | FunctionKind::Shared);
+                    if !matches!(kind, FunctionKind::Static | FunctionKind::Derived) {
+                        read.insert(*function);
                     }
                     if !std::mem::replace(&mut entered[function.0 as usize], true) {
                         open.extend(self.function(*function).definition.as_ref().map(|definition| definition.body));
                     }
                 }
-                Term::Builtin { builtin, .. } if !depends_on_arguments(*builtin) => return None,
+                Term::Builtin { builtin, .. } => depends_on_more |= !depends_on_arguments(*builtin),
                 _ => {}
             }
             self.each_child_of_term(id, &mut |child| open.push(child));
         }
-        Some(read.into_iter().collect())
+        (read.into_iter().collect(), depends_on_more)
     }
 
     fn each_range(&self, binders: BinderList, visit: &mut dyn FnMut(TermId)) {
