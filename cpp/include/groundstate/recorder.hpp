@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "clock.hpp"
 #include "event.hpp"
 #include "mcap_file.hpp"
 
