@@ -7,7 +7,9 @@ iceoryx2=
 if (cd iceoryx2 && CARGO_TARGET_DIR=../../../target/iceoryx2 cargo build --quiet --release --locked); then
     iceoryx2=$(realpath ../../target/iceoryx2/release/libbench_iceoryx2.a)
 fi
-cmake --preset plain -S .. -DGROUNDSTATE_BENCH_ICEORYX2="$iceoryx2" >/dev/null
 sh ../run.sh plain
-../../target/cpp/plain/bench/hand_over
-../../target/cpp/plain/adapters/simulated/tests/simulated_frame
+build=../../target/cpp/plain
+cmake -DGROUNDSTATE_BENCH_ICEORYX2="$iceoryx2" "$build" >/dev/null
+cmake --build "$build" --target hand_over -- --quiet
+"$build/bench/hand_over"
+"$build/adapters/simulated/tests/simulated_frame"

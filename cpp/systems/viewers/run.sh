@@ -1,6 +1,6 @@
 #!/bin/sh
 # Opens a log with what viewers of MCAP files are made of: the reader of Foxglove's makers; with --rerun also Rerun itself,
-# a download of 150 MB. Usage: cpp/systems/viewers/run.sh FILE [--rerun], from anywhere. What is missing is installed under
+# a large download. Usage: cpp/systems/viewers/run.sh FILE [--rerun], from anywhere. What is missing is installed under
 # target/.
 set -eu
 log=$(realpath "$1")

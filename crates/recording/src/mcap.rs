@@ -4,6 +4,7 @@
 //! file that ends early gives all that came before. INVARIANT: the events of a track are in the task's order without a
 //! gap; what comes after a lost event is left out, and the track says so.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use serde_json::Value;
@@ -89,12 +90,17 @@ impl Reader {
     /// # Errors
     /// It is no MCAP file, or none of a generated program.
     pub fn feed(&mut self, bytes: &[u8]) -> Result<(), Malformed> {
-        let mut all = std::mem::take(&mut self.rest);
-        all.extend_from_slice(bytes);
+        // A file that is read whole is not copied.
+        let mut all = Cow::Borrowed(bytes);
+        if !self.rest.is_empty() {
+            let mut begun = std::mem::take(&mut self.rest);
+            begun.extend_from_slice(bytes);
+            all = Cow::Owned(begun);
+        }
         let mut cursor = Cursor(&all);
         if !self.began {
             if all.len() < MAGIC.len() && MAGIC.starts_with(&all) {
-                self.rest = all;
+                self.rest = all.into_owned();
                 return Ok(());
             }
             cursor = Cursor(all.strip_prefix(MAGIC).ok_or(Malformed("it is no MCAP file".to_string()))?);
