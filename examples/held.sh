@@ -33,6 +33,8 @@ LC_ALL=C sed 's/\("kind":"swaps","object":"vs_to_robot","number":9,"array":\)\(.
 hold 1 visual_servoing/ControllerSystem.asm wrong.mcap "visual_servoing did: swaps vs_to_robot, number 9"
 record visual_servoing --virtual 1s --dropped --slow --occlusion --noise
 hold 0 visual_servoing/ControllerSystem.asm run.mcap "conforms by the order of events"
+record visual_servoing --virtual 1s --uneven
+hold 0 visual_servoing/ControllerSystem.asm run.mcap "conforms by the order of events"
 record object_tracking --virtual 1s
 hold 0 object_tracking/TrackingSystem.asm run.mcap "conforms"
 record pick_and_place --virtual 1s

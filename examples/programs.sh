@@ -108,6 +108,8 @@ for program in visual_servoing object_tracking pick_and_place micro_assembly; do
     said "$program: The following argument.* not expected: .*--vertual"
     expect 2 $program --virtual soon
     said "$program: --virtual: 'soon' is no time above 0 and up to an hour, as 10s, 0.5s, 20ms"
+    expect 2 $program --uneven --real 1s
+    said "$program: --.* excludes --"
     expect 2 $program --virtual 1s --real 1s
     said "$program: --.* excludes --"
     expect 2 $program --seed -3

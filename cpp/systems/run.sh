@@ -81,11 +81,12 @@ for fault in 1 2 3 4; do
     expect 1 $conform
     said "parts tick by tick"
 done
-for fault in 1 2 3; do
+for fault in 1 2 3 4; do
     expect 0 "$program" --virtual 0.1 --seed 1 --seed-fault $fault --log "$log"
     expect 1 $conform
     said "parts by the order of events"
 done
+said "the model: gives_up position"
 
 # Read along: a parting is told while the program goes on. Of one that was killed nobody knows the end.
 following() {

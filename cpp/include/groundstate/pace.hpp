@@ -8,8 +8,8 @@
 //     1/4  what is released in this step                       3/8  an asynchronous task looks whether data are there
 //     1/2  who asks for a lock in this step, the more urgent first   5/8  messages are taken   3/4  sent, and stored
 //
-// `Pace::drawn` lets each phase last a part of its modelled time, drawn from a seed; locks take no time. It is for
-// looking at other orders of events. INVARIANT: nothing here is seen by the program but the passing of time.
+// `Pace::drawn` lets each phase last a part of its modelled time, drawn from a seed, or now and then far longer; locks take
+// no time. It is for looking at other orders of events. INVARIANT: nothing here is seen by the program but the passing of time.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +25,7 @@ struct Pacing {
     Pace pace = Pace::modelled;
     std::int64_t tick_ns = 1;
     std::uint64_t seed = 0;
+    int overrun = 1;  ///< of `drawn`: one phase in sixteen lasts up to so many times its modelled time
 };
 
 /// In real time: nothing is waited for.
@@ -88,7 +89,8 @@ class TaskPace<VirtualClock> {
         if (is_modelled()) {
             clock_.sleep_until_ns((step() + std::max<std::int64_t>(ticks, 1)) * pacing_.tick_ns);
         } else {
-            const std::int64_t most_ns = std::max<std::int64_t>(ticks, 1) * pacing_.tick_ns;
+            const int times = pacing_.overrun > 1 && drawn() % 16 == 0 ? pacing_.overrun : 1;
+            const std::int64_t most_ns = std::max<std::int64_t>(ticks, 1) * pacing_.tick_ns * times;
             clock_.sleep_until_ns(clock_.now_ns() + static_cast<std::int64_t>(drawn() % static_cast<std::uint64_t>(most_ns)));
         }
     }

@@ -69,6 +69,7 @@ CommandLine::CommandLine(const char* program, const char* what, RunSettings& set
     CLI::Option* simulated = for_so_long("--virtual", false, "run so long in virtual time: the same each time");
     CLI::Option* real = for_so_long("--real", true, "run so long in real time");
     simulated->excludes(real);
+    app.add_flag("--uneven", settings_.is_uneven, "in virtual time phases last as it happens, now and then too long")->excludes(real);
     app.add_option_function<std::string>(
            "--seed", [this](const std::string& text) { settings_.seed = std::strtoull(text.c_str(), nullptr, 10); },
            "of everything that is left to chance")

@@ -7,8 +7,6 @@ use recording::Event;
 /// An event that a step of the model has.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Claim {
-    /// The component.
-    pub task: String,
     /// What happens; its time is not looked at.
     pub event: Event,
     /// The rule whose update makes it.
@@ -47,5 +45,5 @@ pub struct Parted {
 
 /// What a parting is about: the channels, or whatever else events name.
 pub(crate) fn objects<'e>(event: Option<&'e Event>, claims: &'e [Claim]) -> Vec<&'e str> {
-    event.into_iter().chain(claims.iter().map(|claim| &claim.event)).map(|event| event.object.as_str()).collect()
+    event.into_iter().chain(claims.iter().map(|claim| &claim.event)).map(|event| event.object.as_ref()).collect()
 }

@@ -2,20 +2,23 @@
 //!
 //! In: a checked model over the library of patterns, and a [`Recording`] of the program's events (spec/conform.md), whole or
 //! still being written. Out of a [`Session`]: a [`Verdict`]. What a step of the machine changes says which events the
-//! tasks have in it (`vocabulary`); these and the recorded ones must be the same. In virtual time that follows the model
+//! tasks have in it (`claims`); these and the recorded ones must be the same. In virtual time that follows the model
 //! each tick is a step of the main rule (`timed`); in any other time one task steps at a time, in an order that agrees
 //! with the recorded instants (`untimed`). The meaning of a rule stays in the machine; a run that was not wholly recorded
 //! never conforms.
 
+mod claims;
 mod evidence;
+mod order;
 mod session;
 mod steps;
 mod timed;
 mod untimed;
 mod vocabulary;
+mod waiting;
 
 pub use evidence::{Claim, Parted, Recorded};
-pub use recording::{Event, Malformed, Reader, Recording, Track};
+pub use recording::{Event, Kind, Malformed, Reader, Recording, Track};
 pub use session::{Refusal, Session, Way};
 
 /// What came of it.

@@ -15,7 +15,7 @@ use crate::Verdict;
 use crate::steps::Steps;
 use crate::vocabulary::Vocabulary;
 use crate::{timed, untimed};
-use recording::Recording;
+use recording::{Kind, Recording};
 
 /// How a recording is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,8 +88,8 @@ impl Session {
     ) -> Result<Session, Refusal> {
         let mut machine = Machine::new(Arc::new(program.clone()), limits);
         machine.start(&mut machine::Closed).map_err(|fault| fault.show(&program).to_string())?;
-        let names = Vocabulary::new(&program, &machine)?.names();
-        let steps = match Steps::add(&names, &head.wait_free, &mut sources, &mut model, &mut program) {
+        Vocabulary::new(&program, &machine)?;
+        let steps = match Steps::add(&head.wait_free, &mut sources, &mut model, &mut program) {
             Ok(steps) => steps,
             Err(faults) => return Err(Refusal::Model(sources, faults)),
         };
@@ -97,7 +97,7 @@ impl Session {
         let replay = if head.pace == "modelled" && !by_order {
             Replay::Timed(Box::new(timed::Replay::new(&program, limits, &steps)?))
         } else {
-            Replay::Untimed(Box::new(untimed::Replay::new(&program, limits, &steps, head.tick_ns)?))
+            Replay::Untimed(Box::new(untimed::Replay::new(&program, limits, &steps, head)?))
         };
         Ok(Session { sources, program, steps, limits, replay, suspected_ns: None })
     }
@@ -115,7 +115,7 @@ impl Session {
         };
         // What the model has no word for is a matter of order alone.
         let passed = |recording: &Recording| {
-            recording.tracks.iter().flat_map(|track| &track.events).any(|event| event.kind == "passes")
+            recording.tracks.iter().flat_map(|track| &track.events).any(|event| event.kind == Kind::Passes)
         };
         if !(matches!(verdict, Some(Verdict::Unknown { .. })) && passed(recording)) {
             return Ok(verdict);
@@ -125,7 +125,7 @@ impl Session {
     }
 
     fn begin_by_order(&mut self, recording: &Recording) -> Result<(), Refusal> {
-        let replay = untimed::Replay::new(&self.program, self.limits, &self.steps, recording.tick_ns)?;
+        let replay = untimed::Replay::new(&self.program, self.limits, &self.steps, recording)?;
         self.replay = Replay::Untimed(Box::new(replay));
         Ok(())
     }
@@ -175,5 +175,7 @@ impl Session {
     }
 }
 
+#[cfg(test)]
+mod by_order;
 #[cfg(test)]
 mod tests;

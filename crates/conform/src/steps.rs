@@ -12,7 +12,7 @@ use program::{ProcedureId, Program};
 use syntax::ast::{self, AstNode};
 use syntax::{Diagnostic, Severity, SourceFile, Sources};
 
-use crate::vocabulary::Vocabulary;
+use crate::vocabulary::{Named, Vocabulary};
 
 /// Phases take no time, and a rest comes behind each. A deadline is said of each task, so that its period can be another
 /// while a cycle ends.
@@ -25,23 +25,28 @@ const LOOSEN: &str = "par \
        endpar \
    endpar";
 
+/// One component steps, whichever is chosen. One rule for all of them is compiled once.
+const STEP: &str = "choose $c in Scheduler with true do par \
+     r_scheduler_execute[$c] \
+     forall $s in Semaphore with true do r_sem_arbitrate[$s] \
+   endpar";
+
 /// Adds the steps of tasks to a program.
 #[derive(Debug, Clone)]
 pub struct Steps {
     loosen: ProcedureId,
-    /// One a component, by its name.
-    each: Vec<(String, ProcedureId)>,
+    /// A component, which is chosen, steps.
+    step: ProcedureId,
     /// One a wait-free channel, by its name: it becomes a shared value.
     cells: Vec<(String, ProcedureId)>,
 }
 
 impl Steps {
-    /// Adds the steps of these components to a program, and what makes these channels shared values.
+    /// Adds the step of a component to a program, and what makes these channels shared values.
     ///
     /// # Errors
     /// The model lacks what they call.
     pub fn add(
-        components: &[String],
         wait_free: &[String],
         sources: &mut Sources,
         model: &mut Model,
@@ -58,11 +63,7 @@ impl Steps {
         *program = program::lower(model)?;
         let mut add = |text: &str| rule(text, sources, model, program);
         let loosen = add(LOOSEN)?;
-        let step = |name: &String| {
-            format!("par r_scheduler_execute[{name}] forall $s in Semaphore with true do r_sem_arbitrate[$s] endpar")
-        };
-        let each: Result<Vec<_>, _> =
-            components.iter().map(|name| add(&step(name)).map(|procedure| (name.clone(), procedure))).collect();
+        let step = add(STEP)?;
         let cell = |name: &String| {
             format!(
                 "extend SharedValue with $v do par \
@@ -78,7 +79,7 @@ impl Steps {
         };
         let cells: Result<Vec<_>, _> =
             wait_free.iter().map(|name| add(&cell(name)).map(|procedure| (name.clone(), procedure))).collect();
-        Ok(Steps { loosen, each: each?, cells: cells? })
+        Ok(Steps { loosen, step, cells: cells? })
     }
 
     /// The model in its initial state, with the wait-free channels as they are, and what of it is known.
@@ -98,20 +99,16 @@ impl Steps {
             run(&mut machine, *procedure)?;
             let phase =
                 phases.first().ok_or(format!("the model has no channel {name}, which was generated wait-free"))?;
-            names.push((before.get(&machine, "sharedValue", std::slice::from_ref(phase)), name.clone()));
+            names.push((before.get(&machine, Named::SharedValue, std::slice::from_ref(phase)), name.clone()));
         }
         let mut vocabulary = Vocabulary::new(program, &machine)?;
-        names.into_iter().for_each(|(value, name)| vocabulary.call(value, name));
+        names.into_iter().for_each(|(value, name)| vocabulary.call(value, &name));
         Ok((machine, vocabulary))
     }
 
-    /// The step of a component.
-    ///
-    /// # Errors
-    /// There is none, in words.
-    pub fn of(&self, component: &str) -> Result<ProcedureId, String> {
-        let found = self.each.iter().find(|(known, _)| known == component).map(|(_, procedure)| *procedure);
-        found.ok_or(format!("there is no step of {component}"))
+    /// The step of a component, which the environment chooses: it is the first choice of the step, among all schedulers.
+    pub fn step(&self) -> ProcedureId {
+        self.step
     }
 
     /// From now on phases take no time, and a rest comes behind each.

@@ -13,7 +13,7 @@ use crate::Verdict;
 use crate::evidence::{Claim, Parted, Recorded, objects};
 use crate::steps::Steps;
 use crate::vocabulary::Vocabulary;
-use recording::{Event, Recording};
+use recording::{Event, Kind, Recording};
 
 /// The last so many events are shown where the two part.
 const SHOWN: usize = 12;
@@ -78,15 +78,17 @@ impl Replay {
             let reason = format!("the model cannot make the step of tick {tick}: {fault}");
             return Some(Verdict::Unknown { events: self.agreed, reason });
         }
-        let claims = self.vocabulary.claims(&self.machine, &self.machine.changes());
+        let claims = self.vocabulary.claims(&self.machine, &self.vocabulary.changes(&self.machine));
         for component in 0..self.vocabulary.components.len() {
             let events = &tracks[component][self.cursors[component]..];
             let count = events.iter().take_while(|event| event.time_ns / recording.tick_ns == tick).count();
             let recorded = &events[..count];
             let task = &self.vocabulary.components[component].name;
-            if let Some(event) = recorded.iter().find(|event| ["passes", "faults"].contains(&event.kind.as_str())) {
-                let reason = match event.kind.as_str() {
-                    "passes" => format!("{task} had nothing to hand over in tick {tick}, which the model always has"),
+            if let Some(event) = recorded.iter().find(|event| matches!(event.kind, Kind::Passes | Kind::Faults)) {
+                let reason = match event.kind {
+                    Kind::Passes => {
+                        format!("{task} had nothing to hand over in tick {tick}, which the model always has")
+                    }
                     _ => format!("{task} failed in tick {tick}"),
                 };
                 return Some(Verdict::Unknown { events: self.agreed, reason });
@@ -121,7 +123,7 @@ impl Replay {
 fn differs(recorded: &[Event], claims: &[&Claim]) -> Option<Option<Event>> {
     let mut open: Vec<&&Claim> = claims.iter().collect();
     for event in recorded {
-        if event.kind == "invalid" {
+        if event.kind == Kind::Invalid {
             continue;
         }
         match open.iter().position(|claim| claim.event.same(event)) {

@@ -2,29 +2,29 @@
 //!
 //! In: the model, and any recording. The model's configuration is changed before the run, its rules are not: phases take no
 //! time, and between two phases there is a rest, so that leaving the one and beginning the next are two steps. The clock
-//! is set to the recorded instant. Then there must be an order of the tasks' steps, consistent with the recorded times,
-//! in which each step has the events that were recorded. An action was taken between the event before it and the one
-//! after it, where an event that is told before the action (asks, releases, sends, stores) narrows the beginning and one
-//! told after it (enters, takes) the end; among actions that overlap every order is tried.
+//! is set to the recorded instant, and so is the time that a cycle has waited where it matters. Then there must be an order
+//! of the tasks' steps, consistent with the recorded times (`order`), in which each step has the events that were recorded;
+//! among actions that overlap every order is tried.
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 
-use machine::{Change, Closed, Limits, Machine, Snapshot, Value};
-use program::{ProcedureId, Program};
+use machine::{Change, Choice, Environment, Fault, Limits, LocationRef, Machine, Mark, TimeUnit, Value};
+use program::{DomainId, ProcedureId, Program, Slot};
 
 use crate::Verdict;
 use crate::evidence::{Claim, Parted, Recorded, objects};
+use crate::order::{Lane, Place, Span};
 use crate::steps::Steps;
 use crate::timed::tracks;
-use crate::vocabulary::Vocabulary;
-use recording::{Event, Recording};
+use crate::vocabulary::{Named, Vocabulary};
+use crate::waiting::Pace;
+use recording::{Event, Kind, Recording};
 
 /// LIMIT: so many decisions are kept to go back to.
 const KEPT: usize = 64;
-/// LIMIT: so many events of another task are looked at for one that may have come before.
-const NEAR: usize = 64;
-/// Kinds of events that no other task has to do with.
-const LOCAL: &[&str] = &["begins", "ends", "passes", "meets", "misses", "invalid", "faults"];
+/// More rests than this do not follow each other.
+const RESTS: usize = 3;
 /// The last so many events are shown where the two part.
 const SHOWN: usize = 12;
 
@@ -37,18 +37,16 @@ const SHOWN: usize = 12;
 pub struct Replay {
     machine: Machine,
     vocabulary: Vocabulary,
-    procedures: Vec<ProcedureId>,
+    step: ProcedureId,
     tick_ns: i64,
-    /// The events of each component, as far as they are looked at.
-    tracks: Vec<Vec<Event>>,
+    pace: Pace,
+    /// One a component.
+    lanes: Vec<Lane>,
     /// More may come.
     more: bool,
-    cursors: Vec<usize>,
-    /// The last tick of each component: its clock does not go back.
-    ticks: Vec<i64>,
     agreed: usize,
     /// The decisions to go back to.
-    stack: Vec<Node>,
+    stack: VecDeque<Node>,
     /// The last decision waits for more events.
     waits: bool,
     /// The parting that comes latest.
@@ -58,12 +56,12 @@ pub struct Replay {
 /// A point to go back to.
 #[derive(Debug)]
 struct Node {
-    snapshot: Snapshot,
-    cursors: Vec<usize>,
-    ticks: Vec<i64>,
+    mark: Mark,
     agreed: usize,
     /// Components that have not been tried here, the last one first.
     open: Vec<usize>,
+    /// The component that stepped here, and where it was before.
+    stepped: Option<(usize, Place)>,
 }
 
 /// Why a component does not go on.
@@ -79,28 +77,49 @@ impl From<Box<Parted>> for Stop {
     }
 }
 
+/// Chooses which component steps, and gives nothing else.
+struct Chosen<'a> {
+    scheduler: &'a Value,
+    made: bool,
+}
+
+impl Environment for Chosen<'_> {
+    fn monitored(&mut self, program: &Program, location: LocationRef<'_>, _: DomainId) -> Result<Value, String> {
+        Err(format!("no value is given for the monitored location {}", location.show(program)))
+    }
+
+    fn choose(&mut self, _: &Program, choice: &Choice<'_>) -> Result<usize, String> {
+        if std::mem::replace(&mut self.made, true) {
+            return Ok(0);
+        }
+        let found = choice.values.iter().position(|candidate| candidate == self.scheduler);
+        found.ok_or("the component is no scheduler of the model".to_string())
+    }
+
+    fn time(&mut self, _: TimeUnit) -> Result<i64, String> {
+        Ok(0)
+    }
+}
+
 impl Replay {
-    /// Starts the model, with the steps added to its program.
+    /// Starts the model, with the steps added to its program, for a recording with this head.
     ///
     /// # Errors
     /// It cannot be replayed, in words.
-    pub fn new(program: &Arc<Program>, limits: Limits, steps: &Steps, tick_ns: i64) -> Result<Replay, String> {
+    pub fn new(program: &Arc<Program>, limits: Limits, steps: &Steps, head: &Recording) -> Result<Replay, String> {
         let (mut machine, vocabulary) = steps.start(program, limits)?;
-        let procedures: Result<Vec<_>, String> =
-            vocabulary.components.iter().map(|known| steps.of(&known.name)).collect();
         steps.loosen(&mut machine)?;
-        let count = vocabulary.components.len();
+        let lanes = vocabulary.components.iter().map(|_| Lane::default()).collect();
         Ok(Replay {
             machine,
             vocabulary,
-            procedures: procedures?,
-            tick_ns,
-            tracks: vec![Vec::new(); count],
+            step: steps.step(),
+            tick_ns: head.tick_ns,
+            pace: Pace::named(&head.pace),
+            lanes,
             more: true,
-            cursors: vec![0; count],
-            ticks: vec![0; count],
             agreed: 0,
-            stack: Vec::new(),
+            stack: VecDeque::new(),
             waits: false,
             deepest: None,
         })
@@ -118,7 +137,8 @@ impl Replay {
     pub fn go_on(&mut self, recording: &Recording, more: bool) -> Result<Option<Verdict>, String> {
         // What tasks do to come to an end is no run of the model.
         let known = recording.known_until_ns().unwrap_or(i64::MAX).min(recording.stopped_ns.unwrap_or(i64::MAX));
-        for (own, events) in self.tracks.iter_mut().zip(tracks(&self.vocabulary, recording)?) {
+        for (lane, events) in self.lanes.iter_mut().zip(tracks(&self.vocabulary, recording)?) {
+            let own = &mut lane.events;
             own.extend_from_slice(&events[own.len().min(events.len())..]);
             if !more {
                 own.truncate(own.partition_point(|event| event.time_ns < known));
@@ -131,58 +151,24 @@ impl Replay {
     fn run(&mut self, known: i64, is_whole: bool) -> Option<Verdict> {
         loop {
             if !std::mem::take(&mut self.waits) {
-                let open = self.candidates();
-                let first = open.last().and_then(|first| self.span(*first)).map_or(i64::MAX, |(_, to)| to);
-                if self.more && first >= known {
+                let (first_ns, open) = self.candidates();
+                if self.more && first_ns >= known {
                     return None;
                 }
                 if open.is_empty() {
                     break;
                 }
-                self.stack.push(Node {
-                    snapshot: self.machine.snapshot(),
-                    cursors: self.cursors.clone(),
-                    ticks: self.ticks.clone(),
-                    agreed: self.agreed,
-                    open,
-                });
-                if self.stack.len() > KEPT {
-                    self.stack.remove(0);
-                }
+                self.decide(open);
             }
-            // The first way on that is possible; where there is none, back to the last decision that has another.
-            loop {
-                let Some(mut node) = self.stack.pop() else {
-                    let parted = self.deepest.take().unwrap_or_else(|| unreachable!("a way was tried"));
-                    return Some(Verdict::Parts(parted));
-                };
-                let Some(component) = node.open.pop() else { continue };
-                self.machine.restore(&node.snapshot);
-                self.cursors.clone_from(&node.cursors);
-                self.ticks.clone_from(&node.ticks);
-                self.agreed = node.agreed;
-                let rivals = self.rivals(component);
-                match self.advance(component) {
-                    // Other orders matter only among actions on one channel.
-                    Ok(()) => {
-                        node.open.retain(|other| rivals.contains(other));
-                        self.stack.push(node);
-                        break;
-                    }
-                    Err(Stop::Waits) => {
-                        node.open.push(component);
-                        self.stack.push(node);
-                        self.waits = true;
-                        return None;
-                    }
-                    Err(Stop::Parted(parted)) => {
-                        if self.deepest.as_ref().is_none_or(|deepest| deepest.agreed < parted.agreed) {
-                            self.deepest = Some(parted);
-                        }
-                        self.stack.push(node);
-                    }
-                }
+            if let Some(verdict) = self.go_one_way() {
+                return Some(verdict);
             }
+            if self.waits {
+                return None;
+            }
+        }
+        if let Some(parted) = self.still_waiting(known) {
+            return Some(Verdict::Parts(parted));
         }
         Some(if is_whole {
             Verdict::Conforms { events: self.agreed, steps: self.machine.steps() }
@@ -191,196 +177,308 @@ impl Replay {
         })
     }
 
-    /// Components that may act next, the first one last: those whose action cannot have come after another one's.
-    fn candidates(&self) -> Vec<usize> {
-        let spans: Vec<(usize, i64, i64)> =
-            (0..self.tracks.len()).filter_map(|index| self.span(index).map(|(from, to)| (index, from, to))).collect();
-        let first = spans.iter().map(|(_, _, to)| *to).min().unwrap_or(i64::MAX);
-        let mut open: Vec<(i64, usize)> =
-            spans.iter().filter(|(_, from, _)| *from <= first).map(|(index, _, to)| (*to, *index)).collect();
+    /// A decision among these components, to be gone back to.
+    fn decide(&mut self, open: Vec<usize>) {
+        let mark = self.machine.mark();
+        self.stack.push_back(Node { mark, agreed: self.agreed, open, stepped: None });
+        if self.stack.len() > KEPT {
+            self.stack.pop_front();
+            self.machine.forget_before(&self.stack[0].mark);
+        }
+    }
+
+    /// The first way on that is possible; where there is none, back to the last decision that has another.
+    fn go_one_way(&mut self) -> Option<Verdict> {
+        loop {
+            let Some(mut node) = self.stack.pop_back() else {
+                let parted = self.deepest.take().unwrap_or_else(|| unreachable!("a way was tried"));
+                return Some(Verdict::Parts(parted));
+            };
+            if let Some((component, place)) = node.stepped.take() {
+                self.lanes[component].place = place;
+                self.machine.go_back(&node.mark);
+                self.agreed = node.agreed;
+            }
+            let Some(component) = node.open.pop() else { continue };
+            // Other orders matter only among actions on one channel.
+            let rivals = if node.open.is_empty() { Vec::new() } else { self.rivals(component) };
+            node.stepped = Some((component, self.lanes[component].place));
+            match self.advance(component) {
+                Ok(()) => {
+                    node.open.retain(|other| rivals.contains(other));
+                    self.stack.push_back(node);
+                    return None;
+                }
+                Err(Stop::Waits) => {
+                    node.open.push(component);
+                    self.stack.push_back(node);
+                    self.waits = true;
+                    return None;
+                }
+                Err(Stop::Parted(parted)) => {
+                    if self.deepest.as_ref().is_none_or(|deepest| deepest.agreed < parted.agreed) {
+                        self.deepest = Some(parted);
+                    }
+                    self.stack.push_back(node);
+                }
+            }
+        }
+    }
+
+    /// Components that may act next, the first one last: those whose action cannot have come after another one's; and when
+    /// the first one has acted at the latest.
+    fn candidates(&self) -> (i64, Vec<usize>) {
+        let spans = || self.lanes.iter().map(|lane| lane.span(self.more)).enumerate();
+        let first_ns = spans().filter_map(|(_, span)| Some(span?.to_ns)).min().unwrap_or(i64::MAX);
+        let may = |(index, span): (usize, Option<Span>)| {
+            let Span { from_ns, to_ns } = span?;
+            (from_ns <= first_ns).then_some((to_ns, index))
+        };
+        let mut open: Vec<(i64, usize)> = spans().filter_map(may).collect();
         open.sort_unstable_by(|left, right| right.cmp(left));
-        open.into_iter().map(|(_, index)| index).collect()
+        (first_ns, open.into_iter().map(|(_, index)| index).collect())
     }
 
     /// The components that act on the channel of this one's next action, perhaps before it.
     fn rivals(&self, component: usize) -> Vec<usize> {
-        let at = self.acts(component);
-        let Some(event) = self.tracks[component].get(at).filter(|event| !LOCAL.contains(&event.kind.as_str())) else {
-            return Vec::new();
-        };
-        let until = self.span(component).map_or(i64::MIN, |(_, to)| to);
-        let meets = |other: &usize| {
-            let events = self.tracks[*other][self.cursors[*other]..].iter();
-            // An action is recorded at the latest by the event after it.
-            let near = events.take(NEAR).take_while(|other| other.time_ns <= until);
-            *other != component && near.into_iter().any(|other| other.object == event.object)
-        };
-        (0..self.tracks.len()).filter(meets).collect()
-    }
-
-    /// The event by which a component acts next: what comes with a beginning, or else the next one.
-    fn acts(&self, index: usize) -> usize {
-        let (events, at) = (&self.tracks[index], self.cursors[index]);
-        match (events.get(at), events.get(at + 1)) {
-            (Some(event), Some(next))
-                if event.kind == "begins" && ["asks", "takes", "loads", "writes"].contains(&next.kind.as_str()) =>
-            {
-                at + 1
-            }
-            _ => at,
-        }
-    }
-
-    /// Between which instants the next action of a component was taken.
-    fn span(&self, index: usize) -> Option<(i64, i64)> {
-        let events = &self.tracks[index];
-        let at = self.cursors[index];
-        let event = events.get(at)?;
-        let before = at.checked_sub(1).map_or(i64::MIN, |before| events[before].time_ns);
-        let acts = self.acts(index);
-        // With what a beginning comes is not known yet.
-        let is_last = self.more && at + 1 == events.len();
-        let told_before = ["asks", "releases", "sends", "stores", "refuses"].contains(&events[acts].kind.as_str());
-        let from = if told_before || acts > at || is_last { event.time_ns } else { before };
-        let to =
-            if told_before { events.get(acts + 1).map_or(i64::MAX, |next| next.time_ns) } else { events[acts].time_ns };
-        Some((from, to))
+        let lane = &self.lanes[component];
+        let (Some(channel), Some(span)) = (lane.channel(), lane.span(self.more)) else { return Vec::new() };
+        let meets = |other: &usize| *other != component && self.lanes[*other].may_act_on(channel, span.to_ns);
+        (0..self.lanes.len()).filter(meets).collect()
     }
 
     /// Makes the steps that the component's next events are of.
     fn advance(&mut self, component: usize) -> Result<(), Stop> {
-        let event = self.tracks[component][self.cursors[component]].clone();
-        match event.kind.as_str() {
-            "invalid" | "faults" => {
-                self.cursors[component] += 1;
-                self.agreed += 1;
+        let lane = &self.lanes[component];
+        let Some(Event { time_ns, kind, .. }) = lane.next() else { unreachable!("a candidate has an event") };
+        let (time_ns, kind) = (*time_ns, *kind);
+        match kind {
+            Kind::Invalid | Kind::Faults => {
+                self.agree(component, 1);
                 return Ok(());
             }
-            "passes" => return Ok(self.pass(component, &event)?),
+            Kind::Passes => return Ok(self.pass(component)?),
             _ => {}
         }
-        let tick = event.time_ns.div_euclid(self.tick_ns).max(self.ticks[component]);
+        let tick = time_ns.div_euclid(self.tick_ns).max(lane.place.tick);
         // At the end of a cycle the exact instant decides: in time, or within the tick too late.
-        let ticks = match event.kind.as_str() {
-            "meets" | "misses" => vec![tick, tick + i64::from(event.time_ns.rem_euclid(self.tick_ns) > 0)],
-            _ => vec![tick],
-        };
-        let start = self.machine.snapshot();
-        let mut parted = None;
-        for tick in ticks {
-            self.machine.restore(&start);
-            match self.advance_at(component, tick) {
-                Err(Stop::Parted(found)) => _ = parted.get_or_insert(found),
-                other => return other,
-            }
+        if !matches!(kind, Kind::Meets | Kind::Misses) || time_ns.rem_euclid(self.tick_ns) == 0 {
+            return self.advance_at(component, tick);
         }
-        Err(parted.unwrap_or_else(|| self.parted(component, Vec::new(), "no step is possible".to_string())).into())
+        let start = self.machine.mark();
+        let Err(Stop::Parted(parted)) = self.advance_at(component, tick) else { return Ok(()) };
+        self.machine.go_back(&start);
+        match self.advance_at(component, tick + 1) {
+            Err(Stop::Parted(_)) => Err(parted.into()),
+            other => other,
+        }
     }
 
     fn advance_at(&mut self, component: usize, tick: i64) -> Result<(), Stop> {
-        let at = self.cursors[component];
-        let next = &self.tracks[component][at];
-        let gives_up = ["gives_up", "refuses"].contains(&next.kind.as_str());
-        let ends = ["meets", "misses"].contains(&next.kind.as_str());
-        // Before giving up a lock the model counts each tick that it waits; between phases it rests for a step.
-        let waited = match at.checked_sub(1) {
-            Some(before) if gives_up => {
-                let asked = self.tracks[component][before].time_ns;
-                ((next.time_ns - asked) / self.tick_ns).max(0)
-            }
-            _ => 0,
-        };
-        for _ in 0..waited + 3 {
+        let lane = &self.lanes[component];
+        let kind = lane.next().map(|event| event.kind);
+        let gives_up = matches!(kind, Some(Kind::GivesUp | Kind::Refuses));
+        let ends = matches!(kind, Some(Kind::Meets | Kind::Misses));
+        if gives_up {
+            self.set_waited(component)?;
+        }
+        // Between phases it rests for a step.
+        for _ in 0..RESTS {
             let changes =
                 self.step(component, tick, ends).map_err(|fault| self.parted(component, Vec::new(), fault))?;
             let claims = self.vocabulary.claims(&self.machine, &changes);
-            let (own, others): (Vec<_>, Vec<_>) = claims.into_iter().partition(|(of, _)| *of == component);
-            debug_assert!(others.is_empty(), "one task steps");
-            let own: Vec<Claim> = own.into_iter().map(|(_, claim)| claim).collect();
-            if own.is_empty() {
-                if !changes.is_empty() && (gives_up || self.rests(&changes)) {
+            debug_assert!(claims.iter().all(|(of, _)| *of == component), "one task steps");
+            if claims.is_empty() {
+                if self.rests(&changes) {
                     continue;
                 }
-                return Err(self.parted(component, own, "the model's task cannot go on here".to_string()).into());
+                let reason = match gives_up {
+                    true => "the model's task would still wait",
+                    false => "the model's task cannot go on here",
+                };
+                return Err(self.parted(component, Vec::new(), reason.to_string()).into());
             }
-            let next = &self.tracks[component][at..];
-            let recorded = &next[..own.len().min(next.len())];
-            let mut open: Vec<&Claim> = own.iter().collect();
-            for event in recorded {
-                match open.iter().position(|claim| claim.event.same(event)) {
-                    Some(at) => _ = open.swap_remove(at),
-                    None => {
-                        let mut parted = self.parted(component, own.clone(), String::new());
-                        parted.event = Some(event.clone());
-                        parted.reason = None;
-                        return Err(parted.into());
-                    }
+            return self.compare(component, tick, claims);
+        }
+        Err(self.parted(component, Vec::new(), "the model's task does not come to an action".to_string()).into())
+    }
+
+    /// Holds the events of a step to the recorded ones.
+    fn compare(&mut self, component: usize, tick: i64, claims: Vec<(usize, Claim)>) -> Result<(), Stop> {
+        let lane = &self.lanes[component];
+        let next = &lane.events[lane.place.cursor..];
+        let recorded = &next[..claims.len().min(next.len())];
+        let mut open: Vec<&Claim> = claims.iter().map(|(_, claim)| claim).collect();
+        for event in recorded {
+            match open.iter().position(|claim| claim.event.same(event)) {
+                Some(at) => _ = open.swap_remove(at),
+                None => {
+                    let event = Some(event.clone());
+                    let claims = claims.into_iter().map(|(_, claim)| claim).collect();
+                    let parted = self.parted(component, claims, String::new());
+                    return Err(Box::new(Parted { event, reason: None, ..*parted }).into());
                 }
             }
-            if self.more && recorded.len() < own.len() {
-                return Err(Stop::Waits);
-            }
-            // The recording may end within a step.
-            let count = recorded.len();
-            self.ticks[component] = tick;
-            self.cursors[component] += count;
-            self.agreed += count;
+        }
+        if self.more && recorded.len() < claims.len() {
+            return Err(Stop::Waits);
+        }
+        // The recording may end within a step.
+        let count = recorded.len();
+        let enters = recorded.iter().any(|event| event.kind == Kind::Enters);
+        self.lanes[component].place.tick = tick;
+        self.agree(component, count);
+        if enters { Ok(self.is_in_time(component, count)?) } else { Ok(()) }
+    }
+
+    /// So many events agree.
+    fn agree(&mut self, component: usize, count: usize) {
+        let Lane { events, place } = &mut self.lanes[component];
+        for _ in 0..count {
+            let before = place.cursor.checked_sub(1).map(|before| &events[before]);
+            place.waited = place.waited.with(before, &events[place.cursor], self.pace, self.tick_ns);
+            place.cursor += 1;
+        }
+        self.agreed += count;
+    }
+
+    /// A lock came within the time that the model's task would have waited, of which the events that agreed last tell.
+    fn is_in_time(&mut self, component: usize, count: usize) -> Result<(), Box<Parted>> {
+        let waited_ns = self.lanes[component].place.waited.at_least_ns;
+        if self.would_wait(component, waited_ns)? {
             return Ok(());
         }
-        Err(self.parted(component, Vec::new(), "the model's task would still wait for the lock".to_string()).into())
+        self.lanes[component].place.cursor -= count;
+        self.agreed -= count;
+        Err(self.gave_up(component, waited_ns))
+    }
+
+    /// A task that waits for a lock when the recording ends, and which the model's task would have given up by then.
+    fn still_waiting(&mut self, until_ns: i64) -> Option<Box<Parted>> {
+        for component in 0..self.lanes.len() {
+            let lane = &self.lanes[component];
+            let Some(asks) = lane.last().filter(|event| event.kind == Kind::Asks && until_ns < i64::MAX) else {
+                continue;
+            };
+            let now = Event { time_ns: until_ns, kind: Kind::Enters, ..asks.clone() };
+            let waited = lane.place.waited.with(Some(asks), &now, self.pace, self.tick_ns);
+            match self.would_wait(component, waited.at_least_ns) {
+                Ok(true) => {}
+                Ok(false) => return Some(self.gave_up(component, waited.at_least_ns)),
+                Err(parted) => return Some(parted),
+            }
+        }
+        None
+    }
+
+    /// Whether the model's task waits for so long in a cycle: a tick before it still had time.
+    fn would_wait(&mut self, component: usize, waited_ns: i64) -> Result<bool, Box<Parted>> {
+        if waited_ns <= 0 {
+            return Ok(true);
+        }
+        let ticks = (waited_ns + self.tick_ns - 1) / self.tick_ns;
+        let task = self.vocabulary.components[component].task.clone();
+        let location = self.vocabulary.location(Named::TimeInWait, std::slice::from_ref(&task));
+        let former = self.machine.value(&location);
+        let program = Arc::clone(self.machine.program());
+        let asked = || -> Result<Value, Fault> {
+            self.machine.set(&location, Value::Integer(ticks - 1))?;
+            let there_is_time = program.function(self.vocabulary.function(Named::ThereIsTime));
+            let asked = match &there_is_time.definition {
+                Some(defined) => {
+                    let bound = [(Slot(0), task)];
+                    self.machine.evaluate_with(defined.body, defined.frame, &bound, &mut machine::Closed)
+                }
+                None => Ok(Value::Undef),
+            };
+            self.machine.set(&location, former)?;
+            asked
+        };
+        let asked = asked().map_err(|fault| self.parted(component, Vec::new(), fault.show(&program).to_string()))?;
+        Ok(asked != Value::Boolean(false))
+    }
+
+    /// The parting of a task that went on waiting where the model's task gives up.
+    fn gave_up(&self, component: usize, waited_ns: i64) -> Box<Parted> {
+        let lane = &self.lanes[component];
+        let object = lane.next().or(lane.last()).map_or_else(Default::default, |event| Arc::clone(&event.object));
+        let span = self.machine.program().function(self.vocabulary.function(Named::ThereIsTime)).span;
+        let claim = Claim { event: Event { kind: Kind::GivesUp, object, ..Event::default() }, span };
+        let waited = format!("its cycle has waited {:.4} ms for locks by then", waited_ns as f64 / 1e6);
+        let reason = match self.pace {
+            Pace::Real => format!("{waited}, interruptions left out"),
+            Pace::Modelled | Pace::Drawn => waited,
+        };
+        self.parted(component, vec![claim], reason)
+    }
+
+    /// Each tick that a task waits, the model counts; here the waiting is as long as it was recorded to be.
+    fn set_waited(&mut self, component: usize) -> Result<(), Box<Parted>> {
+        let lane = &self.lanes[component];
+        let Some(event) = lane.next() else { return Ok(()) };
+        let waited = lane.place.waited.with(lane.last(), event, self.pace, self.tick_ns);
+        let task = std::slice::from_ref(&self.vocabulary.components[component].task);
+        let location = self.vocabulary.location(Named::TimeInWait, task);
+        let set = self.machine.set(&location, Value::Integer(waited.at_most_ns / self.tick_ns));
+        set.map_err(|fault| self.parted(component, Vec::new(), fault.show(self.machine.program()).to_string()))
     }
 
     /// The step led from one phase to the next, or to the waiting one.
     fn rests(&self, changes: &[Change]) -> bool {
-        let moved = self.vocabulary.location("scheduler_currentPhase", &[]).function;
+        let moved = self.vocabulary.function(Named::CurrentPhase);
         changes.iter().any(|change| change.location.function == moved)
     }
 
     /// A step of a component. When a cycle `ends` late the model begins the next one in the same step, where the program
     /// comes to it later; with no end of the period in sight it waits first.
     fn step(&mut self, component: usize, tick: i64, ends: bool) -> Result<Vec<Change>, String> {
-        let program = Arc::clone(self.machine.program());
-        let fault = |fault: machine::Fault| fault.show(&program).to_string();
-        let clock = self.vocabulary.location("clock", &[]);
-        let task = self.vocabulary.components[component].task.clone();
-        let period = self.vocabulary.location("task_period", &[task]);
-        let length = self.machine.value(&period);
-        self.machine.set(&clock, Value::Integer(tick)).map_err(fault)?;
-        if ends {
-            self.machine.set(&period, Value::Integer(i64::MAX / 2)).map_err(fault)?;
-        }
-        self.machine.prepare_procedure(self.procedures[component], &mut Closed).map_err(fault)?;
-        self.machine.commit();
-        let changes = self.machine.changes();
-        if ends {
-            self.machine.set(&period, length).map_err(fault)?;
-        }
-        Ok(changes)
+        let known = &self.vocabulary.components[component];
+        let clock = self.vocabulary.location(Named::Clock, &[]);
+        let period = ends.then(|| self.vocabulary.location(Named::Period, std::slice::from_ref(&known.task)));
+        let mut chosen = Chosen { scheduler: &known.scheduler, made: false };
+        let (machine, step) = (&mut self.machine, self.step);
+        let mut make = || -> Result<Vec<Change>, Fault> {
+            if machine.value(&clock) != Value::Integer(tick) {
+                machine.set(&clock, Value::Integer(tick))?;
+            }
+            let length = period.as_ref().map(|period| machine.value(period));
+            if let Some(period) = &period {
+                machine.set(period, Value::Integer(i64::MAX / 2))?;
+            }
+            machine.prepare_procedure(step, &mut chosen)?;
+            machine.commit();
+            let changes = self.vocabulary.changes(machine);
+            if let (Some(period), Some(length)) = (&period, length) {
+                machine.set(period, length)?;
+            }
+            Ok(changes)
+        };
+        make().map_err(|fault| fault.show(self.machine.program()).to_string())
     }
 
     /// There was nothing to hand over: the writing phase is passed over, which the program alone decides.
-    fn pass(&mut self, component: usize, event: &Event) -> Result<(), Box<Parted>> {
+    fn pass(&mut self, component: usize) -> Result<(), Box<Parted>> {
+        let name = self.lanes[component].next().map_or_else(Default::default, |event| Arc::clone(&event.object));
         let scheduler = self.vocabulary.components[component].scheduler.clone();
-        let current = self.vocabulary.location("scheduler_currentPhase", &[scheduler]);
-        let phase = self.vocabulary.get(&self.machine, "nextPhase", &[self.machine.value(&current)]);
-        if self.vocabulary.phase_named(&self.machine, component, &event.object) != Some(phase.clone()) {
+        let current = self.vocabulary.location(Named::CurrentPhase, &[scheduler]);
+        let phase = self.vocabulary.get(&self.machine, Named::NextPhase, &[self.machine.value(&current)]);
+        if self.vocabulary.phase_named(&self.machine, component, &name) != Some(phase.clone()) {
             return Err(self.parted(component, Vec::new(), "the model's task is not before this phase".to_string()));
         }
-        let rest = self.vocabulary.get(&self.machine, "nextPhase", &[phase]);
+        let rest = self.vocabulary.get(&self.machine, Named::NextPhase, &[phase]);
         let set = self.machine.set(&current, rest);
         set.map_err(|_| self.parted(component, Vec::new(), "the phase cannot be passed over".to_string()))?;
-        self.cursors[component] += 1;
-        self.agreed += 1;
+        self.agree(component, 1);
         Ok(())
     }
 
     fn parted(&self, component: usize, claims: Vec<Claim>, reason: String) -> Box<Parted> {
-        let event = self.tracks[component].get(self.cursors[component]).cloned();
-        let named = self.vocabulary.components.iter().zip(&self.tracks).zip(&self.cursors);
+        let event = self.lanes[component].next().cloned();
+        let named = self.vocabulary.components.iter().zip(&self.lanes);
         let mut before: Vec<Recorded> = named
-            .flat_map(|((known, events), cursor)| {
+            .flat_map(|(known, Lane { events, place })| {
                 let recorded = |event: &Event| Recorded { task: known.name.clone(), event: event.clone() };
-                events[cursor.saturating_sub(SHOWN)..*cursor].iter().map(recorded).collect::<Vec<_>>()
+                events[place.cursor.saturating_sub(SHOWN)..place.cursor].iter().map(recorded).collect::<Vec<_>>()
             })
             .collect();
         before.sort_by_key(|recorded| recorded.event.time_ns);

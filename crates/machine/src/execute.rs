@@ -9,6 +9,7 @@ use syntax::Span;
 use crate::coverage::Coverage;
 use crate::environment::{Choice, Draw, Environment, TimeUnit};
 use crate::fault::{Fault, FaultKind};
+use crate::journal::Journal;
 use crate::limits::Limits;
 use crate::location::LocationRef;
 use crate::membership::Membership;
@@ -62,6 +63,8 @@ pub(crate) struct Core {
     /// By function: its locations are read without asking anybody (but one that is undef may yet have an initial
     /// value).
     pub plain: Vec<bool>,
+    /// What steps overwrite, where somebody may go back.
+    pub journal: Option<Box<Journal>>,
     /// The choices of this step.
     pub choices: Choices,
     /// Every alternative is wanted, and what is looked at is noted: see [`crate::explore`].

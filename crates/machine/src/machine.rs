@@ -10,7 +10,7 @@ use crate::environment::{Closed, Environment};
 use crate::execute::{Core, Executor, Outcome};
 use crate::fault::{Fault, FaultKind};
 use crate::limits::Limits;
-use crate::location::Location;
+use crate::location::{Location, LocationRef};
 use crate::native::{Ended, Engine};
 use crate::step::{Passed, Step};
 use crate::store::Store;
@@ -51,15 +51,41 @@ pub enum EngineChoice {
 
 /// LIMIT: steps made, and an eighth of their updates, before the main rule is compiled.
 const COMPILED_AFTER: u64 = 256;
+/// LIMIT: the same of another procedure, most of which make few steps.
+const OTHERS_COMPILED_AFTER: u64 = 1 << 16;
 
 /// The compiled engine, as far as it has come.
 #[derive(Debug, Default)]
 struct EngineState {
     choice: EngineChoice,
+    /// One a procedure that has made steps, in the order in which they came up.
+    codes: Vec<Code>,
+    /// The one that makes the present step.
+    running: usize,
+}
+
+/// A procedure that makes steps.
+#[derive(Debug)]
+struct Code {
+    procedure: ProcedureId,
     /// Steps made, and an eighth of their updates.
     work: u64,
     tried: bool,
-    code: Option<Box<Engine>>,
+    engine: Option<Box<Engine>>,
+}
+
+impl EngineState {
+    /// From now on this procedure makes the step.
+    fn run(&mut self, procedure: ProcedureId) -> &mut Code {
+        if self.codes.get(self.running).is_none_or(|code| code.procedure != procedure) {
+            let known = self.codes.iter().position(|code| code.procedure == procedure);
+            self.running = known.unwrap_or(self.codes.len());
+            if known.is_none() {
+                self.codes.push(Code { procedure, work: 0, tried: false, engine: None });
+            }
+        }
+        &mut self.codes[self.running]
+    }
 }
 
 /// A machine: a program and its current state.
@@ -214,29 +240,32 @@ impl Machine {
 
     /// Whether there is compiled code for a procedure, compiling it when that is due.
     fn has_code(&mut self, procedure: ProcedureId) -> bool {
-        let EngineState { choice, work, tried, code } = &mut self.engine;
+        let choice = self.engine.choice;
+        let Code { work, tried, engine, .. } = self.engine.run(procedure);
+        let is_main = self.program.main == Some(procedure);
         let due = match choice {
             EngineChoice::Interpreted => false,
-            EngineChoice::Compiled => true,
-            EngineChoice::Automatic => *work > COMPILED_AFTER,
+            EngineChoice::Compiled if is_main => true,
+            _ if is_main => *work > COMPILED_AFTER,
+            _ => *work > OTHERS_COMPILED_AFTER,
         };
-        if !due || self.core.coverage.is_some() || self.program.main != Some(procedure) {
+        if !due || self.core.coverage.is_some() {
             return false;
         }
         if !*tried {
             *tried = true;
-            *code = Engine::compile(&self.program, &self.core).map(Box::new);
+            *engine = Engine::compile(&self.program, procedure, &self.core).map(Box::new);
         }
-        if *choice == EngineChoice::Automatic && code.as_ref().is_some_and(|engine| !engine.pays()) {
-            *code = None;
+        if choice == EngineChoice::Automatic && engine.as_ref().is_some_and(|engine| !engine.pays()) {
+            *engine = None;
         }
-        code.is_some()
+        engine.is_some()
     }
 
     /// Computes the update set of a step that has begun by compiled code; false where it is to be interpreted.
     fn runs_compiled(&mut self, environment: &mut dyn Environment) -> bool {
         let Machine { program, core, limits, engine, .. } = self;
-        let Some(engine) = &mut engine.code else { return false };
+        let Some(engine) = &mut engine.codes[engine.running].engine else { return false };
         core.clear_calls();
         let mut executor = Executor { program, core, environment, limits: *limits };
         let computed = engine.run(&mut executor);
@@ -250,7 +279,7 @@ impl Machine {
     fn passes_compiled(&mut self, wanted: u64, environment: &mut dyn Environment, passed: &mut Passed) -> Ended {
         self.discard();
         let Machine { program, core, limits, engine, .. } = self;
-        let Some(engine) = &mut engine.code else { return Ended::Enough };
+        let Some(engine) = &mut engine.codes[engine.running].engine else { return Ended::Enough };
         core.clear_calls();
         let before = passed.steps;
         let mut executor = Executor { program, core, environment, limits: *limits };
@@ -279,7 +308,9 @@ impl Machine {
         self.settled = true;
         self.stale = true;
         self.steps += 1;
-        self.engine.work += 1 + step.updates as u64 / 8;
+        if let Some(code) = self.engine.codes.get_mut(self.engine.running) {
+            code.work += 1 + step.updates as u64 / 8;
+        }
         step
     }
 
@@ -296,13 +327,19 @@ impl Machine {
 
     /// What the last committed step changed, in the canonical order of locations.
     pub fn changes(&self) -> Vec<Change> {
+        self.changes_of(&|_| true)
+    }
+
+    /// What it changed of the functions that are `wanted`, in the same order.
+    pub fn changes_of(&self, wanted: &dyn Fn(FunctionId) -> bool) -> Vec<Change> {
         if !self.settled {
             return Vec::new();
         }
         let core = &self.core;
         let changed = core.updates.stack.iter().filter_map(|update| {
             let after = &core.store.values[update.location as usize];
-            (update.value != *after).then(|| Change {
+            let changed = update.value != *after && wanted(core.store.function_of(update.location));
+            changed.then(|| Change {
                 location: core.store.location(update.location),
                 before: update.value.clone(),
                 after: after.clone(),
@@ -340,7 +377,12 @@ impl Machine {
 
     /// The current value of a location; a monitored one's only if it was asked for in this step.
     pub fn value(&self, location: &Location) -> Value {
-        let found = self.core.store.find(location.function, &location.arguments);
+        self.value_at(location.borrowed())
+    }
+
+    /// The same without a [`Location`] built for it.
+    pub fn value_at(&self, location: LocationRef<'_>) -> Value {
+        let found = self.core.store.find(location.function, location.arguments);
         found.map_or(Value::Undef, |index| self.core.store.values[index as usize].clone())
     }
 
@@ -365,6 +407,9 @@ impl Machine {
                 return executor.fault(span, kind);
             }
             let index = executor.core.store.number(*function, arguments);
+            if let Some(journal) = &mut executor.core.journal {
+                journal.note(&executor.core.store, index);
+            }
             executor.core.store.values[index as usize] = value;
             executor.core.memo.changed();
             executor.core.store.given[index as usize] = executor.core.epoch;
@@ -451,6 +496,14 @@ impl Machine {
         self.steps = snapshot.steps;
         self.core.updates.release();
         self.settled = false;
+    }
+
+    /// Leaves the step that is being made, and its inputs, for a state of so many steps.
+    pub(crate) fn unwind(&mut self, steps: u64) {
+        self.discard();
+        self.forget_inputs();
+        self.core.updates.release();
+        (self.steps, self.settled) = (steps, false);
     }
 
     /// Counts from now on which rules run.

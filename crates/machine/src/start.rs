@@ -52,6 +52,7 @@ impl Core {
             unordered: std::sync::Arc::default(),
             order_mattered: None,
             unset: false,
+            journal: None,
             shared: program.functions.iter().any(|function| function.kind == FunctionKind::Shared),
             compacted: 0,
             asked_first: Vec::new(),

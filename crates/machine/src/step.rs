@@ -75,6 +75,9 @@ impl Core {
     /// Applies the update set. What remains of it is a record of what the step overwrote.
     #[inline]
     pub fn commit(&mut self, program: &Program) -> Step {
+        if let Some(journal) = &mut self.journal {
+            journal.note_step(&self.store, &self.updates);
+        }
         if self.shared {
             self.note_shared(program);
         }
@@ -138,7 +141,11 @@ impl Core {
 
     #[cold]
     fn compact(&mut self, program: &Program) {
+        let noted = self.journal.as_ref().map(|journal| journal.locations(&self.store));
         self.store.compact(&|location| program.function(location.function).kind != FunctionKind::Monitored);
+        if let (Some(journal), Some(locations)) = (&mut self.journal, noted) {
+            journal.renumber(&mut self.store, &locations);
+        }
         self.updates.renumbered();
         self.updates.release();
         self.compacted = self.store.sparse_len();

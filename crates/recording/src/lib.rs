@@ -4,28 +4,11 @@
 //! track of events a task, as spec/conform.md lists them. It must not know what the events are held against, nor how they
 //! are shown.
 
+mod event;
 mod mcap;
 
+pub use event::{Event, Kind};
 pub use mcap::{Malformed, Reader};
-
-/// One event of a task, as spec/conform.md lists them.
-#[derive(Debug, Clone, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Event {
-    /// Since the origin of the run.
-    pub time_ns: i64,
-    /// What happened: `begins`, `asks`, `swaps` ….
-    pub kind: String,
-    /// The phase, channel or component.
-    pub object: String,
-    /// The number of the datum, message or cycle.
-    pub number: u64,
-    /// The array worked on; of a swap the index read.
-    pub array: Option<u64>,
-    /// Of a swap the index written.
-    pub next: Option<u64>,
-    /// Of a reading, whether it brought something new.
-    pub fresh: Option<bool>,
-}
 
 /// When the cycles of a synchronous task are due: at the offset, and a period after another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,35 +55,6 @@ pub struct Recording {
     pub ended: bool,
     /// All events before this instant have been read.
     pub horizon_ns: Option<i64>,
-}
-
-impl Event {
-    /// Whether both say the same, whenever they happen.
-    pub fn same(&self, other: &Event) -> bool {
-        let key = |event: &Event| (event.number, event.array, event.next, event.fresh);
-        self.kind == other.kind && self.object == other.object && key(self) == key(other)
-    }
-
-    /// The event in words: `writes camera_to_vs 3, array 1`.
-    pub fn words(&self) -> String {
-        let mut text = format!("{} {}", self.kind, self.object);
-        match self.kind.as_str() {
-            "begins" | "ends" | "passes" | "meets" | "misses" | "faults" => text += &format!(", cycle {}", self.number),
-            "asks" | "enters" | "gives_up" | "releases" | "refuses" | "invalid" => {}
-            _ => text += &format!(", number {}", self.number),
-        }
-        for (name, value) in [("array", self.array), ("next", self.next)] {
-            if let Some(value) = value {
-                text += &format!(", {name} {value}");
-            }
-        }
-        match self.fresh {
-            Some(true) => text += ", new",
-            Some(false) => text += ", not new",
-            None => {}
-        }
-        text
-    }
 }
 
 impl Recording {

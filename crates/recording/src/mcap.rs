@@ -5,11 +5,12 @@
 //! gap; what comes after a lost event is left out, and the track says so.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
-use serde_json::Value;
+use serde::Deserialize;
 
-use crate::{Event, Recording, Rhythm, Track};
+use crate::{Event, Kind, Recording, Rhythm, Track};
 
 /// What is wrong with a file that is no recording.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -53,11 +54,28 @@ impl<'a> Cursor<'a> {
     }
 }
 
+/// A message, as it is written.
+#[derive(Deserialize)]
+struct Said<'a> {
+    order: u64,
+    #[serde(borrow)]
+    kind: Cow<'a, str>,
+    #[serde(borrow)]
+    object: Cow<'a, str>,
+    #[serde(default)]
+    number: u64,
+    array: Option<u64>,
+    next: Option<u64>,
+    fresh: Option<bool>,
+}
+
 /// Reads a file that may still be written: whatever comes, in pieces of any size.
 #[derive(Debug, Default)]
 pub struct Reader {
     recording: Recording,
     channels: BTreeMap<u64, usize>,
+    /// What events have named so far.
+    objects: BTreeSet<Arc<str>>,
     /// What is said of the tasks before they are named.
     timing: BTreeMap<String, String>,
     /// The beginning of a record whose rest has not come yet.
@@ -214,24 +232,26 @@ impl Reader {
         // What comes behind the horizon after all is lost for who has gone on.
         let late = self.recording.horizon_ns.is_some_and(|horizon| time_ns < horizon);
         let track = &mut self.recording.tracks[*track];
-        let Ok(Value::Object(fields)) = serde_json::from_slice::<Value>(cursor.0) else {
-            return Some(Err(Malformed("a message is no JSON object".to_string())));
+        let Ok(said) = serde_json::from_slice::<Said<'_>>(cursor.0) else {
+            return Some(Err(Malformed("a message is no event".to_string())));
         };
-        let number = |key: &str| fields.get(key).and_then(Value::as_u64);
-        let text = |key: &str| fields.get(key).and_then(Value::as_str).unwrap_or_default().to_string();
-        if track.lost || late || number("order") != Some(track.events.len() as u64) {
+        if track.lost || late || said.order != track.events.len() as u64 {
             track.lost = true;
             return Some(Ok(()));
         }
-        track.events.push(Event {
-            time_ns,
-            kind: text("kind"),
-            object: text("object"),
-            number: number("number").unwrap_or(0),
-            array: number("array"),
-            next: number("next"),
-            fresh: fields.get("fresh").and_then(Value::as_bool),
-        });
+        let Some(kind) = Kind::of(&said.kind) else {
+            return Some(Err(Malformed(format!("an event is of no known kind: `{}`", said.kind))));
+        };
+        let object = match self.objects.get(said.object.as_ref()) {
+            Some(known) => Arc::clone(known),
+            None => {
+                let object: Arc<str> = said.object.into();
+                self.objects.insert(Arc::clone(&object));
+                object
+            }
+        };
+        let Said { number, array, next, fresh, .. } = said;
+        track.events.push(Event { time_ns, kind, object, number, array, next, fresh });
         Some(Ok(()))
     }
 }

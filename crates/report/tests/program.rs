@@ -1,6 +1,6 @@
 //! The page of a program's runs: well-formed and self-contained whatever the names are, its figures those of the events.
 
-use recording::{Event, Recording, Rhythm, Track};
+use recording::{Event, Kind, Recording, Rhythm, Track};
 use report::{
     ClosedLoop, Fact, Held, Joint, Program, ProgramRun, RunSummary, Tally, View, render_program, summarise_program,
 };
@@ -23,8 +23,8 @@ fn recording(name: &str, late_us: i64) -> Recording {
     const US: i64 = 1_000;
     let event = |time_us: i64, kind: &str, object: &str, number: u64| Event {
         time_ns: time_us * US,
-        kind: kind.into(),
-        object: format!("{object}{name}"),
+        kind: Kind::of(kind).expect("a kind"),
+        object: format!("{object}{name}").into(),
         number,
         ..Event::default()
     };

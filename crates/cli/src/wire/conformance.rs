@@ -66,7 +66,7 @@ impl Parts {
             model: parted
                 .claims
                 .iter()
-                .map(|claim| told(&claim.task, &claim.event, Some(sources.position(claim.span))))
+                .map(|claim| told(&parted.task, &claim.event, Some(sources.position(claim.span))))
                 .collect(),
             before: parted.before.iter().map(|recorded| told(&recorded.task, &recorded.event, None)).collect(),
             state: parted.state.clone(),

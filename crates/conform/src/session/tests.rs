@@ -24,11 +24,16 @@ fn read(path: &Path) -> Result<SourceFile, String> {
     Ok(SourceFile::new(path.display().to_string(), text))
 }
 
-fn model() -> (Sources, Model, Program) {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../examples/visual_servoing/VisionSystem.asm");
+/// A model of the case study.
+pub(super) fn model_named(name: &str) -> (Sources, Model, Program) {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../examples/visual_servoing").join(name);
     let checked = model::check(read(&path).expect("the model is there"), &mut Disk);
     let program = program::lower(&checked.model).expect("it can be lowered");
     (checked.sources, checked.model, program)
+}
+
+fn model() -> (Sources, Model, Program) {
+    model_named("VisionSystem.asm")
 }
 
 const TICK_NS: i64 = 1_000;
@@ -41,10 +46,10 @@ fn recorded(pace: &str) -> Recording {
     machine.start(&mut Closed).expect("it starts");
     let vocabulary = Vocabulary::new(&program, &machine).expect("the library's patterns");
     let track = |task: String| Track { task, ..Track::default() };
-    let mut tracks: Vec<Track> = vocabulary.names().into_iter().map(track).collect();
+    let mut tracks: Vec<Track> = vocabulary.components.iter().map(|known| track(known.name.clone())).collect();
     for tick in 0..TICKS {
         machine.step(&mut Closed).expect("a step");
-        for (component, claim) in vocabulary.claims(&machine, &machine.changes()) {
+        for (component, claim) in vocabulary.claims(&machine, &vocabulary.changes(&machine)) {
             let mut event = claim.event;
             event.time_ns = tick * TICK_NS;
             tracks[component].events.push(event);
@@ -134,7 +139,7 @@ fn the_horizon_stands_for_events_of_the_silent() {
     let other = (silent + 1) % wrong.tracks.len();
     wrong.tracks[silent].events.clear();
     let event = &mut wrong.tracks[other].events[0];
-    event.object = "another".to_string();
+    event.object = "another".into();
     let heard = Recording { stopped_ns: None, ended: false, ..wrong };
     let mut session = session(&heard);
     assert_eq!(session.go_on(&heard, true).expect("of this system"), None);

@@ -1,4 +1,4 @@
-//! The compiled engine: the main rule as machine code.
+//! The compiled engine: a procedure that makes steps, mostly the main rule, as machine code.
 //!
 //! In: a program and a started machine. Out: code that computes the update set of a step on the machine's own store
 //! and update set, by Cranelift. It computes what the interpreter ([`crate::perform`], [`crate::evaluate`]) computes
@@ -44,7 +44,7 @@ type Entry = unsafe extern "C" fn(*mut Context) -> i64;
 /// LIMIT: after so many steps the share of abandoned ones decides whether the code is used further.
 const TRIAL: u64 = 64;
 
-/// A program's main rule, compiled.
+/// A program's main rule, or another procedure without parameters that makes steps, compiled.
 pub(crate) struct Engine {
     entry: Entry,
     /// Where `self` is kept.
@@ -72,9 +72,8 @@ impl Drop for Engine {
 }
 
 impl Engine {
-    /// Compiles the main rule for a started machine; none on a machine that Cranelift has no code for.
-    pub fn compile(program: &Program, core: &Core) -> Option<Engine> {
-        let main = program.main?;
+    /// Compiles a procedure for a started machine; none on a machine that Cranelift has no code for.
+    pub fn compile(program: &Program, main: ProcedureId, core: &Core) -> Option<Engine> {
         let mut flags = settings::builder();
         flags.set("opt_level", "speed").ok()?;
         flags.set("is_pic", "false").ok()?;
@@ -84,7 +83,7 @@ impl Engine {
         Helpers::register(&mut builder);
         let mut module = JITModule::new(builder);
         let helpers = Helpers::declare(&mut module)?;
-        let mut plan = Plan::new(program, core, helpers);
+        let mut plan = Plan::new(program, main, core, helpers);
 
         let entry = signature(&module, &[types::I64], &[types::I64]);
         let entry = module.declare_function("entry", Linkage::Local, &entry).ok()?;
@@ -106,7 +105,7 @@ impl Engine {
         self.runs < TRIAL || self.abandoned * 8 < self.runs
     }
 
-    /// Computes the update set of the main rule; false where the step must be rolled back and interpreted instead.
+    /// Computes the update set of a step; false where the step must be rolled back and interpreted instead.
     pub fn run(&mut self, executor: &mut Executor<'_>) -> bool {
         // SAFETY: the tables outlive the context, and nothing else uses them.
         let mut context = unsafe { Context::new(&raw mut self.tables) };
@@ -115,7 +114,7 @@ impl Engine {
         self.compute(&mut context, executor)
     }
 
-    /// Makes steps of the main rule until there are as many as `wanted`; the inputs of the last one are forgotten
+    /// Makes steps until there are as many as `wanted`; the inputs of the last one are forgotten
     /// first if they are `stale`.
     pub fn pass(&mut self, executor: &mut Executor<'_>, stale: bool, wanted: u64, passed: &mut Passed) -> Ended {
         let program = executor.program;

@@ -58,6 +58,8 @@ pub(crate) struct Tables {
 /// The knowledge of one compilation.
 #[derive(Debug)]
 pub(super) struct Plan {
+    /// The procedure that is compiled.
+    main: ProcedureId,
     pub helpers: Helpers,
     pub constants: Arc<Vec<Value>>,
     pub layouts: Vec<Layout>,
@@ -82,7 +84,7 @@ pub(super) struct Plan {
 
 impl Plan {
     /// Looks at a program and a started core.
-    pub fn new(program: &Program, core: &Core, helpers: Helpers) -> Plan {
+    pub fn new(program: &Program, main: ProcedureId, core: &Core, helpers: Helpers) -> Plan {
         let mut procedure_calls = vec![0; program.procedures.len()];
         let mut definition_calls = vec![0; program.functions.len()];
         for rule in &program.rules {
@@ -102,6 +104,7 @@ impl Plan {
         }
         let constants = Arc::new(core.constants.clone());
         Plan {
+            main,
             helpers,
             constants: Arc::clone(&constants),
             layouts: core.store.layouts.clone(),
@@ -235,10 +238,10 @@ impl Plan {
         slots.sort_unstable();
     }
 
-    /// Whether a rule of the main rule's own body is the only one that updates a function, and runs once a step.
+    /// Whether a rule of the compiled procedure's own body is the only one that updates a function, and runs once a step.
     pub fn is_only_update(&self, program: &Program, function: FunctionId, id: RuleId) -> bool {
-        // The main rule called by another would run it once more.
-        let once = program.main.is_some_and(|main| self.procedure_calls[main.0 as usize] == 0);
+        // Called by another it would run once more.
+        let once = self.procedure_calls[self.main.0 as usize] == 0;
         let only = program.rules.iter().enumerate().all(|(index, rule)| match rule {
             Rule::Update { function: updated, .. } | Rule::Return { function: updated, .. } => {
                 *updated != function || index == id.0 as usize

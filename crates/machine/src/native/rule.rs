@@ -210,7 +210,7 @@ impl Translator<'_, '_> {
         self.call_or_bail(Helper::Perform, &[self.context, rule, spill, values]);
     }
 
-    /// The main rule of the program.
+    /// The procedure that makes the step.
     pub fn main(&mut self, main: ProcedureId) {
         self.foralls = Some(Vec::new());
         self.frames.push(Frame {

@@ -1,8 +1,9 @@
 //! States: initial values, inputs, domains that grow.
 
 use expect_test::expect;
+use machine::{Location, Machine, Value};
 
-use crate::check;
+use crate::{Counting, check, machine_of};
 
 #[test]
 fn initial_values_are_eager_and_may_use_each_other() {
@@ -264,4 +265,58 @@ fn an_element_defined_as_itself_is_an_element() {
             1: which=one same=false
         "#]],
     );
+}
+
+/// Locations come and go, so that they are numbered anew in between; a domain grows; inputs are asked for.
+#[test]
+fn going_back_is_as_if_nothing_had_been_done() {
+    let mut machine = machine_of(
+        "signature:
+            dynamic abstract domain Job
+            monitored m: Integer
+            controlled x: Integer
+            controlled set: Integer
+            controlled far: Integer -> Integer
+            controlled owner: Job -> Integer
+        definitions:
+            main rule r_Main = par
+                x := x + 1
+                far(1000000 + x) := m
+                far(1000000 + x - 3) := undef
+                if x mod 500 = 0 then extend Job with $j do owner($j) := x endif
+            endpar
+        default init s: function x = 0",
+    );
+    let set = Location { function: machine.find_function("set", 0).expect("it is declared"), arguments: Vec::new() };
+    let run = |machine: &mut Machine, steps: u64, environment: &mut Counting| {
+        let mut seen = Vec::new();
+        for _ in 0..steps {
+            machine.set(&set, Value::Integer(machine.steps() as i64)).expect("an Integer");
+            machine.step(environment).expect("a step");
+            let changes = machine.changes();
+            machine.forget_inputs();
+            seen.push((machine.steps(), changes, machine.locations()));
+        }
+        seen
+    };
+    let mut environment = Counting::default();
+    machine.start(&mut environment).expect("it starts");
+    run(&mut machine, 10, &mut environment);
+    let first = machine.mark();
+    run(&mut machine, 600, &mut environment);
+    let (second, asked) = (machine.mark(), environment.asked);
+    let before = (machine.steps(), machine.locations());
+    let seen = run(&mut machine, 6000, &mut environment);
+    machine.go_back(&second);
+    assert_eq!((machine.steps(), machine.locations()), before);
+    assert!(run(&mut machine, 6000, &mut Counting { asked }) == seen, "the same run again");
+    machine.go_back(&first);
+    assert_eq!(machine.steps(), 10);
+    run(&mut machine, 600, &mut Counting { asked: asked - 600 });
+    assert_eq!((machine.steps(), machine.locations()), before);
+    let third = machine.mark();
+    machine.forget_before(&third);
+    machine.step(&mut environment).expect("a step");
+    machine.go_back(&third);
+    assert_eq!((machine.steps(), machine.locations()), before);
 }

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use recording::Recording;
+use recording::{Kind, Recording};
 
 use crate::program::{ChannelAge, length};
 
@@ -15,7 +15,7 @@ pub(super) fn channels(recording: &Recording) -> Vec<ChannelAge> {
     let mut producers: BTreeMap<&str, &str> = BTreeMap::new();
     for track in &recording.tracks {
         for event in &track.events {
-            if ["writes", "sends", "stores"].contains(&event.kind.as_str()) {
+            if matches!(event.kind, Kind::Writes | Kind::Sends | Kind::Stores) {
                 // A datum that was begun again, the one before not having been handed over, keeps its number.
                 written.insert((&event.object, event.number), recording.instant_ns(event));
                 producers.insert(&event.object, &track.task);
@@ -25,14 +25,14 @@ pub(super) fn channels(recording: &Recording) -> Vec<ChannelAge> {
     let mut found: Vec<ChannelAge> = Vec::new();
     for track in &recording.tracks {
         for event in &track.events {
-            if event.number == 0 || !["reads", "takes", "loads"].contains(&event.kind.as_str()) {
+            if event.number == 0 || !matches!(event.kind, Kind::Reads | Kind::Takes | Kind::Loads) {
                 continue;
             }
-            let Some(since_ns) = written.get(&(event.object.as_str(), event.number)) else { continue };
-            let at = found.iter().position(|channel| channel.name == event.object).unwrap_or_else(|| {
+            let Some(since_ns) = written.get(&(event.object.as_ref(), event.number)) else { continue };
+            let at = found.iter().position(|channel| channel.name == *event.object).unwrap_or_else(|| {
                 found.push(ChannelAge {
-                    name: event.object.clone(),
-                    from: producers.get(event.object.as_str()).copied().unwrap_or_default().to_owned(),
+                    name: event.object.to_string(),
+                    from: producers.get(event.object.as_ref()).copied().unwrap_or_default().to_owned(),
                     to: track.task.clone(),
                     ..ChannelAge::default()
                 });
@@ -53,21 +53,20 @@ mod tests {
 
     #[test]
     fn a_datum_ages_from_the_begin_of_its_writing() {
-        let event = |time_ns, kind: &str, number| Event {
-            time_ns,
-            kind: kind.into(),
-            object: "c".into(),
-            number,
-            ..Event::default()
-        };
+        let event = |time_ns, kind, number| Event { time_ns, kind, object: "c".into(), number, ..Event::default() };
         let track = |task: &str, events| Track { task: task.into(), events, ..Track::default() };
         let recording = Recording {
             tracks: vec![
                 // The second one was begun twice.
-                track("p", vec![event(10, "writes", 1), event(30, "writes", 2), event(34, "writes", 2)]),
+                track("p", vec![event(10, Kind::Writes, 1), event(30, Kind::Writes, 2), event(34, Kind::Writes, 2)]),
                 track(
                     "q",
-                    vec![event(5, "reads", 0), event(13, "reads", 1), event(25, "reads", 1), event(40, "reads", 2)],
+                    vec![
+                        event(5, Kind::Reads, 0),
+                        event(13, Kind::Reads, 1),
+                        event(25, Kind::Reads, 1),
+                        event(40, Kind::Reads, 2),
+                    ],
                 ),
             ],
             ..Recording::default()

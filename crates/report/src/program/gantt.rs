@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use recording::{Event, Recording};
+use recording::{Event, Kind as EventKind, Recording};
 
 use crate::program::{TaskTiming, length};
 use crate::report::{Report, Task};
@@ -117,7 +117,7 @@ fn task(track: &recording::Track, timing: &TaskTiming, intervals: &[Interval], k
         let times = (0..).map(move |cycle| rhythm.offset_ns.saturating_add(rhythm.period_ns.saturating_mul(cycle)));
         times.map(tick).take_while(|tick| *tick <= SHOWN.min(ticks)).collect()
     };
-    let late = track.events.iter().filter(|event| event.kind == "misses").map(|event| tick(event.time_ns));
+    let late = track.events.iter().filter(|event| event.kind == EventKind::Misses).map(|event| tick(event.time_ns));
     let mut cycles = Tally::default();
     for (ns, count) in timing.responses.counts() {
         (0..*count).for_each(|_| cycles.add(ns / TICK_NS, 0));
@@ -150,19 +150,21 @@ fn activities(recording: &Recording) -> BTreeMap<&str, Activity> {
     for track in &recording.tracks {
         let mut phase: Option<&str> = None;
         for event in &track.events {
-            let activity = match event.kind.as_str() {
-                "begins" => {
+            let activity = match event.kind {
+                EventKind::Begins => {
                     phase = Some(&event.object);
-                    found.entry(event.object.as_str()).or_insert(Activity::Elaborates);
+                    found.entry(event.object.as_ref()).or_insert(Activity::Elaborates);
                     continue;
                 }
-                "ends" => {
+                EventKind::Ends => {
                     phase = None;
                     continue;
                 }
-                "reads" => Activity::Reads,
-                "writes" => Activity::Writes,
-                "sends" | "takes" | "refuses" | "stores" | "loads" => Activity::Passes,
+                EventKind::Reads => Activity::Reads,
+                EventKind::Writes => Activity::Writes,
+                EventKind::Sends | EventKind::Takes | EventKind::Refuses | EventKind::Stores | EventKind::Loads => {
+                    Activity::Passes
+                }
                 _ => continue,
             };
             if let Some(known) = phase.and_then(|phase| found.get_mut(phase)) {
@@ -179,10 +181,10 @@ fn held(recording: &Recording) -> BTreeMap<&str, Vec<(i64, i64, &str)>> {
     for track in &recording.tracks {
         let mut since: BTreeMap<&str, i64> = BTreeMap::new();
         for event in &track.events {
-            match event.kind.as_str() {
-                "enters" => _ = since.insert(&event.object, event.time_ns),
-                "releases" => {
-                    if let Some(from_ns) = since.remove(event.object.as_str()) {
+            match event.kind {
+                EventKind::Enters => _ = since.insert(&event.object, event.time_ns),
+                EventKind::Releases => {
+                    if let Some(from_ns) = since.remove(event.object.as_ref()) {
                         found.entry(&event.object).or_default().push((from_ns, event.time_ns, &track.task));
                     }
                 }
@@ -211,25 +213,26 @@ fn intervals(
     let mut since_ns: Option<i64> = None;
     let mut asked: Option<(i64, &str)> = None;
     for event in events {
-        match event.kind.as_str() {
-            "begins" => {
-                activity = phases.get(event.object.as_str()).copied().unwrap_or(Activity::Elaborates);
+        match event.kind {
+            EventKind::Begins => {
+                activity = phases.get(event.object.as_ref()).copied().unwrap_or(Activity::Elaborates);
                 since_ns = Some(event.time_ns);
             }
-            "ends" => {
+            EventKind::Ends => {
                 if let Some(from_ns) = since_ns.take() {
                     put(from_ns, event.time_ns, activity);
                 }
             }
-            "asks" => asked = Some((event.time_ns, &event.object)),
-            "enters" | "gives_up" => {
+            EventKind::Asks => asked = Some((event.time_ns, &event.object)),
+            EventKind::Enters | EventKind::GivesUp => {
                 let Some((from_ns, channel)) = asked.take() else { continue };
                 let other = held.get(channel).and_then(|stays| {
                     let before = stays.partition_point(|(entered, ..)| *entered <= from_ns);
                     stays[..before].last().filter(|(_, left, who)| *left > from_ns && *who != task)
                 });
                 if let (Some((_, left_ns, _)), Some(begun_ns)) = (other, since_ns) {
-                    let until_ns = if event.kind == "enters" { event.time_ns.min(*left_ns) } else { event.time_ns };
+                    let until_ns =
+                        if event.kind == EventKind::Enters { event.time_ns.min(*left_ns) } else { event.time_ns };
                     put(begun_ns, from_ns, activity);
                     put(from_ns, until_ns, Activity::Waits);
                     since_ns = Some(until_ns);
@@ -246,7 +249,7 @@ mod tests {
     use super::*;
 
     fn event(time_ns: i64, kind: &str, object: &str) -> Event {
-        Event { time_ns, kind: kind.into(), object: object.into(), ..Event::default() }
+        Event { time_ns, kind: EventKind::of(kind).expect("a kind"), object: object.into(), ..Event::default() }
     }
 
     fn two() -> Recording {

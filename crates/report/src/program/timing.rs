@@ -4,7 +4,7 @@
 //! an asynchronous task is due when its producer lets go of the data that it awaits, if it rested then: what comes while it is
 //! at work wakes nobody.
 
-use recording::{Recording, Track};
+use recording::{Kind, Recording, Track};
 
 use crate::program::{TaskTiming, length};
 
@@ -14,16 +14,15 @@ pub(super) fn tasks(recording: &Recording) -> Vec<TaskTiming> {
 }
 
 fn task(recording: &Recording, track: &Track) -> TaskTiming {
-    let count =
-        |kinds: &[&str]| track.events.iter().filter(|event| kinds.contains(&event.kind.as_str())).count() as u64;
+    let count = |kinds: &[Kind]| track.events.iter().filter(|event| kinds.contains(&event.kind)).count() as u64;
     let rhythm = track.rhythm;
     let mut timing = TaskTiming {
         name: track.task.clone(),
         period_ns: rhythm.map(|rhythm| rhythm.period_ns.max(0) as u64),
         awaits: track.awaits.clone(),
-        met: rhythm.map(|_| count(&["meets"])),
-        missed: rhythm.map(|_| count(&["misses"])),
-        skips: count(&["gives_up", "refuses"]),
+        met: rhythm.map(|_| count(&[Kind::Meets])),
+        missed: rhythm.map(|_| count(&[Kind::Misses])),
+        skips: count(&[Kind::GivesUp, Kind::Refuses]),
         ..TaskTiming::default()
     };
     let arrivals = track.awaits.as_ref().map_or_else(Vec::new, |channel| arrivals(recording, track, channel));
@@ -53,9 +52,9 @@ fn task(recording: &Recording, track: &Track) -> TaskTiming {
 /// When data were there for this task: the instants at which their producer let go of them.
 fn arrivals(recording: &Recording, reader: &Track, channel: &str) -> Vec<i64> {
     let others = recording.tracks.iter().filter(|track| track.task != reader.task);
-    let events = others.flat_map(|track| &track.events).filter(|event| event.object == channel);
+    let events = others.flat_map(|track| &track.events).filter(|event| *event.object == *channel);
     let mut times: Vec<i64> = events
-        .filter(|event| ["releases", "sends", "stores"].contains(&event.kind.as_str()))
+        .filter(|event| [Kind::Releases, Kind::Sends, Kind::Stores].contains(&event.kind))
         .map(|event| recording.instant_ns(event))
         .collect();
     times.sort_unstable();
@@ -74,11 +73,11 @@ fn cycles(recording: &Recording, track: &Track) -> Vec<Cycle> {
     for event in &track.events {
         let time_ns = recording.instant_ns(event);
         let last = cycles.last_mut().filter(|cycle| cycle.number == event.number);
-        match (event.kind.as_str(), last) {
-            ("begins", None) => cycles.push(Cycle { number: event.number, begun_ns: time_ns, done_ns: None }),
+        match (event.kind, last) {
+            (Kind::Begins, None) => cycles.push(Cycle { number: event.number, begun_ns: time_ns, done_ns: None }),
             // Another phase of the same cycle.
-            ("begins", Some(cycle)) => cycle.done_ns = None,
-            ("ends" | "passes" | "meets" | "misses", Some(cycle)) => cycle.done_ns = Some(time_ns),
+            (Kind::Begins, Some(cycle)) => cycle.done_ns = None,
+            (Kind::Ends | Kind::Passes | Kind::Meets | Kind::Misses, Some(cycle)) => cycle.done_ns = Some(time_ns),
             _ => {}
         }
     }
@@ -92,7 +91,7 @@ mod tests {
     use super::*;
 
     fn event(time_ns: i64, kind: &str, object: &str, number: u64) -> Event {
-        Event { time_ns, kind: kind.into(), object: object.into(), number, ..Event::default() }
+        Event { time_ns, kind: Kind::of(kind).expect("a kind"), object: object.into(), number, ..Event::default() }
     }
 
     #[test]

@@ -16,7 +16,8 @@ namespace groundstate::closed_loop {
 struct RunSettings {
     std::int64_t span_ns = 10'000'000'000;
     bool is_real = false;
-    std::uint64_t seed = 1;  ///< of the world
+    bool is_uneven = false;  ///< in virtual time phases last as it happens, now and then too long
+    std::uint64_t seed = 1;  ///< of the world, and of what is uneven
     int priority = 0;        ///< of SCHED_FIFO for the least urgent task, in real time; 0 asks for nothing
     double patience_s = 0;   ///< so long a task may make no progress (system.hpp); 0: as usual
     std::string log{};       ///< the file for the events, as MCAP; none if empty
@@ -47,6 +48,8 @@ RunAccount run_tasks(C& clock, const Hooks& hooks, const RunSettings& settings) 
         if (settings.priority > 0) {
             lock_memory();
         }
+    } else if (settings.is_uneven) {
+        options.pacing = {.pace = Pace::drawn, .tick_ns = 1, .seed = settings.seed, .overrun = 8};
     }
     const auto system = std::make_unique<System<C>>(clock, hooks, options);
     return run_to_account(*system, settings.span_ns);

@@ -1,0 +1,108 @@
+//! When the actions that events tell of were taken, as far as the recorded instants say it.
+//!
+//! In: a task's events. Out: between which instants each next action lies. An action was taken between the event before it
+//! and the one after it, where an event that is told before the action (asks, releases, sends, stores) narrows the
+//! beginning and one told after it (enters, takes) the end. A beginning and what is done with it are one action.
+
+use recording::{Event, Kind};
+
+use crate::waiting::Waited;
+
+/// LIMIT: so many events of another task are looked at for one that may have come before.
+const NEAR: usize = 64;
+
+/// A task's events, as far as they are known, and where it has come to.
+#[derive(Debug, Default)]
+pub struct Lane {
+    pub events: Vec<Event>,
+    pub place: Place,
+}
+
+/// Where a task has come to.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Place {
+    /// Its next event.
+    pub cursor: usize,
+    /// Its last tick: its clock does not go back.
+    pub tick: i64,
+    /// What its cycle has spent waiting.
+    pub waited: Waited,
+}
+
+/// Between which instants an action was taken.
+#[derive(Debug, Clone, Copy)]
+pub struct Span {
+    pub from_ns: i64,
+    pub to_ns: i64,
+}
+
+impl Lane {
+    /// The next event.
+    pub fn next(&self) -> Option<&Event> {
+        self.events.get(self.place.cursor)
+    }
+
+    /// The event before the next one.
+    pub fn last(&self) -> Option<&Event> {
+        self.place.cursor.checked_sub(1).map(|last| &self.events[last])
+    }
+
+    /// The event by which the task acts next: what comes with a beginning, or else the next one.
+    fn acts(&self) -> usize {
+        let at = self.place.cursor;
+        match (self.events.get(at), self.events.get(at + 1)) {
+            (Some(event), Some(next))
+                if event.kind == Kind::Begins
+                    && matches!(next.kind, Kind::Asks | Kind::Takes | Kind::Loads | Kind::Writes) =>
+            {
+                at + 1
+            }
+            _ => at,
+        }
+    }
+
+    /// Between which instants the next action was taken. While `more` may come it is not known with what a beginning comes.
+    pub fn span(&self, more: bool) -> Option<Span> {
+        let event = self.next()?;
+        let acts = self.acts();
+        let action = &self.events[acts];
+        let is_last = more && self.place.cursor + 1 == self.events.len();
+        let told_before =
+            matches!(action.kind, Kind::Asks | Kind::Releases | Kind::Sends | Kind::Stores | Kind::Refuses);
+        let from_ns = if told_before || acts > self.place.cursor || is_last {
+            event.time_ns
+        } else {
+            self.last().map_or(i64::MIN, |before| before.time_ns)
+        };
+        let to_ns =
+            if told_before { self.events.get(acts + 1).map_or(i64::MAX, |next| next.time_ns) } else { action.time_ns };
+        Some(Span { from_ns, to_ns })
+    }
+
+    /// The channel of the next action, if it is one on a channel.
+    pub fn channel(&self) -> Option<&str> {
+        let action = self.events.get(self.acts())?;
+        (!is_local(action.kind)).then_some(&*action.object)
+    }
+
+    /// Whether the task acts on a channel perhaps before that instant.
+    pub fn may_act_on(&self, channel: &str, until_ns: i64) -> bool {
+        let mut before_ns = self.last().map_or(i64::MIN, |before| before.time_ns);
+        for event in self.events[self.place.cursor..].iter().take(NEAR) {
+            // An action is taken after the event before it, whenever its own is told.
+            if before_ns > until_ns {
+                return false;
+            }
+            if *event.object == *channel {
+                return true;
+            }
+            before_ns = event.time_ns;
+        }
+        false
+    }
+}
+
+/// Whether no other task has to do with it.
+fn is_local(kind: Kind) -> bool {
+    matches!(kind, Kind::Begins | Kind::Ends | Kind::Passes | Kind::Meets | Kind::Misses | Kind::Invalid | Kind::Faults)
+}

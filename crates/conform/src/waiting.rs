@@ -1,0 +1,64 @@
+//! How long a task's cycle has waited, for locks and for room, by its events.
+//!
+//! In: the events at which a wait ended. Out: bounds of the waiting, to which the model's watchdog is held: nobody takes a
+//! lock for which its cycle waited longer than the model allows, and nobody gives one up earlier. INVARIANT: what was
+//! waited lies between the two bounds, whatever the clock.
+
+use recording::{Event, Kind};
+
+/// The time of a recording.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pace {
+    /// Virtual, and each step of the model is a tick: who asks within a tick enters, or gives up, in another one.
+    Modelled,
+    /// Virtual: it stands still while somebody computes, so that instants are exact.
+    Drawn,
+    /// A task may be interrupted between an action and its event.
+    Real,
+}
+
+impl Pace {
+    /// The pace of that name.
+    pub fn named(name: &str) -> Pace {
+        match name {
+            "modelled" => Pace::Modelled,
+            "drawn" => Pace::Drawn,
+            _ => Pace::Real,
+        }
+    }
+}
+
+/// LIMIT: in real time a task is without its processor for no longer between an action and its event.
+pub const INTERRUPTED_NS: i64 = 1_000_000_000;
+
+/// What a cycle has spent waiting.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Waited {
+    cycle: u64,
+    /// For locks that it then had.
+    pub at_least_ns: i64,
+    /// For locks and for room.
+    pub at_most_ns: i64,
+}
+
+impl Waited {
+    /// What was waited with one more event, of which `before` is the one before.
+    pub fn with(mut self, before: Option<&Event>, event: &Event, pace: Pace, tick_ns: i64) -> Waited {
+        let Some(before) = before else { return self };
+        let span_ns = event.time_ns - before.time_ns;
+        let span_ns = if pace == Pace::Modelled { span_ns / tick_ns * tick_ns } else { span_ns };
+        match event.kind {
+            Kind::Begins if event.number != self.cycle => {
+                self = Waited { cycle: event.number, ..Waited::default() };
+            }
+            Kind::Enters => {
+                let off_ns = if pace == Pace::Real { INTERRUPTED_NS } else { 0 };
+                self.at_least_ns += (span_ns - off_ns).max(0);
+                self.at_most_ns += span_ns;
+            }
+            Kind::GivesUp | Kind::Sends | Kind::Refuses => self.at_most_ns += span_ns,
+            _ => {}
+        }
+        self
+    }
+}

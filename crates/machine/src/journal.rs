@@ -1,0 +1,126 @@
+//! What steps overwrote: a machine goes back a few steps without a copy of its state.
+//!
+//! From the first [`Mark`] on, each commit and each value set from outside notes what stood there before; going back puts
+//! it back, the latest first. INVARIANT: the entries from a mark on, put back, give the state at that mark, and the numbers
+//! in them are those of the store.
+
+use std::collections::VecDeque;
+
+use program::DomainId;
+
+use crate::layout::LocationIndex;
+use crate::location::Location;
+use crate::machine::Machine;
+use crate::store::{Carrier, Store};
+use crate::update::Updates;
+use crate::value::Value;
+
+/// A state that a machine can go back to, as long as it is not forgotten.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Mark {
+    /// The number of the first entry after it.
+    entry: u64,
+    steps: u64,
+}
+
+#[derive(Debug, Default)]
+pub(crate) struct Journal {
+    entries: VecDeque<Entry>,
+    /// The number of the first of them.
+    first: u64,
+}
+
+#[derive(Debug)]
+enum Entry {
+    Value { location: LocationIndex, given: u32, before: Value },
+    Carrier { domain: DomainId, before: Carrier },
+}
+
+impl Journal {
+    /// Notes what a step is about to overwrite.
+    pub fn note_step(&mut self, store: &Store, updates: &Updates) {
+        for update in &updates.stack {
+            self.note(store, update.location);
+        }
+        for (domain, _) in updates.created() {
+            let before = store.carriers[domain.0 as usize].clone();
+            self.entries.push_back(Entry::Carrier { domain: *domain, before });
+        }
+    }
+
+    /// Notes a location that is about to be overwritten.
+    pub fn note(&mut self, store: &Store, location: LocationIndex) {
+        let before = store.values[location as usize].clone();
+        self.entries.push_back(Entry::Value { location, given: store.given[location as usize], before });
+    }
+
+    /// The locations of the entries, so that they can be numbered anew.
+    pub fn locations(&self, store: &Store) -> Vec<Location> {
+        let location = |entry: &Entry| match entry {
+            Entry::Value { location, .. } => Some(store.location(*location)),
+            Entry::Carrier { .. } => None,
+        };
+        self.entries.iter().filter_map(location).collect()
+    }
+
+    /// Takes the store's new numbers of these locations.
+    pub fn renumber(&mut self, store: &mut Store, locations: &[Location]) {
+        let mut locations = locations.iter();
+        for entry in &mut self.entries {
+            if let Entry::Value { location, .. } = entry
+                && let Some(known) = locations.next()
+            {
+                *location = store.number(known.function, &known.arguments);
+            }
+        }
+    }
+
+    fn end(&self) -> u64 {
+        self.first + self.entries.len() as u64
+    }
+
+    fn go_back(&mut self, entry: u64, store: &mut Store) {
+        assert!(self.first <= entry, "the mark was forgotten");
+        while self.end() > entry
+            && let Some(entry) = self.entries.pop_back()
+        {
+            match entry {
+                Entry::Value { location, given, before } => {
+                    store.values[location as usize] = before;
+                    store.given[location as usize] = given;
+                }
+                Entry::Carrier { domain, before } => {
+                    let count = before.count;
+                    store.carriers[domain.0 as usize] = Carrier { fresh: count, ..before };
+                }
+            }
+        }
+    }
+}
+
+impl Machine {
+    /// The present state, to go back to. From the first mark on steps note what they overwrite.
+    pub fn mark(&mut self) -> Mark {
+        let journal = self.core.journal.get_or_insert_default();
+        Mark { entry: journal.end(), steps: self.steps() }
+    }
+
+    /// Goes back to a state of before, as [`Machine::restore`] does. Marks set since are void.
+    ///
+    /// # Panics
+    /// The mark was forgotten.
+    pub fn go_back(&mut self, mark: &Mark) {
+        self.unwind(mark.steps);
+        let journal = self.core.journal.get_or_insert_default();
+        journal.go_back(mark.entry, &mut self.core.store);
+        self.core.memo.changed();
+    }
+
+    /// No mark that was set before this one is gone back to any more.
+    pub fn forget_before(&mut self, mark: &Mark) {
+        let Some(journal) = &mut self.core.journal else { return };
+        let count = mark.entry.saturating_sub(journal.first).min(journal.entries.len() as u64);
+        journal.entries.drain(..count as usize);
+        journal.first += count;
+    }
+}
