@@ -56,9 +56,6 @@ default init s0:
 
 	function task_kind($t in Task) =
 		if $t = visual_servoing_task or $t = operator_task then ASYNCHRONOUS else SYNCHRONOUS endif
-	// The sum of the phases of a cycle: slave access 1 + time, master reading 2 + time, master writing
-	// time + 2, the encoders so fill their period to the last tick.
-	// All synchronous tasks begin with tick 0.
 	function task_timeInWait($t in Task) = 0
 	function task_cycles($t in Task) = 0
 	function task_deadlinesMet($t in Task) = 0
@@ -68,40 +65,15 @@ default init s0:
 	function task_skipped($t in Task) = 0
 
 	function sem_permits($s in Semaphore) = 1
-	// the shorter the period, the more urgent
-	function sem_users($s in Semaphore) =
-		switch $s
-			case camera_to_vs_lock: [camera_task, visual_servoing_task]
-			case encoder_to_robot_lock: [encoder_task, robot_task]
-			case encoder_to_motor_lock: [encoder_task, motor_task]
-			case robot_to_motor_lock: [motor_task, robot_task]
-			otherwise [robot_task, visual_servoing_task]
-		endswitch
+	function sem_users($s in Semaphore) = complete_users($s)
 	function sem_state($s in Semaphore, $t in Task) = READY
 	function sem_illegalPost($s in Semaphore) = false
 	function semaq($s in Semaphore) = []
 
 	// three arrays where the writer is the slow, asynchronous master
 	function dimension($b in SwingingBuffer) = if $b = vs_to_robot then 3 else 2 endif
-	function sem($b in SwingingBuffer) =
-		switch $b
-			case camera_to_vs: camera_to_vs_lock
-			case vs_to_robot: vs_to_robot_lock
-			case robot_to_vs: robot_to_vs_lock
-			case encoder_to_robot: encoder_to_robot_lock
-			case encoder_to_motor: encoder_to_motor_lock
-			otherwise robot_to_motor_lock
-		endswitch
-	// the asynchronous task, or the slower one
-	function sb_master($b in SwingingBuffer) =
-		switch $b
-			case camera_to_vs: vs_read_image
-			case vs_to_robot: vs_write
-			case robot_to_vs: vs_read_robot
-			case encoder_to_robot: robot_read_encoder
-			case encoder_to_motor: motor_read_encoder
-			otherwise robot_write_motor
-		endswitch
+	function sem($b in SwingingBuffer) = complete_lock($b)
+	function sb_master($b in SwingingBuffer) = complete_master($b)
 	function indexWrite($b in SwingingBuffer) = 0
 	function indexRead($b in SwingingBuffer) = if $b = vs_to_robot then 2 else 1 endif
 	function indexUpdated($b in SwingingBuffer) = false
@@ -121,72 +93,17 @@ default init s0:
 	function mq_refused($q in MessageQueue) = 0
 	function mq_taken($q in MessageQueue) = 0
 
-	function scheduler_mainThread($c in Scheduler) =
-		switch $c
-			case camera: camera_task
-			case visual_servoing: visual_servoing_task
-			case robot: robot_task
-			case motor: motor_task
-			case encoder: encoder_task
-			otherwise operator_task
-		endswitch
-	function scheduler_currentPhase($c in Scheduler) =
-		switch $c
-			case camera: camera_wait
-			case visual_servoing: vs_wait
-			case robot: robot_wait
-			case motor: motor_wait
-			case encoder: encoder_wait
-			otherwise operator_wait
-		endswitch
+	function scheduler_mainThread($c in Scheduler) = complete_task($c)
+	function scheduler_currentPhase($c in Scheduler) = complete_waiting($c)
 	function scheduler_actionStart($c in Scheduler) = 0
 
-	function action($p in SchedulePhase) =
-		switch $p
-			case vs_receive_target: RECEIVING
-			case vs_read_robot: READING_FROM_SB
-			case robot_write_vs: WRITING_ON_SB
-			case operator_plan: ELABORATING
-			case operator_send: SENDING
-			otherwise if visionPhase($p) then vision_action($p) else motion_action($p) endif
-		endswitch
-	// the operator plans for 30 ms
-	function nextPhase($p in SchedulePhase) =
-		switch $p
-			case operator_wait: operator_plan
-			case operator_plan: operator_send
-			case operator_send: operator_wait
-			case vs_wait: vs_receive_target
-			case vs_receive_target: vs_read_image
-			case vs_read_image: vs_read_robot
-			case vs_read_robot: vs_elaborate
-			case robot_wait: robot_read_vs
-			case robot_read_vs: robot_read_encoder
-			case robot_read_encoder: robot_elaborate
-			case robot_elaborate: robot_write_motor
-			case robot_write_motor: robot_write_vs
-			case robot_write_vs: robot_wait
-			otherwise if visionPhase($p) then vision_nextPhase($p) else motion_nextPhase($p) endif
-		endswitch
+	function action($p in SchedulePhase) = complete_action($p)
+	function nextPhase($p in SchedulePhase) = complete_nextPhase($p)
+	// without a camera visual servoing begins whenever it moves
 	function sharedMemory($p in SchedulePhase) =
-		switch $p
-			// without a camera it begins whenever it moves
-			case vs_wait: if isIn(part, camera_task) then camera_to_vs else undef endif
-			case vs_read_robot: robot_to_vs
-			case robot_write_vs: robot_to_vs
-			otherwise if visionPhase($p) then vision_buffer($p) else motion_buffer($p) endif
-		endswitch
-	function messageQueue($p in SchedulePhase) =
-		if $p = operator_send or $p = vs_receive_target then targets else undef endif
-	function elaborationRule($p in SchedulePhase) =
-		switch $p
-			case camera_grab: <<r_captureImage(Scheduler)>>
-			case vs_elaborate: <<r_computeSetPoint(Scheduler)>>
-			case robot_elaborate: <<r_controlRobot(Scheduler)>>
-			case encoder_acquire: <<r_readEncoders(Scheduler)>>
-			case operator_plan: <<r_planTarget(Scheduler)>>
-			otherwise undef
-		endswitch
+		if $p = vs_wait and not isIn(part, camera_task) then undef else complete_buffer($p) endif
+	function messageQueue($p in SchedulePhase) = complete_queue($p)
+	function elaborationRule($p in SchedulePhase) = complete_elaboration($p)
 
 	// no time
 	function task_period($t in Task) = 1
