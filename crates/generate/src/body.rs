@@ -229,9 +229,12 @@ fn initial_value(generator: &mut Generator<'_>, id: FunctionId, initial: usize) 
     let plan = generator.plan.function(id).clone();
     // Whoever reads a location may do so with an argument that is undef.
     let eager = !generator.is_lazy(id);
-    let parameters = program.function(id).parameters.iter();
+    let parameters = program.function(id).parameters.iter().enumerate();
     let assumed: Vec<_> = parameters
-        .map(|domain| (eager, if eager { generator.domain_interval(*domain) } else { Interval::ALL }))
+        .map(|(place, domain)| match eager {
+            true => (!generator.has_undef_place(id, place), generator.domain_interval(*domain)),
+            false => (false, Interval::ALL),
+        })
         .collect();
     let parameters = generator.enter(&expression.parameters, &assumed, expression.frame, &expression.names);
     let site = generator.sites.number(program.term_span(expression.body));
@@ -239,6 +242,9 @@ fn initial_value(generator: &mut Generator<'_>, id: FunctionId, initial: usize) 
     let code = generator.cast(code, plan.ty, site);
     if !code.defined {
         generator.refuted.total[id.0 as usize] = false;
+    }
+    if eager && !generator.is_inside(id) && !code.pure {
+        generator.refuted.eager[id.0 as usize] = false;
     }
     let range = &mut generator.refuted.values[id.0 as usize];
     *range = range.join(code.range);
@@ -265,6 +271,7 @@ fn start_state(generator: &mut Generator<'_>, started: &machine::Machine, text: 
         }
         generator.reached.insert(initial.function);
         if cyclic.contains(&index) {
+            generator.refuted.eager[initial.function.0 as usize] = false;
             generator.refuted.values[initial.function.0 as usize] = Interval::ALL;
             set_as_computed(generator, initial.function, &plan, started, text);
         } else {
@@ -303,10 +310,11 @@ fn set_initial(generator: &mut Generator<'_>, index: usize, plan: &FunctionPlan,
     let mut names = Vec::new();
     let mut scope = generator.plan.members.clone();
     let mut ranges = Vec::new();
-    for parameter in parameters {
+    for (place, parameter) in parameters.iter().enumerate() {
         // Of what cannot be enumerated the initial values are made when they are read.
         let Some((range, _)) = generator.domain_range(*parameter) else { return };
-        ranges.push(range);
+        let undef = generator.has_undef_place(initial.function, place);
+        ranges.push(if undef { format!("gs::and_undef({range})") } else { range });
         names.push(scope.take("argument"));
     }
     for (range, name) in ranges.iter().zip(&names) {

@@ -11,6 +11,7 @@ use crate::accessors::{accessors, initial_state, kept_from_start};
 use crate::body::Bodies;
 use crate::generator::{Generator, Need};
 use crate::plan::{DomainPlan, FunctionPlan, Role};
+use crate::storage::Updates;
 use crate::text::{Text, escaped};
 use crate::types::Type;
 
@@ -44,6 +45,7 @@ pub(crate) fn header(bodies: &Bodies<'_>, source: &Text, title: &str) -> Text {
         "unsequenced",
         "word",
     ];
+    includes.push("lists");
     if !generator.options.bare {
         includes.push("boxing");
         includes.push("text");
@@ -131,12 +133,12 @@ pub(crate) fn functions<'p>(generator: &'p Generator<'_>, roles: &[Role]) -> Vec
 
 /// A function's parameters, each possibly undef where some reader's argument may be, and their names.
 pub(crate) fn parameters(generator: &Generator<'_>, id: FunctionId) -> (String, String) {
-    let defined = generator.assumed.inside[id.0 as usize];
     let mut declared = Vec::new();
     let mut names = Vec::new();
     for (place, domain) in generator.program.function(id).parameters.iter().enumerate() {
         let ty = generator.parameter_type(*domain);
         let name = argument_name(place);
+        let defined = generator.assumed.inside[id.0 as usize][place];
         declared.push(format!("{} {name}", generator.parameter(ty, defined)));
         names.push(name);
     }
@@ -182,13 +184,16 @@ fn class(bodies: &Bodies<'_>, text: &mut Text) {
     text.line(
         "/// Calls visit(name, arguments, value) for each location of the state, with undef where it has no value.",
     );
+    text.line("/// Of a function with initial values those with an argument that is undef are left out.");
     text.line("template <class Visit>");
     text.open("void each_location([[maybe_unused]] Visit&& visit) const {");
     for (id, function) in functions(generator, &[Role::State, Role::Shared]) {
         let name = escaped(&generator.program.function(id).name);
         let dot = if function.role == Role::Shared { ".locations" } else { "" };
+        // An initial value may be due only when it is read: nobody can tell whether it is there.
+        let each = if function.initial.is_some() && !generator.is_inside(id) { "each_defined" } else { "each" };
         text.line(format!(
-            "{}{dot}.each([&](const auto& arguments, const auto& value) {{ visit(\"{name}\", arguments, value); }});",
+            "{}{dot}.{each}([&](const auto& arguments, const auto& value) {{ visit(\"{name}\", arguments, value); }});",
             function.member
         ));
     }
@@ -282,14 +287,14 @@ fn counts_steps(generator: &Generator<'_>) -> bool {
 /// The functions whose updates in the running step are in a `Next`.
 fn stepped<'p>(generator: &'p Generator<'_>) -> Vec<&'p FunctionPlan> {
     let all = functions(generator, &[Role::State, Role::Local]).into_iter();
-    all.filter(|(id, _)| generator.storage(*id).stepped).map(|(_, function)| function).collect()
+    all.filter(|(id, _)| generator.storage(*id).updates == Updates::Step).map(|(_, function)| function).collect()
 }
 
 /// The members that have a log of the running step.
 fn logs(generator: &Generator<'_>) -> Vec<String> {
     let mut all = Vec::new();
     for (id, function) in functions(generator, &[Role::State, Role::Local, Role::Shared]) {
-        if !generator.storage(id).stepped {
+        if generator.storage(id).updates == Updates::Log {
             let dot = if function.role == Role::Shared { ".locations" } else { "" };
             all.push(format!("{}{dot}", function.member));
         }

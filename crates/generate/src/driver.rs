@@ -26,11 +26,11 @@ pub(crate) fn driver(bodies: &Bodies<'_>, file: &str) -> Text {
             continue;
         }
         let result = plan.cpp(function.ty, false);
-        let defined = generator.assumed.inside[index];
         let mut declared = Vec::new();
         let mut names = Vec::new();
         for (place, domain) in program.function(id).parameters.iter().enumerate() {
             let name = format!("argument_{}", place + 1);
+            let defined = generator.assumed.inside[index][place];
             declared.push(format!("{} {name}", generator.parameter(generator.parameter_type(*domain), defined)));
             names.push(format!(", {name}"));
         }

@@ -24,10 +24,14 @@ use crate::writes::Writes;
 pub(crate) struct Assumptions {
     /// A function's locations are never undef.
     pub total: Vec<bool>,
-    /// No location of the function is looked at with an argument that is undef.
-    pub inside: Vec<bool>,
+    /// By argument, no location of the function is looked at where it is undef.
+    pub inside: Vec<Vec<bool>>,
+    /// Initial values of locations with arguments that are undef can be made at the start: they neither fault nor ask.
+    pub eager: Vec<bool>,
     /// No location of the function is looked at with an integer outside of its array.
     pub covered: Vec<bool>,
+    /// No list holds undef.
+    pub solid: bool,
     /// A definition's value is never undef.
     pub result: Vec<bool>,
     /// A definition's evaluation neither faults nor asks anybody.
@@ -50,8 +54,10 @@ impl Assumptions {
         let functions = program.functions.len();
         Assumptions {
             total: vec![true; functions],
-            inside: vec![true; functions],
+            inside: program.functions.iter().map(|f| vec![true; f.parameters.len()]).collect(),
+            eager: vec![true; functions],
             covered: vec![true; functions],
+            solid: true,
             result: vec![true; functions],
             pure: vec![true; functions],
             arguments: program.functions.iter().map(|f| vec![true; f.parameters.len()]).collect(),
@@ -85,6 +91,9 @@ pub struct Options {
     /// With `bare`: how many locations outside of arrays, elements or updates a function or domain may have, by name.
     pub capacities: Vec<(String, u32)>,
 }
+
+/// The sequence of no items, of no type yet.
+pub(crate) const EMPTY: &str = "gs::Value::seq(gs::Values{})";
 
 /// A variable of the model in generated code.
 #[derive(Debug, Clone)]
@@ -337,8 +346,14 @@ impl<'a> Generator<'a> {
             (_, Type::Undef) => code,
             (Type::Undef, Type::Value) => Code { ty, ..Code::undef() },
             (Type::Undef, to) => Code { text: format!("{}{{}}", self.plan.cpp(to, false)), ty, ..Code::undef() },
+            (Type::Value, Type::List(_)) if code.text == EMPTY => {
+                Code::defined(format!("{}{{}}", self.plan.cpp(ty, true)), ty).pure()
+            }
             (_, Type::Value) => Code { text: format!("gs::box({})", code.text), ty, defined: false, ..code },
             (Type::Value, to) => {
+                if matches!(to, Type::List(_)) {
+                    self.refuted.solid = false;
+                }
                 let plain = self.plan.cpp(to, true);
                 Code::maybe(format!("gs::unbox<{plain}>({}, {site})", code.text), ty)
             }

@@ -18,6 +18,7 @@ mod project;
 mod range;
 pub mod replay;
 mod rule;
+mod settle;
 mod sites;
 mod storage;
 mod term;
@@ -63,6 +64,7 @@ pub fn generate(
     started: &mut machine::Machine,
     options: &Options,
 ) -> Result<Generated, Vec<Diagnostic>> {
+    let program = &settle::settled(program);
     let plan = plan::plan(program, started);
     let writes = writes::Writes::new(program);
     let forms = form::forms(program, &writes);

@@ -7,10 +7,13 @@ use program::{Builtin, TermId, TermList};
 
 use cpp_names::{identifier, snake};
 
-use crate::generator::{Generator, Need};
-use crate::interval::Outcome;
+use crate::generator::{EMPTY, Generator, Need};
+use crate::interval::{Interval, Outcome};
 use crate::rule::unwrapped;
-use crate::types::{Code, Type};
+use crate::types::{Code, Type, item_type};
+
+/// LIMIT: items of a list; collection_limit of machine/operands.hpp. SYNC(collection)
+const MOST_ITEMS: i64 = 10_000_000;
 
 impl Generator<'_> {
     /// A library function applied to terms.
@@ -54,6 +57,9 @@ impl Generator<'_> {
     /// An operation applied to operands whose evaluation has no effect, or one of which alone has.
     fn applied(&mut self, builtin: Builtin, codes: Vec<Code>, terms: &[TermId], id: TermId) -> Code {
         let site = self.site(id);
+        if let Some(code) = self.on_lists(builtin, &codes, site) {
+            return code;
+        }
         if let Some(code) = self.on_scalars(builtin, &codes, site) {
             return code;
         }
@@ -111,7 +117,7 @@ impl Generator<'_> {
     /// An operation all of whose operands are scalars; none if it is for dynamic values.
     fn on_scalars(&mut self, builtin: Builtin, codes: &[Code], site: u32) -> Option<Code> {
         use Builtin::*;
-        let scalar = |code: &Code| !matches!(code.ty, Type::Value | Type::Undef);
+        let scalar = |code: &Code| !matches!(code.ty, Type::Value | Type::Undef | Type::List(_));
         match (builtin, codes) {
             (Eq, [left, right]) => {
                 let text = self.equality(left.clone(), right.clone(), site);
@@ -227,6 +233,54 @@ impl Generator<'_> {
             }
             _ => None,
         }
+    }
+
+    /// An operation on lists; none if it is for dynamic values.
+    fn on_lists(&mut self, builtin: Builtin, codes: &[Code], site: u32) -> Option<Code> {
+        use Builtin::*;
+        let of = codes.iter().find_map(|code| match code.ty {
+            Type::List(of) => Some(of),
+            _ => None,
+        })?;
+        let (list, item) = (Type::List(of), item_type(self.program, of));
+        let shape: Vec<Type> = match builtin {
+            SeqLength | SeqIsEmpty | First | Last | Tail => vec![list],
+            SeqContains | SeqIndexOf | Append => vec![list, item],
+            SeqConcat => vec![list, list],
+            _ => return None,
+        };
+        let fits = |(code, ty): (&Code, &Type)| match code.ty {
+            // An item may be undef, a list must not.
+            Type::Undef => *ty == item,
+            Type::Value => code.text == EMPTY && *ty == list,
+            given => given == *ty,
+        };
+        if codes.len() != shape.len() || !codes.iter().zip(&shape).all(fits) {
+            return None;
+        }
+        let pure = codes.iter().zip(&shape).all(|(code, ty)| code.pure && (code.defined || *ty == item));
+        if builtin == Append && !codes[1].defined {
+            self.refuted.solid = false;
+        }
+        let mut texts = Vec::new();
+        for (code, ty) in codes.iter().zip(&shape) {
+            let defined = if *ty == item { code.defined } else { true };
+            texts.push(self.convert(code.clone(), *ty, defined, site));
+        }
+        let list_of = texts.join(", ");
+        let plain = |name: &str, ty: Type| Code { pure, ..Code::defined(format!("gs::{name}({list_of})"), ty) };
+        let sized = |name: &str, ty: Type| Code::defined(format!("gs::{name}({list_of}, {site})"), ty);
+        Some(match builtin {
+            SeqLength => plain("length", Type::Integer).within(Interval { low: 0, high: MOST_ITEMS }),
+            SeqIsEmpty => plain("is_empty", Type::Boolean),
+            SeqContains => plain("contains", Type::Boolean),
+            SeqIndexOf => plain("index_of", Type::Integer).within(Interval { low: -1, high: MOST_ITEMS }),
+            First => Code { defined: false, ..sized("first_of", item) },
+            Last => Code { defined: false, ..sized("last_of", item) },
+            Tail => sized("tail_of", list),
+            Append => sized("with_last", list),
+            _ => sized("joined", list),
+        })
     }
 
     /// Kleene's `and`, `or`, `implies`; the right operand is evaluated where it matters.

@@ -11,7 +11,7 @@ use program::{DomainId, DomainKind, FunctionId, FunctionKind, ProcedureId, Progr
 use cpp_names::{Scope, identifier, snake};
 
 use crate::interval::Interval;
-use crate::types::{Type, type_of};
+use crate::types::{Type, result_type, type_of};
 
 /// LIMIT: a function with more locations than this has no array.
 const DENSE_LIMIT: u64 = 1 << 18;
@@ -64,12 +64,6 @@ pub(crate) struct FunctionPlan {
     pub dimensions: Vec<Dimension>,
     /// The index of its initial value among the program's.
     pub initial: Option<usize>,
-}
-
-impl FunctionPlan {
-    pub fn dense(&self) -> u64 {
-        self.dimensions.iter().map(|dimension| dimension.size).product()
-    }
 }
 
 /// A domain.
@@ -148,7 +142,10 @@ pub(crate) fn plan(program: &Program, started: &mut machine::Machine) -> Plan {
                 }
             };
             let initial = initials.get(&id).copied();
-            let ty = type_of(program, function.codomain);
+            let ty = match role {
+                Role::State | Role::Local | Role::Definition => result_type(program, function.codomain),
+                _ => type_of(program, function.codomain),
+            };
             let ty = if ty == Type::Undef { Type::Value } else { ty };
             let dimensions = dimensions(program, &domains, id, initial.is_some());
             FunctionPlan { role, ty, name, member, dimensions, initial }
@@ -295,7 +292,9 @@ fn dimension(program: &Program, domains: &[DomainPlan], domain: DomainId, initia
                         None => anywhere(),
                     }
                 }
-                (DomainKind::Enum { .. } | DomainKind::Abstract { dynamic: false, .. }, _) if !initial => {
+                (DomainKind::Enum { .. } | DomainKind::Abstract { dynamic: false, .. }, contents)
+                    if !initial || contents.as_ref().is_some_and(|contents| covers(program, *base, contents)) =>
+                {
                     dimension(program, domains, *base, initial, few)
                 }
                 _ => anywhere(),
@@ -304,6 +303,14 @@ fn dimension(program: &Program, domains: &[DomainPlan], domain: DomainId, initia
         DomainKind::Basic(Basic::Integer) if few && !initial => between(-4, 251),
         DomainKind::Basic(Basic::Natural) if few && !initial => between(0, 255),
         _ => anywhere(),
+    }
+}
+
+/// Whether this is all there is of an enum domain, or of an abstract one that does not grow.
+fn covers(program: &Program, domain: DomainId, contents: &[machine::Value]) -> bool {
+    match &program.domain(domain).kind {
+        DomainKind::Enum { literals: all } | DomainKind::Abstract { elements: all, .. } => contents.len() == all.len(),
+        _ => false,
     }
 }
 
@@ -338,6 +345,7 @@ pub(crate) fn cpp_type(domains: &[DomainPlan], ty: Type) -> String {
         Type::Real => "double".into(),
         Type::Char => "char32_t".into(),
         Type::Enum(domain) | Type::Element(domain) => domains[domain.0 as usize].name.clone(),
+        Type::List(domain) => format!("gs::List<{}>", domains[domain.0 as usize].name),
         Type::Value | Type::Undef => "gs::Value".into(),
     }
 }

@@ -11,7 +11,7 @@ use crate::interval::Interval;
 use crate::plan::integer;
 use crate::term::real;
 use crate::text::Text;
-use crate::types::{Type, type_of};
+use crate::types::{Type, item_type, ordinals, type_of};
 
 /// What is generated inside of a loop.
 pub(crate) type Inside<'i, 'a> = dyn FnMut(&mut Generator<'a>, &mut Text) + 'i;
@@ -105,8 +105,14 @@ impl<'a> Generator<'a> {
     }
 
     fn open_value_loop(&mut self, binder: Binder, text: &mut Text) -> (Variable, Option<u64>) {
-        self.needs_values(self.program.term_span(binder.range), "a collection");
         let site = self.site(binder.range);
+        if let Some((ty, defined, items)) = self.list_items(binder.range, site) {
+            let variable = self.declare(binder.slot, ty, defined, Interval::ALL);
+            let plain = self.plan.cpp(ty, defined);
+            text.open(format!("for ([[maybe_unused]] const {plain} {} : {items}) {{", variable.name));
+            return (variable, None);
+        }
+        self.needs_values(self.program.term_span(binder.range), "a collection");
         let value = self.value(binder.range);
         let ty = match &self.program.domain(self.program.term_domain(binder.range)).kind {
             DomainKind::Powerset(of) | DomainKind::Seq(of) | DomainKind::Bag(of) => type_of(self.program, *of),
@@ -125,6 +131,30 @@ impl<'a> Generator<'a> {
         text.open(format!("for (const gs::Value& {item} : {items}) {{"));
         text.line(format!("[[maybe_unused]] const auto {} = gs::unbox<{plain}>({item}, {site});", variable.name));
         (variable, None)
+    }
+
+    /// What ranges over a list, or over the set of its items: the items' type, whether they are never undef, the range.
+    fn list_items(&mut self, range: TermId, site: u32) -> Option<(Type, bool, String)> {
+        let solid = self.assumed.solid;
+        let (list, set) = match self.program.term(range) {
+            Term::Builtin { builtin: program::Builtin::AsSet, arguments } => {
+                (*self.program.term_list(*arguments).first()?, true)
+            }
+            _ => (range, false),
+        };
+        let Type::List(of) = self.term_type(list) else { return None };
+        if set && (!solid || ordinals(self.program, of)? > 64) {
+            return None;
+        }
+        let code = self.term(list);
+        let text = self.convert(code, Type::List(of), true, site);
+        let item = item_type(self.program, of);
+        let class = match (set, solid) {
+            (true, _) => "ItemSet",
+            (false, true) => "SolidItems",
+            (false, false) => "Items",
+        };
+        Some((item, solid, format!("gs::{class}<{}>{{{text}}}", self.plan.cpp(item, true))))
     }
 
     /// What ranges over a domain's elements and how many there are at most, if that is known; none if they cannot be
@@ -226,6 +256,13 @@ impl<'a> Generator<'a> {
             }
             Value::Complex(parts) => format!("gs::Value::complex({}, {})", real(parts.0.get()), real(parts.1.get())),
             Value::String(text) => crate::term::string(text),
+            Value::Seq(items) if matches!(ty, Type::List(_)) => {
+                let Type::List(of) = ty else { return "gs::Value{}".to_string() };
+                let item = item_type(self.program, of);
+                self.refuted.solid &= !items.contains(&Value::Undef);
+                let items: Vec<String> = items.iter().map(|value| self.constant(value, item)).collect();
+                format!("{}::of({{{}}})", self.plan.cpp(ty, true), items.join(", "))
+            }
             Value::Tuple(items) => format!("gs::Value::tuple({})", list(self, items)),
             Value::Seq(items) => format!("gs::Value::seq({})", list(self, items)),
             Value::Set(items) => format!("gs::Value::set({})", list(self, items)),

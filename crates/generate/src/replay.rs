@@ -61,7 +61,10 @@ pub fn state(program: &Program, locations: &[(Location, Value)]) -> String {
         .filter(|(location, value)| {
             let function = program.function(location.function);
             let kind = matches!(function.kind, FunctionKind::Controlled | FunctionKind::Out | FunctionKind::Shared);
-            kind && Some(location.function) != program.self_function && !value.is_undef()
+            // An initial value is due there when somebody reads it, and nobody can tell who did.
+            let late = location.arguments.iter().any(Value::is_undef)
+                && program.initials.iter().any(|initial| initial.function == location.function);
+            kind && Some(location.function) != program.self_function && !value.is_undef() && !late
         })
         .map(|(location, value)| {
             let name = &program.function(location.function).name;

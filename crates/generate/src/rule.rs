@@ -14,6 +14,7 @@ use program::{
 use crate::generator::{Generator, Need};
 use crate::interval::Interval;
 use crate::plan::{Role, integer};
+use crate::storage::Updates;
 use crate::term::listed;
 use crate::text::Text;
 use crate::types::{Code, Type, type_of};
@@ -163,7 +164,7 @@ impl Generator<'_> {
             text.marked(span, format!("(void){}({}{place});", plan.name, listed(&codes)));
         }
         let mut list = vec![site.to_string(), unwrapped(&value).to_string()];
-        if self.storage(function).stepped {
+        if self.storage(function).updates == Updates::Step {
             list.insert(0, format!("next.{}", plan.name));
         }
         list.extend(codes.into_iter().map(|code| unwrapped(&code.text).to_string()));

@@ -20,8 +20,19 @@ const WORD: u64 = 64;
 pub(crate) struct Storage {
     /// The class.
     pub class: String,
-    /// What it knows of a running step is a local variable of the step, not its own.
-    pub stepped: bool,
+    /// Where the updates of a running step are.
+    pub updates: Updates,
+}
+
+/// Where what a running step updates of a function is kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Updates {
+    /// There is none: no rule updates it.
+    None,
+    /// In a local variable of the step.
+    Step,
+    /// In a log of its own.
+    Log,
 }
 
 impl Generator<'_> {
@@ -37,18 +48,21 @@ impl Generator<'_> {
             (false, false) => "gs::Growing".to_string(),
             (false, true) => format!("gs::AtMost<{}>", capacity.unwrap_or(0)),
         };
-        let locations = function.dense() + u64::from(capacity.unwrap_or(0));
+        let (dimensions, places) = self.dimensions(id);
+        let locations = places + u64::from(capacity.unwrap_or(0));
         let log = match (whole && locations <= LOG_IN_PLACE, self.options.bare) {
             (true, _) | (_, true) => locations.max(1) * 9,
             _ => 0,
         };
-        let dimensions: String = function.dimensions.iter().map(|dimension| format!(", {}", dimension.text)).collect();
-        let kept = |class: String| Storage { class, stepped: false };
-        let stepped = |class: String| Storage { class, stepped: true };
+        let kept = |class: String| Storage { class, updates: Updates::Log };
+        let stepped = |class: String| Storage { class, updates: Updates::Step };
         match function.role {
             Role::Input => return kept(format!("gs::Inputs<{cell}, {sparse}{dimensions}>")),
             Role::Shared => return kept(format!("gs::SharedLocations<{cell}, {sparse}, {log}{dimensions}>")),
             _ => {}
+        }
+        if function.role == Role::State && whole && !self.writes.anywhere(id) {
+            return Storage { class: format!("gs::Fixed<{cell}{dimensions}>"), updates: Updates::None };
         }
         let form = self.form(id);
         let clashes = match form {
@@ -72,12 +86,25 @@ impl Generator<'_> {
         }
         match form {
             Form::Whole => {
-                let capacity = if self.options.bare { function.dense() } else { 0 };
+                let capacity = if self.options.bare { places } else { 0 };
                 stepped(format!("gs::WholeArray<{cell}, {capacity}{dimensions}>"))
             }
             Form::Disjoint => kept(format!("gs::DisjointLocations<{cell}, {sparse}, {log}{dimensions}>")),
             Form::General | Form::Unsequenced => kept(format!("gs::Locations<{cell}, {sparse}, {log}{dimensions}>")),
         }
+    }
+
+    /// The dimensions of a function's array as arguments of its class, and how many places it has.
+    fn dimensions(&self, id: FunctionId) -> (String, u64) {
+        let mut text = String::new();
+        let mut places = 1;
+        for (argument, dimension) in self.plan.function(id).dimensions.iter().enumerate() {
+            let undef = self.has_undef_place(id, argument);
+            let class = &dimension.text;
+            text += &if undef { format!(", gs::OrUndef<{class}>") } else { format!(", {class}") };
+            places *= dimension.size + u64::from(undef);
+        }
+        (text, places)
     }
 
     /// How a function's values are written in a few bits, and in how many.

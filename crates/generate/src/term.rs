@@ -13,12 +13,12 @@ use crate::operation::{beside, within};
 use crate::plan::{Dimension, Role, integer};
 use crate::rule::unwrapped;
 use crate::text::{Text, escaped};
-use crate::types::{Code, Type, type_of};
+use crate::types::{Code, Type, item_type, result_type};
 
 impl Generator<'_> {
     /// The type that a term's domain says it has.
     pub fn term_type(&self, id: TermId) -> Type {
-        type_of(self.program, self.program.term_domain(id))
+        result_type(self.program, self.program.term_domain(id))
     }
 
     /// A term as an expression.
@@ -51,6 +51,11 @@ impl Generator<'_> {
                 let code = Code::value(format!("gs::project({tuple}, {index}, {site})"));
                 self.typed(code, id)
             }
+            Term::Collection { kind: CollectionKind::Seq, elements }
+                if matches!(self.term_type(id), Type::List(_)) && !program.term_list(*elements).is_empty() =>
+            {
+                self.list(*elements, id)
+            }
             Term::Collection { kind, elements } => {
                 self.needs_values(span, "a collection");
                 let items = self.values(*elements);
@@ -64,23 +69,43 @@ impl Generator<'_> {
                 Code::value(format!("gs::range_by({low}, {high}, {step}, {}, {site})", kind_of(*kind)))
             }
             Term::Comprehension { kind, binders, condition, body } => {
-                self.needs_values(span, "a collection");
+                let list = match self.term_type(id) {
+                    Type::List(of) if *kind == CollectionKind::Seq => Some(of),
+                    _ => None,
+                };
+                if list.is_none() {
+                    self.needs_values(span, "a collection");
+                }
                 let items = self.fresh("items");
                 let mut text = Text::default();
                 text.open("[&] {");
-                text.line(format!("gs::Values {items};"));
+                let class = list.map_or("gs::Values".to_string(), |of| self.plan.cpp(Type::List(of), true));
+                text.line(format!("{class} {items};"));
                 let site = self.site(*body);
                 self.ranging(*binders, &mut text, &mut |this, text| {
                     let guard = condition.map(|condition| this.guard(condition));
                     if let Some(guard) = &guard {
                         text.open(format!("if ({guard}) {{"));
                     }
-                    let body = this.value(*body);
-                    text.line(format!("gs::append_to({items}, {body}, {site});"));
+                    match list {
+                        Some(of) => {
+                            let item = this.item(*body, of);
+                            text.line(format!("{items}.push_back({}, {site});", item.text));
+                        }
+                        None => {
+                            let body = this.value(*body);
+                            text.line(format!("gs::append_to({items}, {body}, {site});"));
+                        }
+                    }
                     if guard.is_some() {
                         text.close("}");
                     }
                 });
+                if let Some(of) = list {
+                    text.line(format!("return {items};"));
+                    text.close("}()");
+                    return Code::defined(text.plain().trim_end(), Type::List(of));
+                }
                 text.line(format!("return {};", collection(*kind, &format!("std::move({items})"))));
                 text.close("}()");
                 Code::value(text.plain().trim_end())
@@ -166,6 +191,33 @@ impl Generator<'_> {
                 }
             }
         }
+    }
+
+    /// A term as an item of a list.
+    fn item(&mut self, id: TermId, of: program::DomainId) -> Code {
+        let code = self.term(id);
+        let site = self.site(id);
+        let code = self.cast(code, item_type(self.program, of), site);
+        if !code.defined {
+            self.refuted.solid = false;
+        }
+        match code.ty {
+            Type::Undef => Code { text: "gs::undef".to_string(), ..code },
+            _ => code,
+        }
+    }
+
+    /// A list of these items.
+    fn list(&mut self, elements: TermList, id: TermId) -> Code {
+        let ty = self.term_type(id);
+        let Type::List(of) = ty else { return self.failing("bad_operand", id) };
+        let terms = self.program.term_list(elements).to_vec();
+        let items: Vec<Code> = terms.into_iter().map(|term| self.item(term, of)).collect();
+        let pure = items.iter().all(|item| item.pure);
+        // Braces keep the order of the text.
+        let list: Vec<&str> = items.iter().map(|item| item.text.as_str()).collect();
+        let text = format!("{}::of({{{}}})", self.plan.cpp(ty, true), list.join(", "));
+        Code { pure, ..Code::defined(text, ty) }
     }
 
     /// A term as a dynamic value.
@@ -292,7 +344,7 @@ impl Generator<'_> {
             let site = self.site(argument);
             let code = self.cast(code, ty, site);
             if !code.defined {
-                self.refuted.inside[function.0 as usize] = false;
+                self.refuted.inside[function.0 as usize][codes.len()] = false;
             }
             let bounds = self.plan.function(function).dimensions[codes.len()].bounds;
             if bounds.is_some_and(|bounds| !code.range.within(bounds)) {
@@ -314,8 +366,8 @@ impl Generator<'_> {
     /// The form of a function's locations.
     pub fn form(&self, function: FunctionId) -> Form {
         let form = match self.forms[function.0 as usize] {
-            // A second array takes all locations.
-            Form::Whole if !self.is_whole(function) => Form::Disjoint,
+            // A second array takes all locations, which no rule names one by one where an argument is undef.
+            Form::Whole if !self.is_whole(function) || !self.is_inside(function) => Form::Disjoint,
             form => form,
         };
         match form {
@@ -330,7 +382,21 @@ impl Generator<'_> {
         let plan = self.plan.function(function);
         let covered = self.assumed.covered[function.0 as usize] && plan.role != Role::Shared;
         let holds = |dimension: &Dimension| dimension.whole || (covered && dimension.bounds.is_some());
-        self.assumed.inside[function.0 as usize] && plan.dimensions.iter().all(holds)
+        let placed = match plan.role {
+            Role::State | Role::Local => self.assumed.eager[function.0 as usize],
+            _ => false,
+        };
+        (placed || self.is_inside(function)) && plan.dimensions.iter().all(holds)
+    }
+
+    /// No location of the function is looked at with an argument that is undef.
+    pub fn is_inside(&self, function: FunctionId) -> bool {
+        self.assumed.inside[function.0 as usize].iter().all(|inside| *inside)
+    }
+
+    /// The function's array has a place for that argument being undef.
+    pub fn has_undef_place(&self, function: FunctionId, argument: usize) -> bool {
+        !self.assumed.inside[function.0 as usize][argument] && self.is_whole(function)
     }
 
     fn definition(&mut self, function: FunctionId, arguments: TermList, id: TermId) -> Code {
@@ -355,7 +421,8 @@ impl Generator<'_> {
             *range = range.join(code.range);
             codes.push(code);
         }
-        let arguments_pure = codes.iter().zip(&assumed).all(|(code, assumed)| code.pure && (code.defined || !assumed));
+        // One that may be undef where none is assumed to be is refuted above: this code is not kept.
+        let arguments_pure = codes.iter().all(|code| code.pure);
         let (statements, codes) = self.hoist(codes, false);
         let mut list = Vec::new();
         for (index, (code, domain)) in codes.into_iter().zip(&parameters).enumerate() {
@@ -405,7 +472,9 @@ impl Generator<'_> {
         // An arm that is undef gives no integer.
         let arms = codes.iter().map(|(_, code, _)| code).chain([&last]);
         let range = arms.filter(|code| code.ty != Type::Undef).fold(Interval::EMPTY, |all, code| all.join(code.range));
-        let pure = last.pure && codes.iter().all(|(guard, code, _)| guard.pure && code.pure && code.defined);
+        // What is boxed or given as it is does not fault.
+        let arm = |code: &Code| code.pure && (code.ty == ty || code.ty == Type::Undef || ty == Type::Value);
+        let pure = arm(&last) && codes.iter().all(|(guard, code, _)| guard.pure && arm(code));
         let mut text = String::from("(");
         for (guard, code, site) in codes {
             text.push_str(&format!("{} ? {} : ", guard.text, self.convert(code, ty, defined, site)));

@@ -21,6 +21,8 @@ pub(crate) enum Type {
     Enum(DomainId),
     /// An element of an abstract domain, the base one.
     Element(DomainId),
+    /// A sequence of literals or elements of a small domain.
+    List(DomainId),
     /// Everything else.
     Value,
 }
@@ -38,6 +40,32 @@ pub(crate) fn type_of(program: &Program, domain: DomainId) -> Type {
         DomainKind::Abstract { .. } => Type::Element(base),
         _ => Type::Value,
     }
+}
+
+/// LIMIT: a list has a byte for each item, and a value for undef.
+const MOST_IN_LISTS: usize = 255;
+
+/// The type of what a function or term gives: that of a domain's values, with lists.
+pub(crate) fn result_type(program: &Program, domain: DomainId) -> Type {
+    let DomainKind::Seq(of) = &program.domain(domain).kind else { return type_of(program, domain) };
+    match ordinals(program, *of) {
+        Some(1..=MOST_IN_LISTS) => Type::List(program.base_domain(*of)),
+        _ => Type::Value,
+    }
+}
+
+/// How many values an enum domain has, or an abstract one that does not grow.
+pub(crate) fn ordinals(program: &Program, domain: DomainId) -> Option<usize> {
+    match &program.domain(program.base_domain(domain)).kind {
+        DomainKind::Enum { literals } => Some(literals.len()),
+        DomainKind::Abstract { elements, dynamic: false } => Some(elements.len()),
+        _ => None,
+    }
+}
+
+/// The type of a list's items.
+pub(crate) fn item_type(program: &Program, domain: DomainId) -> Type {
+    type_of(program, domain)
 }
 
 /// An expression of C++.

@@ -20,13 +20,18 @@ pub(crate) struct Writes {
     procedures: Vec<BTreeSet<Target>>,
     /// What a rule value or an agent's program may update.
     values: BTreeSet<Target>,
+    /// The functions that some rule updates, or has of its own.
+    updated: BTreeSet<FunctionId>,
 }
 
 impl Writes {
     /// Finds them out.
     pub fn new(program: &Program) -> Writes {
-        let mut writes =
-            Writes { procedures: vec![BTreeSet::new(); program.procedures.len()], values: BTreeSet::new() };
+        let mut writes = Writes {
+            procedures: vec![BTreeSet::new(); program.procedures.len()],
+            values: BTreeSet::new(),
+            updated: updated(program),
+        };
         let run: Vec<ProcedureId> = runnable(program).collect();
         loop {
             let mut changed = false;
@@ -80,10 +85,31 @@ impl Writes {
         found
     }
 
+    /// Whether any rule updates a function.
+    pub fn anywhere(&self, function: FunctionId) -> bool {
+        self.updated.contains(&function)
+    }
+
     /// What a procedure may update.
     pub fn procedure(&self, procedure: ProcedureId) -> &BTreeSet<Target> {
         &self.procedures[procedure.0 as usize]
     }
+}
+
+fn updated(program: &Program) -> BTreeSet<FunctionId> {
+    let mut found = BTreeSet::new();
+    for rule in &program.rules {
+        match rule {
+            Rule::Update { function, .. } | Rule::Return { function, .. } => {
+                found.insert(*function);
+            }
+            Rule::Local { start, len, .. } => {
+                found.extend(&program.function_lists[*start as usize..(*start + *len) as usize]);
+            }
+            _ => {}
+        }
+    }
+    found
 }
 
 /// The procedures that are values or programs of agents.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "library.hpp"
+#include "lists.hpp"
 #include "maybe.hpp"
 #include "ranges.hpp"
 
@@ -33,17 +34,47 @@ Value box(T value) {
 }
 
 template <class T>
+Value box(const Maybe<T>& value);
+template <class T>
+Value box(const List<T>& list) {
+    Values items;
+    items.reserve(list.size());
+    for (std::size_t place = 0; place < list.size(); ++place) {
+        items.push_back(box(list[place]));
+    }
+    return Value::seq(std::move(items));
+}
+template <class T>
 Value box(const Maybe<T>& value) {
     return value.defined ? box(value.value) : Value{};
 }
 
-/// The scalar that a value holds; undef where it is undef, a fault where it is of another kind.
+/// What a typed sequence is a sequence of.
+template <class T>
+struct ListOf {
+    static constexpr bool is = false;
+};
+template <class T>
+struct ListOf<List<T>> {
+    static constexpr bool is = true;
+    using Item = T;
+};
+
+/// The scalar or list of scalars that a value holds; undef where it is undef, a fault where it is of another kind.
 template <class T>
 Maybe<T> unbox(const Value& value, Site site) {
     if (value.is_undef()) {
         return {};
     }
-    if constexpr (std::is_same_v<T, bool>) {
+    if constexpr (ListOf<T>::is) {
+        if (value.is(Kind::seq)) {
+            T list;
+            for (const Value& item : value.items()) {
+                list.push_back(unbox<typename ListOf<T>::Item>(item, site), site);
+            }
+            return list;
+        }
+    } else if constexpr (std::is_same_v<T, bool>) {
         if (value.is(Kind::boolean)) return value.as_boolean();
     } else if constexpr (std::is_same_v<T, char32_t>) {
         if (value.is(Kind::character)) return value.as_character();

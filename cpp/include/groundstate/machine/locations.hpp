@@ -57,6 +57,21 @@ struct Anywhere {
     static constexpr T value(std::size_t) noexcept { return T{}; }
 };
 
+/// What another dimension covers, and undef, which has the last place.
+template <class Dimension>
+struct OrUndef {
+    using Type = typename Dimension::Type;
+    static constexpr bool has_undef = true;
+    static constexpr std::size_t size = Dimension::size + 1;
+    static constexpr std::size_t index(const Type& value) noexcept { return Dimension::index(value); }
+    static constexpr std::size_t index(const Maybe<Type>& value) noexcept {
+        return value.defined ? Dimension::index(value.value) : Dimension::size;
+    }
+    static constexpr Maybe<Type> value(std::size_t index) noexcept {
+        return index < Dimension::size ? Maybe<Type>{Dimension::value(index)} : Maybe<Type>{};
+    }
+};
+
 // Arguments and places in the array.
 
 /// The place of arguments in an array with these dimensions; false if it has none. Arguments are values of the dimensions'
@@ -67,14 +82,23 @@ constexpr bool find_place(std::size_t& place, const Arguments&... arguments) {
         std::size_t index = 0;
         if constexpr (std::is_same_v<Given, Maybe<typename Dimension::Type>>) {
             if (!argument.defined) {
-                return false;
+                if constexpr (requires { Dimension::has_undef; }) {
+                    place = place * Dimension::size + (Dimension::size - 1);
+                    return true;
+                } else {
+                    return false;
+                }
             }
             index = Dimension::index(argument.value);
         } else {
             index = Dimension::index(argument);
         }
         place = place * Dimension::size + index;
-        return index < Dimension::size;
+        if constexpr (requires { Dimension::has_undef; }) {
+            return index + 1 < Dimension::size;
+        } else {
+            return index < Dimension::size;
+        }
     };
     place = 0;
     return (inside(static_cast<const Dimensions*>(nullptr), arguments) && ...);
@@ -101,6 +125,12 @@ std::tuple<Argument<typename Dimensions::Type>...> arguments_at(std::size_t plac
         return std::tuple<Argument<typename Dimensions::Type>...>{
             Argument<typename Dimensions::Type>{Dimensions::value(indexes[Places])}...};
     }(std::index_sequence_for<Dimensions...>{});
+}
+
+/// Whether no argument of a location is undef.
+template <class... Arguments>
+constexpr bool all_defined(const std::tuple<Arguments...>& arguments) {
+    return std::apply([](const auto&... parts) { return (is_defined(parts) && ...); }, arguments);
 }
 
 /// One update: what a location becomes and which rule says so. Applied, it holds what it overwrote.
@@ -132,6 +162,16 @@ class Locations {
     Locations() {
         values_.resize(dense);
         where_.resize(dense);
+    }
+
+    /// The same for each location none of whose arguments is undef.
+    template <class Visit>
+    void each_defined(Visit&& visit) const {
+        each([&](const auto& arguments, const auto& value) {
+            if (all_defined(arguments)) {
+                visit(arguments, value);
+            }
+        });
     }
 
     // Reading.

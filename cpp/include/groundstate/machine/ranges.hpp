@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
 #include "fault.hpp"
 #include "keys.hpp"
+#include "maybe.hpp"
 #include "series.hpp"
 #if !defined(GROUNDSTATE_BARE)
 #include "operands.hpp"
@@ -39,6 +41,47 @@ class Ordinals {
   private:
     std::uint32_t count_;
 };
+
+/// What another range goes through, and undef at the end.
+template <class Range>
+class AndUndef {
+  public:
+    using Inner = decltype(std::declval<const Range&>().begin());
+    using Item = Maybe<std::remove_cvref_t<decltype(*std::declval<Inner&>())>>;
+
+    class Iterator {
+      public:
+        constexpr Iterator(Inner at, Inner end, bool undef) : at_{at}, end_{end}, undef_{undef} {}
+        constexpr Item operator*() const { return at_ == end_ ? Item{} : Item{*at_}; }
+        constexpr Iterator& operator++() {
+            if (at_ == end_) {
+                undef_ = false;
+            } else {
+                ++at_;
+            }
+            return *this;
+        }
+        friend constexpr bool operator==(const Iterator& a, const Iterator& b) {
+            return a.at_ == b.at_ && a.undef_ == b.undef_;
+        }
+
+      private:
+        Inner at_;
+        Inner end_;
+        bool undef_;
+    };
+
+    constexpr explicit AndUndef(Range range) : range_{std::move(range)} {}
+    constexpr Iterator begin() const { return {range_.begin(), range_.end(), true}; }
+    constexpr Iterator end() const { return {range_.end(), range_.end(), false}; }
+
+  private:
+    Range range_;
+};
+template <class Range>
+constexpr AndUndef<Range> and_undef(Range range) {
+    return AndUndef<Range>{std::move(range)};
+}
 
 /// `{low : high, step}` of integers.
 class Integers {

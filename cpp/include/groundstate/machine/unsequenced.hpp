@@ -53,9 +53,28 @@ class Placed {
             visit(arguments_at<Dimensions...>(place), form().cell(place));
         }
     }
+    template <class Visit>
+    void each_defined(Visit&& visit) const {
+        each([&](const auto& arguments, const auto& value) {
+            if (all_defined(arguments)) {
+                visit(arguments, value);
+            }
+        });
+    }
 
   private:
     const Form& form() const noexcept { return static_cast<const Form&>(*this); }
+};
+
+/// Locations that no rule updates.
+template <class Cell, class... Dimensions>
+class Fixed : public Placed<Fixed<Cell, Dimensions...>, Cell, Dimensions...> {
+  public:
+    const Cell& cell(std::size_t place) const noexcept { return values_[place]; }
+    void put(std::uint32_t number, Cell value) noexcept { values_[number] = std::move(value); }
+
+  private:
+    std::array<Cell, Fixed::Placed::size> values_{};
 };
 
 /// The one location of a function without arguments.

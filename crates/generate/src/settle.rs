@@ -1,0 +1,39 @@
+//! Domains that a model declares as growing and nothing makes grow.
+//!
+//! In: a program. Out: the same program, where a domain that no rule extends does not grow: `Agent` of most models, and
+//! what is declared as a subset of it. Their elements then have places in arrays, and are known where code is generated.
+
+use std::collections::BTreeSet;
+
+use program::{DomainId, DomainKind, Program, Rule};
+
+/// The program without growth that never happens.
+pub(crate) fn settled(program: &Program) -> Program {
+    let growing: BTreeSet<DomainId> = program
+        .rules
+        .iter()
+        .filter_map(|rule| match rule {
+            Rule::Extend { domain, .. } => Some(program.base_domain(*domain)),
+            _ => None,
+        })
+        .collect();
+    let mut settled = program.clone();
+    for (index, domain) in settled.domains.iter_mut().enumerate() {
+        if growing.contains(&program.base_domain(DomainId(index as u32))) {
+            continue;
+        }
+        match &mut domain.kind {
+            DomainKind::Abstract { dynamic, .. } => *dynamic = false,
+            // What the environment decides or the state is not known where code is generated.
+            DomainKind::Concrete { dynamic, contents, .. }
+                if contents
+                    .as_ref()
+                    .is_none_or(|contents| program.reads(contents).is_some_and(|read| read.is_empty())) =>
+            {
+                *dynamic = false;
+            }
+            _ => {}
+        }
+    }
+    settled
+}
