@@ -3,6 +3,8 @@
 //! In: a plan. Out: [`Bodies`], the member functions of the class with their declarations, and all that generating
 //! them asked for: places, tables, needs.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use program::{Expression, FunctionId, FunctionKind, ProcedureId, Program};
 use syntax::Diagnostic;
 
@@ -51,6 +53,8 @@ pub(crate) fn bodies<'a>(
     started: &machine::Machine,
 ) -> Result<Bodies<'a>, Vec<Diagnostic>> {
     let mut assumed = Assumptions::all(program);
+    assumed.acting = acting(program);
+    let known = known_values(program, started);
     // Nobody but rules of the model writes what is assumed to be never undef.
     for (index, function) in plan.functions.iter().enumerate() {
         let fitting = function.role == Role::State
@@ -62,7 +66,7 @@ pub(crate) fn bodies<'a>(
     let mut round = 0;
     loop {
         let mut generator = Generator::new(program, plan, writes, forms, options, assumed.clone());
-        let bodies = once(&mut generator, started);
+        let bodies = once(&mut generator, started, &known);
         if generator.refuted == assumed {
             if !generator.refused.is_empty() {
                 return Err(generator.refused);
@@ -80,7 +84,7 @@ pub(crate) fn bodies<'a>(
 
 type Parts = (Vec<Member>, Vec<Member>, Vec<(FunctionId, Member)>, Text, Text);
 
-fn once(generator: &mut Generator<'_>, started: &machine::Machine) -> Parts {
+fn once(generator: &mut Generator<'_>, started: &machine::Machine, known: &Known) -> Parts {
     let program = generator.program;
     let mut start = Text::default();
     start_state(generator, started, &mut start);
@@ -95,8 +99,8 @@ fn once(generator: &mut Generator<'_>, started: &machine::Machine) -> Parts {
     let mut procedures = Vec::new();
     let mut definitions = Vec::new();
     let mut initials = Vec::new();
-    let mut done_procedures = std::collections::BTreeSet::new();
-    let mut done_functions = std::collections::BTreeSet::new();
+    let mut done_procedures = BTreeSet::new();
+    let mut done_functions = BTreeSet::new();
     // What is generated enters more of them.
     loop {
         let next_procedure = generator.entered.iter().find(|id| !done_procedures.contains(*id)).copied();
@@ -114,7 +118,7 @@ fn once(generator: &mut Generator<'_>, started: &machine::Machine) -> Parts {
         } else if let Some(initial) = generator.plan.function(id).initial
             && role != Role::Input
         {
-            initials.push((id, initial_value(generator, id, initial)));
+            initials.push((id, initial_value(generator, id, initial, known)));
         }
     }
     for id in generator.reached.clone() {
@@ -223,7 +227,7 @@ fn definition(generator: &mut Generator<'_>, id: FunctionId) -> Member {
 }
 
 /// The initial value of one location, as a function of its arguments.
-fn initial_value(generator: &mut Generator<'_>, id: FunctionId, initial: usize) -> Member {
+fn initial_value(generator: &mut Generator<'_>, id: FunctionId, initial: usize, known: &Known) -> Member {
     let program = generator.program;
     let expression: &Expression = &program.initials[initial].value;
     let plan = generator.plan.function(id).clone();
@@ -240,14 +244,21 @@ fn initial_value(generator: &mut Generator<'_>, id: FunctionId, initial: usize) 
     let site = generator.sites.number(program.term_span(expression.body));
     let code = generator.term(expression.body);
     let code = generator.cast(code, plan.ty, site);
-    if !code.defined {
+    let (total, range) = match known.get(&id) {
+        // Nobody changes them, and they are all there is.
+        Some(known) if generator.is_fixed(id) && generator.is_inside(id) => {
+            (known.count == generator.places(id), known.range)
+        }
+        _ => (code.defined, code.range),
+    };
+    if !total {
         generator.refuted.total[id.0 as usize] = false;
     }
     if eager && !generator.is_inside(id) && !code.pure {
         generator.refuted.eager[id.0 as usize] = false;
     }
-    let range = &mut generator.refuted.values[id.0 as usize];
-    *range = range.join(code.range);
+    let values = &mut generator.refuted.values[id.0 as usize];
+    *values = values.join(range);
     let defined = generator.assumed.total[id.0 as usize] && plan.ty != Type::Value;
     let body = generator.convert(code, plan.ty, defined, site);
     let result = generator.plan.cpp(plan.ty, defined);
@@ -360,19 +371,19 @@ fn set_as_computed(
 }
 
 /// The initial values in an order in which none reads a later one, and those for which there is none.
-fn initial_order(program: &Program) -> (Vec<usize>, std::collections::BTreeSet<usize>) {
+fn initial_order(program: &Program) -> (Vec<usize>, BTreeSet<usize>) {
     let mut order = Vec::new();
-    let mut cyclic = std::collections::BTreeSet::new();
+    let mut cyclic = BTreeSet::new();
     let mut state = vec![0u8; program.initials.len()];
-    let of: std::collections::BTreeMap<FunctionId, usize> =
+    let of: BTreeMap<FunctionId, usize> =
         program.initials.iter().enumerate().map(|(index, initial)| (initial.function, index)).collect();
     fn visit(
         program: &Program,
-        of: &std::collections::BTreeMap<FunctionId, usize>,
+        of: &BTreeMap<FunctionId, usize>,
         index: usize,
         state: &mut [u8],
         order: &mut Vec<usize>,
-        cyclic: &mut std::collections::BTreeSet<usize>,
+        cyclic: &mut BTreeSet<usize>,
     ) {
         state[index] = 1;
         for read in program.all_reads(&program.initials[index].value).0 {
@@ -403,6 +414,9 @@ fn run_agent(generator: &mut Generator<'_>, text: &mut Text) {
     for (domain, procedure) in agents {
         let condition = match (generator.carrier(domain), &program.domain(domain).kind) {
             (_, program::DomainKind::Abstract { .. }) => "true".to_string(),
+            (None, program::DomainKind::Concrete { base, .. }) if generator.is_all_of(domain, *base) => {
+                "true".to_string()
+            }
             (Some(carrier), _) => format!("{carrier}.contains(agent.value.element)"),
             (None, _) => match generator.plan.domain(domain).contents.clone() {
                 Some(contents) => {
@@ -419,6 +433,69 @@ fn run_agent(generator: &mut Generator<'_>, text: &mut Text) {
     }
 }
 
+/// By function, what its locations have in the initial state, where that depends on nothing from outside.
+type Known = BTreeMap<FunctionId, KnownValues>;
+
+#[derive(Debug)]
+struct KnownValues {
+    /// How many locations have a value.
+    count: u64,
+    /// Between what the integers among them lie.
+    range: Interval,
+}
+
+fn known_values(program: &Program, started: &machine::Machine) -> Known {
+    let mut known = Known::new();
+    for (location, value) in started.locations() {
+        let initial = program.initials.iter().find(|initial| initial.function == location.function);
+        if initial.is_none_or(|initial| program.reads(&initial.value).is_none()) {
+            continue;
+        }
+        let found = known.entry(location.function).or_insert(KnownValues { count: 0, range: Interval::EMPTY });
+        found.count += u64::from(!location.arguments.iter().any(machine::Value::is_undef));
+        found.range = match value {
+            machine::Value::Integer(number) => found.range.join(Interval::of(number)),
+            _ => found.range,
+        };
+    }
+    known
+}
+
+/// Whether whoever reads `self` is run as an agent's program, so that it is defined there.
+fn acting(program: &Program) -> bool {
+    let Some(own) = program.self_function else { return false };
+    let mut procedures: Vec<ProcedureId> = program.main.into_iter().collect();
+    let mut terms: Vec<_> = program.initials.iter().map(|initial| initial.value.body).collect();
+    let mut entered: BTreeSet<ProcedureId> = procedures.iter().copied().collect();
+    while let Some(procedure) = procedures.pop() {
+        let mut rules = vec![program.procedure(procedure).body];
+        while let Some(rule) = rules.pop() {
+            let called: Vec<ProcedureId> = match program.rule(rule) {
+                program::Rule::Call { procedure, .. }
+                | program::Rule::TurboCall { procedure, .. }
+                | program::Rule::Return { procedure, .. } => vec![*procedure],
+                program::Rule::RunValue { .. } => crate::writes::runnable(program).collect(),
+                _ => Vec::new(),
+            };
+            procedures.extend(called.into_iter().filter(|called| entered.insert(*called)));
+            program.each_term_of_rule(rule, &mut |term| terms.push(term));
+            program.each_child_of_rule(rule, &mut |child| rules.push(child));
+        }
+    }
+    let mut defined = BTreeSet::new();
+    while let Some(term) = terms.pop() {
+        match program.term(term) {
+            program::Term::Read { function, .. } if *function == own => return false,
+            program::Term::Define { function, .. } if defined.insert(*function) => {
+                terms.extend(program.function(*function).definition.as_ref().map(|definition| definition.body));
+            }
+            _ => {}
+        }
+        program.each_child_of_term(term, &mut |child| terms.push(child));
+    }
+    program.initials.iter().all(|initial| initial.function != own)
+}
+
 /// Whether a procedure calls itself, directly or through others.
 fn is_recursive(program: &Program, id: ProcedureId) -> bool {
     let mut entered = vec![false; program.procedures.len()];
@@ -430,9 +507,11 @@ fn is_recursive(program: &Program, id: ProcedureId) -> bool {
                 program::Rule::Call { procedure, .. }
                 | program::Rule::TurboCall { procedure, .. }
                 | program::Rule::Return { procedure, .. } => vec![*procedure],
-                program::Rule::RunValue { .. } | program::Rule::RunAgent { .. } => {
-                    crate::writes::runnable(program).collect()
+                program::Rule::RunValue { arguments, .. } => {
+                    let fits = |id: &ProcedureId| program.procedure(*id).parameters.len() == arguments.len as usize;
+                    crate::writes::runnable(program).filter(fits).collect()
                 }
+                program::Rule::RunAgent { .. } => program.agents.iter().map(|agent| agent.procedure).collect(),
                 _ => Vec::new(),
             };
             for procedure in called {

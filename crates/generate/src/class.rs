@@ -259,8 +259,8 @@ fn helpers(bodies: &Bodies<'_>, text: &mut Text) {
             Some(agent) => generator.plan.cpp(Type::Element(generator.program.base_domain(agent.domain)), false),
             None => "gs::Value".to_string(),
         };
-        text.line(format!("std::int64_t program_of(const {agent}& agent);"));
-        text.line(format!("void run_agent(Next& next, const {agent}& agent, gs::Site site);"));
+        text.line(format!("std::int64_t program_of({agent} agent);"));
+        text.line(format!("void run_agent(Next& next, {agent} agent, gs::Site site);"));
         if !generator.options.bare {
             text.line("gs::Value agent_program(const gs::Value& agent);");
         }
@@ -324,7 +324,7 @@ fn members(generator: &Generator<'_>, text: &mut Text) {
     }
     for (id, function) in functions(generator, &[Role::State, Role::Local, Role::Input, Role::Shared, Role::Agent]) {
         if function.role == Role::Agent {
-            text.line(format!("{} {}{{}};", plan.cpp(function.ty, false), function.member));
+            text.line(format!("{} {}{{}};", plan.cpp(function.ty, generator.assumed.acting), function.member));
             continue;
         }
         text.line(format!("{} {}{{}};", generator.storage(id).class, function.member));
@@ -406,14 +406,14 @@ fn frame(bodies: &Bodies<'_>, text: &mut Text) {
     text.open("if (fault) {");
     text.line("return fault;");
     text.close("}");
-    text.line("bool changed = false;");
+    text.line("std::uint64_t changed = 0;");
     for function in stepped(generator) {
         text.line(format!("changed |= {}.commit(next.{});", function.member, function.name));
     }
     for member in logs(generator) {
-        text.line(format!("changed |= {member}.commit() > 0;"));
+        text.line(format!("changed |= {member}.commit();"));
     }
-    text.line("changed_ = changed;");
+    text.line("changed_ = changed != 0;");
     text.line("return {};");
     text.close("}\n");
     text.open("void Machine::roll_back() {");
@@ -452,7 +452,7 @@ fn agents(bodies: &Bodies<'_>, text: &mut Text) {
     let base = program.agents.first().map(|agent| program.base_domain(agent.domain));
     let ty = base.map_or(Type::Value, Type::Element);
     let agent = generator.plan.cpp(ty, false);
-    text.open(format!("\nstd::int64_t Machine::program_of([[maybe_unused]] const {agent}& agent) {{"));
+    text.open(format!("\nstd::int64_t Machine::program_of([[maybe_unused]] {agent} agent) {{"));
     if base.is_some() {
         text.open("if (!agent.defined) {");
         text.line("return -1;");
@@ -461,9 +461,7 @@ fn agents(bodies: &Bodies<'_>, text: &mut Text) {
     }
     text.line("return -1;");
     text.close("}");
-    text.open(format!(
-        "\nvoid Machine::run_agent([[maybe_unused]] Next& next, const {agent}& agent, gs::Site site) {{"
-    ));
+    text.open(format!("\nvoid Machine::run_agent([[maybe_unused]] Next& next, {agent} agent, gs::Site site) {{"));
     let own = functions(generator, &[Role::Agent]);
     // `self` may have been declared over a wider type than the agents'.
     let own = own.first().filter(|(_, function)| function.ty == ty).map(|(_, function)| function.member.clone());
@@ -478,7 +476,8 @@ fn agents(bodies: &Bodies<'_>, text: &mut Text) {
         }
         text.line(format!("case {}:", entry.procedure.0));
         if let Some(own) = &own {
-            text.line(format!("    {own} = agent;"));
+            let value = if generator.assumed.acting && ty != Type::Value { ".value" } else { "" };
+            text.line(format!("    {own} = agent{value};"));
         }
         text.line(format!("    {}(next);", generator.plan.procedure(entry.procedure)));
         text.line("    break;");

@@ -30,6 +30,8 @@ pub(crate) struct Assumptions {
     pub eager: Vec<bool>,
     /// No location of the function is looked at with an integer outside of its array.
     pub covered: Vec<bool>,
+    /// `self` is defined where it is read.
+    pub acting: bool,
     /// No list holds undef.
     pub solid: bool,
     /// A definition's value is never undef.
@@ -57,6 +59,7 @@ impl Assumptions {
             inside: program.functions.iter().map(|f| vec![true; f.parameters.len()]).collect(),
             eager: vec![true; functions],
             covered: vec![true; functions],
+            acting: false,
             solid: true,
             result: vec![true; functions],
             pure: vec![true; functions],
@@ -149,6 +152,8 @@ pub(crate) struct Generator<'a> {
     pub carriers: BTreeSet<DomainId>,
     /// By monitored and shared function, what the environment gives, checked for being in the codomain.
     pub asked: BTreeMap<FunctionId, String>,
+    /// It matters neither in which order nor how often a set's elements are ranged over.
+    pub unordered: bool,
 }
 
 /// See [`Generator::needs`].
@@ -194,6 +199,7 @@ impl<'a> Generator<'a> {
             needs: BTreeSet::new(),
             carriers: BTreeSet::new(),
             asked: BTreeMap::new(),
+            unordered: false,
         }
     }
 

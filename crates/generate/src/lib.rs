@@ -8,6 +8,7 @@ mod accessors;
 mod body;
 mod choice;
 mod class;
+mod collected;
 mod driver;
 mod form;
 mod generator;

@@ -10,6 +10,7 @@ use cpp_names::{identifier, snake};
 use crate::generator::{EMPTY, Generator, Need};
 use crate::interval::{Interval, Outcome};
 use crate::rule::unwrapped;
+use crate::term::CALLED;
 use crate::types::{Code, Type, item_type};
 
 /// LIMIT: items of a list; collection_limit of machine/operands.hpp. SYNC(collection)
@@ -42,6 +43,11 @@ impl Generator<'_> {
                 return Code::defined(format!("({}std::int64_t{{1}})", evaluated.concat()), Type::Integer);
             }
             _ => {}
+        }
+        if builtin == SeqLength
+            && let Some(code) = self.counted(terms[0])
+        {
+            return code;
         }
         let codes: Vec<Code> = terms.iter().map(|term| self.term(*term)).collect();
         if matches!(builtin, And | Or | Implies)
@@ -347,7 +353,7 @@ fn arithmetic(builtin: Builtin, codes: &[Code]) -> Option<(Outcome, Option<&'sta
 pub(crate) fn within(statements: &str, code: Code) -> Code {
     match statements {
         "" => code,
-        _ => Code { text: format!("[&] {{ {statements}return {}; }}()", code.text), pure: false, ..code },
+        _ => Code { text: format!("{CALLED} {{ {statements}return {}; }}()", code.text), pure: false, ..code },
     }
 }
 

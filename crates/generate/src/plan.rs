@@ -10,6 +10,7 @@ use program::{DomainId, DomainKind, FunctionId, FunctionKind, ProcedureId, Progr
 
 use cpp_names::{Scope, identifier, snake};
 
+use crate::generator::Generator;
 use crate::interval::Interval;
 use crate::types::{Type, result_type, type_of};
 
@@ -250,7 +251,9 @@ fn dimensions(program: &Program, domains: &[DomainPlan], id: FunctionId, initial
     let few = parameters.len() == 1;
     let dimensions: Vec<Dimension> =
         parameters.iter().map(|domain| dimension(program, domains, *domain, initial, few)).collect();
-    let size = dimensions.iter().fold(1u64, |size, dimension| size.saturating_mul(dimension.size));
+    let size = dimensions
+        .iter()
+        .fold(1u64, |size, dimension| size.saturating_mul(dimension.size.max(u64::from(dimension.whole))));
     if (1..=DENSE_LIMIT).contains(&size) {
         return dimensions;
     }
@@ -266,7 +269,7 @@ fn dimension(program: &Program, domains: &[DomainPlan], domain: DomainId, initia
     let anywhere = || anywhere(program, domains, domain);
     let name = |domain: DomainId| &domains[domain.0 as usize].name;
     let below = |domain: DomainId, size: u64, whole: bool| match size {
-        0 => anywhere(),
+        0 if !whole => anywhere(),
         _ => Dimension { text: format!("gs::Below<{}, {size}>", name(domain)), size, whole, bounds: None },
     };
     let between = |low: i64, high: i64| {
@@ -306,10 +309,20 @@ fn dimension(program: &Program, domains: &[DomainPlan], domain: DomainId, initia
     }
 }
 
+impl Generator<'_> {
+    /// A subset that does not grow has all elements of its base.
+    pub fn is_all_of(&self, subset: DomainId, base: DomainId) -> bool {
+        let contents = &self.plan.domain(subset).contents;
+        contents.as_ref().is_some_and(|contents| covers(self.program, base, contents))
+    }
+}
+
 /// Whether this is all there is of an enum domain, or of an abstract one that does not grow.
 fn covers(program: &Program, domain: DomainId, contents: &[machine::Value]) -> bool {
     match &program.domain(domain).kind {
-        DomainKind::Enum { literals: all } | DomainKind::Abstract { elements: all, .. } => contents.len() == all.len(),
+        DomainKind::Enum { literals: all } | DomainKind::Abstract { elements: all, dynamic: false } => {
+            contents.len() == all.len()
+        }
         _ => false,
     }
 }

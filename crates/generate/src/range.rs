@@ -6,12 +6,18 @@
 use model::{Basic, CollectionKind, Literal};
 use program::{Binder, BinderList, DomainId, DomainKind, Term, TermId};
 
+use crate::form::Form;
 use crate::generator::{Generator, Variable};
 use crate::interval::Interval;
 use crate::plan::integer;
 use crate::term::real;
 use crate::text::Text;
 use crate::types::{Type, item_type, ordinals, type_of};
+
+/// What ranges over the items of a list.
+fn items(solid: bool) -> &'static str {
+    if solid { "solid_items" } else { "items" }
+}
 
 /// What is generated inside of a loop.
 pub(crate) type Inside<'i, 'a> = dyn FnMut(&mut Generator<'a>, &mut Text) + 'i;
@@ -143,18 +149,29 @@ impl<'a> Generator<'a> {
             _ => (range, false),
         };
         let Type::List(of) = self.term_type(list) else { return None };
-        if set && (!solid || ordinals(self.program, of)? > 64) {
+        if set && !self.unordered && (!solid || ordinals(self.program, of)? > 64) {
             return None;
         }
         let code = self.term(list);
         let text = self.convert(code, Type::List(of), true, site);
         let item = item_type(self.program, of);
-        let class = match (set, solid) {
-            (true, _) => "ItemSet",
-            (false, true) => "SolidItems",
-            (false, false) => "Items",
+        let items = match (set && !self.unordered, solid) {
+            (true, _) => format!("gs::ItemSet<{}>{{{text}}}", self.plan.cpp(item, true)),
+            // A part of a `seq` may change the location while a rule ranges over what it held.
+            (false, _) if self.is_sequenced(list) => {
+                format!("gs::{}({}{{{text}}})", items(solid), self.plan.cpp(Type::List(of), true))
+            }
+            (false, _) => format!("gs::{}({text})", items(solid)),
         };
-        Some((item, solid, format!("gs::{class}<{}>{{{text}}}", self.plan.cpp(item, true))))
+        Some((item, solid, items))
+    }
+
+    /// A term that is a location which parts of a `seq` may change.
+    fn is_sequenced(&self, term: TermId) -> bool {
+        match self.program.term(term) {
+            Term::Read { function, .. } => self.form(*function) == Form::General,
+            _ => false,
+        }
     }
 
     /// What ranges over a domain's elements and how many there are at most, if that is known; none if they cannot be

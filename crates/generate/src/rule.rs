@@ -15,7 +15,7 @@ use crate::generator::{Generator, Need};
 use crate::interval::Interval;
 use crate::plan::{Role, integer};
 use crate::storage::Updates;
-use crate::term::listed;
+use crate::term::{CALLED, listed};
 use crate::text::Text;
 use crate::types::{Code, Type, type_of};
 use crate::writes::{Target, runnable};
@@ -240,7 +240,7 @@ impl Generator<'_> {
             list.push(unwrapped(&text).to_string());
         }
         let call = format!("{}({})", self.plan.procedure(procedure), list.join(", "));
-        if statements.is_empty() { call } else { format!("[&] {{ {statements}{call}; }}()") }
+        if statements.is_empty() { call } else { format!("{CALLED} {{ {statements}{call}; }}()") }
     }
 
     /// The members that hold the targets.

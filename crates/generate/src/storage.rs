@@ -61,7 +61,7 @@ impl Generator<'_> {
             Role::Shared => return kept(format!("gs::SharedLocations<{cell}, {sparse}, {log}{dimensions}>")),
             _ => {}
         }
-        if function.role == Role::State && whole && !self.writes.anywhere(id) {
+        if self.is_fixed(id) {
             return Storage { class: format!("gs::Fixed<{cell}{dimensions}>"), updates: Updates::None };
         }
         let form = self.form(id);
@@ -92,6 +92,16 @@ impl Generator<'_> {
             Form::Disjoint => kept(format!("gs::DisjointLocations<{cell}, {sparse}, {log}{dimensions}>")),
             Form::General | Form::Unsequenced => kept(format!("gs::Locations<{cell}, {sparse}, {log}{dimensions}>")),
         }
+    }
+
+    /// No rule updates the function, and all its locations stand in its array.
+    pub fn is_fixed(&self, id: FunctionId) -> bool {
+        self.plan.function(id).role == Role::State && self.is_whole(id) && !self.writes.anywhere(id)
+    }
+
+    /// How many places a function's array has.
+    pub fn places(&self, id: FunctionId) -> u64 {
+        self.dimensions(id).1
     }
 
     /// The dimensions of a function's array as arguments of its class, and how many places it has.

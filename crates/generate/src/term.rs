@@ -4,7 +4,7 @@
 //! is a lambda called on the spot, which compilers dissolve. What each library function becomes is in
 //! [`crate::operation`].
 
-use program::{CollectionKind, DomainKind, FunctionId, Literal, Quantifier, Term, TermId, TermList};
+use program::{CollectionKind, DomainKind, FunctionId, Literal, Term, TermId, TermList};
 
 use crate::form::Form;
 use crate::generator::Generator;
@@ -12,8 +12,11 @@ use crate::interval::Interval;
 use crate::operation::{beside, within};
 use crate::plan::{Dimension, Role, integer};
 use crate::rule::unwrapped;
-use crate::text::{Text, escaped};
-use crate::types::{Code, Type, item_type, result_type};
+use crate::text::escaped;
+use crate::types::{Code, Type, result_type};
+
+/// Before the body of a lambda that is called on the spot: part of the code around it, whatever compilers estimate.
+pub(crate) const CALLED: &str = "[&]() GROUNDSTATE_CALLED";
 
 impl Generator<'_> {
     /// The type that a term's domain says it has.
@@ -69,80 +72,9 @@ impl Generator<'_> {
                 Code::value(format!("gs::range_by({low}, {high}, {step}, {}, {site})", kind_of(*kind)))
             }
             Term::Comprehension { kind, binders, condition, body } => {
-                let list = match self.term_type(id) {
-                    Type::List(of) if *kind == CollectionKind::Seq => Some(of),
-                    _ => None,
-                };
-                if list.is_none() {
-                    self.needs_values(span, "a collection");
-                }
-                let items = self.fresh("items");
-                let mut text = Text::default();
-                text.open("[&] {");
-                let class = list.map_or("gs::Values".to_string(), |of| self.plan.cpp(Type::List(of), true));
-                text.line(format!("{class} {items};"));
-                let site = self.site(*body);
-                self.ranging(*binders, &mut text, &mut |this, text| {
-                    let guard = condition.map(|condition| this.guard(condition));
-                    if let Some(guard) = &guard {
-                        text.open(format!("if ({guard}) {{"));
-                    }
-                    match list {
-                        Some(of) => {
-                            let item = this.item(*body, of);
-                            text.line(format!("{items}.push_back({}, {site});", item.text));
-                        }
-                        None => {
-                            let body = this.value(*body);
-                            text.line(format!("gs::append_to({items}, {body}, {site});"));
-                        }
-                    }
-                    if guard.is_some() {
-                        text.close("}");
-                    }
-                });
-                if let Some(of) = list {
-                    text.line(format!("return {items};"));
-                    text.close("}()");
-                    return Code::defined(text.plain().trim_end(), Type::List(of));
-                }
-                text.line(format!("return {};", collection(*kind, &format!("std::move({items})"))));
-                text.close("}()");
-                Code::value(text.plain().trim_end())
+                self.comprehension(*kind, (*binders, *condition, *body), id)
             }
-            Term::Quantified { quantifier, binders, condition } => {
-                let mut text = Text::default();
-                text.open("[&] {");
-                let count = self.fresh("count");
-                if *quantifier == Quantifier::ExistsUnique {
-                    text.line(format!("int {count} = 0;"));
-                }
-                self.ranging(*binders, &mut text, &mut |this, text| {
-                    let guard = condition.map_or("true".to_string(), |condition| this.guard(condition));
-                    match quantifier {
-                        Quantifier::Forall => {
-                            text.open(format!("if (!({guard})) {{"));
-                            text.line("return false;");
-                        }
-                        Quantifier::Exists => {
-                            text.open(format!("if ({guard}) {{"));
-                            text.line("return true;");
-                        }
-                        Quantifier::ExistsUnique => {
-                            text.open(format!("if (({guard}) && ++{count} > 1) {{"));
-                            text.line("return false;");
-                        }
-                    }
-                    text.close("}");
-                });
-                text.line(match quantifier {
-                    Quantifier::Forall => "return true;".to_string(),
-                    Quantifier::Exists => "return false;".to_string(),
-                    Quantifier::ExistsUnique => format!("return {count} == 1;"),
-                });
-                text.close("}()");
-                Code::defined(text.plain().trim_end(), Type::Boolean)
-            }
+            Term::Quantified { quantifier, binders, condition } => self.quantified(*quantifier, *binders, *condition),
             Term::If { branches, otherwise } => {
                 let branches = program.term_list(*branches).to_vec();
                 let arms: Vec<(Code, TermId)> =
@@ -158,7 +90,7 @@ impl Generator<'_> {
                 let body = self.term(*body);
                 let result = self.plan.cpp(body.ty, body.defined);
                 let text = format!(
-                    "[&]() -> {result} {{ [[maybe_unused]] const auto {} = {value}; return {}; }}()",
+                    "{CALLED} -> {result} {{ [[maybe_unused]] const auto {} = {value}; return {}; }}()",
                     variable.name, body.text
                 );
                 Code { text, pure: body.pure && pure, ..body }
@@ -193,33 +125,6 @@ impl Generator<'_> {
         }
     }
 
-    /// A term as an item of a list.
-    fn item(&mut self, id: TermId, of: program::DomainId) -> Code {
-        let code = self.term(id);
-        let site = self.site(id);
-        let code = self.cast(code, item_type(self.program, of), site);
-        if !code.defined {
-            self.refuted.solid = false;
-        }
-        match code.ty {
-            Type::Undef => Code { text: "gs::undef".to_string(), ..code },
-            _ => code,
-        }
-    }
-
-    /// A list of these items.
-    fn list(&mut self, elements: TermList, id: TermId) -> Code {
-        let ty = self.term_type(id);
-        let Type::List(of) = ty else { return self.failing("bad_operand", id) };
-        let terms = self.program.term_list(elements).to_vec();
-        let items: Vec<Code> = terms.into_iter().map(|term| self.item(term, of)).collect();
-        let pure = items.iter().all(|item| item.pure);
-        // Braces keep the order of the text.
-        let list: Vec<&str> = items.iter().map(|item| item.text.as_str()).collect();
-        let text = format!("{}::of({{{}}})", self.plan.cpp(ty, true), list.join(", "));
-        Code { pure, ..Code::defined(text, ty) }
-    }
-
     /// A term as a dynamic value.
     pub fn value(&mut self, id: TermId) -> String {
         let code = self.term(id);
@@ -237,7 +142,7 @@ impl Generator<'_> {
         self.guard_code(id).text
     }
 
-    fn guard_code(&mut self, id: TermId) -> Code {
+    pub fn guard_code(&mut self, id: TermId) -> Code {
         let code = self.term(id);
         let site = self.site(id);
         let code = self.cast(code, Type::Boolean, site);
@@ -259,7 +164,7 @@ impl Generator<'_> {
         }
     }
 
-    fn failing(&mut self, kind: &str, id: TermId) -> Code {
+    pub fn failing(&mut self, kind: &str, id: TermId) -> Code {
         let site = self.site(id);
         let ty = match self.term_type(id) {
             Type::Undef => Type::Value,
@@ -321,6 +226,9 @@ impl Generator<'_> {
                 let pure = pure && !self.is_lazy(function);
                 let range = self.assumed.values[index];
                 Code { text, ty: plan.ty, defined: total && plan.ty != Type::Value, pure, range }
+            }
+            Role::Agent if self.assumed.acting && plan.ty != Type::Value => {
+                Code::defined(plan.member.clone(), plan.ty).pure()
             }
             Role::Agent => Code::maybe(plan.member.clone(), plan.ty).pure(),
             Role::Input | Role::Shared => {
@@ -508,7 +416,7 @@ impl Generator<'_> {
             _ => self.plan.cpp(code.ty, code.defined),
         };
         let text = format!(
-            "[&]() -> {result} {{ [[maybe_unused]] const auto {name} = {subject_text}; return {}; }}()",
+            "{CALLED} -> {result} {{ [[maybe_unused]] const auto {name} = {subject_text}; return {}; }}()",
             code.text
         );
         Code { text, pure: code.pure && pure, ..code }
@@ -563,7 +471,7 @@ pub(crate) fn listed(codes: &[Code]) -> String {
 }
 
 /// A collection of a kind, of a list of elements.
-fn collection(kind: CollectionKind, items: &str) -> String {
+pub(crate) fn collection(kind: CollectionKind, items: &str) -> String {
     match kind {
         CollectionKind::Set => format!("gs::Value::set({items})"),
         CollectionKind::Seq => format!("gs::Value::seq({items})"),

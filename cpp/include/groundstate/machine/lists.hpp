@@ -65,10 +65,7 @@ class List {
         return tag();
     }
     bool empty() const noexcept { return tag() == 0; }
-    Maybe<T> operator[](std::size_t place) const noexcept {
-        const std::uint64_t code = code_at(place);
-        return code == undef_code ? Maybe<T>{} : Maybe<T>{from_ordinal<T>(static_cast<std::uint32_t>(code))};
-    }
+    Maybe<T> operator[](std::size_t place) const noexcept { return item(code_at(place)); }
     /// The same of a list that is known to hold no undef.
     T at(std::size_t place) const noexcept { return from_ordinal<T>(static_cast<std::uint32_t>(code_at(place))); }
 
@@ -80,20 +77,34 @@ class List {
     void push_back(const Maybe<T>& item, Site site) { push_code(item.defined ? ordinal(item.value) : undef_code, site); }
     void push_back(Undef, Site site) { push_code(undef_code, site); }
     void append(const List& other, Site site) {
-        const std::size_t count = other.size();
-        for (std::size_t place = 0; place < count; ++place) {
-            push_code(other.code_at(place), site);
+        const std::uint64_t count = tag();
+        const std::uint64_t more = other.tag();
+        if (count + more > in_place) [[unlikely]] {
+            return append_long(other, site);
         }
+        const std::uint64_t shift = 8 * (count % 8);
+        const std::uint64_t first = other.low_ << shift;
+        const std::uint64_t second = (other.high_ & (one - 1)) << shift | (shift == 0 ? 0 : other.low_ >> (64 - shift));
+        if (count < 8) {
+            low_ |= first;
+            high_ |= second;
+        } else {
+            high_ |= first;
+        }
+        high_ += more * one;
     }
 
-    friend bool operator==(const List& a, const List& b) noexcept {
+    friend constexpr bool operator==(const List& a, const List& b) noexcept {
         if (a.is_long() && b.is_long()) [[unlikely]] {
-            return std::ranges::equal(a.long_items(), b.long_items());
+            return same_items(a, b);
         }
         return a.low_ == b.low_ && a.high_ == b.high_;
     }
 
   private:
+    template <class, class, bool>
+    friend class ListItems;
+
     static constexpr std::uint64_t undef_code = 255;
     static constexpr std::uint64_t long_tag = 255;
     static constexpr std::uint64_t one = std::uint64_t{1} << 56;
@@ -108,6 +119,16 @@ class List {
             return long_items()[place];
         }
         return ((place < 8 ? low_ : high_) >> (8 * (place & 7))) & 0xff;
+    }
+    static Maybe<T> item(std::uint64_t code) noexcept {
+        return code == undef_code ? Maybe<T>{} : Maybe<T>{from_ordinal<T>(static_cast<std::uint32_t>(code))};
+    }
+    /// The items from a multiple of eight on, up to eight of them.
+    std::uint64_t word_at(std::size_t place) const noexcept {
+        if (is_long()) [[unlikely]] {
+            return long_word_at(place);
+        }
+        return place == 0 ? low_ : high_;
     }
     /// The first of eight bytes that is `code`; 8 or more if none is.
     static std::size_t find_in(std::uint64_t word, std::uint64_t code) noexcept {
@@ -133,6 +154,25 @@ class List {
         } else {
             push_long(code, site);
         }
+    }
+
+    [[gnu::cold, gnu::noinline]] static bool same_items(const List& a, const List& b) noexcept {
+        return std::ranges::equal(a.long_items(), b.long_items());
+    }
+    [[gnu::cold, gnu::noinline]] void append_long(const List& other, Site site) {
+        const List items = other;
+        const std::size_t count = items.size();
+        for (std::size_t place = 0; place < count; ++place) {
+            push_code(items.code_at(place), site);
+        }
+    }
+    [[gnu::cold, gnu::noinline]] std::uint64_t long_word_at(std::size_t place) const noexcept {
+        std::uint64_t word = 0;
+        const std::size_t behind = std::min<std::size_t>(long_items().size(), place + 8);
+        for (std::size_t at = place; at < behind; ++at) {
+            word |= std::uint64_t{long_items()[at]} << (8 * (at - place));
+        }
+        return word;
     }
 
 #if defined(GROUNDSTATE_BARE)
@@ -174,61 +214,61 @@ class List {
     std::uint64_t high_ = 0;
 };
 
-// What binders range over. Each holds the list, which nobody changes meanwhile.
+// What binders range over. A list that has a place of its own is not copied: nobody changes it meanwhile.
 
-/// The items of a list.
-template <class T>
-class Items {
+/// The items of a list: Maybe<T>, or plain ones of a list that holds no undef. `Held` is the list or a reference to it.
+template <class T, class Held, bool solid>
+class ListItems {
   public:
     class Iterator {
       public:
-        Iterator(const List<T>& list, std::size_t place) : list_{&list}, place_{place} {}
-        Maybe<T> operator*() const { return (*list_)[place_]; }
+        Iterator(const List<T>& list, std::size_t place) : list_{&list}, place_{place}, word_{list.word_at(place)} {}
+        auto operator*() const {
+            const std::uint64_t code = word_ & 0xff;
+            if constexpr (solid) {
+                return from_ordinal<T>(static_cast<std::uint32_t>(code));
+            } else {
+                return List<T>::item(code);
+            }
+        }
         Iterator& operator++() {
-            ++place_;
+            word_ >>= 8;
+            if (++place_ % 8 == 0) [[unlikely]] {
+                word_ = list_->word_at(place_);
+            }
             return *this;
         }
-        friend bool operator==(const Iterator& a, const Iterator& b) { return a.place_ == b.place_; }
+        bool operator!=(std::size_t end) const { return place_ != end; }
 
       private:
         const List<T>* list_;
         std::size_t place_;
+        std::uint64_t word_;  ///< the items from here to the next multiple of eight
     };
 
-    explicit Items(List<T> list) : list_{std::move(list)} {}
+    explicit ListItems(Held list) : list_{static_cast<Held&&>(list)} {}
     Iterator begin() const { return {list_, 0}; }
-    Iterator end() const { return {list_, list_.size()}; }
+    std::size_t end() const { return list_.size(); }
 
   private:
-    List<T> list_;
+    Held list_;
 };
-
-/// The items of a list that holds no undef.
 template <class T>
-class SolidItems {
-  public:
-    class Iterator {
-      public:
-        Iterator(const List<T>& list, std::size_t place) : list_{&list}, place_{place} {}
-        T operator*() const { return list_->at(place_); }
-        Iterator& operator++() {
-            ++place_;
-            return *this;
-        }
-        friend bool operator==(const Iterator& a, const Iterator& b) { return a.place_ == b.place_; }
-
-      private:
-        const List<T>* list_;
-        std::size_t place_;
-    };
-
-    explicit SolidItems(List<T> list) : list_{std::move(list)} {}
-    Iterator begin() const { return {list_, 0}; }
-    Iterator end() const { return {list_, list_.size()}; }
-
-  private:
-    List<T> list_;
-};
+ListItems<T, const List<T>&, false> items(const List<T>& list) {
+    return ListItems<T, const List<T>&, false>{list};
+}
+template <class T>
+ListItems<T, List<T>, false> items(List<T>&& list) {
+    return ListItems<T, List<T>, false>{std::move(list)};
+}
+template <class T>
+ListItems<T, const List<T>&, true> solid_items(const List<T>& list) {
+    return ListItems<T, const List<T>&, true>{list};
+}
+template <class T>
+ListItems<T, List<T>, true> solid_items(List<T>&& list) {
+    return ListItems<T, List<T>, true>{std::move(list)};
+}
 
 /// `asSet(list)` of a list that holds no undef and whose domain has at most 64 values: each once, ascending.
 template <class T>

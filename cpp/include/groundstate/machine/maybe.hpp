@@ -9,6 +9,9 @@
 
 #include "fault.hpp"
 
+// A lambda that is called on the spot is part of the code around it.
+#define GROUNDSTATE_CALLED __attribute__((always_inline))
+
 namespace groundstate::machine {
 
 /// The value undef, of any domain.

@@ -6,7 +6,8 @@
 // be (crates/generate/src/form.rs); whatever it cannot prove has the form Locations, which takes all.
 //
 // All but the last keep what they know of a running step in a `Next`, which `begin` gives and `commit` takes. It is a
-// local variable of the step, so that compilers hold it in registers; a step that fails just leaves it.
+// local variable of the step, so that compilers hold it in registers; a step that fails just leaves it. What `commit`
+// gives is other than 0 where the step has updated something.
 #pragma once
 
 #include <array>
@@ -106,11 +107,11 @@ class Location : public Placed<Location<clashes, Cell>, Cell> {
         next.value = std::move(value);
         next.rule = site;
     }
-    bool commit(Next& next) {
+    std::uint64_t commit(Next& next) {
         if (copied || next.rule != 0) {
             value_ = std::move(next.value);
         }
-        return next.rule != 0;
+        return next.rule;
     }
 
   private:
@@ -151,12 +152,12 @@ class FewLocations : public Placed<FewLocations<clashes, Cell, Dimensions...>, C
         next.updated |= bit;
         next_[place] = std::move(value);
     }
-    bool commit(Next& next) {
+    std::uint64_t commit(Next& next) {
         for (std::uint64_t left = next.updated; left != 0; left &= left - 1) {
             const auto place = static_cast<std::size_t>(std::countr_zero(left));
             values_[place] = std::move(next_[place]);
         }
-        return next.updated != 0;
+        return next.updated;
     }
 
   private:
@@ -198,11 +199,11 @@ class WholeArray : public Placed<WholeArray<Cell, Capacity, Dimensions...>, Cell
         next_[place_of<Dimensions...>(arguments...)] = std::move(value);
         next.updated = true;
     }
-    bool commit(Next& next) {
+    std::uint64_t commit(Next& next) {
         if (next.updated) {
             std::swap(values_, next_);
         }
-        return next.updated;
+        return next.updated ? 1 : 0;
     }
 
   private:

@@ -85,9 +85,9 @@ class Word : public Placed<Word<clashes, Code, Dimensions...>, typename Code::Ce
         }
         set(next.values, place, number);
     }
-    bool commit(const Next& next) noexcept {
+    std::uint64_t commit(const Next& next) noexcept {
         values_ = next.values;
-        return next.updated != 0;
+        return next.updated;
     }
 
   private:

@@ -21,6 +21,8 @@ namespace {
 template <class T> void print(const T& value) {
     if constexpr (requires { value.defined; }) {
         if (value.defined) print(value.value); else std::printf(" undef");
+    } else if constexpr (requires { value.size(); }) {
+        for (std::size_t place = 0; place < value.size(); ++place) print(value[place]);
     } else if constexpr (requires { value.element; }) {
         std::printf(" !%u", value.element);
     } else {
@@ -76,6 +78,26 @@ fn without_heap_and_exceptions() {
     let [hosted, bare] = [false, true].map(|bare| printed(&compiler, &path.to_string_lossy(), bare));
     assert_eq!(hosted, "fault inconsistent-update\nx = 4\n");
     assert_eq!(hosted, bare);
+    // So does a list that becomes too long for two words.
+    let line = |most: u32| {
+        let text = format!(
+            "asm Line\nimport StandardLibrary\nsignature:\n  enum domain Task = {{CAMERA | ROBOT | MOTOR}}\n  controlled line: Seq(Task)\n\
+             \x20 controlled turn: Task -> Integer\n  static after: Task -> Task\ndefinitions:\n\
+             \x20 function after($t in Task) = switch $t case CAMERA: ROBOT case ROBOT: MOTOR otherwise CAMERA endswitch\n\
+             main rule r_Main = par if length(line) < {most} then line := append(line, after(last(line))) \
+             else line := tail([$t in line | $t != ROBOT or turn($t) < 90 : $t]) endif turn(first(line)) := turn(first(line)) + indexOf(line, MOTOR) + 1 endpar\n\
+             default init s0:\n  function line = [CAMERA]\n  function turn($t in Task) = 0\n"
+        );
+        std::fs::write(compiler.folder().join("Line.asm"), text).expect("a folder of one's own");
+        let path = compiler.folder().join("Line.asm");
+        [false, true].map(|bare| printed(&compiler, &path.to_string_lossy(), bare))
+    };
+    let [hosted, bare] = line(12);
+    assert!(hosted.contains("line =") && !hosted.contains("fault"), "{hosted}");
+    assert_eq!(hosted, bare);
+    let [hosted, bare] = line(18);
+    assert!(!hosted.contains("fault"), "{hosted}");
+    assert!(bare.starts_with("fault limit-reached\n"), "{bare}");
     compiler.finish();
 }
 

@@ -22,8 +22,8 @@ fn case(name: &str, main: &str, member: &str) -> Case {
     case_of(name, model(main), member)
 }
 
-fn case_of(name: &str, text: String, member: &str) -> Case {
-    let prepared = match prepare(SourceFile::new("Forms.asm", text.clone()), &mut Disk, 6, 1) {
+pub(crate) fn case_of(name: &str, text: String, member: &str) -> Case {
+    let prepared = match prepare(SourceFile::new("Forms.asm", text.clone()), &mut Disk, 12, 1) {
         Ok(Some(prepared)) => prepared,
         Ok(None) => panic!("{name}: nothing to run"),
         Err(reason) => panic!("{name}: {}", reason.why),

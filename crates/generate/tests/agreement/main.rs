@@ -14,6 +14,7 @@ mod bare;
 mod compile;
 mod forms;
 mod late;
+mod places;
 mod run;
 
 use std::path::{Path, PathBuf};
