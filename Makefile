@@ -15,14 +15,16 @@ help: ## this list
 demo: $(GROUNDSTATE) ## the model for a second with every scenario → out/report.html; the robot in closed loop, held to its model → out/robot.html
 	@GROUNDSTATE=$(GROUNDSTATE) sh docs/demo.sh
 
-test: lint unit scenarios cpp systems robot fuzz ## everything that must hold before a change lands
+# Two at a time: what waits, links or runs in one thread leaves a processor to the other.
+test: ## everything that must hold before a change lands
+	$(MAKE) --no-print-directory --jobs=2 --output-sync=target lint unit scenarios cpp systems robot
 
 lint: $(TESTED)
 	$(CARGO) fmt --all --check
 	$(TESTED) fmt --check library examples bench/models cpp/systems
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
 
-unit:
+unit: $(TESTED)
 	sh cpp/install.sh z3 cvc5
 	$(CARGO) test --workspace --locked
 
@@ -47,8 +49,8 @@ robot-sanitized: robot ## all four robots in closed loop under the sanitizers; `
 	sh examples/sanitized.sh thread visual_servoing object_tracking pick_and_place micro_assembly
 	sh examples/sanitized.sh address visual_servoing object_tracking pick_and_place micro_assembly
 
-fuzz: ## the fuzz targets, for a short time
-	sh fuzz/run.sh 15
+fuzz: ## the fuzz targets, a minute each, guided by coverage; `make unit` tries the same on mutations
+	sh fuzz/run.sh 60
 
 bench: ## steps per second and peak memory; with CORPUS=path also of the public models with a reference
 	$(CARGO) xtask bench $(if $(CORPUS),--corpus $(CORPUS)) $(if $(PEER),--peer $(PEER)) $(if $(TLC),--tlc $(TLC))
@@ -70,6 +72,7 @@ clean: ## remove what was built
 # Cargo knows best what is up to date.
 $(GROUNDSTATE): FORCE
 	$(CARGO) build --release --locked --package cli
+# As the tests are built: alone it would be given other features, and all below them be compiled twice.
 $(TESTED): FORCE
-	$(CARGO) build --locked --package cli
+	$(CARGO) test --workspace --locked --no-run
 FORCE:

@@ -8,10 +8,19 @@ if ! command -v apt-get >/dev/null; then
     echo "cpp/install.sh: no apt-get here; needed, by their Debian names: $*" >&2
     exit 0
 fi
-missing=
-for package in "$@"; do
-    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing="$missing $package"
-done
+look() {
+    missing=
+    for package in "$@"; do
+        dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing="$missing $package"
+    done
+}
+look "$@"
+[ -n "$missing" ] || exit 0
+
+# `make test` calls this twice at once: the lists have a lock that nobody waits for.
+exec 9>"${TMPDIR:-/tmp}/groundstate-install-$(id -u)"
+flock 9
+look "$@"
 [ -n "$missing" ] || exit 0
 
 as_root=$([ "$(id -u)" = 0 ] || echo sudo)

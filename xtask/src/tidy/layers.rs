@@ -15,6 +15,7 @@ const LAYERS: &[&[&str]] = &[
     &["recording", "cpp_names"],
     &["simulate", "scenario", "verify", "refine", "chart", "generate", "conform", "ide", "report"],
     &["groundstate"],
+    &["properties"],
     &["cli", "studio", "lsp", "python", "xtask"],
 ];
 
