@@ -59,8 +59,10 @@ bench-cpp: ## what it costs to hand data over in C++, and to draw a simulated fr
 	sh cpp/bench/run.sh
 
 corpus: ## make corpus CORPUS=path: compare with recorded results of the public corpus, count charts, hold generated code to it
-	$(CARGO) xtask corpus $(CORPUS)
-	$(CARGO) run --locked --package generate --example folder -- $(CORPUS) $(EVERY)
+	@mkdir -p out/corpus
+	$(CARGO) xtask corpus $(CORPUS) --scripts out/corpus/scripts
+	$(CARGO) run --locked --profile quick --package generate --example folder -- $(CORPUS) \
+	    --scripts out/corpus/scripts --log out/corpus/generated.log $(if $(EVERY),--every $(EVERY))
 
 update: ## rewrite all golden expectations
 	UPDATE_EXPECT=1 SNAPSHOTS=overwrite $(CARGO) test --workspace

@@ -60,9 +60,10 @@ impl Narrator<'_> {
         }
         self.tell_quiet(out)?;
         match record {
-            Record::Initial { inputs, values, violations, .. } => {
+            Record::Initial { inputs, choices, values, violations, .. } => {
                 writeln!(out, "{}", self.paint(BOLD, "state 0"))?;
                 self.values(out, "in", CYAN, inputs)?;
+                self.choices(out, choices)?;
                 self.values(out, "", "", values)?;
                 self.violations(out, violations)
             }
@@ -96,7 +97,11 @@ impl Narrator<'_> {
     fn taken(&self, out: &mut impl Write, step: &StepRecord) -> io::Result<()> {
         self.values(out, "in", CYAN, &step.inputs)?;
         self.values(out, "in", CYAN, &step.writes)?;
-        for choice in &step.choices {
+        self.choices(out, &step.choices)
+    }
+
+    fn choices(&self, out: &mut impl Write, choices: &[ChoiceMade]) -> io::Result<()> {
+        for choice in choices {
             writeln!(out, "  {} {}", self.paint(CYAN, "choose"), self.choice(choice))?;
         }
         Ok(())

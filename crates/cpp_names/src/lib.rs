@@ -3,6 +3,8 @@
 //! In: names as they are written there. Out: identifiers, distinct within their scope, that are no word of C++, no macro
 //! of its library and none that the language keeps for itself.
 
+mod library;
+
 use std::collections::BTreeSet;
 
 /// The words of C++20 that no name may be, and macros that the standard headers define.
@@ -195,6 +197,12 @@ pub fn identifier(name: &str) -> String {
     if is_reserved(&out) { format!("{out}_1") } else { out }
 }
 
+/// A name as a namespace at the top, beside what the C library declares there.
+pub fn namespace(name: &str) -> String {
+    let out = identifier(&snake(name));
+    if library::has(&out) { format!("{out}_1") } else { out }
+}
+
 /// A name in `snake_case`, which may be a reserved one.
 pub fn snake(name: &str) -> String {
     let mut out = String::new();
@@ -226,6 +234,13 @@ mod tests {
         assert_eq!(identifier("a__b"), "a_b");
         assert_eq!(identifier("_x"), "x_x");
         assert_eq!(identifier("SIGINT"), "SIGINT_1");
+    }
+
+    #[test]
+    fn namespaces_are_beside_the_c_library() {
+        assert_eq!(namespace("Abs"), "abs_1");
+        assert_eq!(namespace("class"), "class_1");
+        assert_eq!(namespace("CoffeeMachine"), "coffee_machine");
     }
 
     #[test]

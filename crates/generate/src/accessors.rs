@@ -2,7 +2,7 @@
 //!
 //! In: what the generated code reaches. Out: the definitions of those members. An input is asked for once a step and then
 //! kept; so is the clock. A location whose initial value was not due at the start gets it when it is first read, as it
-//! would have been then: of what such a value reads the initial state is kept.
+//! would have been then: of what such a value reads the initial state is kept, and what inputs were at the start.
 
 use std::collections::BTreeSet;
 
@@ -22,6 +22,7 @@ pub(crate) fn accessors(generator: &Generator<'_>, text: &mut Text) {
 
 fn inputs(generator: &Generator<'_>, text: &mut Text) {
     let plan = generator.plan;
+    let kept = inputs_from_start(generator);
     for (id, function) in functions(generator, &[Role::Input, Role::Shared]) {
         let (list, names) = parameters(generator, id);
         let comma = if list.is_empty() { "" } else { ", " };
@@ -39,10 +40,20 @@ fn inputs(generator: &Generator<'_>, text: &mut Text) {
                     function.member
                 ));
             }
-            _ => text.line(format!(
-                "return {}.read(step_, site, [&]() -> {result} {{ return {checked}; }}{comma}{names});",
-                function.member
-            )),
+            _ => {
+                // Where an initial value is due late, what was asked for at the start.
+                if let Some((_, copy)) = kept.iter().find(|(member, _)| *member == function.member) {
+                    text.open(format!(
+                        "if (const auto* known = started_ ? nullptr : at_start_.{copy}.answer(1{comma}{names})) {{"
+                    ));
+                    text.line("return *known;");
+                    text.close("}");
+                }
+                text.line(format!(
+                    "return {}.read(step_, site, [&]() -> {result} {{ return {checked}; }}{comma}{names});",
+                    function.member
+                ));
+            }
         }
         text.close("}");
     }
@@ -79,8 +90,8 @@ fn lazy(generator: &Generator<'_>, text: &mut Text) {
             text.line(format!("{0}.put({0}.number({site}, {names}), value);", function.member));
             text.line("return value;");
         } else {
-            // LIMIT: bare code keeps no initial state, and an input is not asked for again: such an initial value is
-            // known for what there was at the start.
+            // LIMIT: bare code keeps no initial state, nor is a choice made again, or the clock read: such an initial value
+            // is known for what there was at the start.
             text.line(format!("gs::fail(gs::FaultKind::no_definition, {site}, {site});"));
         }
         text.close("}");
@@ -97,7 +108,11 @@ fn read_late(generator: &Generator<'_>, id: FunctionId) -> Option<BTreeSet<Funct
     let mut open = vec![id];
     while let Some(next) = open.pop() {
         let Some(initial) = generator.plan.function(next).initial else { continue };
-        for read in generator.program.reads(&generator.program.initials[initial].value)? {
+        let (read, depends_on_more) = generator.program.reads_and_more(&generator.program.initials[initial].value);
+        if depends_on_more {
+            return None;
+        }
+        for read in read {
             if read == id {
                 return None;
             }
@@ -109,17 +124,39 @@ fn read_late(generator: &Generator<'_>, id: FunctionId) -> Option<BTreeSet<Funct
     Some(found)
 }
 
-/// The members whose initial state is kept, each with the name of its copy.
-pub(crate) fn kept_from_start(generator: &Generator<'_>) -> Vec<(String, String)> {
+/// What the initial values read that are due late.
+fn all_read_late(generator: &Generator<'_>) -> BTreeSet<FunctionId> {
     let lazy = functions(generator, &[Role::State]).into_iter().filter(|(id, _)| generator.is_lazy(*id));
-    let read: BTreeSet<FunctionId> = lazy.filter_map(|(id, _)| read_late(generator, id)).flatten().collect();
+    lazy.filter_map(|(id, _)| read_late(generator, id)).flatten().collect()
+}
+
+/// The members of the state that are kept as they are at the start, each with the name of its copy.
+fn state_from_start(generator: &Generator<'_>) -> Vec<(String, String)> {
+    let read = all_read_late(generator);
     if read.is_empty() {
         return Vec::new();
     }
     let states = functions(generator, &[Role::State, Role::Local]).into_iter();
     let states = states.filter(|(id, _)| read.contains(id)).map(|(_, function)| function.member.clone());
     let domains = carriers(generator).into_iter().filter_map(|(_, domain)| domain.carrier.clone());
-    states.chain(domains).map(|member| (member.clone(), member.trim_end_matches('_').to_string())).collect()
+    states.chain(domains).map(with_copy).collect()
+}
+
+/// The same of inputs, for what they were asked for at the start.
+fn inputs_from_start(generator: &Generator<'_>) -> Vec<(String, String)> {
+    let read = all_read_late(generator);
+    let inputs = functions(generator, &[Role::Input]).into_iter().filter(|(id, _)| read.contains(id));
+    inputs.map(|(_, function)| with_copy(function.member.clone())).collect()
+}
+
+fn with_copy(member: String) -> (String, String) {
+    let copy = member.trim_end_matches('_').to_string();
+    (member, copy)
+}
+
+/// All of these members.
+pub(crate) fn kept_from_start(generator: &Generator<'_>) -> Vec<(String, String)> {
+    state_from_start(generator).into_iter().chain(inputs_from_start(generator)).collect()
 }
 
 /// The members that evaluate a term in the initial state.
@@ -135,7 +172,8 @@ pub(crate) fn initial_state(generator: &Generator<'_>, text: &mut Text) {
     text.line("Start at_start_{};");
     text.line("bool started_ = false;");
     text.open("void swap_start() {");
-    kept.iter().for_each(|(member, copy)| text.line(format!("std::swap({member}, at_start_.{copy});")));
+    let state = state_from_start(generator);
+    state.iter().for_each(|(member, copy)| text.line(format!("std::swap({member}, at_start_.{copy});")));
     text.line("started_ = !started_;");
     text.close("}");
     text.line("template <class Term>");

@@ -216,9 +216,10 @@ fn definition(generator: &mut Generator<'_>, id: FunctionId) -> Member {
     if recursive {
         generator.needs.insert(Need::Depth);
         text.line(format!("gs::enter(calls_, {site});"));
-        text.marked(program.term_span(expression.body), format!("auto value = {body};"));
+        let value = generator.frame.scope.take("value");
+        text.marked(program.term_span(expression.body), format!("auto {value} = {body};"));
         text.line("--calls_;");
-        text.line("return value;");
+        text.line(format!("return {value};"));
     } else {
         text.marked(program.term_span(expression.body), format!("return {body};"));
     }

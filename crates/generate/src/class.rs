@@ -379,9 +379,6 @@ fn frame(bodies: &Bodies<'_>, text: &mut Text) {
     text.close("});");
     text.close("}\n");
     text.open("gs::Fault Machine::step() {");
-    if counts_steps(generator) {
-        text.line("++step_;");
-    }
     if generator.needs.contains(&Need::Rounds) {
         text.line("iterations_ = 0;");
     }
@@ -402,6 +399,9 @@ fn frame(bodies: &Bodies<'_>, text: &mut Text) {
     text.between("}, [&] {");
     text.line("roll_back();");
     own.iter().for_each(|member| text.line(format!("{member} = former;")));
+    if counts_steps(generator) {
+        text.line("++step_;");
+    }
     text.close("});");
     text.open("if (fault) {");
     text.line("return fault;");
@@ -411,9 +411,13 @@ fn frame(bodies: &Bodies<'_>, text: &mut Text) {
         text.line(format!("changed |= {}.commit(next.{});", function.member, function.name));
     }
     for member in logs(generator) {
-        text.line(format!("changed |= {member}.commit();"));
+        text.line(format!("changed |= {}.commit();", member.trim_end_matches(".locations")));
     }
     text.line("changed_ = changed != 0;");
+    if counts_steps(generator) {
+        // What was asked for in the initial state holds in the first step.
+        text.line("++step_;");
+    }
     text.line("return {};");
     text.close("}\n");
     text.open("void Machine::roll_back() {");
@@ -471,7 +475,8 @@ fn agents(bodies: &Bodies<'_>, text: &mut Text) {
     text.open("switch (program_of(agent)) {");
     let mut done = std::collections::BTreeSet::new();
     for entry in &program.agents {
-        if !done.insert(entry.procedure) {
+        // A domain without elements has no agents to run it.
+        if !generator.entered.contains(&entry.procedure) || !done.insert(entry.procedure) {
             continue;
         }
         text.line(format!("case {}:", entry.procedure.0));

@@ -13,6 +13,7 @@ mod driver;
 mod form;
 mod generator;
 mod interval;
+mod nesting;
 mod operation;
 mod plan;
 mod project;

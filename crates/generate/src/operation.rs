@@ -179,7 +179,7 @@ impl Generator<'_> {
             let operands = operands(ty);
             let text = match (types[..] == [Type::Integer, Type::Integer], codes) {
                 (true, [left, right]) if left.defined && right.defined => beside(left, symbol, right),
-                _ => format!("({} {symbol} {})", operands[0], operands[1]),
+                _ => between(&operands[0], symbol, &operands[1]),
             };
             return Some(truth(text, pure));
         }
@@ -191,7 +191,7 @@ impl Generator<'_> {
             Xor | Iff if types.iter().all(|ty| *ty == Type::Boolean) => {
                 let operands = operands(Type::Boolean);
                 let symbol = if builtin == Xor { "!=" } else { "==" };
-                let text = format!("({} {symbol} {})", operands[0], operands[1]);
+                let text = between(&operands[0], symbol, &operands[1]);
                 Some(truth(text, pure))
             }
             IntNeg | IntAdd | IntSub | IntMul | IntMod | IntMin | IntMax | IntAbs | IntQuotient | IntPower
@@ -323,9 +323,14 @@ fn function_of(builtin: Builtin) -> String {
 /// Two integers with an operator between; a literal is written without its type where the other one has it.
 pub(crate) fn beside(left: &Code, symbol: &str, right: &Code) -> String {
     if left.beside() != left.text && right.beside() != right.text {
-        return format!("({} {symbol} {})", left.text, right.text);
+        return between(&left.text, symbol, &right.text);
     }
-    format!("({} {symbol} {})", left.beside(), right.beside())
+    between(left.beside(), symbol, right.beside())
+}
+
+/// An operator between two terms. Compilers warn of a term compared with itself where they see it.
+pub(crate) fn between(left: &str, symbol: &str, right: &str) -> String {
+    if left == right { format!("({left} {symbol} gs::itself({left}))") } else { format!("({left} {symbol} {right})") }
 }
 
 /// A truth value.

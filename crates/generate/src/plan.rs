@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use model::Basic;
 use program::{DomainId, DomainKind, FunctionId, FunctionKind, ProcedureId, Program};
 
-use cpp_names::{Scope, identifier, snake};
+use cpp_names::{Scope, identifier, namespace, snake};
 
 use crate::generator::Generator;
 use crate::interval::Interval;
@@ -157,7 +157,7 @@ pub(crate) fn plan(program: &Program, started: &mut machine::Machine) -> Plan {
     for domain in &domains {
         members.keep(&domain.name);
     }
-    Plan { namespace: identifier(&snake(&program.name)), domains, functions, procedures, members }
+    Plan { namespace: namespace(&program.name), domains, functions, procedures, members }
 }
 
 fn role(program: &Program, id: FunctionId, used: bool) -> Role {

@@ -50,8 +50,10 @@ impl Generator<'_> {
         };
         let (dimensions, places) = self.dimensions(id);
         let locations = places + u64::from(capacity.unwrap_or(0));
-        let log = match (whole && locations <= LOG_IN_PLACE, self.options.bare) {
-            (true, _) | (_, true) => locations.max(1) * 9,
+        // A location has an update a level of what stands inside each other.
+        let log = match (self.writes.levels, self.options.bare) {
+            (Some(levels), false) if whole && locations <= LOG_IN_PLACE => locations.max(1) * (levels + 1).max(9),
+            (levels, true) => locations.max(1) * (levels.unwrap_or(0) + 1).max(9),
             _ => 0,
         };
         let kept = |class: String| Storage { class, updates: Updates::Log };

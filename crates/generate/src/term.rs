@@ -9,7 +9,7 @@ use program::{CollectionKind, DomainKind, FunctionId, Literal, Term, TermId, Ter
 use crate::form::Form;
 use crate::generator::Generator;
 use crate::interval::Interval;
-use crate::operation::{beside, within};
+use crate::operation::{beside, between, within};
 use crate::plan::{Dimension, Role, integer};
 use crate::rule::unwrapped;
 use crate::text::escaped;
@@ -435,11 +435,11 @@ impl Generator<'_> {
                 }
             }
             (Type::Integer, Type::Integer) if left.defined && right.defined => beside(&left, "==", &right),
-            (a, b) if a == b => format!("({} == {})", left.text, right.text),
+            (a, b) if a == b => between(&left.text, "==", &right.text),
             _ => {
                 let left = self.convert(left, Type::Value, false, site);
                 let right = self.convert(right, Type::Value, false, site);
-                format!("({left} == {right})")
+                between(&left, "==", &right)
             }
         }
     }

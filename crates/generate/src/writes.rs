@@ -22,6 +22,8 @@ pub(crate) struct Writes {
     values: BTreeSet<Target>,
     /// The functions that some rule updates, or has of its own.
     updated: BTreeSet<FunctionId>,
+    /// How many units stand inside each other; none where that has no bound.
+    pub levels: Option<u64>,
 }
 
 impl Writes {
@@ -31,6 +33,7 @@ impl Writes {
             procedures: vec![BTreeSet::new(); program.procedures.len()],
             values: BTreeSet::new(),
             updated: updated(program),
+            levels: crate::nesting::levels(program),
         };
         let run: Vec<ProcedureId> = runnable(program).collect();
         loop {

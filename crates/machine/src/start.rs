@@ -2,7 +2,7 @@
 //!
 //! Initial values are evaluated eagerly, in the initial state: one that reads another initialised location has
 //! that one evaluated first. They hold for all arguments, outside the declared domains too; LIMIT: of a location
-//! that cannot be enumerated the initial value is evaluated when it is first read or written. An initial value need
+//! that cannot be enumerated the initial value is evaluated when it is first read or written, in the initial state. An initial value need
 //! not be in the codomain: that is asked of updates.
 
 use std::sync::Arc;
@@ -21,6 +21,8 @@ use crate::store::Store;
 use crate::update::Updates;
 use crate::value::Value;
 
+/// The epoch of the initial state.
+const AT_START: u32 = 1;
 /// LIMIT: a function with more locations has its initial values evaluated when they are first read.
 const EAGER_LIMIT: u64 = 1 << 20;
 
@@ -32,7 +34,7 @@ impl Core {
             updates: Updates::default(),
             frames: Vec::new(),
             base: 0,
-            epoch: 1,
+            epoch: AT_START,
             inputs: Vec::new(),
             clock: [None; 3],
             iterations: 0,
@@ -185,19 +187,64 @@ impl<'a> Executor<'a> {
         grows || self.argument_tuples(initial.function, initial.span).is_none()
     }
 
-    /// Evaluates in the initial state.
+    /// Evaluates in the initial state. An input has the value there that it had at the start; one that was not asked for
+    /// then is an input of the running step.
     fn in_initial_state<T>(&mut self, body: impl FnOnce(&mut Self) -> Outcome<T>) -> Outcome<T> {
         let Some(mut origin) = self.core.origin.take() else { return body(self) };
+        let asked = self.core.inputs.len();
+        let lent = self.lend_inputs(&mut origin);
         std::mem::swap(&mut self.core.store, &mut origin);
+        let epoch = std::mem::replace(&mut self.core.epoch, AT_START);
         self.core.memo.changed();
         // What is read of the initial state is no part of this one.
         let exploring = std::mem::take(&mut self.core.exploring);
         let outcome = body(self);
         self.core.exploring = exploring;
+        self.core.epoch = epoch;
         std::mem::swap(&mut self.core.store, &mut origin);
+        self.take_inputs_over(&mut origin, asked);
+        for index in lent {
+            (origin.values[index as usize], origin.given[index as usize]) = (Value::Undef, 0);
+        }
         self.core.memo.changed();
         self.core.origin = Some(origin);
         outcome
+    }
+
+    /// Puts what the running step has asked for into the initial state, where that does not have it; gives where.
+    fn lend_inputs(&mut self, origin: &mut Store) -> Vec<u32> {
+        let mut lent = Vec::new();
+        for (index, function) in &self.core.inputs {
+            if self.program.function(*function).kind != FunctionKind::Monitored {
+                continue;
+            }
+            let location = self.core.store.location(*index);
+            let there = origin.number(*function, &location.arguments);
+            if origin.given[there as usize] == 0 {
+                origin.values[there as usize] = self.core.store.values[*index as usize].clone();
+                origin.given[there as usize] = AT_START;
+                lent.push(there);
+            }
+        }
+        lent
+    }
+
+    /// Makes what was asked for in the initial state, after the first so many, inputs of the running step.
+    fn take_inputs_over(&mut self, origin: &mut Store, first: usize) {
+        for place in first..self.core.inputs.len() {
+            let (there, function) = self.core.inputs[place];
+            let location = origin.location(there);
+            let index = self.core.store.number(function, &location.arguments);
+            self.core.inputs[place].0 = index;
+            let (there, index) = (there as usize, index as usize);
+            if self.program.function(function).kind == FunctionKind::Monitored {
+                self.core.store.values[index] = std::mem::take(&mut origin.values[there]);
+                origin.given[there] = 0;
+            } else if self.core.store.given[index] == 0 {
+                self.core.store.values[index] = origin.values[there].clone();
+            }
+            self.core.store.given[index] = self.core.epoch;
+        }
     }
 
     /// All argument tuples of a function, if they can be enumerated and are not too many.

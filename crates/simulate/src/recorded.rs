@@ -71,7 +71,7 @@ impl Recorded {
     /// The two differ.
     pub fn follow(&mut self, expected: &Record) -> Result<Record, Parted> {
         match expected {
-            Record::Initial { inputs, times, .. } => self.play(inputs, &[], times, &[]),
+            Record::Initial { inputs, choices, times, .. } => self.play(inputs, &[], times, choices),
             Record::Step(step) | Record::Attempt(step) => {
                 self.play(&step.inputs, &step.writes, &step.times, &step.choices);
             }

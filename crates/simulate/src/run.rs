@@ -162,7 +162,7 @@ impl Run {
             return self.end(self.trouble(fault));
         }
         self.inputs.prepare(&mut self.machine);
-        let times = std::mem::take(&mut self.inputs.times);
+        let (choices, times) = (std::mem::take(&mut self.inputs.chosen), std::mem::take(&mut self.inputs.times));
         let inputs = if self.options.keep { self.machine.inputs() } else { Vec::new() };
         let values = if self.options.keep { self.machine.locations() } else { Vec::new() };
         let mut violations = Vec::new();
@@ -173,7 +173,7 @@ impl Run {
         if self.phase == Phase::Running {
             self.check_until();
         }
-        Record::Initial { inputs, times, values, violations }
+        Record::Initial { inputs, choices, times, values, violations }
     }
 
     /// Makes steps until as many are made as are wanted or the run ends, and keeps no record of them.

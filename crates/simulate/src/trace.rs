@@ -39,6 +39,8 @@ pub enum Record {
     Initial {
         /// Inputs that initial values asked for.
         inputs: Vec<(Location, Value)>,
+        /// Choices that initial values made, in order.
+        choices: Vec<ChoiceMade>,
         /// Times that initial values asked for.
         times: Vec<(TimeUnit, i64)>,
         /// The state.

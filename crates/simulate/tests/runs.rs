@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use machine::{EngineChoice, Limits, Show};
 use program::Program;
-use simulate::{Bounds, Choices, End, Inputs, Invariants, Options, RandomSource, Record, Run};
+use simulate::{Bounds, Choices, End, Inputs, Invariants, Options, RandomSource, Record, Recorded, Run};
 use syntax::SourceFile;
 
 struct NoFiles;
@@ -55,7 +55,11 @@ default init s0:
 ";
 
 fn program() -> Arc<Program> {
-    let checked = model::check(SourceFile::new("test.asm", MODEL), &mut NoFiles);
+    program_of(MODEL)
+}
+
+fn program_of(text: &str) -> Arc<Program> {
+    let checked = model::check(SourceFile::new("test.asm", text), &mut NoFiles);
     let errors: Vec<_> = checked.diagnostics.iter().filter(|d| d.severity == syntax::Severity::Error).collect();
     assert!(errors.is_empty(), "{errors:#?}");
     Arc::new(program::lower(&checked.model).expect("small enough"))
@@ -138,4 +142,94 @@ fn a_seed_draws_the_same_values_for_ever() {
         colour=BLUE anything=-1 liked(BLUE)=4 level=4 seen(wall,4)=true seen(eve,4)=true chosen [4, 1]
     "#]]
     .assert_eq(&shown);
+}
+
+/// Initial values that are due when they are first read, in a later step: of an input that was asked for at the start, and
+/// of one that was not.
+const LATE: &str = "asm test
+import StandardLibrary
+signature:
+    monitored first: Integer
+    monitored other: Natural -> Integer
+    controlled start: Integer
+    controlled n: Natural
+    controlled early: Natural -> Integer
+    controlled late: Natural -> Integer
+    controlled kept: Natural -> Integer
+    controlled seen: Natural -> Prod(Integer, Integer)
+definitions:
+    main rule r_main = par
+        n := n + 1n
+        kept(n) := first
+        seen(n) := (early(n), late(n))
+    endpar
+default init s0:
+    function start = first
+    function n = 0n
+    function early($x in Natural) = first
+    function late($x in Natural) = other($x)
+";
+
+#[test]
+fn late_initial_values_read_inputs() {
+    let program = program_of(LATE);
+    let inputs = Inputs::new().with(RandomSource::new(4, Bounds::default()));
+    let mut run =
+        Run::new(Arc::clone(&program), Limits::default(), inputs, Options { steps: Some(4), ..Options::default() });
+    let mut told = String::new();
+    while let Some(record) = run.advance() {
+        if let Record::Step(step) = record {
+            let inputs = step.inputs.iter().map(|(l, v)| format!("{} = {}", l.show(&program), v.show(&program)));
+            told.push_str(&format!("{}\n", inputs.collect::<Vec<_>>().join(", ")));
+        }
+    }
+    for (location, value) in run.machine().locations() {
+        told.push_str(&format!("{} = {}\n", location.show(&program), value.show(&program)));
+    }
+    expect_test::expect![[r#"
+        first = 2, other(0) = 7
+        first = 1, other(1) = 9
+        first = -4, other(2) = 4
+        first = 7, other(3) = 6
+        first = 7
+        other(3) = 6
+        start = 2
+        n = 4
+        early(0) = 2
+        early(1) = 2
+        early(2) = 2
+        early(3) = 2
+        late(0) = 7
+        late(1) = 9
+        late(2) = 4
+        late(3) = 6
+        kept(0) = 2
+        kept(1) = 1
+        kept(2) = -4
+        kept(3) = 7
+        seen(0) = (2,7)
+        seen(1) = (2,9)
+        seen(2) = (2,4)
+        seen(3) = (2,6)
+    "#]]
+    .assert_eq(&told);
+}
+
+/// Also where the initial state is one of several.
+#[test]
+fn records_are_enough_to_make_the_run_again() {
+    let choosing = MODEL.replace("function sum = 0", "function sum = chooseone({10, 20, 30})");
+    let options = || Options { steps: Some(5), ..Options::default() };
+    for (text, seed) in [(MODEL, 1), (&choosing, 1), (&choosing, 2), (&choosing, 3), (LATE, 1)] {
+        let program = program_of(text);
+        let inputs = Inputs::new().with(RandomSource::new(seed, Bounds::default())).choosing(Choices::random(seed));
+        let mut run = Run::new(Arc::clone(&program), Limits::default(), inputs, options());
+        let mut again = Recorded::new(Arc::clone(&program), Limits::default(), options());
+        while let Some(record) = run.advance() {
+            if let Record::Initial { choices, .. } = &record {
+                assert_eq!(choices.len(), usize::from(text == choosing));
+            }
+            again.follow(&record).unwrap_or_else(|parted| panic!("seed {seed}: {parted:?}"));
+        }
+    }
 }

@@ -25,6 +25,8 @@ pub enum Job {
         file: String,
         /// The model.
         path: String,
+        /// The folder that the run is written to if it comes out as recorded.
+        scripts: Option<String>,
     },
     /// A model or scenario to run, whatever its recorded result.
     Explore {

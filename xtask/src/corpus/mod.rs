@@ -1,7 +1,8 @@
 //! `cargo xtask corpus CHECKOUT`: our results over the public corpus against the recorded ones of the peer.
 //!
 //! In: a checkout of the models and the folder of recorded results. Out: `spec/conformance.md`: counts, and each
-//! difference with its reason; and `spec/charts-found.md`, see `charts.rs` (`--only charts` prints it alone). The models never enter this project; a reason is decided by a test on the model or on
+//! difference with its reason; and `spec/charts-found.md`, see `charts.rs` (`--only charts` prints it alone). With
+//! `--scripts`, each run that comes out as recorded is written to a folder for generated code to replay (`script.rs`). The models never enter this project; a reason is decided by a test on the model or on
 //! the difference, never by a file's name.
 
 mod accept;
@@ -20,6 +21,7 @@ mod recorded;
 mod replay;
 mod report;
 mod scenario;
+mod script;
 mod simulation;
 mod state;
 mod text;
@@ -39,7 +41,7 @@ pub const WORKER: &str = "corpus-worker";
 /// # Errors
 /// Usage, or files that cannot be read or written.
 pub fn run(words: &[String]) -> Result<Outcome, Failure> {
-    let arguments = Arguments::read(words, &["--recorded", "-o", "--only"], &[])?;
+    let arguments = Arguments::read(words, &["--recorded", "-o", "--only", "--scripts"], &[])?;
     let [checkout] = arguments.rest.as_slice() else {
         return Err("name one folder: a checkout of the public corpus".to_string());
     };
@@ -50,7 +52,7 @@ pub fn run(words: &[String]) -> Result<Outcome, Failure> {
         println!("{}", charts::page(&checkout)?);
         return Ok(Outcome::Good);
     }
-    let mut recorded = recorded::read(&recorded)?;
+    let mut recorded = recorded::read(&recorded, arguments.option("--scripts"))?;
     let everything = recorded::everything(&checkout, &recorded.jobs)?;
     recorded.jobs.extend(everything);
     if let Some(only) = arguments.option("--only") {

@@ -23,11 +23,11 @@ pub struct Recorded {
     _unpacked: Option<tempfile::TempDir>,
 }
 
-/// Reads all recorded results of a folder.
+/// Reads all recorded results of a folder; `scripts` is the folder that runs are written to.
 ///
 /// # Errors
 /// A table is missing or not as it should be; the traces cannot be unpacked.
-pub fn read(folder: &Path) -> Result<Recorded, Failure> {
+pub fn read(folder: &Path, scripts: Option<&str>) -> Result<Recorded, Failure> {
     let mut jobs = Vec::new();
     for row in rows(&folder.join("parse.csv"), 3)? {
         let [path, status, message] = &row[..3] else { continue };
@@ -43,7 +43,8 @@ pub fn read(folder: &Path) -> Result<Recorded, Failure> {
         for file in files {
             let text = std::fs::read_to_string(&file).map_err(|error| format!("{}: {error}", file.display()))?;
             let path = trace::read(&text)?.path;
-            jobs.push(Job::Replay { kind: kind.to_string(), file: file.display().to_string(), path });
+            let (kind, file, scripts) = (kind.to_string(), file.display().to_string(), scripts.map(String::from));
+            jobs.push(Job::Replay { kind, file, path, scripts });
         }
     }
     for row in rows(&folder.join("avalla.csv"), 3)? {

@@ -15,6 +15,7 @@ use syntax::Sources;
 use super::difference::{Difference, What};
 use super::excuse::Excuses;
 use super::inputs::{Habits, Made, RecordedInputs, Samples, next_plan, samples};
+use super::script::Script;
 use super::state::Listed;
 use super::text;
 use super::trace::{End, Listing, Step, Trace};
@@ -37,6 +38,8 @@ pub struct Replayed {
     pub renamed: bool,
     /// The search was cut off.
     pub cut: bool,
+    /// The run, where it comes out as recorded.
+    pub script: Option<Script>,
 }
 
 /// Makes the recorded run again.
@@ -137,14 +140,29 @@ impl<'a> Search<'a> {
             }
         }
         self.worst = None;
-        self.end(false)
+        let script = self.reasons.values().all(BTreeSet::is_empty).then(|| self.script(&levels));
+        Replayed { script, ..self.end(false) }
+    }
+
+    /// Makes the run once more, with the choices found, and notes it.
+    fn script(&mut self, levels: &[Level]) -> Script {
+        let (mut script, nothing) = (Script::default(), Step::default());
+        for (depth, level) in levels.iter().enumerate() {
+            let step = self.trace.steps.get(depth.max(1) - 1).unwrap_or(&nothing);
+            let plan = level.made.clone();
+            let mut inputs = RecordedInputs::new(step, plan, None, self.strict, &self.samples, &level.renaming);
+            if !script.advance(&mut self.machine, &mut inputs, depth == 0) {
+                break;
+            }
+        }
+        script
     }
 
     fn end(self, cut: bool) -> Replayed {
         let reasons = self.reasons.into_values().flatten().collect();
         let beyond = self.beyond.into_values().flatten().collect();
         let renamed = self.renaming.iter().any(|(ours, theirs)| ours != theirs);
-        Replayed { difference: self.worst, reasons, beyond, renamed, cut }
+        Replayed { difference: self.worst, reasons, beyond, renamed, cut, script: None }
     }
 
     /// Tries the next choices of the last level that has any left.

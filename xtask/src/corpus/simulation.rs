@@ -4,6 +4,7 @@
 //! differences.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 use std::sync::Arc;
 
 use model::Loader;
@@ -20,8 +21,8 @@ use super::reason;
 use super::replay::{Replayed, replay};
 use super::trace::{self, Trace};
 
-/// Replays and compares.
-pub fn compare(checkout: &Checkout, path: &str, file: &str) -> Answer {
+/// Replays and compares. What comes out as recorded is written to the folder of scripts, if one is named.
+pub fn compare(checkout: &Checkout, path: &str, file: &str, scripts: Option<&str>) -> Answer {
     let trace = std::fs::read_to_string(file).map_err(|error| error.to_string()).and_then(|text| trace::read(&text));
     let (mut trace, source) = match (trace, checkout.source(path)) {
         (Ok(trace), Ok(source)) => (trace, source),
@@ -41,6 +42,11 @@ pub fn compare(checkout: &Checkout, path: &str, file: &str) -> Answer {
     let own = elements_of_own_library(checkout, path, &program);
     let lists_own = trace.forget_elements(&own);
     let replayed = replay(&program, &checked.sources, &trace);
+    if let (Some(folder), Some(script)) = (scripts, &replayed.script)
+        && let Err(why) = script.write(Path::new(folder), path, Path::new(file))
+    {
+        return Answer::Panic { detail: why };
+    }
     match judge(&program, &checked.sources, &trace, replayed) {
         Answer::Same { .. } if lists_own => {
             Answer::different(Some(reason::OWN_LIBRARY), "agrees but for the elements that this explains".to_string())

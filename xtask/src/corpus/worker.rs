@@ -40,7 +40,7 @@ pub fn work(root: PathBuf) -> Result<(), Failure> {
 fn answer(checkout: &Checkout, job: &Job) -> Answer {
     match job {
         Job::Accept { path, accepted, message } => accept::compare(checkout, path, *accepted, message),
-        Job::Replay { file, path, .. } => simulation::compare(checkout, path, file),
+        Job::Replay { file, path, scripts, .. } => simulation::compare(checkout, path, file, scripts.as_deref()),
         Job::Explore { path, .. } => explore::explore(checkout, path),
         Job::Scenario { path, status, message, checks } => scenario::compare(checkout, path, status, message, *checks),
     }

@@ -37,6 +37,13 @@ class Inputs {
         return answers_.at(number).value;
     }
 
+    /// The answer of that step; none if nobody asked in it, or in a later one somebody did.
+    template <class... Arguments>
+    const Cell* answer(std::uint64_t step, const Arguments&... arguments) const {
+        const std::uint32_t number = answers_.find(arguments...);
+        return number != answers_.none && answers_.at(number).step == step ? &answers_.at(number).value : nullptr;
+    }
+
   private:
     Locations<Answer<Cell>, Sparse, 1, Dimensions...> answers_;
 };
@@ -49,10 +56,10 @@ class SharedLocations {
     template <class First, class... Arguments>
     Cell read(Site site, First&& first, const Arguments&... arguments) {
         const std::uint32_t number = locations.number(site, arguments...);
-        if (locations.at(number) == Cell{} && !given(number)) {
+        if (locations.at(number) == Cell{} && !given(number) && !locations.is_overwritten(number)) {
             Cell value = first();
             locations.at(number) = std::move(value);
-            give(number, site);
+            give(number);
         }
         return locations.at(number);
     }
@@ -60,9 +67,13 @@ class SharedLocations {
     /// An update by a rule.
     template <class... Arguments>
     void write(Site site, Cell value, const Arguments&... arguments) {
-        const std::uint32_t number = locations.number(site, arguments...);
-        give(number, site);
-        locations.push(number, std::move(value), site);
+        locations.update(site, std::move(value), arguments...);
+    }
+
+    /// Applies the step's updates; tells how many there were. What was updated is not asked for again, even if it is undef.
+    std::size_t commit() {
+        locations.each_update([&](std::uint32_t number) { give(number); });
+        return locations.commit();
     }
 
     /// The environment's part, between steps; and the initial state.
@@ -70,14 +81,14 @@ class SharedLocations {
     void set(Site site, Cell value, const Arguments&... arguments) {
         const std::uint32_t number = locations.number(site, arguments...);
         locations.at(number) = std::move(value);
-        give(number, site);
+        give(number);
     }
 
     Locations<Cell, Sparse, Capacity, Dimensions...> locations;
 
   private:
     bool given(std::uint32_t number) const { return number < given_.size() && given_[number]; }
-    void give(std::uint32_t number, Site) {
+    void give(std::uint32_t number) {
         if (number >= given_.size()) {
             given_.resize(number + 1);
         }

@@ -349,6 +349,24 @@ class Locations {
         return count;
     }
 
+    /// Calls visit(number) for each location that the step updates.
+    template <class Visit>
+    void each_update(Visit&& visit) const {
+        for (const Update<Cell>& update : log_) {
+            visit(update.location);
+        }
+    }
+
+    /// Whether the intermediate state has another value of a location than the state before the step.
+    bool is_overwritten(std::uint32_t location) const {
+        for (const Update<Cell>& update : log_) {
+            if (update.applied && update.location == location) {
+                return true;
+            }
+        }
+        return false;
+    }
+
     /// Goes back to the state before the step.
     void roll_back() {
         take_back(0);

@@ -31,6 +31,12 @@ struct Maybe {
     friend constexpr bool operator==(const Maybe&, const Maybe&) = default;
 };
 
+/// The value itself: where a term is compared with itself, which compilers would warn of.
+template <class T>
+constexpr const T& itself(const T& value) noexcept {
+    return value;
+}
+
 template <class T>
 constexpr bool is_defined(const Maybe<T>& value) noexcept {
     return value.defined;

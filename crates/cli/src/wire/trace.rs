@@ -110,6 +110,8 @@ pub struct State {
     #[serde(skip_serializing_if = "Pairs::is_empty", default = "none")]
     inputs: Pairs<String>,
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    choices: Vec<Chosen>,
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
     times: Vec<(String, i64)>,
     values: Pairs<String>,
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
@@ -214,8 +216,9 @@ impl Wire<'_> {
     /// A record as a line; `steps` is how many have been made.
     pub fn record(&self, record: &Record, steps: u64) -> Line {
         match record {
-            Record::Initial { inputs, times, values, violations } => Line::State(State {
+            Record::Initial { inputs, choices, times, values, violations } => Line::State(State {
                 inputs: self.pairs(inputs),
+                choices: self.choices(choices),
                 times: times_out(times),
                 values: self.pairs(values),
                 violations: self.violations(violations),
@@ -239,12 +242,6 @@ impl Wire<'_> {
     }
 
     fn step(&self, step: &StepRecord) -> Step {
-        let chosen = |choice: &ChoiceMade| Chosen {
-            at: self.sources.position(choice.span),
-            of: choice.of,
-            index: choice.index,
-            values: choice.values.iter().map(|value| self.value(value)).collect(),
-        };
         let changed = |change: &Change| {
             let by = self.sources.position(change.span);
             (
@@ -256,13 +253,23 @@ impl Wire<'_> {
             step: step.step,
             inputs: self.pairs(&step.inputs),
             writes: self.pairs(&step.writes),
-            choices: step.choices.iter().map(chosen).collect(),
+            choices: self.choices(&step.choices),
             times: times_out(&step.times),
             changes: Pairs(step.changes.iter().map(changed).collect()),
             updates: step.updates,
             changed: step.changed,
             violations: self.violations(&step.violations),
         }
+    }
+
+    fn choices(&self, choices: &[ChoiceMade]) -> Vec<Chosen> {
+        let chosen = |choice: &ChoiceMade| Chosen {
+            at: self.sources.position(choice.span),
+            of: choice.of,
+            index: choice.index,
+            values: choice.values.iter().map(|value| self.value(value)).collect(),
+        };
+        choices.iter().map(chosen).collect()
     }
 
     fn violations(&self, violations: &[Violation]) -> Vec<Broken> {
@@ -313,6 +320,11 @@ pub struct Reader<'a> {
     pub program: &'a Program,
 }
 
+fn choices_in(choices: &[Chosen]) -> Vec<ChoiceMade> {
+    let made = |chosen: &Chosen| ChoiceMade { span: NOWHERE, of: chosen.of, index: chosen.index, values: Vec::new() };
+    choices.iter().map(made).collect()
+}
+
 const NOWHERE: Span = Span { file: FileId(0), start: 0, end: 0 };
 
 impl Reader<'_> {
@@ -345,6 +357,7 @@ impl Reader<'_> {
             Line::Trace(_) | Line::Other => return Err("a second header".to_string()),
             Line::State(state) => Record::Initial {
                 inputs: self.pairs(&state.inputs)?,
+                choices: choices_in(&state.choices),
                 times: times_in(&state.times)?,
                 values: self.pairs(&state.values)?,
                 violations: self.violations(&state.violations)?,
@@ -381,17 +394,11 @@ impl Reader<'_> {
             let after = self.value(&location, &changed.to)?;
             Ok(Change { location, before, after, span: NOWHERE })
         });
-        let choices = step.choices.iter().map(|chosen| ChoiceMade {
-            span: NOWHERE,
-            of: chosen.of,
-            index: chosen.index,
-            values: Vec::new(),
-        });
         Ok(StepRecord {
             step: step.step,
             inputs: self.pairs(&step.inputs)?,
             writes: self.pairs(&step.writes)?,
-            choices: choices.collect(),
+            choices: choices_in(&step.choices),
             times: times_in(&step.times)?,
             changes: changes.collect::<Result<_, String>>()?,
             updates: step.updates,

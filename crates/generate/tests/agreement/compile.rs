@@ -1,17 +1,46 @@
-//! The compiler: generated code to programs, and what they print.
+//! The compiler: generated code to programs, many models in one translation unit.
+//!
+//! In: generated files. Out: programs, or what the compiler said. What all models share, the runtime's headers and the
+//! functions in them, is compiled once for the models of a unit, which is most of the work. A unit that does not compile
+//! is halved until the models at fault stand alone: those are compiled as their users do, a model a unit.
 
-use std::io::Write;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::run::Prepared;
+
+/// How many models share a unit at most.
+const SHARED: usize = 24;
+/// LIMIT: how many bytes of generated code share a unit.
+const CODE: usize = 1_500_000;
+/// LIMIT: how many seconds a unit may take.
+const SECONDS: u32 = 900;
 
 /// Where generated code is compiled.
 pub struct Compiler {
     folder: PathBuf,
     kept: bool,
+}
+
+/// A model written to be compiled.
+#[derive(Clone)]
+pub struct Unit {
+    /// The name of its folder.
+    pub name: String,
+    /// The namespace of its code.
+    pub namespace: String,
+    pub folder: PathBuf,
+    /// How much code it is.
+    pub bytes: usize,
+}
+
+/// A compiled model: a program, and the word that names the model in it.
+#[derive(Clone)]
+pub struct Program {
+    pub path: PathBuf,
+    pub word: String,
 }
 
 impl Compiler {
@@ -31,83 +60,81 @@ impl Compiler {
         &self.folder
     }
 
-    /// Writes generated files, and what they come from; gives their folder.
-    pub fn write(&self, name: &str, model: &str, prepared: &Prepared) -> Result<PathBuf, String> {
-        let generated = &prepared.generated;
-        let folder = self.folder.join(name);
-        std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
-        for (name, text) in [("model.asm", model), ("script", &prepared.script), ("expected", &prepared.expected)] {
-            std::fs::write(folder.join(name), text).map_err(|error| error.to_string())?;
-        }
-        for file in &generated.files {
-            std::fs::write(folder.join(&file.name), &file.text).map_err(|error| error.to_string())?;
-        }
-        let unit = format!("#include \"{}.cpp\"\n#include \"replay.cpp\"\n", generated.name);
-        std::fs::write(folder.join("all.cpp"), unit).map_err(|error| error.to_string())?;
-        Ok(folder)
-    }
-
-    /// Compiles the code of each folder, two at a time. What all of them include is compiled beforehand, once.
-    pub fn compile_all(&self, folders: Vec<PathBuf>) -> Vec<Result<PathBuf, String>> {
-        let header = self.folder.join("all.hpp");
-        std::fs::write(
-            &header,
-            "#include <groundstate/machine/replay.hpp>\n#include <groundstate/machine/elements.hpp>\n\
-            #include <groundstate/machine/membership.hpp>\n#include <groundstate/machine/numbers.hpp>\n\
-            #include <groundstate/machine/text.hpp>\n#include <groundstate/machine/units.hpp>\n",
-        )
-        .expect("a file of one's own");
-        let compiled = strict().arg("-x").arg("c++-header").arg(&header).status().expect("g++ runs");
-        assert!(compiled.success(), "the runtime's headers do not compile");
-        let next = AtomicUsize::new(0);
-        let done: Mutex<Vec<(usize, Result<PathBuf, String>)>> = Mutex::new(Vec::new());
+    /// Compiles the code of all models, two units at a time; the same order comes back.
+    pub fn compile_all(&self, units: &[Unit]) -> Vec<Result<Program, String>> {
+        let header = self.precompiled();
+        let waiting = Mutex::new(shared(units));
+        let done: Mutex<BTreeMap<usize, Result<Program, String>>> = Mutex::new(BTreeMap::new());
         std::thread::scope(|scope| {
             for _ in 0..2 {
                 scope.spawn(|| {
                     loop {
-                        let index = next.fetch_add(1, Ordering::Relaxed);
-                        let Some(folder) = folders.get(index) else { return };
-                        let outcome = compile(folder, &header);
-                        done.lock().expect("unpoisoned").push((index, outcome));
+                        let Some(group) = waiting.lock().expect("unpoisoned").pop() else { return };
+                        let outcomes = self.compile(&header, units, &group);
+                        done.lock().expect("unpoisoned").extend(outcomes);
                     }
                 });
             }
         });
-        let mut done = done.into_inner().expect("unpoisoned");
-        done.sort_by_key(|(index, _)| *index);
-        done.into_iter().map(|(_, outcome)| outcome).collect()
+        done.into_inner().expect("unpoisoned").into_values().collect()
     }
 
-    /// Runs a program on a run's script and compares what it prints.
-    pub fn replay(&self, program: &Path, prepared: &Prepared) -> Result<(), String> {
-        let mut child = Command::new(program)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .map_err(|error| error.to_string())?;
-        let mut stdin = child.stdin.take().expect("piped");
-        let script = prepared.script.clone();
-        // A program that ends early closes the pipe.
-        let writer = std::thread::spawn(move || drop(stdin.write_all(script.as_bytes())));
-        let output = child.wait_with_output().map_err(|error| error.to_string())?;
-        let _ = writer.join();
-        if !output.status.success() {
-            return Err(format!("{}: {}", output.status, String::from_utf8_lossy(&output.stderr)));
+    /// What all models include, compiled beforehand, once.
+    fn precompiled(&self) -> PathBuf {
+        let header = self.folder.join("all.hpp");
+        if header.exists() {
+            return header;
         }
-        let printed = String::from_utf8_lossy(&output.stdout).into_owned();
-        // The place of a fault is compared nowhere: its number is the generated code's own.
-        let printed: String = printed
-            .lines()
-            .map(|line| match line.strip_prefix("fault ") {
-                // Not the location of a function that is called so: `fault () i1`.
-                Some(rest) if !rest.starts_with('(') => {
-                    format!("fault {}\n", rest.split(' ').next().unwrap_or_default())
-                }
-                _ => format!("{line}\n"),
-            })
+        let runtime = runtime().join("groundstate/machine");
+        let mut names: Vec<String> = std::fs::read_dir(&runtime)
+            .expect("the runtime's headers")
+            .flatten()
+            .map(|entry| format!("#include <groundstate/machine/{}>\n", entry.file_name().to_string_lossy()))
             .collect();
-        difference(&prepared.expected, &printed)
+        names.sort();
+        std::fs::write(&header, names.concat()).expect("a file of one's own");
+        let compiled = strict().arg("-x").arg("c++-header").arg(&header).status().expect("g++ runs");
+        assert!(compiled.success(), "the runtime's headers do not compile");
+        header
+    }
+
+    /// Compiles some models as one unit, or in parts if that fails.
+    fn compile(&self, header: &Path, units: &[Unit], group: &[usize]) -> Vec<(usize, Result<Program, String>)> {
+        let first = &units[group[0]];
+        let (source, path) = match group {
+            [_] => (first.folder.join("all.cpp"), first.folder.join("replay")),
+            _ => {
+                let stem = self.folder.join(format!("{}-{}", first.name, group.len()));
+                (stem.with_extension("cpp"), stem)
+            }
+        };
+        let text = match group {
+            [_] => format!("#include \"{}.cpp\"\n#include \"replay.cpp\"\n", first.namespace),
+            _ => together(units, group),
+        };
+        let compiled = std::fs::write(&source, text).map_err(|error| error.to_string()).and_then(|()| {
+            let mut command = strict();
+            command.arg("-include").arg(header).arg(&source).arg("-o").arg(&path);
+            within(SECONDS, &command)
+        });
+        match compiled {
+            Ok(output) if output.status.success() => group
+                .iter()
+                .map(|index| (*index, Ok(Program { path: path.clone(), word: units[*index].name.clone() })))
+                .collect(),
+            _ if group.len() > 1 => {
+                let (left, right) = group.split_at(group.len() / 2);
+                let mut outcomes = self.compile(header, units, left);
+                outcomes.extend(self.compile(header, units, right));
+                outcomes
+            }
+            Ok(output) => {
+                let text = String::from_utf8_lossy(&output.stderr);
+                let shown: Vec<&str> = text.lines().filter(|line| line.contains("error")).take(6).collect();
+                vec![(group[0], Err(format!("does not compile ({}):\n{}", output.status, shown.join("\n"))))]
+            }
+            Err(error) => vec![(group[0], Err(error))],
+        }
     }
 
     /// Removes what was written, unless it is to be looked at.
@@ -118,44 +145,75 @@ impl Compiler {
     }
 }
 
+/// Writes generated files, and what they come from, into a folder; gives how many bytes of code.
+pub fn write(folder: &Path, model: &str, prepared: &Prepared) -> std::io::Result<usize> {
+    let generated = &prepared.generated;
+    std::fs::create_dir_all(folder)?;
+    for (name, text) in [("model.asm", model), ("script", &prepared.script), ("expected", &prepared.expected)] {
+        std::fs::write(folder.join(name), text)?;
+    }
+    for file in &generated.files {
+        std::fs::write(folder.join(&file.name), &file.text)?;
+    }
+    Ok(generated.files.iter().map(|file| file.text.len()).sum())
+}
+
+/// The models in groups of one unit each. Those of one namespace are apart.
+fn shared(units: &[Unit]) -> Vec<Vec<usize>> {
+    let mut groups: Vec<(Vec<usize>, usize)> = Vec::new();
+    for (index, unit) in units.iter().enumerate() {
+        let fits = |(group, bytes): &(Vec<usize>, usize)| {
+            group.len() < SHARED
+                && bytes + unit.bytes <= CODE
+                && group.iter().all(|other| units[*other].namespace != unit.namespace)
+        };
+        match groups.iter_mut().find(|group| fits(group)) {
+            Some((group, bytes)) => {
+                group.push(index);
+                *bytes += unit.bytes;
+            }
+            None => groups.push((vec![index], unit.bytes)),
+        }
+    }
+    groups.into_iter().map(|(group, _)| group).rev().collect()
+}
+
+/// One source of several models, whose main program is told which of them to run.
+fn together(units: &[Unit], group: &[usize]) -> String {
+    let (mut models, mut calls) = (String::new(), String::new());
+    for unit in group.iter().map(|index| &units[*index]) {
+        let Unit { name, namespace, folder, .. } = unit;
+        let folder = folder.display();
+        models.push_str(&format!(
+            "#include \"{folder}/{namespace}.cpp\"\n#define main main_{name}\n#include \"{folder}/replay.cpp\"\n#undef main\n"
+        ));
+        calls.push_str(&format!("    if (word == \"{name}\") return main_{name}();\n"));
+    }
+    format!(
+        "{models}int main(int count, char** words) {{\n    const std::string word = count > 1 ? words[1] : \"\";\n{calls}    return 2;\n}}\n"
+    )
+}
+
+/// A command with a limit of time; one that is ended by it says so.
+pub fn within(seconds: u32, command: &Command) -> Result<Output, String> {
+    let mut limited = Command::new("timeout");
+    limited.arg(seconds.to_string()).arg(command.get_program()).args(command.get_args());
+    let output = limited.output().map_err(|error| error.to_string())?;
+    match output.status.code() {
+        Some(124) => Err(format!("{} takes more than {seconds} s", command.get_program().display())),
+        _ => Ok(output),
+    }
+}
+
 /// The compiler with its warnings as errors, and where the runtime is.
 pub fn strict() -> Command {
     let mut command = Command::new("g++");
     command.args(["-std=c++20", "-O0", "-Wall", "-Wextra", "-Wconversion", "-Werror", "-I"]);
-    command.arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cpp/include"));
+    command.arg(runtime());
     command
 }
 
-fn compile(folder: &Path, header: &Path) -> Result<PathBuf, String> {
-    let program = folder.join("replay");
-    let output = strict()
-        .arg("-include")
-        .arg(header)
-        .arg(folder.join("all.cpp"))
-        .arg("-o")
-        .arg(&program)
-        .output()
-        .map_err(|error| format!("g++: {error}"))?;
-    if !output.status.success() {
-        let text = String::from_utf8_lossy(&output.stderr);
-        let shown: Vec<&str> = text.lines().filter(|line| line.contains("error")).take(6).collect();
-        return Err(format!("does not compile:\n{}", shown.join("\n")));
-    }
-    Ok(program)
-}
-
-/// The first place where two texts part.
-fn difference(expected: &str, printed: &str) -> Result<(), String> {
-    if expected == printed {
-        return Ok(());
-    }
-    let step = |lines: &[&str]| lines.iter().filter(|line| **line == ".").count();
-    let (left, right): (Vec<&str>, Vec<&str>) = (expected.lines().collect(), printed.lines().collect());
-    let at = left.iter().zip(&right).take_while(|(a, b)| a == b).count();
-    Err(format!(
-        "after {} states: the machine has `{}`, the generated code `{}`",
-        step(&left[..at]),
-        left.get(at).unwrap_or(&"nothing more"),
-        right.get(at).unwrap_or(&"nothing more")
-    ))
+/// The folder of the runtime's headers.
+pub fn runtime() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cpp/include")
 }

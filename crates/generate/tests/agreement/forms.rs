@@ -2,8 +2,8 @@
 
 use syntax::SourceFile;
 
-use crate::run::{Disk, prepare};
-use crate::{Case, judge};
+use crate::run::Disk;
+use crate::{Case, judge, prepare};
 
 /// A model whose main rule is given; `f` and `g` hold what its rules update.
 fn model(main: &str) -> String {
@@ -26,7 +26,7 @@ pub(crate) fn case_of(name: &str, text: String, member: &str) -> Case {
     let prepared = match prepare(SourceFile::new("Forms.asm", text.clone()), &mut Disk, 12, 1) {
         Ok(Some(prepared)) => prepared,
         Ok(None) => panic!("{name}: nothing to run"),
-        Err(reason) => panic!("{name}: {}", reason.why),
+        Err(why) => panic!("{name}: {why}"),
     };
     let header = &prepared.generated.files[0].text;
     assert!(header.contains(member), "{name}: no `{member}` in\n{header}");

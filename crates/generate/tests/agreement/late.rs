@@ -2,8 +2,8 @@
 
 use syntax::SourceFile;
 
-use crate::run::{Disk, prepare};
-use crate::{Case, judge};
+use crate::run::Disk;
+use crate::{Case, judge, prepare};
 
 fn case(name: &str, main: &str, initial: &str) -> Case {
     let text = format!(
@@ -24,7 +24,7 @@ fn case(name: &str, main: &str, initial: &str) -> Case {
             Case { name: name.to_string(), text, prepared }
         }
         Ok(None) => panic!("{name}: nothing to run"),
-        Err(reason) => panic!("{name}: {}", reason.why),
+        Err(why) => panic!("{name}: {why}"),
     }
 }
 
@@ -54,7 +54,7 @@ fn initial_values_come_after_those_that_they_read() {
                 \tcontrolled first: Integer\n\ndefinitions:\n\tmain rule r_Main =\n\t\tstart := start + first\n\n\
                 default init s0:\n\tfunction start = if asked then first else first * 3 endif\n\tfunction first = 5\n";
     let prepared = prepare(SourceFile::new("Order.asm", text), &mut Disk, 4, 1);
-    let prepared = prepared.unwrap_or_else(|reason| panic!("{}", reason.why)).expect("something to run");
+    let prepared = prepared.unwrap_or_else(|why| panic!("{why}")).expect("something to run");
     assert!(!prepared.expected.contains("fault"), "{}", prepared.expected);
     judge("order", vec![Case { name: "order".to_string(), text: text.to_string(), prepared }]);
 }

@@ -12,17 +12,21 @@
 
 mod bare;
 mod compile;
+mod follow;
 mod forms;
+mod initial;
 mod late;
 mod places;
 mod run;
+mod unusual;
 
 use std::path::{Path, PathBuf};
 
+use model::Loader;
 use syntax::SourceFile;
 
-use compile::Compiler;
-use run::{Disk, Prepared, prepare};
+use compile::{Compiler, Unit, write};
+use run::{Disk, Prepared, read, record};
 
 /// The number in an environment variable.
 fn setting(name: &str, default: u64) -> u64 {
@@ -36,22 +40,35 @@ struct Case {
     prepared: Prepared,
 }
 
+/// Generates a model and runs it in the machine; none if there is nothing to run. An error is why that cannot be.
+fn prepare(file: SourceFile, disk: &mut dyn Loader, steps: u64, seed: u64) -> Result<Option<Prepared>, String> {
+    let Some(subject) = read(file, disk)? else { return Ok(None) };
+    let generated = subject.generate()?;
+    let (script, expected) = record(&subject.program, steps, seed);
+    Ok(Some(Prepared { generated, script, expected }))
+}
+
 /// Generates, compiles and compares all of them.
 fn judge(folder: &str, cases: Vec<Case>) {
     let compiler = Compiler::new(folder);
     let mut built = Vec::new();
     let mut failures = Vec::new();
     for (index, case) in cases.iter().enumerate() {
-        match compiler.write(&format!("m{index}"), &case.text, &case.prepared) {
-            Ok(path) => built.push((case, path)),
+        let name = format!("m{index}");
+        let folder = compiler.folder().join(&name);
+        match write(&folder, &case.text, &case.prepared) {
+            Ok(bytes) => {
+                let namespace = case.prepared.generated.name.clone();
+                built.push((case, Unit { name, namespace, folder, bytes }));
+            }
             Err(error) => failures.push(format!("{}: {error}", case.name)),
         }
     }
-    let programs = compiler.compile_all(built.iter().map(|(_, path)| path.clone()).collect());
-    for ((case, path), compiled) in built.iter().zip(programs) {
-        let outcome = compiled.and_then(|program| compiler.replay(&program, &case.prepared));
+    let programs = compiler.compile_all(&built.iter().map(|(_, unit)| unit.clone()).collect::<Vec<_>>());
+    for ((case, unit), compiled) in built.iter().zip(programs) {
+        let outcome = compiled.and_then(|program| program.follow(&case.prepared.script, &case.prepared.expected));
         if let Err(reason) = outcome {
-            failures.push(format!("{} ({}): {reason}", case.name, path.display()));
+            failures.push(format!("{} ({}): {reason}", case.name, unit.folder.display()));
         }
     }
     assert!(failures.is_empty(), "{} of {}:\n{}", failures.len(), cases.len(), failures.join("\n\n"));
@@ -76,8 +93,7 @@ fn examples() {
         match prepare(file, &mut Disk, 30, 1) {
             Ok(Some(prepared)) => cases.push(Case { name, text, prepared }),
             Ok(None) => {}
-            Err(reason) if reason.refused => panic!("{name} is refused: {}", reason.why),
-            Err(reason) => panic!("{name}: {}", reason.why),
+            Err(why) => panic!("{name}: {why}"),
         }
     }
     assert!(!cases.is_empty());

@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use generate::replay::{Answers, script, state};
 use generate::{Generated, Options};
-use machine::{Closed, EngineChoice, Limits, Machine};
+use machine::{Closed, EngineChoice, Limits, Machine, Value};
 use model::Loader;
 use program::Program;
-use simulate::{Bounds, Choices, Inputs, RandomSource, Record, Run};
-use syntax::{Severity, SourceFile};
+use simulate::{Bounds, ChoiceMade, Choices, Inputs, RandomSource, Record, Run};
+use syntax::{Severity, SourceFile, Sources, Span};
 
 /// What is compared.
 pub struct Prepared {
@@ -20,17 +20,10 @@ pub struct Prepared {
     pub expected: String,
 }
 
-/// Why there is nothing to compare.
-pub struct Reason {
-    /// The model is as it should be, but cannot be generated.
-    pub refused: bool,
-    pub why: String,
-}
-
-impl Reason {
-    fn faulty(why: &str) -> Reason {
-        Reason { refused: false, why: why.to_string() }
-    }
+/// A model that can be run.
+pub struct Subject {
+    pub program: Arc<Program>,
+    sources: Sources,
 }
 
 /// Files on disk. Bytes that are no UTF-8 are replaced.
@@ -46,27 +39,29 @@ impl Loader for Disk {
     }
 }
 
-/// Generates a model and runs it in the machine; none if there is nothing to run.
-pub fn prepare(file: SourceFile, disk: &mut dyn Loader, steps: u64, seed: u64) -> Result<Option<Prepared>, Reason> {
+/// Reads a model; none if it has no main rule. An error is its first fault.
+pub fn read(file: SourceFile, disk: &mut dyn Loader) -> Result<Option<Subject>, String> {
     let checked = model::check(file, disk);
     if let Some(error) = checked.diagnostics.iter().find(|found| found.severity == Severity::Error) {
-        return Err(Reason::faulty(&error.message));
+        return Err(error.message.clone());
     }
-    let program = program::lower(&checked.model).map_err(|faults| Reason::faulty(&faults[0].message))?;
-    if program.main.is_none() {
-        return Ok(None);
-    }
-    let program = Arc::new(program);
-    let mut started = Machine::new(Arc::clone(&program), Limits::default());
-    // What initial values ask of the environment is asked for again.
-    let _ = started.start(&mut Closed);
-    let generated = generate::generate(&program, &checked.sources, &mut started, &Options::default())
-        .map_err(|refused| Reason { refused: true, why: refused[0].message.clone() })?;
-    let (script, expected) = record(&program, steps, seed);
-    Ok(Some(Prepared { generated, script, expected }))
+    let program = program::lower(&checked.model).map_err(|faults| faults[0].message.clone())?;
+    Ok(program.main.is_some().then(|| Subject { program: Arc::new(program), sources: checked.sources }))
 }
 
-fn record(program: &Arc<Program>, steps: u64, seed: u64) -> (String, String) {
+impl Subject {
+    /// Its code, or what cannot be generated.
+    pub fn generate(&self) -> Result<Generated, String> {
+        let mut started = Machine::new(Arc::clone(&self.program), Limits::default());
+        // What initial values ask of the environment is asked for again.
+        let _ = started.start(&mut Closed);
+        generate::generate(&self.program, &self.sources, &mut started, &Options::default())
+            .map_err(|refused| refused[0].message.clone())
+    }
+}
+
+/// A run with random inputs and choices: the script of its answers, and its states.
+pub fn record(program: &Arc<Program>, steps: u64, seed: u64) -> (String, String) {
     let limits = Limits { iterations: 1_000_000, call_depth: 200, collection: 100_000, ..Limits::default() };
     let inputs = Inputs::new().with(RandomSource::new(seed, Bounds::default())).choosing(Choices::random(seed));
     let options = simulate::Options {
@@ -79,8 +74,8 @@ fn record(program: &Arc<Program>, steps: u64, seed: u64) -> (String, String) {
     let (mut text, mut expected, mut attempted) = (String::new(), String::new(), false);
     while let Some(record) = run.advance() {
         match record {
-            Record::Initial { inputs, times, .. } => {
-                text.push_str(&script(program, &Answers { inputs, times, choices: Vec::new() }));
+            Record::Initial { inputs, choices, times, .. } => {
+                text.push_str(&script(program, &Answers { inputs, times, choices: taken(choices) }));
                 expected.push_str(&state(program, &run.machine().locations()));
             }
             Record::Step(step) => {
@@ -105,6 +100,9 @@ fn record(program: &Arc<Program>, steps: u64, seed: u64) -> (String, String) {
 }
 
 fn answers(step: simulate::StepRecord) -> Answers {
-    let choices = step.choices.into_iter().map(|choice| (choice.span, choice.index, choice.values)).collect();
-    Answers { inputs: step.inputs, choices, times: step.times }
+    Answers { inputs: step.inputs, choices: taken(step.choices), times: step.times }
+}
+
+fn taken(choices: Vec<ChoiceMade>) -> Vec<(Span, usize, Vec<Value>)> {
+    choices.into_iter().map(|choice| (choice.span, choice.index, choice.values)).collect()
 }

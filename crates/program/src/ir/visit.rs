@@ -135,6 +135,14 @@ impl Program {
     /// The dynamic functions that a closed term reads, inputs included, directly or through definitions, in order; and
     /// whether its value depends on more than those of the state and the elements of domains.
     pub fn all_reads(&self, expression: &Expression) -> (Vec<FunctionId>, bool) {
+        let (read, depends_on_more) = self.reads_and_more(expression);
+        let input = |id: &FunctionId| self.function(*id).kind == FunctionKind::Monitored;
+        let depends_on_more = depends_on_more || read.iter().any(input);
+        (read, depends_on_more)
+    }
+
+    /// The same, where a monitored function is one that is read like any other.
+    pub fn reads_and_more(&self, expression: &Expression) -> (Vec<FunctionId>, bool) {
         let mut read = BTreeSet::new();
         let mut depends_on_more = false;
         let mut entered = vec![false; self.functions.len()];
@@ -143,8 +151,7 @@ impl Program {
             match self.term(id) {
                 Term::Read { function, .. } | Term::Define { function, .. } => {
                     let kind = self.function(*function).kind;
-                    depends_on_more |= Some(*function) == self.self_function
-                        || matches!(kind, FunctionKind::Monitored | FunctionKind::Shared);
+                    depends_on_more |= Some(*function) == self.self_function || kind == FunctionKind::Shared;
                     if !matches!(kind, FunctionKind::Static | FunctionKind::Derived) {
                         read.insert(*function);
                     }
