@@ -51,7 +51,7 @@ class AndUndef {
 
     class Iterator {
       public:
-        constexpr Iterator(Inner at, Inner end, bool undef) : at_{at}, end_{end}, undef_{undef} {}
+        constexpr Iterator(Inner at, Inner end, bool more) : at_{at}, end_{end}, undef_{more} {}
         constexpr Item operator*() const { return at_ == end_ ? Item{} : Item{*at_}; }
         constexpr Iterator& operator++() {
             if (at_ == end_) {
