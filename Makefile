@@ -3,30 +3,57 @@
 
 CARGO ?= cargo
 GROUNDSTATE := target/release/groundstate
-# Tests run it with its assertions, which is built anyway.
+# With its assertions: tests run it, which build it anyway, and so does the demo, since it is built in a third of the time.
 TESTED := target/debug/groundstate
 MODELS := library/patterns library/runtime examples
+# Clippy's driver is the compiler with its lints, so that tests and lints are one build.
+LINTED := $(if $(shell command -v clippy-driver),RUSTC_WORKSPACE_WRAPPER=clippy-driver CLIPPY_ARGS=-D__CLIPPY_HACKERY__warnings)
+TIMED := sh xtask/timed.sh
+PARTS := lint unit scenarios cpp systems robot
 
-.PHONY: help demo test lint unit scenarios verify cpp systems robot robot-sanitized fuzz bench bench-cpp corpus update clean
+.PHONY: help demo test full quick times lint unit scenarios verify cpp cpp-full systems robot robot-full mutants fuzz bench \
+    bench-cpp corpus update clean
 
 help: ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*##/\t/' | expand -t 12
 
-demo: $(GROUNDSTATE) ## the model for a second with every scenario → out/report.html; the robot in closed loop, held to its model → out/robot.html
-	@GROUNDSTATE=$(GROUNDSTATE) sh docs/demo.sh
+demo: ## the model for a second with every scenario → out/report.html; the robot in closed loop, held to its model → out/robot.html
+	@$(LINTED) CARGO="$(CARGO)" GROUNDSTATE=$(TESTED) sh docs/demo.sh
 
 # Two at a time: what waits, links or runs in one thread leaves a processor to the other.
-test: ## everything that must hold before a change lands
-	$(MAKE) --no-print-directory --jobs=2 --output-sync=target lint unit scenarios cpp systems robot
+test: ## everything that must hold before a change lands: a quarter of an hour on two processors
+	@$(TIMED) --begin
+	@$(TIMED) build $(MAKE) --no-print-directory $(TESTED)
+	@$(TIMED) all $(MAKE) --no-print-directory --jobs=2 --output-sync=target $(PARTS:%=timed-%) || { $(TIMED); exit 1; }
+	@$(TIMED)
+
+timed-%:
+	@$(TIMED) $* $(MAKE) --no-print-directory $*
+
+full: ## what is slow and rarely breaks, beside `make test`: larger samples, sanitizers, all robots, proofs, mutants
+	@$(TIMED) --begin
+	$(MAKE) --no-print-directory test
+	GROUNDSTATE_FULL=1 $(LINTED) $(CARGO) test --workspace --locked
+	$(MAKE) --no-print-directory verify cpp-full robot-full mutants
+	@$(TIMED)
+
+quick: $(TESTED) ## what a one-line change needs: lints, the tests that are over in a moment, the library's scenarios
+	$(CARGO) fmt --all --check
+	$(LINTED) $(CARGO) test --workspace --locked --lib --bins
+	$(TESTED) test --quiet library/patterns
+
+times: $(TESTED) ## how long each test takes that takes longer than a second
+	RUSTC_BOOTSTRAP=1 $(LINTED) $(CARGO) test --workspace --locked --no-fail-fast -- -Zunstable-options --report-time 2>/dev/null | \
+	    sed -nE 's/^test (.*) \.\.\. [a-zA-Z]* <([0-9.]+)s>$$/\2 s  \1/p' | sort -rn | awk '$$1 >= 1'
 
 lint: $(TESTED)
+	@clippy-driver --version
 	$(CARGO) fmt --all --check
 	$(TESTED) fmt --check library examples bench/models cpp/systems
-	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
 
 unit: $(TESTED)
-	sh cpp/install.sh z3 cvc5
-	$(CARGO) test --workspace --locked
+	sh cpp/install.sh z3 cvc5 clang
+	$(LINTED) $(CARGO) test --workspace --locked
 
 scenarios: $(TESTED)
 	$(TESTED) check $(MODELS) library/verification
@@ -36,18 +63,24 @@ scenarios: $(TESTED)
 verify: $(GROUNDSTATE) ## the pattern library's properties in every state, its seeded faults found, the reference systems counted: minutes, 4 GB
 	sh library/verification/verify.sh $(GROUNDSTATE) expected.txt expected-long.txt
 
-cpp: ## the C++ runtime and the cameras: their tests as they are and under the sanitizers
+cpp: ## the C++ runtime and the cameras: their tests as they are; the runtime's under ThreadSanitizer and by clang++, too
+	sh cpp/run.sh plain thread clang
+
+cpp-full: ## the same under AddressSanitizer and UndefinedBehaviorSanitizer, too
 	sh cpp/run.sh
 
 systems: $(TESTED) ## programs generated from systems: run, held to their models, with faults put in
 	sh cpp/systems/run.sh $(TESTED)
 
-robot: $(TESTED) ## the robots: servo law, vision, kinematics, the controllers in closed loop, held to their models
+robot: $(TESTED) ## the case study's robot: servo law, vision, the controller in closed loop, held to its model
+	sh examples/robot.sh $(TESTED) visual_servoing
+
+robot-full: $(TESTED) ## all four robots, also under the sanitizers and with faults put in, and the servo law beside ViSP's
 	sh examples/robot.sh $(TESTED)
 
-robot-sanitized: robot ## all four robots in closed loop under the sanitizers; `make robot` runs one under each
-	sh examples/sanitized.sh thread visual_servoing object_tracking pick_and_place micro_assembly
-	sh examples/sanitized.sh address visual_servoing object_tracking pick_and_place micro_assembly
+mutants: ## mutated texts through every command, every fifth change of an event in logs of generated systems through `conform`
+	$(CARGO) xtask mutate-text
+	$(CARGO) xtask mutate-log --every 5
 
 fuzz: ## the fuzz targets, a minute each, guided by coverage; `make unit` tries the same on mutations
 	sh fuzz/run.sh 60
@@ -76,5 +109,5 @@ $(GROUNDSTATE): FORCE
 	$(CARGO) build --release --locked --package cli
 # As the tests are built: alone it would be given other features, and all below them be compiled twice.
 $(TESTED): FORCE
-	$(CARGO) test --workspace --locked --no-run
+	$(LINTED) $(CARGO) test --workspace --locked --no-run
 FORCE:

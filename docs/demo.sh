@@ -2,8 +2,10 @@
 # The main job, end to end, on the paper's own case study: from the model to a robot's program that is held to it. Called by
 # `make demo`. What the program takes beside g++ is installed (Debian packages).
 set -eu
-groundstate=${GROUNDSTATE:-target/release/groundstate}
+groundstate=${GROUNDSTATE:-target/debug/groundstate}
+cargo=${CARGO:-cargo}
 study=examples/visual_servoing
+begin=$(date +%s)
 
 # A heading, bold where it is looked at.
 say() { if [ -t 1 ]; then printf '\n\033[1m%s\033[0m\n' "$1"; else printf '\n%s\n' "$1"; fi; }
@@ -11,6 +13,25 @@ fail() {
     echo "docs/demo.sh: $*" >&2
     exit 1
 }
+# progress COMMAND…: its output shortened to a line every few seconds; all of it if it fails.
+progress() {
+    log=out/robot/build.log
+    "$@" >"$log" 2>&1 &
+    worker=$!
+    waited=0
+    while kill -0 $worker 2>/dev/null; do
+        sleep 1
+        waited=$((waited + 1))
+        [ $((waited % 10)) != 0 ] || tail -n 1 "$log" | cut -c 1-100
+    done
+    wait $worker || { cat "$log"; return 1; }
+}
+
+say "From a ground model to a robot that is held to it. First the tool and the robot's program are compiled, which takes some
+minutes; then the controller runs as a model, as a program in virtual time, and in real time, and two pages show what it did."
+
+say "0  Compile the tool"
+$cargo build --locked --package cli
 
 say "1  Check the pattern library and the applications"
 "$groundstate" check library/patterns examples
@@ -28,11 +49,13 @@ cp -R $study/robot out/robot/program
 "$groundstate" generate cpp $study/ControllerSystem.chart -o out/robot/program
 cmp out/robot/program/generated/controller_system.hpp $study/robot/generated/controller_system.hpp ||
     fail "$study/robot/generated is not what the chart gives; generate it anew"
-{
-    cmake -S examples -B target/cpp/demo -G Ninja -DGROUNDSTATE_WITHOUT_VISP=ON
-    cmake --build target/cpp/demo --target visual_servoing
-} >out/robot/build.log 2>&1 || { cat out/robot/build.log; fail "the robot's program cannot be compiled"; }
-robot=target/cpp/demo/visual_servoing/robot/visual_servoing
+# As `make robot` builds it.
+compile() {
+    cmake -S examples -B target/cpp/robot -G Ninja -DGROUNDSTATE_WITHOUT_VISP=ON &&
+        cmake --build target/cpp/robot --target visual_servoing
+}
+progress compile || fail "the robot's program cannot be compiled"
+robot=target/cpp/robot/visual_servoing/robot/visual_servoing
 echo "$robot"
 
 # record FOLDER OPTIONS…: a run of the robot, with all that it leaves.
@@ -46,7 +69,10 @@ say "4  Ten seconds of closed loop in virtual time: does it come where it has to
 record virtual --virtual 10s
 
 say "5  Five seconds in real time, for the statistics: they tell of this machine and of what else it does"
-record real --real 5s || [ $? = 1 ]
+# 1: it does not come where it has to; 3: not all of the log could be written in time. Both are of this machine.
+code=0
+record real --real 5s || code=$?
+case $code in 0 | 1 | 3) ;; *) fail "the robot's program ended with $code" ;; esac
 
 say "6  Hold both runs to the model, event by event, and draw the robot's report"
 code=0
@@ -56,3 +82,5 @@ code=0
 [ $code = 0 ] || [ $code = 3 ] || fail "the robot did not do what its model says"
 
 say "Open out/report.html (the model) and out/robot.html (the robot) in any browser; they need no network."
+took=$(($(date +%s) - begin))
+echo "All of it took $((took / 60)) min $((took % 60)) s."

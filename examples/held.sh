@@ -1,9 +1,10 @@
 #!/bin/sh
-# Holds what the applications' programs did to their models, with `groundstate conform`: undisturbed and disturbed; and wants a
-# log that tells a swap wrongly to be found out. Usage: examples/held.sh BUILD GROUNDSTATE, from anywhere.
+# Holds what applications' programs did to their models, with `groundstate conform`: undisturbed and disturbed; and wants a log
+# that tells a swap of visual_servoing wrongly to be found out. Usage: examples/held.sh BUILD GROUNDSTATE PROGRAM…, from anywhere.
 set -eu
 build=$(realpath "$1")
 groundstate=$(realpath "$2")
+shift 2
 cd "$(dirname "$0")"
 out=$(mktemp -d)
 trap 'rm -r "$out"' EXIT
@@ -26,20 +27,29 @@ hold() {
     }
 }
 
-record visual_servoing --virtual 2s
-hold 0 visual_servoing/ControllerSystem.asm run.mcap "conforms by the order of events"
-LC_ALL=C sed 's/\("kind":"swaps","object":"vs_to_robot","number":9,"array":\)\(.\)\(,"next":\)\(.\)/\1\4\3\2/' \
-    "$out/run.mcap" >"$out/wrong.mcap"
-hold 1 visual_servoing/ControllerSystem.asm wrong.mcap "visual_servoing did: swaps vs_to_robot, number 9"
-record visual_servoing --virtual 1s --dropped --slow --occlusion --noise
-hold 0 visual_servoing/ControllerSystem.asm run.mcap "conforms by the order of events"
-record visual_servoing --virtual 1s --uneven
-hold 0 visual_servoing/ControllerSystem.asm run.mcap "conforms by the order of events"
-record object_tracking --virtual 1s
-hold 0 object_tracking/TrackingSystem.asm run.mcap "conforms"
-record pick_and_place --virtual 1s
-hold 0 pick_and_place/PlacingSystem.asm run.mcap "conforms"
-record micro_assembly --virtual 1s
-hold 0 micro_assembly/AssemblySystem.asm run.mcap "conforms"
+visual_servoing() {
+    record visual_servoing --virtual 2s
+    hold 0 visual_servoing/ControllerSystem.asm run.mcap "conforms by the order of events"
+    LC_ALL=C sed 's/\("kind":"swaps","object":"vs_to_robot","number":9,"array":\)\(.\)\(,"next":\)\(.\)/\1\4\3\2/' \
+        "$out/run.mcap" >"$out/wrong.mcap"
+    hold 1 visual_servoing/ControllerSystem.asm wrong.mcap "visual_servoing did: swaps vs_to_robot, number 9"
+    record visual_servoing --virtual 1s --dropped --slow --occlusion --noise
+    hold 0 visual_servoing/ControllerSystem.asm run.mcap "conforms by the order of events"
+    record visual_servoing --virtual 1s --uneven
+    hold 0 visual_servoing/ControllerSystem.asm run.mcap "conforms by the order of events"
+}
+object_tracking() {
+    record object_tracking --virtual 1s
+    hold 0 object_tracking/TrackingSystem.asm run.mcap "conforms"
+}
+pick_and_place() {
+    record pick_and_place --virtual 1s
+    hold 0 pick_and_place/PlacingSystem.asm run.mcap "conforms"
+}
+micro_assembly() {
+    record micro_assembly --virtual 1s
+    hold 0 micro_assembly/AssemblySystem.asm run.mcap "conforms"
+}
+for program in "$@"; do "$program"; done
 
-echo "held: what the programs did is what their models say, and a log that tells a swap wrongly was found out"
+echo "held: what $* did is what their models say"

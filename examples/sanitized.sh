@@ -40,7 +40,7 @@ for program in "$@"; do
     esac
     # shellcheck disable=SC2086 # several words
     expect 0 "$program" --virtual $span --log "$said.mcap"
-    expect "0 1" "$program" --real 2s --log "$said.mcap"
+    expect "0 1 3" "$program" --real 2s --log "$said.mcap"
 done
 case " $* " in *" visual_servoing "*)
     expect 1 visual_servoing --virtual 2s --hook throws
