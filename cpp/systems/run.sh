@@ -4,6 +4,7 @@
 set -eu
 groundstate=$(realpath "$1")
 cd "$(dirname "$0")"
+sh ../install.sh clang cmake
 out=../../target/systems
 rm -rf "$out"
 mkdir -p "$out"
@@ -13,13 +14,14 @@ fail() {
     exit 1
 }
 
-# expect CODE COMMAND…: runs it, and wants that exit code. Its output goes to $out/said.
+# expect CODES COMMAND…: runs it, and wants one of those exit codes. Its output goes to $out/said.
 expect() {
     wanted=$1
     shift
     code=0
     timeout 120 "$@" >"$out/said" 2>&1 || code=$?
-    [ "$code" = "$wanted" ] || { cat "$out/said"; fail "exit code $code instead of $wanted: $*"; }
+    case " $wanted " in *" $code "*) return ;; esac
+    { cat "$out/said"; fail "exit code $code instead of $wanted: $*"; }
 }
 
 said() {
@@ -27,10 +29,14 @@ said() {
 }
 
 # compile FOLDER FLAGS…
-compile() {
-    folder=$1
-    shift
-    g++ -std=c++20 -Wall -Wextra -Wconversion -Wpedantic -Wshadow -Werror "$@" \
+compile() { compile_by g++ "$@"; }
+
+# compile_by COMPILER FOLDER FLAGS…
+compile_by() {
+    compiler=$1
+    folder=$2
+    shift 2
+    "$compiler" -std=c++20 -Wall -Wextra -Wconversion -Wpedantic -Wshadow -Werror "$@" \
         -I "$folder" -I "$folder/generated/include" "$folder/main.cpp" -o "$folder/program" -pthread
 }
 
@@ -45,6 +51,33 @@ expect 0 "$groundstate" conform --untimed $model.asm "$out/controller.mcap"
 expect 0 "$groundstate" conform --follow $model.asm "$out/controller.mcap"
 said "conforms tick by tick: 27"
 expect 0 sh viewers/run.sh "$out/controller.mcap"
+compile_by clang++ "$out/controller" -Wsign-conversion -fsyntax-only
+
+# Tasks that data wake, behind writings of several ticks: the program wakes when the model does.
+for form in "Classifier" "Conveyor" "Conveyor --wait-free"; do
+    name=${form% *}
+    folder=$out/$(echo "$form" | tr -d ' ')
+    expect 0 "$groundstate" generate cpp ${form#"$name"} $name.chart -o "$folder"
+    compile "$folder" -O0
+    expect 0 "$folder/program" --virtual 0.5 --log "$folder/run.mcap"
+    expect 0 "$groundstate" conform $name.asm "$folder/run.mcap"
+    said "conforms tick by tick"
+    expect 0 "$folder/program" --virtual 0.5 --seed 1 --log "$folder/run.mcap"
+    expect 0 "$groundstate" conform $name.asm "$folder/run.mcap"
+    expect "0 3" "$folder/program" --real 0.2 --log "$folder/run.mcap"
+    expect "0 3" "$groundstate" conform $name.asm "$folder/run.mcap"
+done
+# Two arrays, where the system above has three; and one tick, where it has several.
+short=$out/short
+mkdir "$short"
+sed -e 's/swinging buffer 3/swinging buffer 2/' -e 's/\(write .*\) 0\.[0-9] ms/\1 0.1 ms/' -e "s|import ../../|import $(realpath ../..)/|" \
+    Classifier.chart >"$short/Classifier.chart"
+expect 0 "$groundstate" chart build "$short/Classifier.chart"
+expect 0 "$groundstate" generate cpp "$short/Classifier.chart" -o "$short"
+compile "$short" -O0
+expect 0 "$short/program" --virtual 0.5 --log "$short/run.mcap"
+expect 0 "$groundstate" conform "$short/Classifier.asm" "$short/run.mcap"
+said "conforms tick by tick"
 
 # Files of the user's stay as they are.
 mkdir -p "$out/contention"
@@ -56,10 +89,43 @@ expect 0 "$groundstate" generate cpp Contention.chart -o "$out/contention"
 tail -1 "$out/contention/fast.hpp" | grep -qx '// mine' || fail "a file of the user's was overwritten"
 cmp contention/main.cpp "$out/contention/main.cpp"
 
-compile "$out/contention" -O1 -DGROUNDSTATE_SEEDED_FAULTS
 program=$out/contention/program
 log=$out/contention.mcap
 conform="$groundstate conform Contention.asm $log"
+
+# By another compiler.
+compile_by clang++ "$out/contention" -O0
+expect 0 env HOOK=none "$program" --virtual 0.3 --log "$log"
+expect 0 $conform
+said "conforms tick by tick"
+
+# The program, and the class of its own model, in one project.
+mkdir -p "$out/both"
+expect 0 "$groundstate" generate cpp Contention.asm -o "$out/both/machine"
+grep -q '"file": "../../../../cpp/systems/Contention.asm"' "$out/both/machine/source-map.json" || fail "no path from the output to the model"
+! grep -q "$(cd ../.. && pwd)" "$out/both/machine/"*.* || fail "generated code names a folder of this machine"
+cp -r "$out/both/machine" "$out/elsewhere"
+model=$(realpath Contention.asm)
+machine=$(realpath "$out/both/machine")
+rm "$machine"/*.*
+(cd / && "$groundstate" generate cpp "$model" -o "$machine" >"$machine/said")
+grep -q '^called otherwise in C++: ' "$machine/said" && fail "names of the model differ in C++"
+rm "$machine/said"
+diff -r "$out/elsewhere" "$machine" || fail "the same model gives other code when made from another folder"
+cp -r contention "$out/both/program"
+expect 0 "$groundstate" generate cpp Contention.chart -o "$out/both/program"
+cat >"$out/both/CMakeLists.txt" <<'EOF'
+cmake_minimum_required(VERSION 3.21)
+project(both LANGUAGES CXX)
+add_subdirectory(machine)
+add_subdirectory(program)
+target_link_libraries(contention PRIVATE groundstate::contention_machine)
+EOF
+expect 0 cmake -S "$out/both" -B "$out/both/build" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS=-Werror
+expect 0 cmake --build "$out/both/build" --target contention
+expect 0 "$out/both/build/program/contention" --virtual 0.1
+
+compile "$out/contention" -O1 -DGROUNDSTATE_SEEDED_FAULTS
 
 expect 0 env HOOK=none "$program" --virtual 1 --log "$log"
 expect 0 $conform
@@ -72,8 +138,9 @@ for seed in 1 2 3; do
     expect 0 $conform
     said "conforms by the order of events"
 done
-expect 0 "$program" --real 0.5 --log "$log"
-expect 0 $conform
+# On a busy machine events are lost, which the program says, and what is missing is not known.
+expect "0 3" "$program" --real 0.5 --log "$log"
+expect "0 3" $conform
 
 # Faults of the runtime, each found: a lock not taken, indexes not swapped, a stale reading, a watchdog ignored.
 for fault in 1 2 3 4; do
@@ -107,7 +174,7 @@ wait $running 2>/dev/null || true
 trap - EXIT
 expect 3 $conform
 "$program" --real 0.5 --log "$log" >/dev/null &
-expect 0 $conform --follow
+expect "0 3" $conform --follow
 wait
 
 # Hooks that fail.
@@ -120,13 +187,19 @@ said "stopped: fast"
 expect 1 env HOOK=hang "$program" --virtual 5 --patience 1 --log "$log"
 said "task fast hung in cycle 20, phase fast_control: no progress for 1000 ms of the wall clock"
 said "stopped: slow"
-expect 0 env HOOK=nan "$program" --virtual 1 --log "$log"
+expect 3 env HOOK=nan "$program" --virtual 1 --log "$log"
 said "^slow .* 1  *[0-9]*  *[0-9]*$"
+said "task slow made 1 data that are not valid; they were not handed over"
 expect 0 $conform
 
 # A log that cannot be written: the robot goes on, and says so; what is missing is never taken for good.
-expect 0 "$program" --virtual 0.1 --log /dev/full
+expect 3 "$program" --virtual 0.1 --log /dev/full
 said "the log ended early: No space left on device"
+expect 3 sh -c 'trap "" XFSZ; ulimit -f 400; exec "$0" --virtual 1 --log "$1"' "$program" "$log"
+said "the log ended early: File too large"
+expect 3 $conform
+said "not known, by the order of events"
+[ "$(tail -c 8 "$log" | od -An -c | tr -d ' ')" = '211MCAP0\r\n' ] || fail "the log of a full disk has no end"
 expect 0 "$program" --virtual 1 --log "$log"
 head -c 600000 "$log" >"$out/cut.mcap"
 expect 3 "$groundstate" conform Contention.asm "$out/cut.mcap"
@@ -156,8 +229,8 @@ said "conforms tick by tick"
 expect 0 "$program" --virtual 0.5 --seed 1 --log "$log"
 expect 0 $conform
 said "conforms by the order of events"
-expect 0 "$program" --real 0.3 --log "$log"
-expect 0 $conform
+expect "0 3" "$program" --real 0.3 --log "$log"
+expect "0 3" $conform
 for fault in 2 3; do
     expect 0 env HOOK=none "$program" --virtual 0.1 --seed-fault $fault --log "$log"
     expect 1 $conform

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <vector>
 
 #include "groundstate/virtual_clock.hpp"
@@ -64,6 +65,20 @@ TEST(MessageQueue, ASenderWaitsForRoomAndIsWoken) {
     sender.join();
     receiver.join();
     EXPECT_EQ(received, (std::vector<int>{0, 1, 2, 3, 4, 5}));
+}
+
+TEST(MessageQueue, TakesWhatCannotBeCopied) {
+    VirtualClock clock;
+    MessageQueue<std::unique_ptr<int>, 1, VirtualClock> queue{clock};
+    Watchdog watchdog{0};
+    EXPECT_TRUE(queue.try_send(std::make_unique<int>(3)));
+    auto refused = std::make_unique<int>(4);
+    EXPECT_FALSE(queue.try_send(std::move(refused)));
+    EXPECT_FALSE(queue.send(std::move(refused), watchdog));
+    ASSERT_NE(refused, nullptr) << "a refused message stays with its sender";
+    EXPECT_EQ(**queue.receive(), 3);
+    EXPECT_TRUE(queue.send(std::move(refused), watchdog));
+    EXPECT_EQ(**queue.receive(), 4);
 }
 
 }  // namespace

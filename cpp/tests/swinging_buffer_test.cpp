@@ -163,5 +163,19 @@ TYPED_TEST(SwingingBufferTest, RaisesTheConsumersSignal) {
     EXPECT_EQ(signal.count(), before + 1);
 }
 
+TYPED_TEST(SwingingBufferTest, OneAccessAtATimeOnEachSide) {
+    this->write(1);
+    {
+        const auto writing = this->buffer.write(this->watchdog);
+        EXPECT_DEATH((void)this->buffer.write(this->watchdog), "two accesses at once");
+    }
+    {
+        const auto reading = this->buffer.read(this->watchdog);
+        EXPECT_DEATH((void)this->buffer.read(this->watchdog), "two accesses at once");
+    }
+    this->write(2);
+    EXPECT_EQ(this->read(), (std::pair{2, true}));
+}
+
 }  // namespace
 }  // namespace groundstate

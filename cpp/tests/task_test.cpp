@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::int64_t ms = 1'000'000;
 
+using Instants = std::vector<std::int64_t>;
+
 // Runs one periodic task for so long; the durations of its cycles are given, the last one for ever.
 std::vector<std::int64_t> begins(const Period& period, std::vector<std::int64_t> durations, std::int64_t until_ns,
                                  const Statistics** statistics, std::unique_ptr<PeriodicTask<VirtualClock>>& task,
@@ -42,7 +44,6 @@ struct PeriodicTaskTest : testing::Test {
     }
 };
 
-using Instants = std::vector<std::int64_t>;
 
 TEST_F(PeriodicTaskTest, KeepsItsGridAndOffset) {
     EXPECT_EQ(run({.period_ns = 10, .offset_ns = 3}, {4}, 45), (Instants{3, 13, 23, 33, 43}));
@@ -61,6 +62,60 @@ TEST_F(PeriodicTaskTest, ALateCycleDoesNotMoveTheGrid) {
     EXPECT_EQ(statistics->overruns.value(), 2);
     EXPECT_EQ(statistics->deadlines_missed.value(), 2);
     EXPECT_EQ(statistics->worst_lateness_ns.value(), 15);
+}
+
+// The first cycle takes so long that the second one begins late; both wait for what never comes.
+TEST(PeriodicTasks, LateCyclesHaveSoMuchLessTimeToWait) {
+    const auto ends = [](const Schedule& schedule) {
+        VirtualClock clock{2};
+        Semaphore<VirtualClock> busy{clock};
+        Watchdog holder{0};
+        EXPECT_TRUE(busy.acquire(0, holder));
+        std::vector<std::int64_t> done;
+        PeriodicTask<VirtualClock> task{clock, "task", {.period_ns = 100, .elaboration_ns = 40}, [&](const Cycle& cycle) {
+            EXPECT_FALSE(busy.acquire(1, cycle.watchdog));
+            clock.sleep_until_ns(clock.now_ns() + (cycle.number == 0 ? 90 : 40));
+            done.push_back(clock.now_ns());
+        }, schedule};
+        task.start(0);
+        clock.enter(1);
+        clock.sleep_until_ns(250);
+        task.ask_to_stop();
+        clock.leave();
+        task.stop();
+        return done;
+    };
+    // 60 + 90; late by 50 of the 60 it might wait; in time again.
+    EXPECT_EQ(ends({}), (Instants{150, 200, 300}));
+    EXPECT_EQ(ends({.counts_lateness = false}), (Instants{150, 250, 350})) << "as the models count";
+}
+
+TEST_F(PeriodicTaskTest, IsWokenToStop) {
+    EXPECT_EQ(run({.period_ns = 3'000'000'000}, {10}, 50), (Instants{0}));
+    EXPECT_EQ(clock.now_ns(), 50) << "nobody waited for the next period";
+}
+
+TEST(Tasks, TellWhoeverIsToKnowThatAStepThrew) {
+    VirtualClock clock{3};
+    std::string told;
+    PeriodicTask<VirtualClock> other{clock, "other", {.period_ns = 10}, [](const Cycle&) {}, {.rank = 1}};
+    PeriodicTask<VirtualClock> failing{clock, "failing", {.period_ns = 10}, [](const Cycle& cycle) {
+        if (cycle.number == 2) {
+            throw std::runtime_error{"no solution"};
+        }
+    }, {.failed = [&](const std::string& task, const std::exception_ptr& failure) {
+        told = task + ": " + reason_of(failure);
+        other.ask_to_stop();
+    }}};
+    failing.start(0);
+    other.start(0);
+    clock.enter(2);
+    clock.sleep_until_ns(100);
+    EXPECT_EQ(told, "failing: no solution");
+    EXPECT_EQ(failing.thread().state(), TaskState::faulted);
+    EXPECT_EQ(other.thread().state(), TaskState::stopped);
+    EXPECT_EQ(other.statistics().cycles.value(), 2);
+    clock.leave();
 }
 
 TEST_F(PeriodicTaskTest, SkipsPeriodsThatHaveBegun) {
@@ -160,6 +215,23 @@ TEST(AsynchronousTask, StopsWhileItRests) {
     task.stop();
     EXPECT_EQ(task.thread().state(), TaskState::stopped);
     EXPECT_EQ(task.statistics().cycles.value(), 0);
+}
+
+TEST(AsynchronousTask, BeginsAtTheOrigin) {
+    MonotonicClock clock;
+    Signal done{clock};
+    std::atomic<std::int64_t> first_ns{0};
+    AsynchronousTask task{clock, "eager", ms, [&] { return first_ns == 0; }, [&](const Cycle& cycle) {
+        first_ns = cycle.start_ns;
+        done.raise();
+    }};
+    const std::int64_t origin_ns = clock.now_ns() + 5 * ms;
+    task.start(origin_ns);
+    for (std::uint32_t seen = done.count(); first_ns == 0; seen = done.count()) {
+        done.wait_while(seen, clock.now_ns() + 100 * ms);
+    }
+    task.stop();
+    EXPECT_GE(first_ns, origin_ns);
 }
 
 TEST(RealTime, BothKindsOfTaskRun) {

@@ -36,9 +36,10 @@ class AsynchronousTask {
     /// What wakes the task. Who: whoever builds the system, before the tasks start.
     Signal<C>& trigger() noexcept { return trigger_; }
 
+    /// No cycle begins before the origin: tasks started with one origin begin together.
     /// Who: the owner, once. Allocates: yes. Throws: std::system_error if there is no thread to be had.
-    void start() {
-        thread_.start([this] { run(); });
+    void start(std::int64_t origin_ns = 0) {
+        thread_.start([this, origin_ns] { run(origin_ns); });
     }
 
     /// No cycle begins any more. Who: everybody. Blocks: no.
@@ -61,7 +62,8 @@ class AsynchronousTask {
     TaskThread<C>& thread() noexcept { return thread_; }
 
   private:
-    void run() {
+    void run(std::int64_t origin_ns) {
+        clock_.sleep_until_ns(origin_ns);
         for (;;) {
             const std::uint32_t seen = trigger_.count();
             if (stop_.load(std::memory_order_relaxed)) {  // SYNC(stop): the count was taken first

@@ -14,6 +14,7 @@
 #include <ctime>
 
 #include <atomic>
+#include <type_traits>
 
 #include <linux/futex.h>
 #include <sys/syscall.h>
@@ -53,6 +54,39 @@ concept Clock = requires(C& clock, const C& face, Word& word, std::uint32_t seen
     { clock.leave() } noexcept;
 };
 
+/// Linux's futex. An instant is given to the kernel in the form that the call's number asks for: where `long` has 32 bits and
+/// the C library's time 64, the call of old would take half an instant for a whole one.
+class Futex {
+  public:
+    static constexpr std::int64_t second_ns = 1'000'000'000;
+
+    /// The system's number of an error, or 0. `until_ns` is `never_ns` for no bound. Blocks: as the operation does.
+    static int call(Word& word, int operation, std::uint32_t value, std::int64_t until_ns, std::uint32_t bits) noexcept {
+        static_assert(sizeof(Word) == sizeof(std::uint32_t) && Word::is_always_lock_free);
+        const Instant until{until_ns};
+        return syscall(number, &word, operation, value, until_ns == never_ns ? nullptr : &until, nullptr, bits) == 0
+                   ? 0 : errno;
+    }
+
+    /// What `number` takes for an instant.
+    template <class Part>
+    struct InstantOf {
+        Part seconds;
+        Part nanoseconds;
+        explicit constexpr InstantOf(std::int64_t instant_ns) noexcept
+            : seconds{static_cast<Part>(instant_ns / second_ns)}, nanoseconds{static_cast<Part>(instant_ns % second_ns)} {}
+    };
+
+#ifdef SYS_futex_time64
+    static constexpr bool has_both = sizeof(long) < sizeof(std::int64_t);
+    static constexpr long number = has_both ? SYS_futex_time64 : SYS_futex;
+    using Instant = InstantOf<std::conditional_t<has_both, std::int64_t, long>>;
+#else
+    static constexpr long number = SYS_futex;
+    using Instant = InstantOf<long>;
+#endif
+};
+
 /// Real time.
 class MonotonicClock {
   public:
@@ -60,7 +94,7 @@ class MonotonicClock {
     std::int64_t now_ns() const noexcept {
         timespec now{};
         clock_gettime(CLOCK_MONOTONIC, &now);
-        return std::int64_t{now.tv_sec} * second_ns + now.tv_nsec;
+        return std::int64_t{now.tv_sec} * Futex::second_ns + now.tv_nsec;
     }
 
     /// Blocks: until the instant, and as long after it as the scheduler takes.
@@ -72,27 +106,24 @@ class MonotonicClock {
 
     /// Blocks: at most until the instant.
     void wait_while(Word& word, std::uint32_t seen, std::int64_t until_ns) noexcept {
-        const timespec until = split(until_ns);
-        futex(word, FUTEX_WAIT_BITSET_PRIVATE, seen, until_ns == never_ns ? nullptr : &until);
+        // The result is not looked at: a wait may end for no reason.
+        Futex::call(word, FUTEX_WAIT_BITSET_PRIVATE, seen, until_ns, FUTEX_BITSET_MATCH_ANY);
     }
 
     /// Blocks: no. Worst case: one system call.
-    void wake(Word& word) noexcept { futex(word, FUTEX_WAKE_BITSET_PRIVATE, INT_MAX, nullptr); }
+    void wake(Word& word) noexcept {
+        // It wakes whom it finds.
+        Futex::call(word, FUTEX_WAKE_BITSET_PRIVATE, INT_MAX, never_ns, FUTEX_BITSET_MATCH_ANY);
+    }
 
     void enter(int) noexcept {}
     void leave() noexcept {}
 
   private:
-    static constexpr std::int64_t second_ns = 1'000'000'000;
-
+    // A template, so that no compiler calls the cast useless where both types are one.
+    template <class Time = decltype(timespec::tv_sec)>
     static timespec split(std::int64_t instant_ns) noexcept {
-        return {.tv_sec = static_cast<std::time_t>(instant_ns / second_ns), .tv_nsec = instant_ns % second_ns};
-    }
-
-    // The result is not looked at: a wait may end for no reason, and a wake finds whom it finds.
-    static void futex(Word& word, int operation, std::uint32_t value, const timespec* until) noexcept {
-        static_assert(sizeof(Word) == sizeof(std::uint32_t) && Word::is_always_lock_free);
-        syscall(SYS_futex, &word, operation, value, until, nullptr, FUTEX_BITSET_MATCH_ANY);
+        return {.tv_sec = static_cast<Time>(instant_ns / Futex::second_ns), .tv_nsec = instant_ns % Futex::second_ns};
     }
 };
 

@@ -63,28 +63,47 @@ class LockedBuffer {
     /// Begins to write. The datum is as it was left there N swaps ago.
     /// Who: the producer. Blocks: a master no; a slave until its watchdog. Allocates: no.
     Writing<LockedBuffer> write(Watchdog& watchdog) noexcept {
+        if (!writing_.begin()) {
+            dropped_.add();
+            return {};
+        }
         if constexpr (master == Master::reader) {
             if (!take(Side::producer, watchdog)) {
+                writing_.end();
                 dropped_.add();
                 return {};
             }
         }
-        if (std::exchange(pending_, false)) {
+        const auto number = static_cast<std::uint64_t>(written_.value()) + 1;
+        const bool overwrites = std::exchange(pending_, false);
+        if (overwrites) {
             overwritten_.add();
-            if constexpr (master == Master::reader) {
+        }
+        observer_.writes(index_write_, number);
+        if constexpr (master == Master::reader) {
+            // By the model a writing is awaited from its beginning, whose lock the reader then waits for; in real time he
+            // would be woken only to wait.
+            if (observer_.offers()) {
+                offered_.store(number, std::memory_order_relaxed);  // SYNC(offer)
+                wake();
+            } else if (overwrites) {
                 offered_.store(arrays_[index_read_].sequence, std::memory_order_relaxed);
             }
         }
-        observer_.writes(index_write_, static_cast<std::uint64_t>(written_.value()) + 1);
         return {*this, arrays_[index_write_], watchdog};
     }
 
     /// Begins to read. Who: the consumer. Blocks: until its watchdog. Allocates: no.
     /// Worst case without contention: a master two exchanges, a slave one, and one when it ends.
     Reading<LockedBuffer> read(Watchdog& watchdog) noexcept {
+        if (!reading_.begin()) {
+            missed_.add();
+            return {};
+        }
         if (!take(Side::consumer, watchdog)) {
             missed_.add();
             if constexpr (master == Master::writer) {
+                reading_.end();
                 return {};
             }
         } else if constexpr (master == Master::reader) {
@@ -155,6 +174,7 @@ class LockedBuffer {
 
     // Ends a writing. Blocks: a master until its watchdog, a slave no. Worst case without contention: two exchanges.
     bool hand_over(std::int64_t stamp_ns, Watchdog& watchdog) noexcept {
+        writing_.end();
         Array<T>& array = arrays_[index_write_];
         written_.add();
         array.sequence = static_cast<std::uint64_t>(written_.value());
@@ -169,20 +189,27 @@ class LockedBuffer {
         // SYNC(offer): relaxed, before the signal: who is woken by it sees it (SYNC(sleeper)).
         offered_.store(array.sequence, std::memory_order_relaxed);
         give_back(Side::producer);
-        if (trigger_ != nullptr) {
-            trigger_->raise();
-        }
+        wake();
         return true;
     }
 
+    void wake() noexcept {
+        if (trigger_ != nullptr) {
+            trigger_->raise();
+        }
+    }
+
     void withdraw() noexcept {
+        writing_.end();
         withdrawn_.add();
         if constexpr (master == Master::reader) {
+            offered_.store(arrays_[index_read_].sequence, std::memory_order_relaxed);
             give_back(Side::producer);
         }
     }
 
     void end_read() noexcept {
+        reading_.end();
         if constexpr (master == Master::writer) {
             give_back(Side::consumer);
         }
@@ -229,7 +256,9 @@ class LockedBuffer {
     Counter overwritten_{};
     Counter dropped_{};
     Counter withdrawn_{};
+    Access writing_{};
     alignas(64) std::atomic<std::uint64_t> received_{0};
+    Access reading_{};
     Counter read_{};
     Counter missed_{};
     // The master's.

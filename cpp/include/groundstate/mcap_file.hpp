@@ -1,10 +1,12 @@
 // A writer of MCAP files, the container of the robotics field (https://mcap.dev/spec): what Foxglove and Rerun open.
 //
 // Uncompressed chunks with their message indexes, then the summary: schemas, channels, statistics, chunk and metadata
-// indexes, offsets. A file that ends early, the disk being full, holds whole chunks and no summary; readers that go
-// through it from the front find all that was written. Numbers are little endian, as the machines this runs on.
+// indexes, offsets. Room for the summary is kept free: when the disk is full, what still fits of the last chunk is written,
+// and the file is ended as any other. A file that nobody ended holds whole chunks, perhaps a part of one, and no summary;
+// readers that go through it from the front find all chunks. Numbers are little endian, as the machines this runs on.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cerrno>
@@ -17,6 +19,7 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace groundstate {
@@ -57,8 +60,8 @@ class McapFile {
         }
     }
 
-    /// The system's number of the first error, or 0. After an error nothing is written any more.
-    int error() const noexcept { return error_; }
+    /// The system's number of the first error, or 0. After an error no message is written any more.
+    int error() const noexcept { return error_ != 0 ? error_ : full_; }
 
     /// A schema; its number.
     std::uint16_t schema(std::string_view name, std::string_view encoding, std::string_view data) {
@@ -106,8 +109,11 @@ class McapFile {
         metadata_.push_back(std::move(index));
     }
 
-    /// A message. It is in the file after the next `flush`, or when its chunk is full.
+    /// A message. It is in the file after the next `flush`, or when its chunk is full; when the disk is full, never.
     void message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time_ns, std::string_view data) {
+        if (error() != 0) {
+            return;
+        }
         if (chunk_.empty()) {
             first_ns_ = last_ns_ = time_ns;
         }
@@ -133,6 +139,9 @@ class McapFile {
     /// 0x80 on; other readers pass over it.
     void horizon(std::int64_t time_ns) {
         flush();
+        if (error() != 0) {
+            return;
+        }
         std::string content;
         number(content, time_ns);
         record(0x80, content);
@@ -140,6 +149,7 @@ class McapFile {
 
     /// Writes the messages so far as a chunk.
     void flush() {
+        fit();
         if (chunk_.empty()) {
             return;
         }
@@ -149,7 +159,7 @@ class McapFile {
             number(chunk.content, first_ns_);
             number(chunk.content, last_ns_);
             number(chunk.content, std::uint64_t{chunk_.size()});
-            number(chunk.content, checksum(chunk_));
+            number(chunk.content, ~checksum(no_bytes, chunk_));
             text(chunk.content, "");
             number(chunk.content, std::uint64_t{chunk_.size()});
             chunk.content += chunk_;
@@ -183,7 +193,9 @@ class McapFile {
     /// Writes the summary and the end of the file.
     void finish() {
         flush();
-        record(0x0f, std::string(4, '\0'));
+        std::string end;
+        number(end, ~sum_);
+        record(0x0f, end);
         const std::uint64_t summary = offset_;
         std::string offsets;
         group(offsets, 0x03, schemas_);
@@ -200,6 +212,10 @@ class McapFile {
             number(footer.content, std::uint32_t{0});
         }
         put(magic);
+        // Gives back what was kept free. If that fails, the file is as good.
+        if (error_ == 0 && kept_ > offset_) {
+            static_cast<void>(!ftruncate(file_, static_cast<off_t>(offset_)));
+        }
     }
 
   private:
@@ -232,6 +248,95 @@ class McapFile {
         number(head, opcode);
         number(head, std::uint64_t{content.size()});
         return head.append(content);
+    }
+
+    // Leaves of the chunk what there is room for beside the summary. Less than all: the disk is full, and the log ends.
+    void fit() {
+        while (!chunk_.empty() && !keep_free(chunk_.size() + around_chunk() + summary_size())) {
+            full_ = errno;
+            cut(chunk_.size() / 2);
+        }
+    }
+
+    // Room on the disk for so many bytes more; false: there is none. Where the file system promises nothing, it is seen when
+    // they are written.
+    bool keep_free(std::uint64_t bytes) noexcept {
+        constexpr std::uint64_t ahead = 1024 * 1024;
+        if (error_ != 0) {
+            return true;
+        }
+        // What the process may write, which the file system does not look at when it keeps room.
+        rlimit limit{};
+        if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && offset_ + bytes > limit.rlim_cur) {
+            errno = EFBIG;
+            return false;
+        }
+        if (offset_ + bytes <= kept_) {
+            return true;
+        }
+        for (const std::uint64_t wanted : {bytes + ahead, bytes}) {
+            int failed = 0;
+            do {
+                failed = fallocate(file_, FALLOC_FL_KEEP_SIZE, static_cast<off_t>(offset_), static_cast<off_t>(wanted));
+            } while (failed != 0 && errno == EINTR);
+            if (failed == 0) {
+                kept_ = offset_ + wanted;
+                return true;
+            }
+        }
+        return errno != ENOSPC && errno != EDQUOT && errno != EFBIG;
+    }
+
+    // What stands around the messages of the chunk: its head, and its indexes.
+    std::uint64_t around_chunk() const noexcept {
+        std::uint64_t size = 64;
+        for (const auto& [channel, index] : indexes_) {
+            size += 16 + index.size();
+        }
+        return size;
+    }
+
+    // What will stand behind the last chunk, at the most.
+    std::uint64_t summary_size() const noexcept {
+        constexpr std::uint64_t records_at_the_end = 8192;
+        std::uint64_t size = records_at_the_end + 128 + 10 * indexes_.size();
+        for (const auto* records : {&schemas_, &channels_, &chunks_, &metadata_}) {
+            for (const std::string& content : *records) {
+                size += content.size() + 9;
+            }
+        }
+        return size;
+    }
+
+    // Leaves the first messages of the chunk, as many as take no more than so many bytes.
+    void cut(std::size_t most) {
+        indexes_.clear();
+        std::size_t end = 0;
+        bool is_left = true;
+        for (std::size_t at = 0; at < chunk_.size();) {
+            const std::size_t next = at + 9 + number_at<std::size_t>(at + 1);
+            const auto channel = number_at<std::uint16_t>(at + 9);
+            const auto time_ns = number_at<std::uint64_t>(at + 15);
+            is_left = is_left && next <= most;
+            if (is_left) {
+                first_ns_ = at == 0 ? time_ns : std::min(first_ns_, time_ns);
+                last_ns_ = at == 0 ? time_ns : std::max(last_ns_, time_ns);
+                number(indexes_[channel], time_ns);
+                number(indexes_[channel], std::uint64_t{at});
+                end = next;
+            } else {
+                --counts_[channel];
+            }
+            at = next;
+        }
+        chunk_.resize(end);
+    }
+
+    template <class N>
+    N number_at(std::size_t place) const noexcept {
+        N value{};
+        std::memcpy(&value, chunk_.data() + place, sizeof value);
+        return value;
     }
 
     void record(std::uint8_t opcode, std::string_view content) { put(framed(opcode, content)); }
@@ -273,6 +378,7 @@ class McapFile {
     }
 
     void put(std::string_view bytes) {
+        sum_ = checksum(sum_, bytes);
         while (error_ == 0 && !bytes.empty()) {
             const ssize_t written = write(file_, bytes.data(), bytes.size());
             if (written < 0) {
@@ -284,7 +390,10 @@ class McapFile {
         }
     }
 
-    static std::uint32_t checksum(std::string_view bytes) noexcept {
+    static constexpr std::uint32_t no_bytes = 0xffffffff;
+
+    // Of these bytes behind those of `sum`; the complement is what the format stores.
+    static std::uint32_t checksum(std::uint32_t sum, std::string_view bytes) noexcept {
         static constexpr auto table = [] {
             std::array<std::uint32_t, 256> entries{};
             for (std::uint32_t i = 0; i < 256; ++i) {
@@ -296,15 +405,17 @@ class McapFile {
             }
             return entries;
         }();
-        std::uint32_t sum = 0xffffffff;
         for (const char byte : bytes) {
             sum = table[(sum ^ static_cast<std::uint8_t>(byte)) & 0xff] ^ (sum >> 8);
         }
-        return ~sum;
+        return sum;
     }
 
+    std::uint32_t sum_ = no_bytes;  ///< of all that was written
     int file_;
-    int error_ = 0;
+    int error_ = 0;           ///< what a writing met
+    int full_ = 0;            ///< why there is no more room for messages
+    std::uint64_t kept_ = 0;  ///< up to where there is room on the disk
     std::uint64_t offset_ = 0;
     std::vector<std::string> schemas_{};
     std::vector<std::string> channels_{};

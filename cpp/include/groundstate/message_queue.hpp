@@ -34,29 +34,26 @@ class MessageQueue {
     /// The signal is raised for every message. Who: whoever builds the system, before the tasks start.
     void wakes(Signal<C>& trigger) noexcept { trigger_ = &trigger; }
 
-    /// Appends a message, or refuses it if the queue is full. Who: the sender. Blocks: no. Allocates: only if assigning
-    /// a T does. Worst case: one assignment of a T, and one system call if the receiver waits.
-    bool try_send(const T& message) noexcept(std::is_nothrow_copy_assignable_v<T>) {
-        observer_.looks();
-        if (full()) {
-            refuse();
-            return false;
-        }
-        append(message);
-        return true;
+    /// Appends a message, or refuses it if the queue is full; a refused one stays as it is. Who: the sender. Blocks: no.
+    /// Allocates: only if assigning a T does. Worst case: one assignment of a T, and one system call if the receiver waits.
+    bool try_send(const T& message) noexcept(std::is_nothrow_copy_assignable_v<T>)
+        requires(std::is_copy_assignable_v<T>)
+    {
+        return try_append(message);
     }
+    /// The same of a message that is moved, as those that cannot be copied are.
+    bool try_send(T&& message) noexcept(std::is_nothrow_move_assignable_v<T>) { return try_append(std::move(message)); }
 
     /// Appends a message; waits for room until the watchdog's budget is used up, then refuses it.
     /// Who: the sender. Blocks: at most for the budget. Allocates: only if assigning a T does.
-    bool send(const T& message, Watchdog& watchdog) noexcept(std::is_nothrow_copy_assignable_v<T>) {
-        observer_.looks();
-        if (full() && !await_room(watchdog)) {
-            refuse();
-            watchdog.skip();
-            return false;
-        }
-        append(message);
-        return true;
+    bool send(const T& message, Watchdog& watchdog) noexcept(std::is_nothrow_copy_assignable_v<T>)
+        requires(std::is_copy_assignable_v<T>)
+    {
+        return append_in_time(message, watchdog);
+    }
+    /// The same of a message that is moved.
+    bool send(T&& message, Watchdog& watchdog) noexcept(std::is_nothrow_move_assignable_v<T>) {
+        return append_in_time(std::move(message), watchdog);
     }
 
     /// The oldest message, or nothing. Who: the receiver. Blocks: no. Allocates: no. Worst case: moves one T, and one
@@ -98,9 +95,33 @@ class MessageQueue {
         refused_.add();
     }
 
-    void append(const T& message) {
+    template <class Given>
+    bool try_append(Given&& message) {
+        observer_.looks();
+        if (full()) {
+            refuse();
+            return false;
+        }
+        append(std::forward<Given>(message));
+        return true;
+    }
+
+    template <class Given>
+    bool append_in_time(Given&& message, Watchdog& watchdog) {
+        observer_.looks();
+        if (full() && !await_room(watchdog)) {
+            refuse();
+            watchdog.skip();
+            return false;
+        }
+        append(std::forward<Given>(message));
+        return true;
+    }
+
+    template <class Given>
+    void append(Given&& message) {
         const std::uint64_t sent = sent_.load(std::memory_order_relaxed);
-        slots_[sent % Capacity] = message;
+        slots_[sent % Capacity] = std::forward<Given>(message);
         observer_.sends(sent + 1);
         // SYNC(sent): release, after the slot was written; pairs with the acquire in empty().
         sent_.store(sent + 1, std::memory_order_release);

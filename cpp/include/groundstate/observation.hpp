@@ -105,6 +105,7 @@ class Observation {
     void writes(std::size_t array, std::uint64_t number) noexcept {
         producer_->record(Kind::writes, channel_, number, array);
     }
+    bool offers() noexcept { return producer_->pace.offer(); }
     void reads(std::size_t array, std::uint64_t number, bool fresh) noexcept {
         consumer_->record(Kind::reads, channel_, number, array, 0, fresh);
     }

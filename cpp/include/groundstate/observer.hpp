@@ -27,6 +27,7 @@ struct Unobserved {
     void swaps(std::size_t, std::size_t, std::uint64_t) noexcept {}           // indexes read and written, the datum's number
     void managed() noexcept {}                                                // the master's index section is over
     void writes(std::size_t, std::uint64_t) noexcept {}                       // array and number of a writing that begins
+    static constexpr bool offers() noexcept { return false; }                 // whether a slave's writing is awaited from its beginning
     void reads(std::size_t, std::uint64_t, bool) noexcept {}                  // array, number, whether it is new
     void looks() noexcept {}                                                  // is about to look for room in a queue
     void sends(std::uint64_t) noexcept {}                                     // is about to append the message of that number

@@ -6,6 +6,7 @@
 //
 //     0    the step: phases begin, granted locks are entered, indexes are swapped, data are read
 //     1/4  what is released in this step                       3/8  an asynchronous task looks whether data are there
+//     7/16 a slave's writing that begins is there to be awaited
 //     1/2  who asks for a lock in this step, the more urgent first   5/8  messages are taken   3/4  sent, and stored
 //
 // `Pace::drawn` lets each phase last a part of its modelled time, drawn from a seed, or now and then far longer; locks take
@@ -38,6 +39,7 @@ class TaskPace {
     void enter() noexcept {}
     void managed() noexcept {}
     void release() noexcept {}
+    bool offer() noexcept { return false; }
     void look() noexcept {}
     void take() noexcept {}
     void hand_over() noexcept {}
@@ -63,6 +65,11 @@ class TaskPace<VirtualClock> {
     /// The index section of a master is a step.
     void managed() noexcept { reach(16, 0); }
     void release() noexcept { reach(sixteenths(), 4); }
+    /// As a slave begins to write: whether its reader, who swaps, awaits that already; he sees it in the next step.
+    bool offer() noexcept {
+        reach(sixteenths(), 7);
+        return is_modelled();
+    }
     /// Before looking for room in a queue.
     void look() noexcept { reach(sixteenths() == 0 ? 0 : 16, 0); }
     void take() noexcept { reach(sixteenths(), 10); }

@@ -57,7 +57,7 @@ class PairLock<MonotonicClock> {
         std::uint32_t own = thread();
         // SYNC(permit): release; pairs with the exchange in is_taken().
         if (!holder_.compare_exchange_strong(own, 0, std::memory_order_release, std::memory_order_relaxed)) {
-            call(FUTEX_UNLOCK_PI_PRIVATE, nullptr);
+            Futex::call(holder_, FUTEX_UNLOCK_PI_PRIVATE, 0, never_ns, 0);
         }
     }
 
@@ -86,7 +86,7 @@ class PairLock<MonotonicClock> {
                 // Linux before 5.14 waits for such a lock by the calendar alone.
                 timespec today{};
                 clock_gettime(CLOCK_REALTIME, &today);
-                const std::int64_t today_ns = std::int64_t{today.tv_sec} * second_ns + today.tv_nsec;
+                const std::int64_t today_ns = std::int64_t{today.tv_sec} * Futex::second_ns + today.tv_nsec;
                 const std::int64_t left_ns = std::max<std::int64_t>(instant_ns - clock_.now_ns(), 0);
                 error = wait(FUTEX_LOCK_PI_PRIVATE, later_ns(today_ns, left_ns));
             }
@@ -103,15 +103,8 @@ class PairLock<MonotonicClock> {
         return false;
     }
 
-    int wait(int operation, std::int64_t instant_ns) noexcept {
-        const timespec instant{.tv_sec = static_cast<std::time_t>(instant_ns / second_ns), .tv_nsec = instant_ns % second_ns};
-        return call(operation, &instant);
-    }
-
     // The system's number of an error, or 0.
-    int call(int operation, const timespec* until) noexcept {
-        return syscall(SYS_futex, &holder_, operation, 0, until, nullptr, 0) == 0 ? 0 : errno;
-    }
+    int wait(int operation, std::int64_t instant_ns) noexcept { return Futex::call(holder_, operation, 0, instant_ns, 0); }
 
     // The system's number of the calling thread, by which it knows the holder.
     static std::uint32_t thread() noexcept {
@@ -120,7 +113,6 @@ class PairLock<MonotonicClock> {
     }
 
     static constexpr int lock_by_monotonic_clock = 13 | FUTEX_PRIVATE_FLAG;  // FUTEX_LOCK_PI2, which older headers lack
-    static constexpr std::int64_t second_ns = 1'000'000'000;
 
     MonotonicClock& clock_;
     alignas(64) Word holder_{0};  ///< 0, or the holder's number, with the system's mark if the other waits

@@ -35,6 +35,7 @@ class PeriodicTask {
           period_{period},
           step_{std::move(step)},
           grain_ns_{schedule.grain_ns},
+          counts_lateness_{schedule.counts_lateness},
           watchdog_{allowed_ns() - period.elaboration_ns, schedule.grain_ns},
           thread_{clock, std::move(name), schedule} {
         assert(period.period_ns > 0 && period.elaboration_ns >= 0 && period.offset_ns >= 0);
@@ -49,10 +50,13 @@ class PeriodicTask {
     }
 
     /// No cycle begins any more. Who: everybody. Blocks: no.
-    void ask_to_stop() noexcept { stop_.store(true, std::memory_order_relaxed); }
+    void ask_to_stop() noexcept {
+        // SYNC(stop): relaxed: nothing is handed over. The clock compares the word in one step with falling asleep.
+        stop_.store(1, std::memory_order_relaxed);
+        clock_.wake(stop_);
+    }
 
-    /// Who: the owner; in virtual time after leaving the clock. Blocks: until the present cycle is done, or the next
-    /// one is due.
+    /// Who: the owner; in virtual time after leaving the clock. Blocks: until the present cycle is done.
     void stop() noexcept {
         ask_to_stop();
         thread_.join();
@@ -77,16 +81,26 @@ class PeriodicTask {
     void run(std::int64_t due_ns) {
         const std::int64_t allowed_ns = this->allowed_ns();
         for (std::int64_t number = 0;; ++number) {
-            clock_.sleep_until_ns(due_ns);
-            if (stop_.load(std::memory_order_relaxed)) {
+            if (!await(due_ns)) {
                 return;
             }
-            watchdog_.restart();
             const std::int64_t begun_ns = now_ns();
+            watchdog_.restart(counts_lateness_ ? begun_ns - due_ns : 0);
             step_({.number = number, .start_ns = due_ns, .deadline_ns = due_ns + allowed_ns, .watchdog = watchdog_});
             account(due_ns, begun_ns, now_ns(), allowed_ns);
             due_ns = next_ns(due_ns, now_ns());
         }
+    }
+
+    // Rests until then; false: it was asked to stop.
+    bool await(std::int64_t due_ns) noexcept {
+        while (stop_.load(std::memory_order_relaxed) == 0) {  // SYNC(stop)
+            if (clock_.now_ns() >= due_ns) {
+                return true;
+            }
+            clock_.wait_while(stop_, 0, due_ns);
+        }
+        return false;
     }
 
     void account(std::int64_t due_ns, std::int64_t begun_ns, std::int64_t done_ns, std::int64_t allowed_ns) noexcept {
@@ -114,9 +128,10 @@ class PeriodicTask {
     Period period_;
     Step step_;
     std::int64_t grain_ns_;
+    bool counts_lateness_;
     Watchdog watchdog_;
     Statistics statistics_{};
-    std::atomic<bool> stop_{false};
+    Word stop_{0};
     TaskThread<C> thread_;
 };
 

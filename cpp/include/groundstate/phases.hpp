@@ -116,7 +116,11 @@ class Phases {
         begin(phase);
         task_.pace.spend(1);
         staged.stamp_ns = cycle_.start_ns;
-        queue.send(staged, cycle_.watchdog);
+        if constexpr (std::is_copy_assignable_v<T>) {
+            queue.send(staged, cycle_.watchdog);
+        } else {
+            queue.send(std::move(staged), cycle_.watchdog);  // a refused one stays
+        }
         end(phase);
     }
 

@@ -5,7 +5,8 @@
 //     robot --real 3 --realtime 20               three seconds in real time, SCHED_FIFO from priority 20 on
 //     robot --patience 2                         a task hangs if it makes no progress for 2 s (virtual time: 10, real: 0.5)
 //
-// Exit status: 0 the run came to its end; 1 a task failed or hung, which is told; 2 wrong usage.
+// Exit status: 0 the run came to its end; 1 a task failed or hung, which is told; 2 wrong usage; 3 the run came to its end,
+// but data were not valid and so not handed over, or the log is not whole: both are told.
 #pragma once
 
 #include <cstdio>
@@ -22,16 +23,34 @@ struct CommandLine {
     Options options{};
     std::int64_t span_ns = 1'000'000'000;
     bool is_real = false;
+    bool asks_help = false;
     std::string wrong{};
 };
 
+/// What a program says that is asked for help.
+inline constexpr const char* program_help =
+    "Runs the tasks of the system, for a second of virtual time unless said otherwise, and tells what they did.\n\n"
+    "  --virtual SECONDS    in virtual time, tick by tick as the model\n"
+    "  --real SECONDS       in real time\n"
+    "  --seed N             each phase lasts a part of its time, drawn from the seed\n"
+    "  --realtime PRIORITY  SCHED_FIFO from this priority on, 1 to 90\n"
+    "  --patience SECONDS   a task hangs if it makes no progress for so long (virtual time: 10, real time: 0.5)\n"
+    "  --log FILE           write the events, for `groundstate conform`\n"
+    "  --help               this text\n\n"
+    "Exit status: 0 the run came to its end; 1 a task failed or hung; 2 wrong usage.\n";
+
 inline CommandLine read_command_line(int count, char** words) {
     CommandLine line;
-    for (int i = 1; i < count; ++i) {
+    // A word and its value each.
+    for (int i = 1; i < count; i += 2) {
         const std::string word = words[i];
         const char* value = i + 1 < count ? words[i + 1] : nullptr;
         char* rest = nullptr;
         const double number = value != nullptr ? std::strtod(value, &rest) : 0;
+        if (word == "--help" || word == "-h") {
+            line.asks_help = true;
+            return line;
+        }
         const bool is_number = value != nullptr && *rest == '\0' && number >= 0 && number < 1e9;
         if ((word == "--virtual" || word == "--real") && is_number) {
             line.is_real = word == "--real";
@@ -53,7 +72,6 @@ inline CommandLine read_command_line(int count, char** words) {
             line.wrong = word;
             return line;
         }
-        ++i;
     }
     return line;
 }
@@ -94,7 +112,8 @@ RunAccount account_of(const System& system, Ending ending) {
     return account;
 }
 
-/// Tells how a run ended, and of each task what is known of its cycles. 1 if a task failed, or 0.
+/// Tells how a run ended, and of each task what is known of its cycles. The exit status: 1 if a task failed, 3 if something
+/// is missing all the same, or 0.
 inline int tell(const RunAccount& account) {
     const char* name = account.system.c_str();
     const Ending& outcome = account.ending;
@@ -113,8 +132,17 @@ inline int tell(const RunAccount& account) {
     if (outcome.log_lost > 0) {
         std::fprintf(stderr, "%s: %lld events are missing in the log\n", name, static_cast<long long>(outcome.log_lost));
     }
+    const bool is_whole = outcome.log_error == 0 && outcome.log_lost == 0;
+    bool is_valid = true;
+    for (const TaskAccount& task : account.tasks) {
+        if (task.invalid > 0) {
+            is_valid = false;
+            std::fprintf(stderr, "%s: task %s made %lld data that are not valid; they were not handed over\n", name,
+                         task.name.c_str(), static_cast<long long>(task.invalid));
+        }
+    }
     if (outcome) {
-        return 0;
+        return is_valid && is_whole ? 0 : 3;
     }
     std::fprintf(stderr, "%s: task %s %s in cycle %lld, phase %s: %s; the others were stopped safely\n", name,
                  outcome.task.c_str(), outcome.kind == Ending::Kind::hung ? "hung" : "failed",
@@ -141,9 +169,13 @@ RunAccount run_to_account(System& system, std::int64_t span_ns) {
 template <template <class> class System, class Hooks>
 int run_program(int count, char** words, const Hooks& hooks) {
     const CommandLine line = read_command_line(count, words);
+    if (line.asks_help) {
+        std::printf("usage: %s [OPTION]...\n%s", words[0], program_help);
+        return 0;
+    }
     if (!line.wrong.empty()) {
         std::fprintf(stderr, "usage: %s [--virtual SECONDS [--seed N] | --real SECONDS [--realtime PRIORITY]] "
-                     "[--patience SECONDS] [--log FILE]; not understood: %s\n", words[0], line.wrong.c_str());
+                     "[--patience SECONDS] [--log FILE] [--help]; not understood: %s\n", words[0], line.wrong.c_str());
         return 2;
     }
     if (const int error = McapFile::probe(line.options.log); error != 0) {

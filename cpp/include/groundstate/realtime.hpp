@@ -20,8 +20,8 @@ struct Realtime {
     int processor = -1;  ///< the one to run on; -1 asks for nothing
 };
 
-/// What it got.
-struct Granted {
+/// What it got. Aligned as one word: some compilers call a library for atomics of less aligned ones.
+struct alignas(8) Granted {
     Grant priority = Grant::not_asked;
     Grant processor = Grant::not_asked;
 };

@@ -29,9 +29,9 @@ struct Account {
     std::int64_t overwritten = 0;  ///< replaced before it was handed over
     std::int64_t read = 0;         ///< seen by the consumer as new
     std::int64_t unread = 0;       ///< handed over, and replaced before it was read
-    std::int64_t dropped = 0;      ///< not written at all: the producer's watchdog ended
+    std::int64_t dropped = 0;      ///< not written at all: the producer's watchdog ended, or it was writing already
     std::int64_t withdrawn = 0;    ///< begun and not published
-    std::int64_t missed = 0;       ///< readings not made, or made of the old array: the consumer's watchdog ended
+    std::int64_t missed = 0;       ///< readings not made, or of the old array: the watchdog ended, or it was reading already
 
     /// Published and not handed over: 0 or 1.
     std::int64_t pending() const noexcept { return written - handed_over - overwritten; }
@@ -45,8 +45,23 @@ struct alignas(64) Array {
     std::int64_t stamp_ns = 0;
 };
 
+/// Whether one side of a buffer is at its array. That side's thread alone uses it.
+class Access {
+  public:
+    /// Begins an access. A second one at once is a fault of the program: it would hand an array over, or take it back, that the
+    /// first still uses. An assertion says so; without assertions the second one is refused, and counted.
+    [[nodiscard]] bool begin() noexcept {
+        assert(!open_ && "two accesses at once on one side of a swinging buffer: end the first one before");
+        return !std::exchange(open_, true);
+    }
+    void end() noexcept { open_ = false; }
+
+  private:
+    bool open_ = false;
+};
+
 /// The producer's access to its array; false if the watchdog ended before the lock came. An access that ends without
-/// being published hands nothing over: the datum may be half written.
+/// being published hands nothing over: the datum may be half written. One at a time.
 template <class Buffer>
 class [[nodiscard]] Writing {
   public:
@@ -92,7 +107,7 @@ class [[nodiscard]] Writing {
 };
 
 /// The consumer's access to its array; false if there is nothing to read: nothing was handed over yet, or a slave's
-/// watchdog ended before the lock came. The access lasts until it is destroyed, and ends before the next one begins.
+/// watchdog ended before the lock came. The access lasts until it is destroyed. One at a time.
 template <class Buffer>
 class [[nodiscard]] Reading {
   public:

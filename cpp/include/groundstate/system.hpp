@@ -96,13 +96,7 @@ template <class Task>
 class UnitOf final : public Unit {
   public:
     explicit UnitOf(Task& task) noexcept : task_{task} {}
-    void start(std::int64_t origin_ns) override {
-        if constexpr (requires { task_.start(origin_ns); }) {
-            task_.start(origin_ns);
-        } else {
-            task_.start();
-        }
-    }
+    void start(std::int64_t origin_ns) override { task_.start(origin_ns); }
     void ask_to_stop() noexcept override { task_.ask_to_stop(); }
     void stop() noexcept override { task_.stop(); }
     void abandon() noexcept override { task_.thread().abandon(); }
@@ -206,7 +200,11 @@ class SystemBase {
         const int urgency = static_cast<int>(plan_.tasks.size()) - 1 - plan.rank;
         return {.realtime = {.priority = options_.priority == 0 ? 0 : options_.priority + urgency, .processor = -1},
                 .rank = plan.rank,
-                .grain_ns = contexts_[number]->pace.is_modelled() ? plan_.tick_ns : 1};
+                .grain_ns = contexts_[number]->pace.is_modelled() ? plan_.tick_ns : 1,
+                // Virtual time follows the model, whose watchdog knows of no lateness.
+                .counts_lateness = !is_virtual,
+                // The supervisor tells, and stops the others.
+                .failed = [](const std::string&, const std::exception_ptr&) {}};
     }
 
     std::int64_t lock_patience_ns() const noexcept { return options_.lock_patience_ns; }
@@ -364,13 +362,7 @@ class SystemBase {
 
     Ending failed(std::size_t number, std::exception_ptr failure) const {
         Ending outcome = at(number, Ending::Kind::faulted);
-        try {
-            std::rethrow_exception(failure);
-        } catch (const std::exception& error) {
-            outcome.reason = error.what();
-        } catch (...) {
-            outcome.reason = "an exception that is none of std::exception";
-        }
+        outcome.reason = reason_of(failure);
         return outcome;
     }
 

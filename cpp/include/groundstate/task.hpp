@@ -1,7 +1,7 @@
 // What periodic and asynchronous tasks have in common: a thread, its settings, its statistics, and how it ends.
 //
 // A task is built, started once, and stopped. Its step is called in cycles, always by the task's own thread. A step
-// that throws ends the task, which keeps the exception; the others go on. All that is allocated is allocated before
+// that throws ends the task, which keeps the exception and tells whoever its schedule names; the others go on. All that is allocated is allocated before
 // the first cycle. The statistics are those of library/patterns/Task.asm.
 #pragma once
 
@@ -33,6 +33,11 @@ struct Schedule {
     Realtime realtime{};
     int rank = 0;
     std::int64_t grain_ns = 1;  ///< what times are whole multiples of: a tick, where virtual time follows a model's
+    /// A cycle that begins late has so much less time to wait. The models count from its beginning instead.
+    bool counts_lateness = true;
+    /// Told when a step throws, which ends the task. Who: the task, as its last action; the clock of virtual time goes on when
+    /// it returns. It may ask other tasks to stop. If nobody is to be told, standard error is.
+    std::function<void(const std::string& task, std::exception_ptr failure)> failed{};
 };
 
 /// What is known of a task's cycles since its start; each number is whole. One writer, the task.
@@ -47,6 +52,17 @@ struct Statistics {
 };
 
 enum class TaskState { built, running, stopped, faulted };
+
+/// What an exception says of itself.
+inline std::string reason_of(const std::exception_ptr& failure) {
+    try {
+        std::rethrow_exception(failure);
+    } catch (const std::exception& error) {
+        return error.what();
+    } catch (...) {
+        return "an exception that is none of std::exception";
+    }
+}
 
 /// The thread of a task.
 template <Clock C>
@@ -81,6 +97,9 @@ class TaskThread {
             }
             // SYNC(end): release; pairs with the acquire in state().
             state_.store(end, std::memory_order_release);
+            if (end == TaskState::faulted) {
+                tell_failure();
+            }
             clock_.leave();
         }};
     }
@@ -112,11 +131,22 @@ class TaskThread {
     const std::string& name() const noexcept { return name_; }
 
   private:
+    // What `failed` throws itself has nobody left to go to.
+    void tell_failure() noexcept {
+        if (schedule_.failed) {
+            schedule_.failed(name_, failure_);
+            return;
+        }
+        const std::string reason = reason_of(failure_);
+        std::fprintf(stderr, "task %s failed, and has ended: %s\n", name_.c_str(), reason.c_str());
+    }
+
     C& clock_;
     std::string name_;
     Schedule schedule_;
     std::atomic<TaskState> state_{TaskState::built};
     std::atomic<Granted> granted_{Granted{}};
+    static_assert(std::atomic<Granted>::is_always_lock_free);
     std::exception_ptr failure_{};
     std::thread thread_{};
 };

@@ -51,14 +51,24 @@ class WaitFreeBuffer {
     /// written and published is handed over to nobody. Who: the producer. Blocks: no.
     T& own() noexcept { return arrays_[written_array_].datum; }
 
-    /// Begins to write, in place; the datum is an earlier one. Always succeeds.
+    /// Begins to write, in place; the datum is an earlier one. Always succeeds, one writing at a time.
     /// Who: the producer. Blocks: no. Allocates: no. Worst case: a few instructions.
     /// Publishing it: one atomic exchange, one read of the clock, and one system call if the consumer waits.
-    Writing<WaitFreeBuffer> write(Watchdog& watchdog) noexcept { return {*this, arrays_[written_array_], watchdog}; }
+    Writing<WaitFreeBuffer> write(Watchdog& watchdog) noexcept {
+        if (!writing_.begin()) {
+            dropped_.add();
+            return {};
+        }
+        return {*this, arrays_[written_array_], watchdog};
+    }
 
     /// Begins to read the latest datum, in place. Who: the consumer. Blocks: no. Allocates: no.
     /// Worst case: one atomic exchange.
     Reading<WaitFreeBuffer> read(Watchdog&) noexcept {
+        if (!reading_.begin()) {
+            missed_.add();
+            return {};
+        }
         const bool fresh = available() && !observer_.seeded(Fault::stale_read);
         if (fresh) {
             newest_ = (newest_ + 1) % kept;
@@ -88,9 +98,9 @@ class WaitFreeBuffer {
                 .overwritten = 0,
                 .read = read_.value(),
                 .unread = unread_.value(),
-                .dropped = 0,
+                .dropped = dropped_.value(),
                 .withdrawn = withdrawn_.value(),
-                .missed = 0};
+                .missed = missed_.value()};
     }
 
     C& clock() const noexcept { return clock_; }
@@ -105,6 +115,7 @@ class WaitFreeBuffer {
     static constexpr std::size_t kept = N - 2;
 
     bool hand_over(std::int64_t stamp_ns, Watchdog&) noexcept {
+        writing_.end();
         Array<T>& array = arrays_[written_array_];
         written_.add();
         array.sequence = static_cast<std::uint64_t>(written_.value());
@@ -127,8 +138,11 @@ class WaitFreeBuffer {
         return true;
     }
 
-    void withdraw() noexcept { withdrawn_.add(); }
-    void end_read() noexcept {}
+    void withdraw() noexcept {
+        writing_.end();
+        withdrawn_.add();
+    }
+    void end_read() noexcept { reading_.end(); }
 
     // The consumer's arrays are a ring, from the newest back.
     const T* earlier(std::size_t back) const noexcept {
@@ -149,10 +163,14 @@ class WaitFreeBuffer {
     Counter written_{};
     Counter unread_{};
     Counter withdrawn_{};
+    Counter dropped_{};  ///< second writings at once
+    Access writing_{};
 
     alignas(64) std::size_t newest_ = 0;
     std::array<Index, kept> held_{};
     Counter read_{};
+    Counter missed_{};  ///< second readings at once
+    Access reading_{};
 };
 
 }  // namespace groundstate

@@ -1,7 +1,7 @@
 // The bound on a task's waiting, as in the paper's Figures 9 and 10 and `thereIsTime` in library/patterns/Task.asm.
 //
 // A cycle may spend so much time waiting that its work still fits into the period: budget = period - elaboration.
-// Every wait of the cycle draws on the same budget; when it is used up, the wait is given up, the action left out,
+// Every wait of the cycle draws on the same budget, and so does a late beginning; when it is used up, the wait is given up, the action left out,
 // and that is counted. A budget is always finite: no operation of the runtime waits without end.
 #pragma once
 
@@ -22,11 +22,14 @@ class Watchdog {
         assert(budget_ns >= 0 && budget_ns < never_ns && grain_ns > 0);
     }
 
-    /// A new cycle has the whole budget again. Who: the task. Blocks: no.
-    void restart() noexcept { waited_ns_ = 0; }
+    /// A new cycle has the whole budget again, but for the time that it began late. Who: the task. Blocks: no.
+    void restart(std::int64_t late_ns = 0) noexcept {
+        waited_ns_ = 0;
+        spent_ns_ = late_ns;
+    }
 
     /// What is left of the budget. Who: the task. Blocks: no.
-    std::int64_t left_ns() const noexcept { return waited_ns_ < budget_ns_ ? budget_ns_ - waited_ns_ : 0; }
+    std::int64_t left_ns() const noexcept { return spent_ns_ < budget_ns_ ? budget_ns_ - spent_ns_ : 0; }
 
     /// Takes a wait off the budget. Who: the task. Blocks: no.
     void waited(std::int64_t span_ns) noexcept {
@@ -34,6 +37,7 @@ class Watchdog {
             span_ns = (span_ns + grain_ns_ - 1) / grain_ns_ * grain_ns_;
         }
         waited_ns_ += span_ns;
+        spent_ns_ += span_ns;
         total_wait_ns_.add(span_ns);
         longest_wait_ns_.raise_to(waited_ns_);
     }
@@ -52,6 +56,7 @@ class Watchdog {
     std::int64_t budget_ns_;
     std::int64_t grain_ns_;
     std::int64_t waited_ns_ = 0;
+    std::int64_t spent_ns_ = 0;  ///< of the budget: by beginning late, and by waiting
     Counter total_wait_ns_{};
     Counter longest_wait_ns_{};
     Counter skipped_{};

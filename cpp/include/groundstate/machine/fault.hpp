@@ -161,4 +161,13 @@ template <typename Action, typename Undo>
 /// Ends the step at one place.
 [[noreturn]] inline void fail(FaultKind kind, Site site) { fail(kind, site, site); }
 
+/// Does beforehand what may not be needed: whoever needs it does it again, and meets the model's fault then.
+template <typename Action>
+void prepare(Action&& action) {
+    const Fault fault = attempt(action);
+    if (fault.kind == FaultKind::limit || fault.kind == FaultKind::environment) {
+        fail(fault.kind, fault.site, fault.other);
+    }
+}
+
 }  // namespace groundstate::machine

@@ -22,6 +22,7 @@
 #include "keys.hpp"
 #include "maybe.hpp"
 #include "series.hpp"
+#include "size.hpp"
 
 namespace groundstate::machine {
 
@@ -43,7 +44,7 @@ struct Between {
     static constexpr std::size_t size = static_cast<std::size_t>(High - Low + 1);
     static constexpr std::size_t index(std::int64_t value) noexcept {
         // Below Low it wraps to a number that is too large.
-        return static_cast<std::size_t>(static_cast<std::uint64_t>(value) - static_cast<std::uint64_t>(Low));
+        return to_size(static_cast<std::uint64_t>(value) - static_cast<std::uint64_t>(Low));
     }
     static constexpr std::int64_t value(std::size_t index) noexcept { return Low + static_cast<std::int64_t>(index); }
 };
@@ -127,12 +128,6 @@ std::tuple<Argument<typename Dimensions::Type>...> arguments_at(std::size_t plac
     }(std::index_sequence_for<Dimensions...>{});
 }
 
-/// Whether no argument of a location is undef.
-template <class... Arguments>
-constexpr bool all_defined(const std::tuple<Arguments...>& arguments) {
-    return std::apply([](const auto&... parts) { return (is_defined(parts) && ...); }, arguments);
-}
-
 /// One update: what a location becomes and which rule says so. Applied, it holds what it overwrote.
 template <class Cell>
 struct Update {
@@ -162,16 +157,6 @@ class Locations {
     Locations() {
         values_.resize(dense);
         where_.resize(dense);
-    }
-
-    /// The same for each location none of whose arguments is undef.
-    template <class Visit>
-    void each_defined(Visit&& visit) const {
-        each([&](const auto& arguments, const auto& value) {
-            if (all_defined(arguments)) {
-                visit(arguments, value);
-            }
-        });
     }
 
     // Reading.

@@ -2,7 +2,7 @@
 //
 // In, line by line: `in NAME (ARGUMENTS) VALUE`, `choose INDEX`, `number VALUE`, `time UNIT VALUE` give the answers of the
 // coming step; `step` makes it, the first one the initial state. Out: after each the locations that have a value, sorted,
-// as `NAME (ARGUMENTS) VALUE`, then a line `.`; or `fault KIND SITE` and the end. Values are written as by `encode`
+// as `NAME (ARGUMENTS) VALUE`, after `? ` where an argument is undef, then a line `.`; or `fault KIND SITE` and the end. Values are written as by `encode`
 // (encoding.hpp).
 #pragma once
 
@@ -102,7 +102,8 @@ void print_state(const Machine& machine, std::ostream& out) {
         const Value value = box(given);
         if (!value.is_undef()) {
             const Values values = std::apply([](const auto&... parts) { return Values{box(parts)...}; }, arguments);
-            lines.push_back(name + (' ' + encode(Value::tuple(values))) + ' ' + encode(value));
+            const bool has_undef = std::any_of(values.begin(), values.end(), [](const Value& part) { return part.is_undef(); });
+            lines.push_back((has_undef ? "? " : "") + std::string{name} + ' ' + encode(Value::tuple(values)) + ' ' + encode(value));
         }
     });
     std::sort(lines.begin(), lines.end());

@@ -54,14 +54,6 @@ class Placed {
             visit(arguments_at<Dimensions...>(place), form().cell(place));
         }
     }
-    template <class Visit>
-    void each_defined(Visit&& visit) const {
-        each([&](const auto& arguments, const auto& value) {
-            if (all_defined(arguments)) {
-                visit(arguments, value);
-            }
-        });
-    }
 
   private:
     const Form& form() const noexcept { return static_cast<const Form&>(*this); }

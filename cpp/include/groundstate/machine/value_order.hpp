@@ -5,6 +5,7 @@
 
 #include <bit>
 
+#include "size.hpp"
 #include "value.hpp"
 
 namespace groundstate::machine {
@@ -109,6 +110,6 @@ inline std::uint64_t Value::hash() const noexcept {
 template <>
 struct std::hash<groundstate::machine::Value> {
     std::size_t operator()(const groundstate::machine::Value& value) const noexcept {
-        return static_cast<std::size_t>(value.hash());
+        return groundstate::machine::to_size(value.hash());
     }
 };
