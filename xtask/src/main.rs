@@ -1,4 +1,4 @@
-//! Developer commands: `cargo xtask corpus | bench | fuzz | letters | tidy`.
+//! Developer commands: `cargo xtask corpus | bench | fuzz | letters | mutate-log | mutate-text | tidy`.
 //!
 //! In: the command line, from anywhere inside the repository. Out: what the command prints, and exit code 0 (good),
 //! 1 (something is at fault) or 2 (usage, or the world). This is a shell: files, clocks and processes are its trade,
@@ -10,6 +10,8 @@ mod bench;
 mod corpus;
 mod fuzz;
 mod letters;
+mod mutate_log;
+mod mutate_text;
 mod repository;
 mod tidy;
 
@@ -35,7 +37,11 @@ usage: cargo xtask COMMAND
                                                steps per second, start-up time, memory
   fuzz [--seconds N] [--only WORD] [--reproduce FILE]
                                                fuzz targets, each for some seconds
+  mutate-text [--count N] [--seed N] [--only ENDING] [--binary FILE]
+                                               mutants of the repository's texts through every command
   letters                                      write the letter cases of the C++ runtime anew, as Rust has them
+  mutate-log [--only WORD] [--every N] [--output FILE]
+                                               every change of an event in logs of generated systems, seen by `conform`
   tidy                                         the house rules";
 
 fn main() -> ExitCode {
@@ -49,7 +55,9 @@ fn main() -> ExitCode {
         "corpus" => corpus::run(&words),
         "bench" => bench::run(&words),
         "fuzz" => fuzz::run(&words),
+        "mutate-text" => mutate_text::run(&words),
         "letters" => letters::run(&words),
+        "mutate-log" => mutate_log::run(&words),
         "tidy" => tidy::run(&words),
         corpus::WORKER => corpus::work(&words),
         _ => Err(format!("there is no command `{command}`\n{USAGE}")),

@@ -1,7 +1,9 @@
 //! What the tasks do in a step: changed locations of the library of patterns → events.
 //!
-//! In: a machine after a step, and what the step changed. Out: [`Claim`]s, each with the number of its component. An event
-//! is read off the one location whose change makes it; what else it says, off the state after the step.
+//! In: a machine after a step, and what the step changed. Out: [`Claim`]s, each with the number of its component, those of
+//! one component in the order in which a task has them. An event is read off the one location whose change makes it; what
+//! else it says, off the state after the step. A step itself has no order: its updates are made at once. The protocol has
+//! one, which the table of spec/conform.md says: nobody touches an array before he has the lock.
 
 use machine::{Change, LocationRef, Machine, Value};
 use recording::{Event, Kind};
@@ -33,7 +35,22 @@ impl Vocabulary {
                 Claiming { vocabulary: self, machine, change, all: changes, out: &mut claims }.claim(named);
             }
         }
+        claims.sort_by_key(|(_, claim)| turn(claim.event.kind));
         claims
+    }
+}
+
+/// When within a step a task's events have their turn: a phase is done with, and ended, before the next one begins.
+fn turn(kind: Kind) -> u8 {
+    match kind {
+        Kind::Enters | Kind::GivesUp => 0,
+        Kind::Swaps => 1,
+        Kind::Releases => 2,
+        Kind::Sends | Kind::Refuses | Kind::Stores => 3,
+        Kind::Ends | Kind::Passes | Kind::Faults => 4,
+        Kind::Meets | Kind::Misses => 5,
+        Kind::Begins | Kind::Invalid => 6,
+        Kind::Asks | Kind::Takes | Kind::Loads | Kind::Writes | Kind::Reads => 7,
     }
 }
 

@@ -2,7 +2,9 @@
 
 use syntax::Span;
 
-use recording::Event;
+use recording::{Event, Recording};
+
+use crate::Verdict;
 
 /// An event that a step of the model has.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -46,4 +48,21 @@ pub struct Parted {
 /// What a parting is about: the channels, or whatever else events name.
 pub(crate) fn objects<'e>(event: Option<&'e Event>, claims: &'e [Claim]) -> Vec<&'e str> {
     event.into_iter().chain(claims.iter().map(|claim| &claim.event)).map(|event| event.object.as_ref()).collect()
+}
+
+/// Said of an event that the model has in the same step, later or earlier.
+pub(crate) fn out_of_turn(event: Option<&Event>, claims: &[Claim]) -> Option<String> {
+    let event = event?;
+    let later = claims.iter().any(|claim| claim.event.same(event));
+    later.then(|| "the model's task does that in the same step, but not first".to_string())
+}
+
+/// All events up to the stop agree. A recording without any says nothing of the program.
+pub(crate) fn conforms(recording: &Recording, events: usize, steps: u64) -> Verdict {
+    match events {
+        0 => {
+            Verdict::Unknown { events, reason: "nothing was recorded before the tasks were asked to stop".to_string() }
+        }
+        _ => Verdict::Conforms { events, steps, after: recording.events() - events },
+    }
 }

@@ -24,12 +24,14 @@ pub use session::{Refusal, Session, Way};
 /// What came of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Verdict {
-    /// All events are those of a run of the model.
+    /// All events, until the tasks were asked to stop, are those of a run of the model.
     Conforms {
         /// How many events there were.
         events: usize,
         /// How many steps the machine made.
         steps: u64,
+        /// How many events came after the tasks had been asked to stop; these are not compared.
+        after: usize,
     },
     /// The program and the model part.
     Parts(Box<Parted>),

@@ -2,7 +2,10 @@
 //!
 //! In: a task's events. Out: between which instants each next action lies. An action was taken between the event before it
 //! and the one after it, where an event that is told before the action (asks, releases, sends, stores) narrows the
-//! beginning and one told after it (enters, takes) the end. A beginning and what is done with it are one action.
+//! beginning and one told after it (enters, takes) the end. A beginning and what is done with it are one action; but who is
+//! woken by data was woken before he told that he begins.
+
+use std::sync::Arc;
 
 use recording::{Event, Kind};
 
@@ -16,6 +19,8 @@ const NEAR: usize = 64;
 pub struct Lane {
     pub events: Vec<Event>,
     pub place: Place,
+    /// Of a task that data wake: its first phase, and the channel that it awaits.
+    pub wakes: Option<(Arc<str>, Arc<str>)>,
 }
 
 /// Where a task has come to.
@@ -27,6 +32,8 @@ pub struct Place {
     pub tick: i64,
     /// What its cycle has spent waiting.
     pub waited: Waited,
+    /// The data came for which the next event begins a cycle.
+    pub woken: bool,
 }
 
 /// Between which instants an action was taken.
@@ -47,6 +54,13 @@ impl Lane {
         self.place.cursor.checked_sub(1).map(|last| &self.events[last])
     }
 
+    /// The channel whose data have to be there before the next event.
+    pub fn awaits(&self) -> Option<&str> {
+        let (first, channel) = self.wakes.as_ref()?;
+        let begins = self.next().is_some_and(|next| next.kind == Kind::Begins && next.object == *first);
+        (begins && !self.place.woken).then_some(channel)
+    }
+
     /// The event by which the task acts next: what comes with a beginning, or else the next one.
     fn acts(&self) -> usize {
         let at = self.place.cursor;
@@ -64,16 +78,16 @@ impl Lane {
     /// Between which instants the next action was taken. While `more` may come it is not known with what a beginning comes.
     pub fn span(&self, more: bool) -> Option<Span> {
         let event = self.next()?;
+        let before_ns = self.last().map_or(i64::MIN, |before| before.time_ns);
+        if self.awaits().is_some() {
+            return Some(Span { from_ns: before_ns, to_ns: event.time_ns });
+        }
         let acts = self.acts();
         let action = &self.events[acts];
         let is_last = more && self.place.cursor + 1 == self.events.len();
         let told_before =
             matches!(action.kind, Kind::Asks | Kind::Releases | Kind::Sends | Kind::Stores | Kind::Refuses);
-        let from_ns = if told_before || acts > self.place.cursor || is_last {
-            event.time_ns
-        } else {
-            self.last().map_or(i64::MIN, |before| before.time_ns)
-        };
+        let from_ns = if told_before || acts > self.place.cursor || is_last { event.time_ns } else { before_ns };
         let to_ns =
             if told_before { self.events.get(acts + 1).map_or(i64::MAX, |next| next.time_ns) } else { action.time_ns };
         Some(Span { from_ns, to_ns })
@@ -81,6 +95,9 @@ impl Lane {
 
     /// The channel of the next action, if it is one on a channel.
     pub fn channel(&self) -> Option<&str> {
+        if let Some(channel) = self.awaits() {
+            return Some(channel);
+        }
         let action = self.events.get(self.acts())?;
         (!is_local(action.kind)).then_some(&*action.object)
     }
@@ -93,7 +110,9 @@ impl Lane {
             if before_ns > until_ns {
                 return false;
             }
-            if *event.object == *channel {
+            let wakes =
+                self.wakes.as_ref().is_some_and(|(first, awaits)| *event.object == **first && **awaits == *channel);
+            if wakes || *event.object == *channel {
                 return true;
             }
             before_ns = event.time_ns;

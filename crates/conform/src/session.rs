@@ -62,6 +62,8 @@ pub struct Session {
     replay: Replay,
     /// A parting that is told when all is known up to this instant.
     suspected_ns: Option<i64>,
+    /// Of each track, how many events are known not to go back in time.
+    in_order: Vec<usize>,
 }
 
 /// So long after an action its event may be read from the clock: the task may be interrupted between the two.
@@ -71,6 +73,24 @@ const GRACE_NS: i64 = 1_000_000_000;
 enum Replay {
     Timed(Box<timed::Replay>),
     Untimed(Box<untimed::Replay>),
+}
+
+impl Replay {
+    fn begin(
+        program: &Arc<Program>,
+        limits: Limits,
+        steps: &Steps,
+        head: &Recording,
+        by_order: bool,
+    ) -> Result<Replay, String> {
+        match head.pace.as_str() {
+            "modelled" if !by_order => Ok(Replay::Timed(Box::new(timed::Replay::new(program, limits, steps)?))),
+            "modelled" | "drawn" | "real" => {
+                Ok(Replay::Untimed(Box::new(untimed::Replay::new(program, limits, steps, head)?)))
+            }
+            other => Err(format!("the recording is of no known pace: `{other}`")),
+        }
+    }
 }
 
 impl Session {
@@ -86,6 +106,9 @@ impl Session {
         head: &Recording,
         by_order: bool,
     ) -> Result<Session, Refusal> {
+        if head.tick_ns <= 0 {
+            return Err("the recording does not say how long a tick is".to_string().into());
+        }
         let mut machine = Machine::new(Arc::new(program.clone()), limits);
         machine.start(&mut machine::Closed).map_err(|fault| fault.show(&program).to_string())?;
         Vocabulary::new(&program, &machine)?;
@@ -94,19 +117,37 @@ impl Session {
             Err(faults) => return Err(Refusal::Model(sources, faults)),
         };
         let program = Arc::new(program);
-        let replay = if head.pace == "modelled" && !by_order {
-            Replay::Timed(Box::new(timed::Replay::new(&program, limits, &steps)?))
-        } else {
-            Replay::Untimed(Box::new(untimed::Replay::new(&program, limits, &steps, head)?))
-        };
-        Ok(Session { sources, program, steps, limits, replay, suspected_ns: None })
+        let replay = Replay::begin(&program, limits, &steps, head, by_order)?;
+        Ok(Session { sources, program, steps, limits, replay, suspected_ns: None, in_order: Vec::new() })
+    }
+
+    /// Begins anew, for another recording of the same system. What is begun again and again is short: its steps are interpreted,
+    /// since to compile them takes longer.
+    ///
+    /// # Errors
+    /// It cannot be replayed.
+    pub fn begin_again(&mut self, head: &Recording, by_order: bool) -> Result<(), Refusal> {
+        self.replay = Replay::begin(&self.program, self.limits, &self.steps, head, by_order)?;
+        match &mut self.replay {
+            Replay::Timed(replay) => replay.interpret(),
+            Replay::Untimed(replay) => replay.interpret(),
+        }
+        (self.suspected_ns, self.in_order) = (None, Vec::new());
+        Ok(())
     }
 
     /// Goes on as far as the recording is known; none: it agrees so far, and `more` may come.
     ///
     /// # Errors
-    /// The recording is of another system.
+    /// The recording is of another system, or no run has its instants.
     pub fn go_on(&mut self, recording: &Recording, more: bool) -> Result<Option<Verdict>, Refusal> {
+        self.in_order.resize(recording.tracks.len(), 0);
+        for (track, known) in recording.tracks.iter().zip(&mut self.in_order) {
+            if let Some(words) = track.disorder(*known) {
+                return Err(format!("time goes back: {words}").into());
+            }
+            *known = track.events.len();
+        }
         // Nothing is known behind a lost event.
         let more = more && recording.tracks.iter().all(|track| !track.lost);
         let verdict = match &mut self.replay {
@@ -177,5 +218,7 @@ impl Session {
 
 #[cfg(test)]
 mod by_order;
+#[cfg(test)]
+mod damaged;
 #[cfg(test)]
 mod tests;

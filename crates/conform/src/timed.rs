@@ -1,16 +1,15 @@
 //! Tick by tick: in virtual time that follows the model, each tick is a step of the main rule.
 //!
 //! In: the model, a recording whose pace is `modelled`. Every event must be one of the step of its tick, and every event
-//! of a step must have been recorded at its tick. The events of one task in one step are compared as a set: the step has
-//! no order within.
+//! of a step must have been recorded at its tick, those of one task in the order that `claims` gives them.
 
 use std::sync::Arc;
 
-use machine::{Closed, Limits, Machine};
+use machine::{Closed, EngineChoice, Limits, Machine};
 use program::Program;
 
 use crate::Verdict;
-use crate::evidence::{Claim, Parted, Recorded, objects};
+use crate::evidence::{Claim, Parted, Recorded, conforms, objects, out_of_turn};
 use crate::steps::Steps;
 use crate::vocabulary::Vocabulary;
 use recording::{Event, Kind, Recording};
@@ -40,6 +39,11 @@ impl Replay {
         Ok(Replay { machine, vocabulary, tick: 0, cursors, agreed: 0 })
     }
 
+    /// Compiles no step.
+    pub fn interpret(&mut self) {
+        self.machine.use_engine(EngineChoice::Interpreted);
+    }
+
     /// How many events agreed.
     pub fn agreed(&self) -> usize {
         self.agreed
@@ -63,11 +67,17 @@ impl Replay {
         if more {
             return Ok(None);
         }
+        let unknown = |reason: String| Ok(Some(Verdict::Unknown { events: self.agreed, reason }));
         if !recording.is_whole() {
-            let reason = format!("the recording has a gap, or ends early, after tick {end}");
-            return Ok(Some(Verdict::Unknown { events: self.agreed, reason }));
+            return unknown(format!("the recording has a gap, or ends early, after tick {end}"));
         }
-        Ok(Some(Verdict::Conforms { events: self.agreed, steps: self.machine.steps() }))
+        // What tasks do to come to an end is no run of the model.
+        let end_ns = end * recording.tick_ns;
+        let compared = |events: &[Event]| events.partition_point(|event| event.time_ns < end_ns);
+        if tracks.iter().zip(&self.cursors).any(|(events, cursor)| compared(events) != *cursor) {
+            return unknown("an event was not come to".to_string());
+        }
+        Ok(Some(conforms(recording, self.agreed, self.machine.steps())))
     }
 
     /// The step of a tick; none: it agrees.
@@ -94,18 +104,16 @@ impl Replay {
                 return Some(Verdict::Unknown { events: self.agreed, reason });
             }
             let own: Vec<&Claim> = claims.iter().filter(|(of, _)| *of == component).map(|(_, claim)| claim).collect();
-            if let Some(event) = differs(recorded, &own) {
-                let mut claims: Vec<Claim> = own.into_iter().cloned().collect();
-                if event.is_none() {
-                    claims.retain(|claim| !recorded.iter().any(|event| event.same(&claim.event)));
-                }
+            if let Some(at) = differs(recorded, &own) {
+                let event = recorded.get(at).cloned();
+                let claims: Vec<Claim> = own[at.min(own.len())..].iter().map(|claim| (*claim).clone()).collect();
                 let state = self.vocabulary.state(&self.machine, component, &objects(event.as_ref(), &claims));
                 return Some(Verdict::Parts(Box::new(Parted {
                     tick,
                     task: task.clone(),
+                    reason: out_of_turn(event.as_ref(), &claims),
                     event,
                     claims,
-                    reason: None,
                     agreed: self.agreed,
                     before: before(&self.vocabulary, tracks, recording, tick),
                     state,
@@ -118,20 +126,10 @@ impl Replay {
     }
 }
 
-/// The first recorded event that is no claim; or no event, if a claim is left over.
-#[expect(clippy::option_option, reason = "whether they differ, and by which event if by one")]
-fn differs(recorded: &[Event], claims: &[&Claim]) -> Option<Option<Event>> {
-    let mut open: Vec<&&Claim> = claims.iter().collect();
-    for event in recorded {
-        if event.kind == Kind::Invalid {
-            continue;
-        }
-        match open.iter().position(|claim| claim.event.same(event)) {
-            Some(found) => _ = open.swap_remove(found),
-            None => return Some(Some(event.clone())),
-        }
-    }
-    (!open.is_empty()).then_some(None)
+/// The place of the first event that differs: where another one was recorded, one more, or one less.
+fn differs(recorded: &[Event], claims: &[&Claim]) -> Option<usize> {
+    let agree = recorded.iter().zip(claims).take_while(|(event, claim)| claim.event.same(event)).count();
+    (agree < recorded.len().max(claims.len())).then_some(agree)
 }
 
 /// The tracks in the order of the components.
@@ -140,8 +138,12 @@ pub(crate) fn tracks<'r>(vocabulary: &Vocabulary, recording: &'r Recording) -> R
         return Err(format!("the model has no component {}, which the recording has", track.task));
     }
     let track = |name: &String| {
-        let found = recording.tracks.iter().find(|track| track.task == *name);
-        found.map(|track| track.events.as_slice()).ok_or(format!("the recording has no task {name}"))
+        let mut found = recording.tracks.iter().filter(|track| track.task == *name);
+        let first = found.next().ok_or(format!("the recording has no task {name}"))?;
+        match found.next() {
+            Some(_) => Err(format!("the recording has two tasks {name}")),
+            None => Ok(first.events.as_slice()),
+        }
     };
     vocabulary.components.iter().map(|component| track(&component.name)).collect()
 }

@@ -9,11 +9,11 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use machine::{Change, Choice, Environment, Fault, Limits, LocationRef, Machine, Mark, TimeUnit, Value};
+use machine::{Change, Choice, EngineChoice, Environment, Fault, Limits, LocationRef, Machine, Mark, TimeUnit, Value};
 use program::{DomainId, ProcedureId, Program, Slot};
 
 use crate::Verdict;
-use crate::evidence::{Claim, Parted, Recorded, objects};
+use crate::evidence::{Claim, Parted, Recorded, conforms, objects, out_of_turn};
 use crate::order::{Lane, Place, Span};
 use crate::steps::Steps;
 use crate::timed::tracks;
@@ -108,8 +108,9 @@ impl Replay {
     /// It cannot be replayed, in words.
     pub fn new(program: &Arc<Program>, limits: Limits, steps: &Steps, head: &Recording) -> Result<Replay, String> {
         let (mut machine, vocabulary) = steps.start(program, limits)?;
+        let wakes = vocabulary.components.iter().map(|component| vocabulary.wakes(&machine, component));
+        let lanes = wakes.map(|wakes| Lane { wakes, ..Lane::default() }).collect();
         steps.loosen(&mut machine)?;
-        let lanes = vocabulary.components.iter().map(|_| Lane::default()).collect();
         Ok(Replay {
             machine,
             vocabulary,
@@ -123,6 +124,11 @@ impl Replay {
             waits: false,
             deepest: None,
         })
+    }
+
+    /// Compiles no step.
+    pub fn interpret(&mut self) {
+        self.machine.use_engine(EngineChoice::Interpreted);
     }
 
     /// How many events agree, as far as it looks.
@@ -145,10 +151,10 @@ impl Replay {
             }
         }
         self.more = more;
-        Ok(self.run(known, recording.is_whole()))
+        Ok(self.run(known, recording))
     }
 
-    fn run(&mut self, known: i64, is_whole: bool) -> Option<Verdict> {
+    fn run(&mut self, known: i64, recording: &Recording) -> Option<Verdict> {
         loop {
             if !std::mem::take(&mut self.waits) {
                 let (first_ns, open) = self.candidates();
@@ -170,11 +176,19 @@ impl Replay {
         if let Some(parted) = self.still_waiting(known) {
             return Some(Verdict::Parts(parted));
         }
-        Some(if is_whole {
-            Verdict::Conforms { events: self.agreed, steps: self.machine.steps() }
-        } else {
-            Verdict::Unknown { events: self.agreed, reason: "the recording has a gap, or ends early".to_string() }
-        })
+        let unknown = |reason: String| Some(Verdict::Unknown { events: self.agreed, reason });
+        // Where time goes on in every lane, one of them can always go on.
+        if self.lanes.iter().any(|lane| lane.next().is_some()) {
+            return unknown("an event was not come to".to_string());
+        }
+        if !recording.is_whole() {
+            return unknown("the recording has a gap, or ends early".to_string());
+        }
+        let failed = |lane: &Lane| lane.last().is_some_and(|event| event.kind == Kind::Faults);
+        if let Some(component) = self.lanes.iter().position(failed) {
+            return unknown(format!("{} failed", self.vocabulary.components[component].name));
+        }
+        Some(conforms(recording, self.agreed, self.machine.steps()))
     }
 
     /// A decision among these components, to be gone back to.
@@ -252,12 +266,13 @@ impl Replay {
         let lane = &self.lanes[component];
         let Some(Event { time_ns, kind, .. }) = lane.next() else { unreachable!("a candidate has an event") };
         let (time_ns, kind) = (*time_ns, *kind);
+        if lane.awaits().is_some() {
+            return Ok(self.wake(component)?);
+        }
         match kind {
-            Kind::Invalid | Kind::Faults => {
-                self.agree(component, 1);
-                return Ok(());
-            }
+            Kind::Invalid => return self.withhold(component),
             Kind::Passes => return Ok(self.pass(component)?),
+            Kind::Faults => return Ok(self.fail(component)?),
             _ => {}
         }
         let tick = time_ns.div_euclid(self.tick_ns).max(lane.place.tick);
@@ -308,19 +323,18 @@ impl Replay {
         let lane = &self.lanes[component];
         let next = &lane.events[lane.place.cursor..];
         let recorded = &next[..claims.len().min(next.len())];
-        let mut open: Vec<&Claim> = claims.iter().map(|(_, claim)| claim).collect();
-        for event in recorded {
-            match open.iter().position(|claim| claim.event.same(event)) {
-                Some(at) => _ = open.swap_remove(at),
-                None => {
-                    let event = Some(event.clone());
-                    let claims = claims.into_iter().map(|(_, claim)| claim).collect();
-                    let parted = self.parted(component, claims, String::new());
-                    return Err(Box::new(Parted { event, reason: None, ..*parted }).into());
-                }
-            }
+        // A task that fails leaves its step where it is.
+        let fails = recorded.iter().position(|event| event.kind == Kind::Faults).unwrap_or(recorded.len());
+        let recorded = &recorded[..fails];
+        let agree = recorded.iter().zip(&claims).take_while(|(event, (_, claim))| claim.event.same(event)).count();
+        if agree < recorded.len() || (fails == 0 && !next.is_empty()) {
+            let event = next.get(agree).cloned();
+            let claims: Vec<Claim> = claims.into_iter().skip(agree).map(|(_, claim)| claim).collect();
+            let reason = out_of_turn(event.as_ref(), &claims);
+            let parted = self.parted(component, claims, String::new());
+            return Err(Box::new(Parted { event, reason, ..*parted }).into());
         }
-        if self.more && recorded.len() < claims.len() {
+        if self.more && recorded.len() == next.len() && recorded.len() < claims.len() {
             return Err(Stop::Waits);
         }
         // The recording may end within a step.
@@ -333,11 +347,12 @@ impl Replay {
 
     /// So many events agree.
     fn agree(&mut self, component: usize, count: usize) {
-        let Lane { events, place } = &mut self.lanes[component];
+        let Lane { events, place, .. } = &mut self.lanes[component];
         for _ in 0..count {
             let before = place.cursor.checked_sub(1).map(|before| &events[before]);
             place.waited = place.waited.with(before, &events[place.cursor], self.pace, self.tick_ns);
             place.cursor += 1;
+            place.woken = false;
         }
         self.agreed += count;
     }
@@ -383,19 +398,38 @@ impl Replay {
         let program = Arc::clone(self.machine.program());
         let asked = || -> Result<Value, Fault> {
             self.machine.set(&location, Value::Integer(ticks - 1))?;
-            let there_is_time = program.function(self.vocabulary.function(Named::ThereIsTime));
-            let asked = match &there_is_time.definition {
-                Some(defined) => {
-                    let bound = [(Slot(0), task)];
-                    self.machine.evaluate_with(defined.body, defined.frame, &bound, &mut machine::Closed)
-                }
-                None => Ok(Value::Undef),
-            };
+            let asked = self.ask(Named::ThereIsTime, task);
             self.machine.set(&location, former)?;
             asked
         };
         let asked = asked().map_err(|fault| self.parted(component, Vec::new(), fault.show(&program).to_string()))?;
         Ok(asked != Value::Boolean(false))
+    }
+
+    /// What a derived function of the library says of an element.
+    fn ask(&mut self, named: Named, element: Value) -> Result<Value, Fault> {
+        let program = Arc::clone(self.machine.program());
+        match &program.function(self.vocabulary.function(named)).definition {
+            Some(defined) => {
+                let bound = [(Slot(0), element)];
+                self.machine.evaluate_with(defined.body, defined.frame, &bound, &mut machine::Closed)
+            }
+            None => Ok(Value::Undef),
+        }
+    }
+
+    /// The data are there that the task awaits.
+    fn wake(&mut self, component: usize) -> Result<(), Box<Parted>> {
+        let waiting = self.vocabulary.components[component].waiting.clone();
+        let reason = match self.ask(Named::DataAvailable, waiting) {
+            Ok(Value::Boolean(true)) => {
+                self.lanes[component].place.woken = true;
+                return Ok(());
+            }
+            Ok(_) => "the model's task still waits for data".to_string(),
+            Err(fault) => fault.show(self.machine.program()).to_string(),
+        };
+        Err(self.parted(component, Vec::new(), reason))
     }
 
     /// The parting of a task that went on waiting where the model's task gives up.
@@ -419,7 +453,10 @@ impl Replay {
         let waited = lane.place.waited.with(lane.last(), event, self.pace, self.tick_ns);
         let task = std::slice::from_ref(&self.vocabulary.components[component].task);
         let location = self.vocabulary.location(Named::TimeInWait, task);
-        let set = self.machine.set(&location, Value::Integer(waited.at_most_ns / self.tick_ns));
+        let due = self.machine.value(&self.vocabulary.location(Named::PeriodStart, task));
+        let due_ns = if let Value::Integer(tick) = due { tick.checked_mul(self.tick_ns) } else { None };
+        let spent_ns = waited.spent_ns(due_ns, self.pace);
+        let set = self.machine.set(&location, Value::Integer(spent_ns / self.tick_ns));
         set.map_err(|fault| self.parted(component, Vec::new(), fault.show(self.machine.program()).to_string()))
     }
 
@@ -456,18 +493,75 @@ impl Replay {
         make().map_err(|fault| fault.show(self.machine.program()).to_string())
     }
 
+    /// The phase that comes next, if its task writes in it, and the channel that it writes to.
+    fn next_writing(&self, component: usize) -> Option<(Value, Value)> {
+        let scheduler = &self.vocabulary.components[component].scheduler;
+        let current = self.vocabulary.get(&self.machine, Named::CurrentPhase, std::slice::from_ref(scheduler));
+        let phase = self.vocabulary.get(&self.machine, Named::NextPhase, &[current]);
+        let channel = self.vocabulary.written(&self.machine, &phase)?;
+        Some((phase, channel))
+    }
+
+    /// The number of the present cycle.
+    fn cycle(&self, component: usize) -> u64 {
+        let task = std::slice::from_ref(&self.vocabulary.components[component].task);
+        match self.vocabulary.get(&self.machine, Named::Cycles, task) {
+            Value::Integer(cycles) => u64::try_from(cycles).unwrap_or(0),
+            _ => 0,
+        }
+    }
+
     /// There was nothing to hand over: the writing phase is passed over, which the program alone decides.
     fn pass(&mut self, component: usize) -> Result<(), Box<Parted>> {
-        let name = self.lanes[component].next().map_or_else(Default::default, |event| Arc::clone(&event.object));
+        let lane = &self.lanes[component];
+        let Some(event) = lane.next() else { return Ok(()) };
+        let named = self.vocabulary.phase_named(&self.machine, component, &event.object);
+        let next = self.next_writing(component).map(|(phase, _)| phase);
+        let Some(phase) =
+            next.filter(|_| event.number == self.cycle(component)).filter(|next| named.as_ref() == Some(next))
+        else {
+            return Err(self.parted(component, Vec::new(), "the model's task is not before this phase".to_string()));
+        };
         let scheduler = self.vocabulary.components[component].scheduler.clone();
         let current = self.vocabulary.location(Named::CurrentPhase, &[scheduler]);
-        let phase = self.vocabulary.get(&self.machine, Named::NextPhase, &[self.machine.value(&current)]);
-        if self.vocabulary.phase_named(&self.machine, component, &name) != Some(phase.clone()) {
-            return Err(self.parted(component, Vec::new(), "the model's task is not before this phase".to_string()));
-        }
         let rest = self.vocabulary.get(&self.machine, Named::NextPhase, &[phase]);
         let set = self.machine.set(&current, rest);
         set.map_err(|_| self.parted(component, Vec::new(), "the phase cannot be passed over".to_string()))?;
+        self.agree(component, 1);
+        Ok(())
+    }
+
+    /// What was to be handed over is not valid: its writing is passed over next.
+    fn withhold(&mut self, component: usize) -> Result<(), Stop> {
+        let lane = &self.lanes[component];
+        let at = lane.place.cursor;
+        let Some(event) = lane.next() else { return Ok(()) };
+        let channel = self.next_writing(component).map(|(_, channel)| self.vocabulary.object(&self.machine, &channel));
+        if channel.as_ref() != Some(&event.object) {
+            let reason = "the model's task is not before a writing to this channel".to_string();
+            return Err(self.parted(component, Vec::new(), reason).into());
+        }
+        match lane.events.get(at + 1) {
+            None if self.more => return Err(Stop::Waits),
+            Some(next) if next.kind != Kind::Passes => {
+                let reason = "what is not handed over is passed over next".to_string();
+                return Err(self.parted(component, Vec::new(), reason).into());
+            }
+            _ => {}
+        }
+        self.agree(component, 1);
+        Ok(())
+    }
+
+    /// The task failed in its present phase, and does nothing more.
+    fn fail(&mut self, component: usize) -> Result<(), Box<Parted>> {
+        let lane = &self.lanes[component];
+        let Some(event) = lane.next() else { return Ok(()) };
+        let is_last = lane.place.cursor + 1 == lane.events.len();
+        if !is_last || event.number != self.cycle(component) {
+            let reason = "a task that failed does nothing more, and tells in which cycle".to_string();
+            return Err(self.parted(component, Vec::new(), reason));
+        }
         self.agree(component, 1);
         Ok(())
     }
@@ -476,7 +570,7 @@ impl Replay {
         let event = self.lanes[component].next().cloned();
         let named = self.vocabulary.components.iter().zip(&self.lanes);
         let mut before: Vec<Recorded> = named
-            .flat_map(|(known, Lane { events, place })| {
+            .flat_map(|(known, Lane { events, place, .. })| {
                 let recorded = |event: &Event| Recorded { task: known.name.clone(), event: event.clone() };
                 events[place.cursor.saturating_sub(SHOWN)..place.cursor].iter().map(recorded).collect::<Vec<_>>()
             })

@@ -21,8 +21,10 @@ pub enum Named {
     MessageQueue,
     SharedValue,
     Period,
+    PeriodStart,
     TimeInWait,
     ThereIsTime,
+    DataAvailable,
     Cycles,
     DeadlinesMet,
     DeadlinesMissed,
@@ -55,8 +57,10 @@ const FUNCTIONS: &[(Named, &str, usize)] = &[
     (Named::MessageQueue, "messageQueue", 1),
     (Named::SharedValue, "sharedValue", 1),
     (Named::Period, "task_period", 1),
+    (Named::PeriodStart, "task_periodStart", 1),
     (Named::TimeInWait, "task_timeInWait", 1),
     (Named::ThereIsTime, "thereIsTime", 1),
+    (Named::DataAvailable, "dataAvailable", 1),
     (Named::Cycles, "task_cycles", 1),
     (Named::DeadlinesMet, "task_deadlinesMet", 1),
     (Named::DeadlinesMissed, "task_deadlinesMissed", 1),
@@ -88,6 +92,8 @@ pub struct Component {
     pub scheduler: Value,
     /// Its task.
     pub task: Value,
+    /// The phase in which it waits for its next cycle.
+    pub waiting: Value,
     /// The phases of a cycle, without the waiting.
     pub phases: Vec<Value>,
 }
@@ -208,7 +214,7 @@ impl Vocabulary {
             phases.push(phase.clone());
             phase = self.get(machine, Named::NextPhase, std::slice::from_ref(&phase));
         }
-        Component { name: scheduler.show(machine.program()).to_string(), scheduler, task, phases }
+        Component { name: scheduler.show(machine.program()).to_string(), scheduler, task, waiting: first, phases }
     }
 
     /// The phases that work on the buffer of that name.
@@ -273,6 +279,20 @@ impl Vocabulary {
             .map(|named| self.get(machine, named, std::slice::from_ref(phase)))
             .find(|channel| !channel.is_undef())
             .unwrap_or_default()
+    }
+
+    /// The channel that is written to in a phase, if one is.
+    pub fn written(&self, machine: &Machine, phase: &Value) -> Option<Value> {
+        let action = self.show(machine, Named::Action, phase);
+        ["WRITING_ON_SB", "SENDING", "STORING"].contains(&action.as_str()).then(|| self.channel(machine, phase))
+    }
+
+    /// Of a component that data wake: its first phase, and the channel that it awaits.
+    pub fn wakes(&self, machine: &Machine, component: &Component) -> Option<(Arc<str>, Arc<str>)> {
+        let is_synchronous = !self.get(machine, Named::Period, std::slice::from_ref(&component.task)).is_undef();
+        let channel = self.channel(machine, &component.waiting);
+        let first = component.phases.first().filter(|_| !is_synchronous && !channel.is_undef())?;
+        Some((self.object(machine, first), self.object(machine, &channel)))
     }
 
     /// The component of that name.

@@ -39,18 +39,20 @@ pub struct Waited {
     pub at_least_ns: i64,
     /// For locks and for room.
     pub at_most_ns: i64,
+    /// When it began at the latest.
+    began_ns: Option<i64>,
 }
 
 impl Waited {
     /// What was waited with one more event, of which `before` is the one before.
     pub fn with(mut self, before: Option<&Event>, event: &Event, pace: Pace, tick_ns: i64) -> Waited {
+        if event.kind == Kind::Begins && (event.number != self.cycle || self.began_ns.is_none()) {
+            return Waited { cycle: event.number, began_ns: Some(event.time_ns), ..Waited::default() };
+        }
         let Some(before) = before else { return self };
         let span_ns = event.time_ns - before.time_ns;
         let span_ns = if pace == Pace::Modelled { span_ns / tick_ns * tick_ns } else { span_ns };
         match event.kind {
-            Kind::Begins if event.number != self.cycle => {
-                self = Waited { cycle: event.number, ..Waited::default() };
-            }
             Kind::Enters => {
                 let off_ns = if pace == Pace::Real { INTERRUPTED_NS } else { 0 };
                 self.at_least_ns += (span_ns - off_ns).max(0);
@@ -60,5 +62,15 @@ impl Waited {
             _ => {}
         }
         self
+    }
+
+    /// What may have been gone of the watchdog's time, of a cycle that was due at an instant. In real time a program takes the
+    /// time off by which a cycle begins late; in virtual time it counts as its model does.
+    pub fn spent_ns(&self, due_ns: Option<i64>, pace: Pace) -> i64 {
+        let late_ns = match (pace, due_ns, self.began_ns) {
+            (Pace::Real, Some(due_ns), Some(began_ns)) => began_ns.saturating_sub(due_ns).max(0),
+            _ => 0,
+        };
+        self.at_most_ns.saturating_add(late_ns)
     }
 }

@@ -69,7 +69,8 @@ pub enum Kind {
 }
 
 impl Kind {
-    const ALL: &[Kind] = &[
+    /// All of them, in the order of the table.
+    pub const ALL: &[Kind] = &[
         Kind::Begins,
         Kind::Ends,
         Kind::Passes,

@@ -4,6 +4,7 @@
 //! track of events a task, as spec/conform.md lists them. It must not know what the events are held against, nor how they
 //! are shown.
 
+mod checksum;
 mod event;
 mod mcap;
 
@@ -34,6 +35,27 @@ pub struct Track {
     pub events: Vec<Event>,
     /// An event after these was lost.
     pub lost: bool,
+}
+
+impl Track {
+    /// What of the order of these events, from that one on, no run can have: an instant before the run began, or before the
+    /// one of the event before.
+    pub fn disorder(&self, from: usize) -> Option<String> {
+        let ms = |event: &Event| format!("{:.4} ms", event.time_ns as f64 / 1e6);
+        let known = self.events[..from.min(self.events.len())].last();
+        let mut before_ns = known.map_or(0, |event| event.time_ns);
+        for (order, event) in self.events.iter().enumerate().skip(from) {
+            if event.time_ns < before_ns {
+                let what = format!("event {order} of {} ({}) is at {}", self.task, event.words(), ms(event));
+                return Some(match order.checked_sub(1) {
+                    Some(before) => format!("{what}, the event before it at {}", ms(&self.events[before])),
+                    None => format!("{what}, before the run began"),
+                });
+            }
+            before_ns = event.time_ns;
+        }
+        None
+    }
 }
 
 /// The events of a run.

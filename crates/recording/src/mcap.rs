@@ -1,8 +1,9 @@
 //! MCAP bytes → events, task by task.
 //!
 //! Reads what `cpp/include/groundstate/recorder.hpp` writes: records and uncompressed chunks, from the front, so that a
-//! file that ends early gives all that came before. INVARIANT: the events of a track are in the task's order without a
-//! gap; what comes after a lost event is left out, and the track says so.
+//! file that ends early gives all that came before. Checksums are looked at wherever the file has them. INVARIANT: the
+//! events of a track are in the task's order without a gap, and their instants do not go back; what comes after a lost
+//! event is left out, and the track says so.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -10,6 +11,7 @@ use std::sync::Arc;
 
 use serde::Deserialize;
 
+use crate::checksum::Checksum;
 use crate::{Event, Kind, Recording, Rhythm, Track};
 
 /// What is wrong with a file that is no recording.
@@ -17,6 +19,21 @@ use crate::{Event, Kind, Recording, Rhythm, Track};
 pub struct Malformed(pub String);
 
 const MAGIC: &[u8] = b"\x89MCAP0\r\n";
+
+/// The footer up to its checksum, which covers it, with what stands before it of every record.
+const FOOTER: usize = 9 + 16;
+
+fn malformed<T>(words: impl Into<String>) -> Result<T, Malformed> {
+    Err(Malformed(words.into()))
+}
+
+/// A checksum that a file states, 0: none, and the one that its bytes have.
+fn agree(stated: u32, found: u32, what: &str) -> Result<(), Malformed> {
+    match stated == 0 || stated == found {
+        true => Ok(()),
+        false => malformed(format!("{what} is damaged: its checksum is not that of its bytes")),
+    }
+}
 
 /// Reads numbers and texts of a record; none behind its end.
 struct Cursor<'a>(&'a [u8]);
@@ -80,25 +97,31 @@ pub struct Reader {
     timing: BTreeMap<String, String>,
     /// The beginning of a record whose rest has not come yet.
     rest: Vec<u8>,
-    began: bool,
-    ended: bool,
+    place: Place,
+    /// Of all bytes of the present section so far.
+    sum: Checksum,
+}
+
+/// Where in a file the reader is.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+enum Place {
+    #[default]
+    Before,
+    Data,
+    /// Everything is said again.
+    Summary,
+    Behind,
 }
 
 impl Recording {
     /// Reads the bytes of an MCAP file.
     ///
     /// # Errors
-    /// It is none, or none of a generated program.
+    /// It is none, or none of a generated program, or it is damaged.
     pub fn read(bytes: &[u8]) -> Result<Recording, Malformed> {
         let mut reader = Reader::default();
         reader.feed(bytes)?;
-        if !reader.began {
-            return Err(Malformed("it is no MCAP file".to_string()));
-        }
-        if reader.recording.tick_ns <= 0 {
-            return Err(Malformed("it is not the recording of a generated program".to_string()));
-        }
-        Ok(reader.recording)
+        reader.finish()
     }
 }
 
@@ -106,38 +129,74 @@ impl Reader {
     /// Reads on.
     ///
     /// # Errors
-    /// It is no MCAP file, or none of a generated program.
+    /// It is no MCAP file, or none of a generated program, or it is damaged.
     pub fn feed(&mut self, bytes: &[u8]) -> Result<(), Malformed> {
-        // A file that is read whole is not copied.
-        let mut all = Cow::Borrowed(bytes);
-        if !self.rest.is_empty() {
-            let mut begun = std::mem::take(&mut self.rest);
-            begun.extend_from_slice(bytes);
-            all = Cow::Owned(begun);
+        // A file that is read whole is not copied, nor is a record again with each piece of it that comes.
+        if self.rest.is_empty() {
+            let read = self.go_on(bytes)?;
+            self.rest.extend_from_slice(&bytes[read..]);
+            return Ok(());
         }
-        let mut cursor = Cursor(&all);
-        if !self.began {
-            if all.len() < MAGIC.len() && MAGIC.starts_with(&all) {
-                self.rest = all.into_owned();
-                return Ok(());
+        let mut all = std::mem::take(&mut self.rest);
+        all.extend_from_slice(bytes);
+        let read = self.go_on(&all)?;
+        all.drain(..read);
+        self.rest = all;
+        Ok(())
+    }
+
+    /// All that came, of a file that is at its end.
+    ///
+    /// # Errors
+    /// It is no MCAP file, or none of a generated program.
+    pub fn finish(self) -> Result<Recording, Malformed> {
+        if self.place == Place::Before {
+            return malformed("it is no MCAP file");
+        }
+        if self.recording.tick_ns <= 0 {
+            return malformed("it is not the recording of a generated program");
+        }
+        // What has no end may lack more than it tells.
+        let ended = self.recording.ended && self.place != Place::Data;
+        Ok(Recording { ended, ..self.recording })
+    }
+
+    /// Reads as many whole records as there are; how many bytes these are.
+    fn go_on(&mut self, all: &[u8]) -> Result<usize, Malformed> {
+        let mut cursor = Cursor(all);
+        if self.place == Place::Before {
+            if all.len() < MAGIC.len() && MAGIC.starts_with(all) {
+                return Ok(0);
             }
             cursor = Cursor(all.strip_prefix(MAGIC).ok_or(Malformed("it is no MCAP file".to_string()))?);
-            self.began = true;
+            self.sum.add(MAGIC);
+            self.place = Place::Data;
         }
-        // Behind the end of the data everything is said again.
-        while !self.ended
-            && let Some((code, content)) = cursor.record()
-        {
-            if code == 0x0f {
-                self.ended = true;
-            } else {
-                self.record(code, content)?;
+        while self.place != Place::Behind {
+            let before = cursor.0;
+            let Some((code, content)) = cursor.record() else { break };
+            let bytes = &before[..before.len() - cursor.0.len()];
+            match (self.place, code) {
+                (Place::Data, 0x0f) => {
+                    let stated = Cursor(content).number::<4>().unwrap_or(0) as u32;
+                    agree(stated, self.sum.value(), "the file")?;
+                    self.sum = Checksum::default();
+                    self.place = Place::Summary;
+                }
+                (Place::Summary, 0x02) => {
+                    self.sum.add(&bytes[..FOOTER.min(bytes.len())]);
+                    let stated = Cursor(content.get(16..).unwrap_or_default()).number::<4>().unwrap_or(0) as u32;
+                    agree(stated, self.sum.value(), "the file's summary")?;
+                    self.place = Place::Behind;
+                }
+                (Place::Summary, _) => self.sum.add(bytes),
+                _ => {
+                    self.sum.add(bytes);
+                    self.record(code, content)?;
+                }
             }
         }
-        if !self.ended {
-            self.rest = cursor.0.to_vec();
-        }
-        Ok(())
+        if self.place == Place::Behind { Ok(all.len()) } else { Ok(all.len() - cursor.0.len()) }
     }
 
     /// What has come so far: the run's head first, then its events.
@@ -147,7 +206,7 @@ impl Reader {
 
     /// Whether the end of the data has come, behind which is nothing new.
     pub fn has_ended(&self) -> bool {
-        self.ended
+        matches!(self.place, Place::Summary | Place::Behind)
     }
 
     fn record(&mut self, code: u8, content: &[u8]) -> Result<(), Malformed> {
@@ -158,21 +217,27 @@ impl Reader {
                 let id = cursor.number::<2>().ok_or_else(short)?;
                 cursor.number::<2>();
                 let topic = cursor.text().ok_or_else(short)?;
-                self.channels.insert(id, self.recording.tracks.len());
-                let task = topic.trim_start_matches('/').to_string();
-                let (rhythm, awaits) = (self.rhythm(&task), self.timing.get(&format!("awaits {task}")).cloned());
-                self.recording.tracks.push(Track { task, rhythm, awaits, ..Track::default() });
+                self.channel(id, topic.strip_prefix('/').unwrap_or(topic))?;
             }
             0x05 => self.message(&mut cursor).ok_or_else(short)??,
             0x06 => {
-                cursor.bytes(28);
+                cursor.bytes(24);
+                let stated = cursor.number::<4>().ok_or_else(short)? as u32;
                 if !cursor.text().ok_or_else(short)?.is_empty() {
-                    return Err(Malformed("its chunks are compressed; `mcap` can write them anew without".to_string()));
+                    return malformed("its chunks are compressed; `mcap` can write them anew without");
                 }
-                cursor.number::<8>();
-                // A chunk holds no chunks.
-                while let Some((code, content)) = cursor.record().filter(|(code, _)| *code != 0x06) {
+                let length = cursor.number::<8>().ok_or_else(short)?;
+                let inner = usize::try_from(length).ok().and_then(|length| cursor.bytes(length)).ok_or_else(short)?;
+                agree(stated, Checksum::of(inner), "a chunk")?;
+                let mut cursor = Cursor(inner);
+                while let Some((code, content)) = cursor.record() {
+                    if code == 0x06 {
+                        return malformed("a chunk holds a chunk");
+                    }
                     self.record(code, content)?;
+                }
+                if !cursor.0.is_empty() {
+                    return Err(short());
                 }
             }
             0x0c => {
@@ -182,11 +247,28 @@ impl Reader {
                 while let (Some(key), Some(value)) = (map.text(), map.text()) {
                     values.insert(key, value);
                 }
-                self.about(name, &values);
+                self.about(name, &values)?;
             }
             0x80 => self.recording.horizon_ns = Some(cursor.number::<8>().ok_or_else(short)? as i64),
             _ => {}
         }
+        Ok(())
+    }
+
+    /// A channel is a task. It may be said again, word by word.
+    fn channel(&mut self, id: u64, task: &str) -> Result<(), Malformed> {
+        let tracks = &self.recording.tracks;
+        match (self.channels.get(&id), tracks.iter().any(|track| track.task == task)) {
+            (Some(known), _) if tracks[*known].task == task => return Ok(()),
+            (Some(known), _) => {
+                return malformed(format!("one channel is both {} and {task}", tracks[*known].task));
+            }
+            (None, true) => return malformed(format!("two channels have the name {task}")),
+            (None, false) => {}
+        }
+        self.channels.insert(id, tracks.len());
+        let (rhythm, awaits) = (self.rhythm(task), self.timing.get(&format!("awaits {task}")).cloned());
+        self.recording.tracks.push(Track { task: task.to_string(), rhythm, awaits, ..Track::default() });
         Ok(())
     }
 
@@ -196,11 +278,14 @@ impl Reader {
         Some(Rhythm { period_ns, offset_ns, deadline_ns: number("deadline_ns")? })
     }
 
-    fn about(&mut self, name: &str, values: &BTreeMap<&str, &str>) {
+    fn about(&mut self, name: &str, values: &BTreeMap<&str, &str>) -> Result<(), Malformed> {
         let recording = &mut self.recording;
         let text = |key: &str| values.get(key).copied().unwrap_or_default();
         match name {
             "groundstate" => {
+                if recording.tick_ns > 0 {
+                    return malformed("it has two heads");
+                }
                 recording.system = text("system").to_string();
                 recording.tick_ns = text("tick_ns").parse().unwrap_or(0);
                 recording.pace = text("pace").to_string();
@@ -208,39 +293,52 @@ impl Reader {
                 self.timing = values.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
             }
             // Told before any event of a task that was asked to stop.
-            "stop" => recording.stopped_ns = text("stopped_ns").parse().ok(),
-            "end" => {
-                recording.stopped_ns = text("stopped_ns").parse().ok();
-                recording.ended = true;
-                for track in &mut recording.tracks {
-                    let all: usize = text(&format!("events {}", track.task)).parse().unwrap_or(usize::MAX);
-                    track.lost |= all != track.events.len();
+            "stop" | "end" => {
+                let stopped_ns = text("stopped_ns").parse().ok().filter(|stopped_ns| *stopped_ns >= 0);
+                if stopped_ns.is_none() || recording.stopped_ns.is_some_and(|told| Some(told) != stopped_ns) {
+                    return malformed("it does not say when the tasks were asked to stop, or says it in two ways");
+                }
+                if recording.ended {
+                    return malformed("it has two ends");
+                }
+                recording.stopped_ns = stopped_ns;
+                if name == "end" {
+                    recording.ended = true;
+                    for track in &mut recording.tracks {
+                        let all: usize = text(&format!("events {}", track.task)).parse().unwrap_or(usize::MAX);
+                        track.lost |= all != track.events.len();
+                    }
                 }
             }
             _ => {}
         }
+        Ok(())
     }
 
     fn message(&mut self, cursor: &mut Cursor<'_>) -> Option<Result<(), Malformed>> {
         let channel = cursor.number::<2>()?;
         cursor.number::<4>()?;
+        // An instant before the beginning is a number that no run comes to: signed, it is less than nothing.
         let time_ns = cursor.number::<8>()? as i64;
         cursor.number::<8>()?;
         let Some(track) = self.channels.get(&channel) else {
-            return Some(Err(Malformed("a message has no channel".to_string())));
+            return Some(malformed("a message has no channel"));
         };
+        if self.recording.ended {
+            return Some(malformed("an event comes behind the end of the run"));
+        }
         // What comes behind the horizon after all is lost for who has gone on.
         let late = self.recording.horizon_ns.is_some_and(|horizon| time_ns < horizon);
         let track = &mut self.recording.tracks[*track];
         let Ok(said) = serde_json::from_slice::<Said<'_>>(cursor.0) else {
-            return Some(Err(Malformed("a message is no event".to_string())));
+            return Some(malformed("a message is no event"));
         };
         if track.lost || late || said.order != track.events.len() as u64 {
             track.lost = true;
             return Some(Ok(()));
         }
         let Some(kind) = Kind::of(&said.kind) else {
-            return Some(Err(Malformed(format!("an event is of no known kind: `{}`", said.kind))));
+            return Some(malformed(format!("an event is of no known kind: `{}`", said.kind)));
         };
         let object = match self.objects.get(said.object.as_ref()) {
             Some(known) => Arc::clone(known),
@@ -252,80 +350,12 @@ impl Reader {
         };
         let Said { number, array, next, fresh, .. } = said;
         track.events.push(Event { time_ns, kind, object, number, array, next, fresh });
-        Some(Ok(()))
+        match track.disorder(track.events.len() - 1) {
+            Some(words) => Some(malformed(format!("time goes back: {words}"))),
+            None => Some(Ok(())),
+        }
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_no_recording_is_told() {
-        let check = |bytes: &[u8], expect: &str| {
-            assert_eq!(Recording::read(bytes), Err(Malformed(expect.to_string())));
-        };
-        check(b"", "it is no MCAP file");
-        check(MAGIC, "it is not the recording of a generated program");
-        check(b"\x89MCAP0\r\n\x05\x02\x00\x00\x00\x00\x00\x00\x00\x00\x00", "a record is shorter than it says");
-    }
-
-    #[test]
-    fn pieces_of_any_size_say_what_the_whole_says() {
-        let text = |text: &str| [&(text.len() as u32).to_le_bytes()[..], text.as_bytes()].concat();
-        let record = |code: u8, content: &[u8]| [&[code][..], &(content.len() as u64).to_le_bytes(), content].concat();
-        let map = |pairs: &[(&str, &str)]| {
-            text(
-                &pairs
-                    .iter()
-                    .map(|(key, value)| String::from_utf8([text(key), text(value)].concat()).expect("text"))
-                    .collect::<String>(),
-            )
-        };
-        let about = |name: &str, pairs: &[(&str, &str)]| record(0x0c, &[text(name), map(pairs)].concat());
-        let channel = record(0x04, &[&[0; 4][..], &text("/task"), &text("json"), &[0; 4]].concat());
-        let event = |order: u32, time_ns: u64| {
-            let fields = format!("{{\"order\":{order},\"kind\":\"begins\",\"object\":\"p\",\"number\":1}}");
-            record(0x05, &[&[0; 6][..], &time_ns.to_le_bytes(), &[0; 8], fields.as_bytes()].concat())
-        };
-        let inner = [event(0, 5), event(1, 9)].concat();
-        let length = (inner.len() as u64).to_le_bytes();
-        let chunk = record(0x06, &[&[0; 28][..], &text(""), &length, &inner].concat());
-        let whole = [
-            MAGIC,
-            &about("groundstate", &[("tick_ns", "1000"), ("pace", "real")]),
-            &channel,
-            &chunk,
-            &about("stop", &[("stopped_ns", "7")]),
-            &about("end", &[("stopped_ns", "7"), ("events task", "2")]),
-            &record(0x0f, &[0; 4]),
-            &channel,
-        ]
-        .concat();
-        let read = Recording::read(&whole).expect("a recording");
-        assert_eq!((read.tracks[0].events.len(), read.stopped_ns, read.is_whole()), (2, Some(7), true));
-        for size in [1, 7, 64] {
-            let mut reader = Reader::default();
-            for piece in whole.chunks(size) {
-                assert!(!reader.recording().is_whole() || reader.recording() == &read);
-                reader.feed(piece).expect("a piece");
-            }
-            assert!(reader.has_ended());
-            assert_eq!(reader.recording(), &read);
-        }
-    }
-
-    #[test]
-    fn a_gap_in_the_order_ends_a_track() {
-        let mut reader = Reader::default();
-        reader.channels.insert(0, 0);
-        reader.recording.tracks.push(Track::default());
-        for order in [0, 1, 3, 4] {
-            let mut content = vec![0; 22];
-            content.extend(format!("{{\"order\":{order},\"kind\":\"begins\",\"object\":\"p\",\"number\":0}}").bytes());
-            reader.record(0x05, &content).expect("a message");
-        }
-        assert_eq!((reader.recording.tracks[0].events.len(), reader.recording.tracks[0].lost), (2, true));
-        assert!(!reader.recording.is_whole());
-    }
-}
+mod tests;

@@ -83,7 +83,7 @@ fn collect(root: &Path, folder: &Path, files: &mut Vec<String>) -> Result<(), Fa
 
 fn found(checkout: &mut Checkout, file: &str) -> Result<Found, Failure> {
     let source = checkout.source(file)?;
-    let checked = groundstate::check(source, checkout);
+    let checked = model::check(source, checkout);
     if checked.diagnostics.iter().any(|found| found.severity == Severity::Error) {
         return Ok(Found::Faulty);
     }

@@ -101,7 +101,7 @@ fn scenario(checkout: &Checkout, path: &str) -> Answer {
         Ok(source) => source,
         Err(why) => return Answer::Void { why },
     };
-    let options = TestOptions { limits: limits(), bound: 20_000, coverage: false };
+    let options = TestOptions { limits: limits(), bound: 20_000, coverage: false, story: false };
     let tested = Suite::new().test(source, &mut checkout.clone(), options, &mut FirstCandidate);
     let Some(verdict) = &tested.verdict else {
         let fault = tested.diagnostics.iter().find(|diagnostic| diagnostic.severity == Severity::Error);

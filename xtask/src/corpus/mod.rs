@@ -14,6 +14,7 @@ mod explore;
 mod inputs;
 mod job;
 mod loader;
+pub(crate) use loader::Checkout;
 mod names;
 mod pool;
 mod reason;

@@ -107,7 +107,7 @@ fn verdict(checkout: &Checkout, source: &SourceFile, choices: &mut dyn Choices) 
 
 fn options() -> Options {
     let limits = Limits { iterations: 100_000, collection: 2_000_000, locations: 5_000_000, ..Limits::default() };
-    Options { limits, bound: 20_000, coverage: false }
+    Options { limits, bound: 20_000, coverage: false, story: false }
 }
 
 /// The verdict with the peer's defect put in: errors of the scenario's syntax are passed over, commands with them and

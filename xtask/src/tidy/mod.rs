@@ -76,6 +76,7 @@ const RULES: &[Rule] = &[
     source::length,
     source::unfinished,
     source::machine_paths,
+    source::unlisted_tests,
     layers::layers,
     dependencies::documented,
     links::links,

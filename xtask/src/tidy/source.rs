@@ -84,6 +84,23 @@ pub fn machine_paths(files: &[File]) -> Vec<Finding> {
     findings
 }
 
+/// No file of tests is left out of the program that its crate's tests are: Cargo would not miss it.
+pub fn unlisted_tests(files: &[File]) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    for list in files.iter().filter(|file| file.path.ends_with("/tests/all.rs")) {
+        let folder = list.path.trim_end_matches("all.rs");
+        for file in files.iter().filter(|file| file.path != list.path) {
+            let Some(rest) = file.path.strip_prefix(folder) else { continue };
+            let Some(name) = rest.strip_suffix("/mod.rs").or_else(|| rest.strip_suffix(".rs")) else { continue };
+            let listed = list.text.iter().flat_map(|text| text.lines()).any(|line| line == format!("mod {name};"));
+            if !name.contains('/') && !listed {
+                findings.push(Finding::of(file, format!("its tests do not run: write `mod {name};` in {}", list.path)));
+            }
+        }
+    }
+    findings
+}
+
 /// The place stands at the beginning of a path, not in the middle of a longer one or of an address.
 fn names(line: &str, place: &str) -> bool {
     line.match_indices(place).any(|(at, _)| {
@@ -108,6 +125,14 @@ mod tests {
         let home = ["/ho", "me/"].concat();
         assert!(names(&format!("see {place}"), &home));
         assert!(!names(&format!("see .{place} and https://a.org{place}"), &home));
+    }
+
+    #[test]
+    fn tests_that_would_not_run_are_found() {
+        let names = ["c/tests/all.rs", "c/tests/a.rs", "c/tests/b.rs", "c/tests/d/mod.rs", "c/tests/a/part.rs"];
+        let files = names.map(|name| File::new(name, "//! It.\nmod a;\n"));
+        let paths: Vec<String> = unlisted_tests(&files).into_iter().map(|finding| finding.path).collect();
+        assert_eq!(paths, ["c/tests/b.rs", "c/tests/d/mod.rs"]);
     }
 
     #[test]

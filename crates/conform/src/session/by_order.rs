@@ -157,6 +157,22 @@ fn the_models_watchdog_bounds_the_waiting() {
     conforms(&contention("real", 9_000 * TICK_NS, "gives_up"));
 }
 
+/// In real time who begins late has so much less time to wait.
+#[test]
+fn a_late_cycle_may_give_up_earlier() {
+    let late = |pace: &str, late_ns: i64| {
+        let mut recording = contention(pace, 50, "gives_up");
+        let events = recording.tracks.iter_mut().flat_map(|track| &mut track.events);
+        events.filter(|event| event.time_ns >= 260).for_each(|event| event.time_ns += late_ns);
+        recording
+    };
+    let gives_up = "gives_up encoder_to_motor";
+    parts(&late("real", 0), gives_up, "");
+    parts(&late("real", TICK_NS), gives_up, "");
+    conforms(&late("real", 2 * TICK_NS));
+    parts(&late("drawn", 2 * TICK_NS), gives_up, "");
+}
+
 #[test]
 fn who_waits_at_the_end_has_not_waited_too_long() {
     let mut still = contention("drawn", 2 * TICK_NS, "nothing");
@@ -164,4 +180,67 @@ fn who_waits_at_the_end_has_not_waited_too_long() {
     parts(&still, "", "gives_up encoder_to_motor");
     still.stopped_ns = Some(1_000 + 2 * TICK_NS);
     conforms(&still);
+}
+
+/// Where the array is touched before the lock is there, and whatever else of a task is told in another order.
+#[test]
+fn neighbours_of_a_task_have_their_order() {
+    let good = contention("drawn", TICK_NS, "enters");
+    conforms(&good);
+    let last = |lane: usize| good.tracks[lane].events.len() - 1;
+    for lane in [4, 5] {
+        for at in 0..last(lane) {
+            let mut wrong = good.clone();
+            let events = &mut wrong.tracks[lane].events;
+            events.swap(at, at + 1);
+            let (one, two) = (events[at].time_ns, events[at + 1].time_ns);
+            (events[at].time_ns, events[at + 1].time_ns) = (two, one);
+            let verdict = verdict(&wrong);
+            assert!(matches!(verdict, Verdict::Parts(_)), "event {at} of lane {lane}: {verdict:#?}");
+        }
+    }
+}
+
+/// Behind an event that comes a second late, or goes back in time, the others are looked at all the same.
+#[test]
+fn all_events_are_come_to() {
+    let mut late = contention("drawn", TICK_NS, "enters");
+    late.tracks[5].events.last_mut().expect("an event").time_ns += 1_000_000_000;
+    conforms(&late);
+    late.tracks[4].events.iter_mut().for_each(|event| event.number += u64::from(event.kind == Kind::Swaps));
+    parts(&late, "swaps encoder_to_motor", "swaps encoder_to_motor");
+    late.tracks[5].events.last_mut().expect("an event").time_ns = 0;
+    let (sources, model, program) = model_named("ControllerSystem.asm");
+    let mut session =
+        Session::new(sources, model, program, Limits::default(), &late, true).expect("it can be replayed");
+    assert!(matches!(session.go_on(&late, false), Err(Refusal::Words(words)) if words.contains("time goes back")));
+}
+
+/// Nothing is handed over that is not passed over, and only writings are.
+#[test]
+fn what_is_passed_over_is_a_writing() {
+    let passing = |lines: &str| {
+        recording(
+            "drawn",
+            &format!(
+                "encoder 100 begins encoder_acquire 0
+         encoder 110 ends encoder_acquire 0\n{lines}"
+            ),
+        )
+    };
+    let rest = "encoder 200 passes encoder_write_motor 0\n encoder 200 meets encoder 0";
+    conforms(&passing(&format!("encoder 200 passes encoder_write_robot 0\n{rest}")));
+    conforms(&passing(&format!(
+        "encoder 200 invalid encoder_to_robot\n encoder 200 passes encoder_write_robot 0\n{rest}"
+    )));
+    parts(&passing(&format!("encoder 200 passes encoder_write_robot 1\n{rest}")), "passes encoder_write_robot", "");
+    parts(&passing("encoder 200 invalid encoder_to_motor"), "invalid encoder_to_motor", "");
+    parts(
+        &passing("encoder 200 invalid encoder_to_robot\n encoder 200 begins encoder_write_robot 0"),
+        "invalid encoder_to_robot",
+        "",
+    );
+    parts(&recording("drawn", "encoder 100 passes encoder_acquire 0"), "passes encoder_acquire", "");
+    let failed = passing("encoder 200 begins encoder_write_robot 0\n encoder 200 faults encoder_write_robot 0");
+    assert!(matches!(verdict(&failed), Verdict::Unknown { .. }));
 }

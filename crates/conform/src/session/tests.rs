@@ -41,13 +41,18 @@ const TICKS: i64 = 300;
 
 /// The events of the model's own run. By the order of events an instant is within its tick, one event after another.
 fn recorded(pace: &str) -> Recording {
+    recorded_for(pace, TICKS)
+}
+
+/// So many ticks of it.
+pub(super) fn recorded_for(pace: &str, ticks: i64) -> Recording {
     let (_, _, program) = model();
     let mut machine = Machine::new(Arc::new(program.clone()), Limits::default());
     machine.start(&mut Closed).expect("it starts");
     let vocabulary = Vocabulary::new(&program, &machine).expect("the library's patterns");
     let track = |task: String| Track { task, ..Track::default() };
     let mut tracks: Vec<Track> = vocabulary.components.iter().map(|known| track(known.name.clone())).collect();
-    for tick in 0..TICKS {
+    for tick in 0..ticks {
         machine.step(&mut Closed).expect("a step");
         for (component, claim) in vocabulary.claims(&machine, &vocabulary.changes(&machine)) {
             let mut event = claim.event;
@@ -60,18 +65,18 @@ fn recorded(pace: &str) -> Recording {
         system: "vision_system".to_string(),
         tick_ns: TICK_NS,
         pace: pace.to_string(),
-        stopped_ns: Some(TICKS * TICK_NS),
+        stopped_ns: Some(ticks * TICK_NS),
         ended: true,
         ..Recording::default()
     }
 }
 
-fn session(head: &Recording) -> Session {
+pub(super) fn session(head: &Recording) -> Session {
     let (sources, model, program) = model();
     Session::new(sources, model, program, Limits::default(), head, false).expect("it can be replayed")
 }
 
-fn whole(recording: &Recording) -> Verdict {
+pub(super) fn whole(recording: &Recording) -> Verdict {
     let verdict = session(recording).go_on(recording, false).expect("of this system");
     verdict.expect("nothing more comes")
 }
@@ -120,14 +125,20 @@ fn who_reads_along_hears_what_the_whole_says() {
     }
 }
 
-/// The model's tasks act at once, which no order of single steps is: so it parts somewhere, and there for both.
+/// The model's tasks act at once; told in their order, what they do is also a run of single steps.
 #[test]
 fn by_the_order_of_events_too() {
-    let recording = recorded("real");
-    let verdict = whole(&recording);
-    assert!(matches!(verdict, Verdict::Parts(_)), "{verdict:#?}");
+    let good = recorded("real");
+    let verdict = whole(&good);
+    assert!(matches!(verdict, Verdict::Conforms { .. }), "{verdict:#?}");
+    let mut wrong = good.clone();
+    wrong.tracks[1].events[5].number += 7;
+    let Verdict::Parts(parted) = whole(&wrong) else { panic!("one event is wrong") };
     for at_once in [1, 7] {
-        assert_eq!(along(&recording, at_once), (verdict.clone(), true));
+        assert!(matches!(along(&good, at_once), (Verdict::Conforms { .. }, false)));
+        let (verdict, early) = along(&wrong, at_once);
+        let Verdict::Parts(heard) = verdict else { panic!("{verdict:#?}") };
+        assert_eq!((&heard.event, &heard.task, early), (&parted.event, &parted.task, true));
     }
 }
 

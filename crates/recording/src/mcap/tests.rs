@@ -1,0 +1,147 @@
+//! Files written here, byte by byte, with what a file of a program may have gone through.
+
+use super::*;
+
+fn text(text: &str) -> Vec<u8> {
+    [&(text.len() as u32).to_le_bytes()[..], text.as_bytes()].concat()
+}
+
+fn record(code: u8, content: &[u8]) -> Vec<u8> {
+    [&[code][..], &(content.len() as u64).to_le_bytes(), content].concat()
+}
+
+fn about(name: &str, pairs: &[(&str, &str)]) -> Vec<u8> {
+    let map: String =
+        pairs.iter().map(|(key, value)| String::from_utf8([text(key), text(value)].concat()).expect("text")).collect();
+    record(0x0c, &[text(name), text(&map)].concat())
+}
+
+fn channel(id: u16, topic: &str) -> Vec<u8> {
+    record(0x04, &[&id.to_le_bytes()[..], &[0; 2], &text(topic), &text("json"), &[0; 4]].concat())
+}
+
+fn event(channel: u16, order: u32, time_ns: i64) -> Vec<u8> {
+    let fields = format!("{{\"order\":{order},\"kind\":\"begins\",\"object\":\"p\",\"number\":1}}");
+    let head = [&channel.to_le_bytes()[..], &[0; 4], &time_ns.to_le_bytes(), &[0; 8]].concat();
+    record(0x05, &[&head[..], fields.as_bytes()].concat())
+}
+
+fn chunk(inner: &[u8]) -> Vec<u8> {
+    let length = (inner.len() as u64).to_le_bytes();
+    let sum = Checksum::of(inner).to_le_bytes();
+    record(0x06, &[&[0; 24][..], &sum, &text(""), &length, inner].concat())
+}
+
+fn head() -> Vec<u8> {
+    [MAGIC, &about("groundstate", &[("tick_ns", "1000"), ("pace", "real")])].concat()
+}
+
+/// What stands behind the data: the end with the checksum of these, a summary, the footer with its own.
+fn ended(data: Vec<u8>) -> Vec<u8> {
+    let sum = Checksum::of(&data).to_le_bytes();
+    let summary = channel(0, "/task");
+    let footer = record(0x02, &[0; 20]);
+    let own = Checksum::of(&[&summary, &footer[..FOOTER]].concat()).to_le_bytes();
+    [data, record(0x0f, &sum), summary, footer[..FOOTER].to_vec(), own.to_vec(), MAGIC.to_vec()].concat()
+}
+
+/// Two events of a task, of a run that was stopped and has its end.
+fn whole() -> Vec<u8> {
+    let data = [
+        head(),
+        channel(0, "/task"),
+        chunk(&[event(0, 0, 5), event(0, 1, 9)].concat()),
+        about("stop", &[("stopped_ns", "7")]),
+        about("end", &[("stopped_ns", "7"), ("events task", "2")]),
+    ];
+    ended(data.concat())
+}
+
+#[track_caller]
+fn refused(bytes: &[u8], expect: &str) {
+    assert_eq!(Recording::read(bytes), Err(Malformed(expect.to_string())));
+}
+
+#[test]
+fn what_is_no_recording_is_told() {
+    refused(b"", "it is no MCAP file");
+    refused(MAGIC, "it is not the recording of a generated program");
+    refused(b"\x89MCAP0\r\n\x05\x02\x00\x00\x00\x00\x00\x00\x00\x00\x00", "a record is shorter than it says");
+}
+
+#[test]
+fn pieces_of_any_size_say_what_the_whole_says() {
+    let whole = whole();
+    let read = Recording::read(&whole).expect("a recording");
+    assert_eq!((read.tracks[0].events.len(), read.stopped_ns, read.is_whole()), (2, Some(7), true));
+    for size in [1, 7, 64] {
+        let mut reader = Reader::default();
+        for piece in whole.chunks(size) {
+            assert!(!reader.recording().is_whole() || reader.recording() == &read);
+            reader.feed(piece).expect("a piece");
+        }
+        assert!(reader.has_ended());
+        assert_eq!(reader.finish().as_ref(), Ok(&read));
+    }
+}
+
+/// Wherever a file is damaged, that is told; or it is one without an end.
+#[test]
+fn a_changed_byte_is_noticed() {
+    let whole = whole();
+    let read = Recording::read(&whole).expect("a recording");
+    let behind = whole.len() - ended(Vec::new()).len();
+    for at in 0..whole.len() - MAGIC.len() {
+        for mask in [0x01, 0x80, 0xff] {
+            let mut damaged = whole.clone();
+            damaged[at] ^= mask;
+            let found = Recording::read(&damaged);
+            assert!(
+                found.as_ref().map_or(true, |found| !found.is_whole() || *found == read && at >= behind),
+                "byte {at}: {found:?}"
+            );
+        }
+    }
+    let cut = Recording::read(&whole[..whole.len() / 2]).expect("a beginning");
+    assert!(!cut.is_whole());
+}
+
+#[test]
+fn a_gap_in_the_order_ends_a_track() {
+    let events: Vec<u8> = [0, 1, 3, 4].into_iter().flat_map(|order| event(0, order, 5)).collect();
+    let read = Recording::read(&[head(), channel(0, "/task"), chunk(&events)].concat()).expect("a recording");
+    assert_eq!((read.tracks[0].events.len(), read.tracks[0].lost), (2, true));
+    assert!(!read.is_whole());
+}
+
+#[test]
+fn time_goes_on_from_the_beginning() {
+    let check = |times: [i64; 2], expect: &str| {
+        let events = [event(0, 0, times[0]), event(0, 1, times[1])].concat();
+        refused(&ended([head(), channel(0, "/task"), chunk(&events)].concat()), expect);
+    };
+    check(
+        [2_000_000, 1_500_000],
+        "time goes back: event 1 of task (begins p, cycle 1) is at 1.5000 ms, the event before it at 2.0000 ms",
+    );
+    check(
+        [-4_560_000, 1],
+        "time goes back: event 0 of task (begins p, cycle 1) is at -4.5600 ms, before the run began",
+    );
+}
+
+#[test]
+fn what_is_said_twice_is_said_once() {
+    let again = [head(), channel(0, "/task"), channel(0, "/task")].concat();
+    assert_eq!(Recording::read(&again).expect("a recording").tracks.len(), 1);
+    let check = |more: &[Vec<u8>], expect: &str| refused(&[&head()[..], &more.concat()].concat(), expect);
+    check(&[channel(0, "/task"), channel(1, "/task")], "two channels have the name task");
+    check(&[channel(0, "/task"), channel(0, "/other")], "one channel is both task and other");
+    check(&[head()[MAGIC.len()..].to_vec()], "it has two heads");
+    let end = || about("end", &[("stopped_ns", "7"), ("events task", "0")]);
+    check(&[end(), end()], "it has two ends");
+    let two = "it does not say when the tasks were asked to stop, or says it in two ways";
+    check(&[about("stop", &[("stopped_ns", "8")]), end()], two);
+    check(&[about("stop", &[("stopped_ns", "-8")])], two);
+    check(&[channel(0, "/task"), end(), event(0, 0, 1)], "an event comes behind the end of the run");
+}
