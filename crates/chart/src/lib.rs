@@ -27,7 +27,7 @@ pub use build::{Built, Known, Unknown, build, unbuilt};
 pub use chart::{
     Arrow, Chart, Control, End, Layout, Link, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind,
 };
-pub use check::{Probed, check, probed};
+pub use check::{Probed, built_faults, check, probed};
 pub use draw::drawings;
 pub use dump::dump;
 pub use extract::{Extracted, extract};

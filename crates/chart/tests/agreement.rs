@@ -124,7 +124,7 @@ fn built_and_extracted_again() {
         assert_eq!(meaning(&extracted.chart, rule), meaning(&chart, rule), "{rule}");
     }
     // Its text reads back as itself.
-    let again = crate::chart(&write(&extracted.chart));
+    let again = crate::agreement::chart(&write(&extracted.chart));
     for machine in &extracted.chart.machines {
         let rule = &machine.rule.as_ref().expect("an extracted machine has a rule").name;
         assert_eq!(meaning(&again, rule), meaning(&extracted.chart, rule));

@@ -155,3 +155,33 @@ fn damaged_documents() {
     }
     assert!(read_back > 20, "only {read_back}");
 }
+
+#[test]
+fn an_element_crowded_with_attributes_is_refused() {
+    let attributes: String = (0..100_000).map(|number| format!(" a{number}='='")).collect();
+    let document =
+        format!("<scxml xmlns=\"http://www.w3.org/2005/07/scxml\">\n<!-- it's --><state{attributes}/></scxml>");
+    let imported = scxml(FileId(0), &document, "C");
+    assert_eq!(imported.text, None);
+    let [fault] = &imported.diagnostics[..] else { panic!("{:?}", imported.diagnostics) };
+    assert_eq!(fault.id, "foreign-notation");
+    assert_eq!(document[..fault.primary.span.start as usize].lines().count(), 2);
+    let quoted = format!(
+        "<scxml><state id=\"s\"><!--{0}--><onentry><script><![CDATA[{0}]]></script></onentry></state></scxml>",
+        "a='b' ".repeat(2000)
+    );
+    assert!(scxml(FileId(0), &quoted, "C").text.is_some());
+}
+
+#[test]
+fn labels_of_mermaid_say_nothing_but_themselves() {
+    let chart = chart(
+        "chart C machine m control x initial state a \"<script>alert(1)</script> #quot; `x` & y\" {A} \
+         state b action f {x := \"<b>;\"} a -> f -> b endmachine",
+    );
+    let text = export(&drawings(&chart)[0], Notation::Mermaid).expect("it is a machine");
+    let label = text.lines().find(|line| line.starts_with("  n0")).expect("a node");
+    let label = label.replace("<br/>", "").replace("<small>", "").replace("</small>", "");
+    assert!(!label.contains(['<', '>', '&', '`']) && label.matches('"').count() == 2, "{label}");
+    assert!(label.contains("#35;quot#59;") && label.contains("#60;script#62;"), "{label}");
+}

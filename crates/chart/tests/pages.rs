@@ -48,6 +48,24 @@ impl Loader for Nothing {
     }
 }
 
+/// The library of patterns, as `patterns/NAME`.
+struct Library;
+
+impl Loader for Library {
+    fn load(&mut self, _: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        let name = path.rsplit('/').next().unwrap_or(path);
+        let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../library/patterns/{name}.asm"));
+        let text = std::fs::read_to_string(&file).map_err(|error| error.to_string())?;
+        Ok(SourceFile::new(format!("patterns/{name}.asm"), text))
+    }
+}
+
+/// What the library of patterns declares.
+fn patterns() -> Known {
+    let (importing, _) = chart("chart C import patterns/ControlTask");
+    Known::imported(&importing, "Imports.asm", &mut Library).expect("the library has no faults")
+}
+
 fn built(text: &str) -> String {
     let (chart, faults) = chart(text);
     assert_eq!(faults, [], "{text}");
@@ -86,11 +104,17 @@ fn each_fault_has_a_page_whose_example_shows_it() {
         let (drawn, mut faults) = chart(block("chart fault").expect("an example"));
         match (&drawn.system, *id) {
             (Some(system), "not-generated") => faults.extend(chart::generate::ungenerated(system)),
-            _ => faults.extend(chart::unbuilt(&drawn, &Known::default())),
+            _ if !faults.is_empty() => {}
+            _ => faults.extend(chart::unbuilt(&drawn, &patterns())),
         }
-        if let Some(specification) = block("asmetal") {
+        let before = block("chart before").map(|text| {
+            let (before, faults) = chart(text);
+            assert_eq!(faults, []);
+            build(&before, &patterns(), None).expect("there was no file").text
+        });
+        if let Some(specification) = block("asmetal").or(before.as_deref()) {
             let probed = probed(&drawn, specification).expect("the specification parses");
-            let checked = check(SourceFile::new(format!("{}.asm", drawn.name), probed.text.as_str()), &mut Nothing);
+            let checked = check(SourceFile::new(format!("{}.asm", drawn.name), probed.text.as_str()), &mut Library);
             faults.extend(chart::check(&drawn, &probed, &checked, &mut Nothing));
         }
         let ids: Vec<_> = faults.iter().map(|fault| fault.id).collect();

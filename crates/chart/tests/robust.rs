@@ -28,7 +28,9 @@ fn check(text: &str) -> bool {
     assert_invariants(text.as_bytes());
     let (chart, faults) = read(FileId(0), &parse_chart(FileId(0), text));
     let _ = chart::dump(&chart);
-    if errors(&faults) > 0 || !unbuilt(&chart, &Known::default()).is_empty() {
+    // The library's patterns are not looked for here.
+    let unbuilt = unbuilt(&chart, &Known::default());
+    if errors(&faults) > 0 || unbuilt.iter().any(|fault| fault.id != "chart-import") {
         return false;
     }
     let built = build(&chart, &Known::default(), None).expect("there was no file").text;
@@ -74,13 +76,15 @@ fn damaged_charts() {
         "examples/visual_servoing/VisionSystem.chart",
         "examples/visual_servoing/VisualServoingComponent.chart",
     ];
+    // Each is laid out, which takes most of the time.
+    let each = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 150 } else { 20 };
     let mut whole = 0;
     for (seed, file) in files.iter().enumerate() {
         let text = std::fs::read_to_string(root.join(file)).expect("the chart is there");
         assert!(check(&text), "{file}");
         let pieces = pieces(&text);
         let mut dice = Dice(seed as u64 + 1);
-        for _ in 0..150 {
+        for _ in 0..each {
             let mut damaged = pieces.clone();
             for _ in 0..=dice.throw(3) {
                 let (at, other) = (dice.throw(damaged.len()), dice.throw(damaged.len()));
@@ -94,5 +98,5 @@ fn damaged_charts() {
             whole += usize::from(check(&damaged.concat()));
         }
     }
-    assert!(whole > 20, "only {whole} of the damaged charts were whole");
+    assert!(whole * 30 > each * files.len(), "only {whole} of the damaged charts were whole");
 }

@@ -42,14 +42,20 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
             Ok(Exit::Good)
         }
         Err(_) => {
-            let close = PAGES.iter().find(|(id, _)| id.contains(asked) || asked.contains(id));
-            let help = match close {
-                Some((id, _)) => format!("is `{id}` meant? `groundstate explain` lists all"),
+            let help = match close(asked) {
+                Some(id) => format!("did you mean `{id}`? `groundstate explain` lists all"),
                 None => "`groundstate explain` lists all".to_string(),
             };
             Err(Failure::usage_with_help(format!("there is no kind of fault called `{asked}`"), help))
         }
     }
+}
+
+/// The name that was likely meant: it was mistyped, or a part of it was typed.
+fn close(asked: &str) -> Option<&'static str> {
+    let names = || PAGES.iter().map(|(id, _)| *id);
+    let part = || names().find(|id| !asked.is_empty() && (id.contains(asked) || asked.contains(id)));
+    model::nearest(asked, names()).or_else(part)
 }
 
 /// The first heading of a page that says more than its name, or the first sentence.
@@ -59,4 +65,16 @@ fn title(page: &str) -> &str {
     let text = if first.starts_with('#') { lines.next().unwrap_or_default() } else { first };
     let text = text.trim_start_matches('#').trim();
     text.split_inclusive(". ").next().unwrap_or(text).trim()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mistyped_name_is_guessed() {
+        assert_eq!(close("inconsistant-update"), Some("inconsistent-update"));
+        assert_eq!(close("no-main"), Some("no-main-rule"));
+        assert_eq!((close("zebra"), close("")), (None, None));
+    }
 }

@@ -34,8 +34,6 @@ pub enum Failure {
         /// What the system says.
         error: io::Error,
     },
-    /// The reader of our output has closed it.
-    BrokenPipe,
     /// Our output cannot be written.
     Output(io::Error),
     /// Arguments that fit neither each other nor the model.
@@ -91,7 +89,6 @@ impl Failure {
             Failure::NotUtf8 { .. } => "file-not-utf8",
             Failure::TooLarge { .. } => "file-too-large",
             Failure::File { .. } => "file-trouble",
-            Failure::BrokenPipe => "broken-pipe",
             Failure::Output(_) => "output-trouble",
             Failure::Usage { .. } => "usage",
         }
@@ -100,7 +97,7 @@ impl Failure {
 
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
-        if error.kind() == io::ErrorKind::BrokenPipe { Failure::BrokenPipe } else { Failure::Output(error) }
+        Failure::Output(error)
     }
 }
 
@@ -114,7 +111,6 @@ impl fmt::Display for Failure {
             }
             Failure::TooLarge { path, limit } => write!(f, "{} is larger than {limit} bytes", path.display()),
             Failure::File { verb, path, error } => write!(f, "cannot {verb} {}: {}", path.display(), reason(error)),
-            Failure::BrokenPipe => f.write_str("the output was closed"),
             Failure::Output(error) => write!(f, "cannot write the output: {}", reason(error)),
             Failure::Usage { message, .. } => f.write_str(message),
         }

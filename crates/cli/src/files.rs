@@ -4,14 +4,16 @@ use std::fs::File;
 use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
+use groundstate::patterns;
 use syntax::{NotText, SourceFile};
 
 use crate::failure::Failure;
+use crate::overwrite;
+use crate::sink::Sink;
 
 /// Reads a text file of at most `limit` bytes.
 pub fn read_text(path: &Path, limit: u64) -> Result<String, Failure> {
-    String::from_utf8(read_bytes(path, limit)?)
-        .map_err(|error| Failure::NotUtf8 { path: path.to_path_buf(), offset: error.utf8_error().valid_up_to() })
+    text_of(path, read_bytes(path, limit)?)
 }
 
 /// Reads a model or a scenario of at most `limit` bytes; one that is not UTF-8 is read as far as it is text.
@@ -29,7 +31,28 @@ pub fn decode(path: &Path, bytes: Vec<u8>, limit: u64) -> Result<SourceFile, Fai
         .map_err(|NotText { offset }| Failure::NotUtf8 { path, offset })
 }
 
-fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Failure> {
+/// The text that a file to be brought up to date has now; none where there is no such file.
+pub fn present_text(path: &Path, limit: u64) -> Result<Option<String>, Failure> {
+    match bytes_of(path, limit).and_then(|bytes| text_of(path, bytes)) {
+        Ok(text) => Ok(Some(text)),
+        Err(Failure::Missing(_)) => Ok(None),
+        Err(failure) => Err(failure),
+    }
+}
+
+/// Reads a file of at most `limit` bytes.
+pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Failure> {
+    let bytes = bytes_of(path, limit)?;
+    overwrite::note(path);
+    Ok(bytes)
+}
+
+fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, Failure> {
+    String::from_utf8(bytes)
+        .map_err(|error| Failure::NotUtf8 { path: path.to_path_buf(), offset: error.utf8_error().valid_up_to() })
+}
+
+fn bytes_of(path: &Path, limit: u64) -> Result<Vec<u8>, Failure> {
     let wrap = |error| Failure::of_file("read", path, error);
     let file = File::open(path).map_err(wrap)?;
     if file.metadata().map_err(wrap)?.is_dir() {
@@ -44,7 +67,46 @@ fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Failure> {
     Ok(bytes)
 }
 
-/// Finds imported files on the disk, relative to the importing file and then to the working folder.
+/// A file that is read a piece at a time, up to a limit.
+#[derive(Debug)]
+pub struct Bounded {
+    path: PathBuf,
+    file: io::Take<File>,
+    limit: u64,
+    piece: Vec<u8>,
+}
+
+impl Bounded {
+    /// Opens a file of at most `limit` bytes.
+    pub fn open(path: &Path, limit: u64) -> Result<Self, Failure> {
+        let wrap = |error| Failure::of_file("read", path, error);
+        let file = File::open(path).map_err(wrap)?;
+        if file.metadata().map_err(wrap)?.is_dir() {
+            return Err(Failure::Folder(path.to_path_buf()));
+        }
+        overwrite::note(path);
+        // One byte more than allowed, as for a file that is read whole.
+        let file = file.take(limit.saturating_add(1));
+        Ok(Bounded { path: path.to_path_buf(), file, limit, piece: vec![0; 1 << 20] })
+    }
+
+    /// What comes next; nothing at the end.
+    pub fn piece(&mut self) -> Result<Option<&[u8]>, Failure> {
+        let read = loop {
+            match self.file.read(&mut self.piece) {
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                read => break read.map_err(|error| Failure::of_file("read", &self.path, error))?,
+            }
+        };
+        if self.file.limit() == 0 {
+            return Err(Failure::TooLarge { path: self.path.clone(), limit: self.limit });
+        }
+        Ok((read > 0).then(|| &self.piece[..read]))
+    }
+}
+
+/// Finds imported files on the disk, relative to the importing file and then to the working folder; what is in neither,
+/// in the pattern library that is built in.
 #[derive(Debug)]
 pub struct Disk {
     /// The most bytes a file may have.
@@ -61,6 +123,10 @@ impl Disk {
 impl model::Loader for Disk {
     fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
         let written = path.replace('\\', "/");
+        if patterns::is_pattern(&importer.name) {
+            // The library's modules import each other, whatever lies in the working folder.
+            return patterns::pattern(&importer.name, &written).ok_or_else(|| format!("{path} is not in the library"));
+        }
         let complete = [".asm", ".avalla", ".chart"].iter().any(|ending| written.ends_with(ending));
         let written = if complete { written } else { written + ".asm" };
         let folder = Path::new(&importer.name).parent().unwrap_or(Path::new(""));
@@ -68,7 +134,13 @@ impl model::Loader for Disk {
         let found = if beside.exists() { beside } else { PathBuf::from(&written) };
         match read_source(&found, self.limit) {
             Ok(source) => Ok(source),
-            Err(Failure::Missing(_)) => Err(format!("there is no file {}", tidy(&folder.join(&written)).display())),
+            Err(Failure::Missing(_)) => patterns::pattern(&importer.name, &written).ok_or_else(|| {
+                let missing = format!("there is no file {}", tidy(&folder.join(&written)).display());
+                match patterns::meant(&written) {
+                    Some(import) => format!("{missing}; `import {import}` takes the library that is built in"),
+                    None => missing,
+                }
+            }),
             Err(failure) => Err(failure.to_string()),
         }
     }
@@ -101,19 +173,28 @@ pub struct Unfinished {
 #[derive(Debug)]
 enum Target {
     Renamed(BufWriter<tempfile::NamedTempFile>),
-    Direct(BufWriter<File>),
+    Direct(BufWriter<Sink<File>>),
 }
 
 impl Unfinished {
-    /// Begins a file.
+    /// Begins a file, which is none that was read.
     pub fn create(path: &Path) -> Result<Self, Failure> {
+        overwrite::refuse(path)?;
+        Unfinished::replace(path)
+    }
+
+    /// Begins a file, which may be what was read, brought up to date.
+    pub fn replace(path: &Path) -> Result<Self, Failure> {
         let wrap = |error| Failure::of_file("write", path, error);
         let special = path.starts_with("/dev") || path.starts_with("/proc");
         let path = match std::fs::metadata(path) {
             Ok(found) if found.is_dir() => return Err(Failure::Folder(path.to_path_buf())),
             Ok(found) if special || !found.is_file() => {
                 let file = File::options().write(true).open(path).map_err(wrap)?;
-                return Ok(Unfinished { path: path.to_path_buf(), target: Target::Direct(BufWriter::new(file)) });
+                return Ok(Unfinished {
+                    path: path.to_path_buf(),
+                    target: Target::Direct(BufWriter::new(Sink::new(file))),
+                });
             }
             // A link stays; what it leads to is replaced.
             Ok(_) => std::fs::canonicalize(path).map_err(wrap)?,
@@ -181,14 +262,22 @@ pub fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
     write_bytes(path, text.as_bytes())
 }
 
+/// Writes a whole text file, which may be what was read, brought up to date.
+pub fn rewrite_text(path: &Path, text: &str) -> Result<(), Failure> {
+    write_all(path, text.as_bytes(), Unfinished::replace(path)?)
+}
+
 /// Writes a whole file.
 pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let mut file = Unfinished::create(path)?;
+    write_all(path, bytes, Unfinished::create(path)?)
+}
+
+fn write_all(path: &Path, bytes: &[u8], mut file: Unfinished) -> Result<(), Failure> {
     file.write_all(bytes).map_err(|error| Failure::of_file("write", path, error))?;
     file.finish()
 }
 
-/// The files that paths mean: a file is itself, a folder all files below it with one of the extensions, by name.
+/// The files that paths mean: a file is itself, a folder all files below it with one of the endings, by name.
 pub fn collect(paths: &[PathBuf], extensions: &[&str]) -> Result<Vec<PathBuf>, Failure> {
     let mut files = Vec::new();
     for path in paths {
@@ -216,9 +305,15 @@ fn collect_folder(folder: &Path, extensions: &[&str], files: &mut Vec<PathBuf>) 
         // A link to a folder may lead back here.
         if path.is_dir() && !path.is_symlink() {
             collect_folder(&path, extensions, files)?;
-        } else if path.extension().is_some_and(|found| extensions.iter().any(|extension| found == *extension)) {
+        } else if extensions.iter().any(|extension| has_ending(&path, extension)) {
             files.push(path);
         }
     }
     Ok(())
+}
+
+/// Whether a file is called `….ENDING`.
+pub fn has_ending(path: &Path, ending: &str) -> bool {
+    let name = path.file_name().and_then(|name| name.to_str()).and_then(|name| name.strip_suffix(ending));
+    name.is_some_and(|rest| rest.len() > 1 && rest.ends_with('.'))
 }

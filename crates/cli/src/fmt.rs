@@ -12,7 +12,7 @@ use syntax::{FileId, Parse, Severity, SourceFile, Sources};
 use crate::check::plural;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::{collect, decode, read_source, write_text};
+use crate::files::{collect, decode, read_source, rewrite_text};
 use crate::shell::Shell;
 use crate::wire::Answer;
 
@@ -35,6 +35,8 @@ enum Layout {
     Kept,
     /// It should read so.
     Changed(String),
+    /// The layout that it would get is not the same text, which is a fault of ours.
+    Refused,
 }
 
 /// How many files were what.
@@ -43,6 +45,7 @@ struct Counts {
     faulty: usize,
     kept: usize,
     changed: usize,
+    refused: usize,
 }
 
 /// Runs the command.
@@ -58,9 +61,12 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         one(shell, &path, arguments.check, &mut counts)?;
     }
     if shell.talks() && !arguments.check {
-        let Counts { faulty, kept, changed } = counts;
+        let Counts { faulty, kept, changed, .. } = counts;
         let faulty = if faulty == 0 { String::new() } else { format!(", {faulty} with faults of syntax not touched") };
         writeln!(shell.out(), "{} formatted, {kept} in good layout{faulty}", plural(changed, "file"))?;
+    }
+    if counts.refused > 0 {
+        return Ok(Exit::World);
     }
     let bad = counts.faulty > 0 || arguments.check && counts.changed > 0;
     Ok(if bad { Exit::Model } else { Exit::Good })
@@ -75,6 +81,10 @@ fn one(shell: &mut Shell, path: &Path, check: bool, counts: &mut Counts) -> Resu
             counts.faulty += 1;
             return Ok(());
         }
+        Layout::Refused => {
+            counts.refused += 1;
+            return Ok(());
+        }
         Layout::Kept => {
             counts.kept += 1;
             false
@@ -82,7 +92,7 @@ fn one(shell: &mut Shell, path: &Path, check: bool, counts: &mut Counts) -> Resu
         Layout::Changed(text) => {
             counts.changed += 1;
             if !check {
-                write_text(path, &text)?;
+                rewrite_text(path, &text)?;
             }
             true
         }
@@ -105,6 +115,7 @@ fn standard_input(shell: &mut Shell, check: bool) -> Result<Exit, Failure> {
     let text = source.text.clone();
     match (layout(shell, source)?, check) {
         (Layout::Faulty, _) => Ok(Exit::Model),
+        (Layout::Refused, _) => Ok(Exit::World),
         (Layout::Kept, true) => Ok(Exit::Good),
         (Layout::Changed(_), true) => {
             writeln!(shell.out(), "<stdin>")?;
@@ -131,7 +142,13 @@ fn layout(shell: &mut Shell, source: SourceFile) -> Result<Layout, Failure> {
         return Ok(Layout::Faulty);
     }
     let formatted = syntax::format(&parse);
-    assert!(syntax::differ_in_layout_only(&parse, &grammar(file, &formatted)), "formatting changes the text's meaning");
+    if !syntax::differ_in_layout_only(&parse, &grammar(file, &formatted)) {
+        let name = sources.file(file).name.clone();
+        let message =
+            format!("{name} stays as it is: its layout would change its meaning, which is a fault of groundstate");
+        shell.report_failure(&Failure::usage(message));
+        return Ok(Layout::Refused);
+    }
     let formatted = if text.contains("\r\n") { with_carriage_returns(&formatted) } else { formatted };
     Ok(if *formatted == *text { Layout::Kept } else { Layout::Changed(formatted) })
 }

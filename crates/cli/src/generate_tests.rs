@@ -12,6 +12,7 @@ use chart::{Origin, Target};
 use clap::Args;
 use groundstate::scenario::{FirstCandidate, Options as Scenario};
 use groundstate::test_generation::{Goal, GoalKind, Method, Subject, Tests, Turn, generate_tests};
+use groundstate::verify::{Reason, Stop};
 use groundstate::{Loaded, SeededChoices, Suite, own_files};
 use model::DomainKind;
 use serde::Serialize;
@@ -86,7 +87,12 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
     let turns = turns(&loaded);
     let program = Arc::new(loaded.program.clone());
-    let (options, mut watch) = arguments.bounded.options(shell, &program, &beside)?;
+    let (bounded, by_default) = match arguments.random {
+        // Walks come to an end by themselves.
+        Some(_) => (arguments.bounded.clone(), false),
+        None => arguments.bounded.with_end(),
+    };
+    let (options, mut watch) = bounded.options(shell, &program, &beside)?;
     let (root, users) = (loaded.model.root, own_files(&loaded.sources));
     let own = |file: FileId| file == root || (arguments.imports && users(file));
     let path = relative(&arguments.model, folder);
@@ -97,7 +103,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     };
     let generated = generate_tests(subject, &options, method, &own, &mut |progress| watch.at(progress));
     let timed_out = watch.done();
-    let teller = Teller { program: &program, sources: &loaded.sources, timed_out };
+    let teller = Teller::new(&program, &loaded.sources, timed_out);
     let tests = match generated {
         Ok(tests) => tests,
         Err(trouble) => return no_start(shell, &teller, trouble),
@@ -111,13 +117,17 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     for name in &left_out {
         shell.note(&format!("{name} is left out: it needs a choice that no scenario can pick"))?;
     }
+    let stopped = |reason: &Reason| matches!(reason, Reason::Stopped(Stop::States)) || timed_out;
+    if by_default && tests.reasons.iter().any(stopped) {
+        Bounded::at_end(shell)?;
+    }
     let ended = tests.progress.is_none() || tests.reasons.is_empty();
     Ok(if ended { Exit::Good } else { Exit::Unknown })
 }
 
 /// Writes the scenarios that pass; gives the names of the others.
 fn write(shell: &mut Shell, folder: &Path, tests: &Tests, suite: &mut Suite) -> Result<Vec<String>, Failure> {
-    let limits = shell.global.limits.machine();
+    let limits = shell.global.limits.uninterrupted();
     let mut left_out = Vec::new();
     for scenario in &tests.scenarios {
         let path = folder.join(format!("{}.avalla", scenario.name));

@@ -1,12 +1,16 @@
 //! The `--max-…` options: what a model may take before it is told so.
 
+use std::sync::Once;
+
 use clap::Args;
+
+use crate::interrupt;
 
 /// Limits, with the defaults of [`machine::Limits`].
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Limits")]
 pub struct Limits {
-    /// Largest file that is read, in bytes
+    /// Largest file that is read, in bytes; a program's recording may be 64 times as long
     #[arg(long, global = true, value_name = "BYTES", default_value_t = 16 << 20, hide_short_help = true)]
     pub max_file_size: u64,
     /// Rounds of while, whilerec and iterate in one step, all together
@@ -24,6 +28,12 @@ pub struct Limits {
     /// Locations that have a value, and elements made by extend
     #[arg(long, global = true, value_name = "N", default_value_t = machine::Limits::default().locations, hide_short_help = true)]
     max_locations: u64,
+    /// Bindings of variables and calls in one step, all together
+    #[arg(long, global = true, value_name = "N", default_value_t = machine::Limits::default().work, hide_short_help = true)]
+    max_work: u64,
+    /// Memory that the program may take while a model runs, in MiB
+    #[arg(long, global = true, value_name = "MIB", default_value_t = 4096, hide_short_help = true)]
+    max_heap: u64,
 }
 
 /// Reads a count of steps or the like.
@@ -35,20 +45,37 @@ pub fn count(text: &str) -> Result<u64, String> {
 }
 
 impl Limits {
-    /// The machine's part.
+    /// The most bytes of a program's recording.
+    pub fn recording(&self) -> u64 {
+        self.max_file_size.saturating_mul(64)
+    }
+
+    /// The machine's part, which a step that is being made is held to from now on.
     pub fn machine(&self) -> machine::Limits {
+        // Whoever has bounded the memory since keeps that bound.
+        static FIRST: Once = Once::new();
+        FIRST.call_once(|| interrupt::bound_memory(self.max_heap));
         machine::Limits {
             iterations: self.max_iterations,
             call_depth: self.max_depth,
             collection: self.max_collection,
             updates: self.max_updates,
             locations: self.max_locations,
+            work: self.max_work,
+            interrupt: Some(interrupt::request()),
         }
+    }
+
+    /// The same for steps that are made to their end, whoever asks: a verdict hangs on each of them.
+    pub fn uninterrupted(&self) -> machine::Limits {
+        machine::Limits { interrupt: None, ..self.machine() }
     }
 
     /// The option that raises a limit of the machine.
     pub fn option_for(limit: &str) -> Option<&'static str> {
         let options = [
+            ("bindings", "--max-work"),
+            ("memory", "--max-heap"),
             ("iterations", "--max-iterations"),
             ("calls", "--max-depth"),
             ("collection", "--max-collection"),

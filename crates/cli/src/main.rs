@@ -13,6 +13,7 @@
 mod bench;
 mod chart;
 mod check;
+mod completions;
 mod conform;
 mod coverage;
 mod dump;
@@ -29,7 +30,10 @@ mod interrupt;
 mod junit;
 mod limits;
 mod load;
+mod man;
 mod narrate;
+mod new;
+mod overwrite;
 mod progress;
 mod render;
 mod replay;
@@ -37,7 +41,9 @@ mod report;
 mod review;
 mod run;
 mod shell;
+mod sink;
 mod solver;
+mod story;
 mod test;
 mod tracefile;
 mod verify;
@@ -45,10 +51,9 @@ mod wire;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::shell::{Global, Shell};
 
 /// Checks, runs and tests Abstract State Machines written in AsmetaL.
@@ -67,6 +72,8 @@ const EXIT_CODES: &str = "Exit codes: 0 good; 1 the model is at fault, an invari
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Make a folder with a model that checks, runs, tests and draws at once
+    New(new::Arguments),
     /// Report the faults of models and scenarios, run nothing
     Check(check::Arguments),
     /// Run a model
@@ -97,6 +104,10 @@ enum Command {
     Fmt(fmt::Arguments),
     /// Measure steps per second and memory
     Bench(bench::Arguments),
+    /// Write what a shell needs to complete this command
+    Completions(completions::Arguments),
+    /// Write the manual pages
+    Man(man::Arguments),
 }
 
 /// The size of the working thread's stack.
@@ -142,14 +153,13 @@ fn work(arguments: Arguments) -> Exit {
         Command::Explain(arguments) => explain::run(&mut shell, &arguments),
         Command::Fmt(arguments) => fmt::run(&mut shell, &arguments),
         Command::Bench(arguments) => bench::run(&mut shell, &arguments),
+        Command::New(arguments) => new::run(&mut shell, &arguments),
+        Command::Completions(arguments) => completions::run(&mut shell, &arguments, Arguments::command()),
+        Command::Man(arguments) => man::run(&mut shell, &arguments, Arguments::command()),
     };
     let outcome = outcome.and_then(|exit| shell.flush().map(|()| exit));
-    outcome.unwrap_or_else(|failure| match failure {
-        // Whoever read our output has seen enough.
-        Failure::BrokenPipe => Exit::Good,
-        failure => {
-            shell.report_failure(&failure);
-            Exit::World
-        }
+    outcome.unwrap_or_else(|failure| {
+        shell.report_failure(&failure);
+        Exit::World
     })
 }

@@ -13,6 +13,7 @@ use program::Program;
 use syntax::Span;
 
 use crate::check::plural;
+use crate::inputs::Look;
 
 /// How much of the state is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -86,6 +87,28 @@ impl Narrator<'_> {
         }
     }
 
+    /// Keeps up to date what can be looked at between two steps.
+    pub fn look(&self, look: &mut Look, record: &Record, machine: &Machine) {
+        let lines = |values: &mut dyn Iterator<Item = String>| {
+            let text: String = values.map(|line| format!("  {line}\n")).collect();
+            if text.is_empty() { "  nothing\n".to_string() } else { text }
+        };
+        let show = |value: &Value| value.show(self.program).to_string();
+        let at = |location: &Location| location.show(self.program).to_string();
+        look.state = lines(
+            &mut machine
+                .locations()
+                .into_iter()
+                .map(|(location, value)| format!("{} = {}", at(&location), show(&value))),
+        );
+        look.updates = match record {
+            Record::Step(step) => lines(&mut step.changes.iter().map(|change| {
+                format!("{}: {} -> {}", at(&change.location), show(&change.before), show(&change.after))
+            })),
+            _ => String::new(),
+        };
+    }
+
     /// Steps in which nothing happened are told as one.
     fn tell_quiet(&self, out: &mut impl Write) -> io::Result<()> {
         let Some((first, last)) = self.quiet.take() else { return Ok(()) };
@@ -108,7 +131,8 @@ impl Narrator<'_> {
     }
 
     fn choice(&self, choice: &ChoiceMade) -> String {
-        let values: Vec<String> = choice.values.iter().map(|value| value.show(self.program).to_string()).collect();
+        let values: Vec<String> =
+            choice.values.iter().map(|value| value.show(self.program).briefly().to_string()).collect();
         let shown = match self.binders.get(&choice.span) {
             Some(names) if names.len() == values.len() => {
                 let pairs: Vec<String> =
@@ -130,7 +154,8 @@ impl Narrator<'_> {
             return Ok(());
         }
         for change in &step.changes {
-            let (before, after) = (change.before.show(self.program), change.after.show(self.program));
+            let (before, after) =
+                (change.before.show(self.program).briefly(), change.after.show(self.program).briefly());
             let location = change.location.show(self.program);
             writeln!(
                 out,
@@ -152,7 +177,7 @@ impl Narrator<'_> {
     }
 
     fn value(&self, out: &mut impl Write, word: &str, color: &str, at: &Location, value: &Value) -> io::Result<()> {
-        let line = format!("{} = {}", at.show(self.program), value.show(self.program));
+        let line = format!("{} = {}", at.show(self.program), value.show(self.program).briefly());
         match word {
             "" => writeln!(out, "  {}", self.paint(color, &line)),
             word => writeln!(out, "  {} {line}", self.paint(color, word)),

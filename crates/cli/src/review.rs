@@ -9,6 +9,7 @@ use std::sync::Arc;
 use clap::Args;
 use groundstate::own_files;
 use groundstate::verify::review::{Finding, Meta, Outcome, Review, review};
+use groundstate::verify::{Reason, Stop};
 use serde::Serialize;
 use syntax::FileId;
 
@@ -78,14 +79,15 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         return Ok(Exit::World);
     };
     let program = Arc::new(loaded.program);
-    let (options, mut watch) = arguments.bounded.options(shell, &program, &beside)?;
+    let (bounded, by_default) = arguments.bounded.with_end();
+    let (options, mut watch) = bounded.options(shell, &program, &beside)?;
     let root = loaded.model.root;
     let users = own_files(&loaded.sources);
     let own = |file: FileId| file == root || (arguments.imports && users(file));
     let metas = if arguments.only.is_empty() { Meta::ALL.to_vec() } else { arguments.only.clone() };
     let outcome = review(&loaded.model, &program, &options, &metas, &own, &mut |progress| watch.at(progress));
     let timed_out = watch.done();
-    let teller = Teller { program: &program, sources: &loaded.sources, timed_out };
+    let teller = Teller::new(&program, &loaded.sources, timed_out);
     let review = match outcome {
         Ok(review) => review,
         Err(trouble) => return no_start(shell, &teller, trouble),
@@ -94,6 +96,10 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         tell(shell, &teller, &review, finding, arguments.runs)?;
     }
     summary(shell, &teller, &review)?;
+    let stopped = |reason: &Reason| matches!(reason, Reason::Stopped(Stop::States)) || timed_out;
+    if by_default && review.reasons.iter().any(stopped) {
+        Bounded::at_end(shell)?;
+    }
     Ok(exit(&review))
 }
 

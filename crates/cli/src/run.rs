@@ -80,7 +80,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     };
     let program = Arc::new(loaded.program);
     let assembled = inputs::assemble(shell, &arguments.inputs, &mut loaded.sources, &program)?;
-    let Assembled { inputs, interactive } = match assembled {
+    let Assembled { inputs, interactive, told: look } = match assembled {
         Ok(assembled) => assembled,
         Err(faults) => {
             shell.diagnostics(&loaded.sources, &faults)?;
@@ -116,6 +116,8 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         }
         exit = exit.max(teller.tell(shell, &record, &mut run)?);
         if interactive {
+            let mut look = look.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+            teller.narrator.look(&mut look, &record, run.machine());
             shell.flush()?;
         }
         progress.at(run.steps());
@@ -131,11 +133,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
 }
 
 pub fn no_main(shell: &mut Shell, loaded: &Loaded) -> Result<Exit, Failure> {
-    let file = loaded.model.root;
-    let span = syntax::Span { file, start: 0, end: 0 };
-    let fault = syntax::Diagnostic::error("no-main-rule", span, "the model has no main rule to run")
-        .with_help("a module is run through an `asm` that imports it and has a `main rule`");
-    shell.diagnostic(&loaded.sources, &fault)?;
+    shell.diagnostic(&loaded.sources, &groundstate::diagnose_no_main(&loaded.model))?;
     Ok(Exit::Model)
 }
 
@@ -251,6 +249,9 @@ impl<'a> Teller<'a> {
                         let name = &self.wire.program.domain(*domain).name;
                         diagnostic = diagnostic.with_help(format!("give it a value in {name}"));
                         exit = Exit::World;
+                    }
+                    FaultKind::Interrupted(_) => {
+                        diagnostic = diagnostic.with_help("if the model is right, raise --max-heap");
                     }
                     FaultKind::Limit { limit, .. } => {
                         if let Some(option) = crate::limits::Limits::option_for(limit) {

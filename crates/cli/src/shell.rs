@@ -12,6 +12,7 @@ use crate::failure::Failure;
 use crate::files::Disk;
 use crate::limits::Limits;
 use crate::render;
+use crate::sink::Sink;
 
 /// Options of every command.
 #[derive(Debug, Clone, Args)]
@@ -54,7 +55,8 @@ pub enum Color {
 #[derive(Debug)]
 pub struct Shell {
     pub global: Global,
-    out: BufWriter<io::Stdout>,
+    out: BufWriter<Sink<io::Stdout>>,
+    err: Sink<io::Stderr>,
     color_out: bool,
     color_err: bool,
 }
@@ -74,7 +76,8 @@ impl Shell {
             }
         };
         let (color_out, color_err) = (wanted(io::stdout().is_terminal()), wanted(io::stderr().is_terminal()));
-        Shell { global, out: BufWriter::with_capacity(1 << 16, io::stdout()), color_out, color_err }
+        let (out, err) = (Sink::new(io::stdout()), Sink::new(io::stderr()));
+        Shell { global, out: BufWriter::with_capacity(1 << 16, out), err, color_out, color_err }
     }
 
     pub fn json(&self) -> bool {
@@ -144,14 +147,14 @@ impl Shell {
         // Results written before the fault come before it on a terminal, too.
         self.out.flush()?;
         let text = render::diagnostic(sources, diagnostic, self.color_err);
-        writeln!(io::stderr(), "{text}\n")?;
+        writeln!(self.err, "{text}\n")?;
         Ok(())
     }
 
     /// Writes a remark on stderr.
     pub fn note(&mut self, text: &str) -> Result<(), Failure> {
         self.out.flush()?;
-        writeln!(io::stderr(), "{text}")?;
+        writeln!(self.err, "{text}")?;
         Ok(())
     }
 
@@ -164,7 +167,7 @@ impl Shell {
             return;
         }
         let _ = self.out.flush();
-        let _ = writeln!(io::stderr(), "{}", render::failure(failure, self.color_err));
+        let _ = writeln!(self.err, "{}", render::failure(failure, self.color_err));
     }
 }
 

@@ -2,8 +2,8 @@
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStdin, Command, Stdio};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
 use smt::session::{Session, Silence, Solvers, is_answer};
@@ -115,9 +115,18 @@ impl Solvers for Process {
         let arguments: Vec<String> = arguments.iter().map(ToString::to_string).collect();
         let mut child = Process::spawn(program, &arguments).map_err(Silence::Broken)?;
         let (input, output) = (child.stdin.take(), child.stdout.take());
-        let (Some(input), Some(output)) = (input, output) else {
+        let (Some(mut input), Some(output)) = (input, output) else {
             return Err(Silence::Broken("the solver has no input or output".to_string()));
         };
+        let (commands, texts) = channel::<String>();
+        // A solver that thinks does not read, and whoever waits may have enough of that.
+        std::thread::spawn(move || {
+            for text in texts {
+                if input.write_all(text.as_bytes()).and_then(|()| input.flush()).is_err() {
+                    return;
+                }
+            }
+        });
         let (sender, answers) = channel();
         // It ends with the process that it reads from.
         std::thread::spawn(move || {
@@ -128,14 +137,14 @@ impl Solvers for Process {
                 }
             }
         });
-        Ok(Box::new(Running { child, input, answers }))
+        Ok(Box::new(Running { child, commands, answers }))
     }
 }
 
 /// A solver at work.
 struct Running {
     child: Child,
-    input: ChildStdin,
+    commands: Sender<String>,
     answers: Receiver<String>,
 }
 
@@ -149,7 +158,7 @@ impl Drop for Running {
 impl Session for Running {
     fn ask(&mut self, commands: &str, seconds: u32, go_on: &mut dyn FnMut() -> bool) -> Result<String, Silence> {
         let ended = || Silence::Broken("the solver has ended".to_string());
-        self.input.write_all(commands.as_bytes()).and_then(|()| self.input.flush()).map_err(|_| ended())?;
+        self.commands.send(commands.to_string()).map_err(|_| ended())?;
         let start = Instant::now();
         loop {
             if !go_on() {

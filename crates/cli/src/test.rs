@@ -5,8 +5,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use groundstate::scenario::{FirstCandidate, Judgement, Options};
+use groundstate::scenario::{FirstCandidate, Judgement, Options, Story};
 use groundstate::{SeededChoices, Suite, Tested};
+use program::Program;
 use syntax::{Diagnostic, Severity};
 
 use crate::check::plural;
@@ -29,6 +30,9 @@ pub struct Arguments {
     /// Report what the scenarios covered of their models
     #[arg(long)]
     coverage: bool,
+    /// Show the run of each scenario that fails: inputs, choices and changes of each step
+    #[arg(long)]
+    runs: bool,
     /// Write the results as JUnit XML
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
@@ -63,6 +67,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
             break;
         }
         let tested = test_one(shell, arguments, &mut suite, path)?;
+        if interrupt::asked() && !passed(&tested) {
+            break;
+        }
         let failures = failures(&tested);
         if passed(&tested) {
             tally.passed += 1
@@ -90,7 +97,7 @@ fn test_one(shell: &Shell, arguments: &Arguments, suite: &mut Suite, path: &Path
     let mut disk = shell.disk();
     let source = disk.root(path)?;
     let limits = shell.global.limits.machine();
-    let options = Options { limits, bound: arguments.until_bound, coverage: arguments.coverage };
+    let options = Options { limits, bound: arguments.until_bound, coverage: arguments.coverage, story: arguments.runs };
     Ok(match arguments.choose {
         Chosen::First => suite.test(source, &mut disk, options, &mut FirstCandidate),
         Chosen::Random => suite.test(source, &mut disk, options, &mut SeededChoices::new(arguments.seed)),
@@ -120,16 +127,25 @@ fn report(
     let sources = &tested.sources;
     if shell.json() {
         let faults = failures.iter().map(|failure| Fault::new(sources, failure)).collect();
-        return shell.object(&ScenarioResult::new(path, tested, faults));
+        let told = story(tested).map(|(program, story)| crate::story::object(program, story));
+        return shell.object(&ScenarioResult::new(path, tested, faults, told));
     }
     let passed = passed(tested);
     if shell.talks() {
         let line = line(shell, path, tested, passed);
         writeln!(shell.out(), "{line}")?;
     }
-    // Many scenarios load one model; its faults are shown with the first.
+    if let Some((program, story)) = story(tested).filter(|_| shell.talks()) {
+        crate::story::tell(shell, program, story)?;
+    }
+    // Many scenarios load one model; the faults that keep it from running are shown with the first. What went wrong in a
+    // run is that scenario's own reason, however many others have the same.
     let key = |found: &Diagnostic| format!("{} {}", sources.position(found.primary.span), found.message);
-    let new: Vec<Diagnostic> = failures.iter().filter(|found| seen.insert(key(found))).cloned().collect();
+    let new = |found: &&Diagnostic| tested.verdict.is_some() || seen.insert(key(found));
+    let new: Vec<Diagnostic> = failures.iter().filter(new).cloned().collect();
+    if new.is_empty() && !failures.is_empty() && shell.talks() {
+        writeln!(shell.out(), "its faults are shown above")?;
+    }
     shell.details(sources, &new)?;
     let remarks = tested.verdict.iter().flat_map(|verdict| &verdict.remarks);
     for remark in remarks {
@@ -137,6 +153,12 @@ fn report(
         shell.details(sources, &[warning])?;
     }
     Ok(())
+}
+
+/// The run of a scenario that failed, where it was kept.
+fn story(tested: &Tested) -> Option<(&Program, &Story)> {
+    let verdict = tested.verdict.as_ref().filter(|verdict| !verdict.passed())?;
+    Some((tested.program.as_deref()?, verdict.story.as_ref()?))
 }
 
 fn line(shell: &Shell, path: &Path, tested: &Tested, passed: bool) -> String {

@@ -110,6 +110,26 @@ fn endless_while() {
 }
 
 #[test]
+fn a_step_without_end() {
+    let folder = folder();
+    let rule = "forall $a in {1 : 5000}, $b in {1 : 5000}, $c in {1 : 5000} with $a + $b + $c < x do x := 1";
+    write(folder.path(), "Busy.asm", model("Busy", rule));
+    check(folder.path(), &["run", "Busy.asm", "--max-work", "100000"], 1, "--max-work");
+    check(folder.path(), &["run", "Busy.asm", "--max-heap", "1"], 1, "--max-heap");
+}
+
+#[test]
+fn a_long_value_is_cut() {
+    let folder = folder();
+    let text = "asm Long\nimport StandardLibrary\nsignature:\n\tcontrolled q: Seq(Integer)\ndefinitions:\n\t\
+                main rule r_Main = q := [1 : 50000]\n";
+    write(folder.path(), "Long.asm", text);
+    let output = groundstate(folder.path(), &["run", "Long.asm", "--steps", "1"]);
+    let told = String::from_utf8_lossy(&output.stdout);
+    assert!(told.contains("(cut here, of 50000 values)") && told.len() < 10_000, "{}", told.len());
+}
+
+#[test]
 fn a_huge_collection() {
     let folder = folder();
     write(folder.path(), "Huge.asm", model("Huge", "forall $n in {1 : 1000000000} do x := 1"));
@@ -166,6 +186,67 @@ fn a_closed_pipe_is_quiet() {
     assert_eq!(output.status.code(), Some(0));
 }
 
+/// What a command's exit code is, and what it says on stderr, when its output is closed after the first bytes.
+fn closed(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_groundstate"))
+        .args(arguments)
+        .current_dir(folder)
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    drop(child.stdout.take());
+    let output = child.wait_with_output().expect("it ends");
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+#[test]
+fn the_verdict_is_the_same_whoever_reads() {
+    let folder = folder();
+    let text = "asm Bad\nimport StandardLibrary\nsignature:\n\tcontrolled x: Integer\ndefinitions:\n\
+                \tinvariant inv_few over x: x < 5\n\tmain rule r_Main = if x < 9 then x := x + 1 endif\n\
+                default init s0:\n\tfunction x = 0\n";
+    write(folder.path(), "Bad.asm", text);
+    write(folder.path(), "Wrong.asm", model("Wrong", "x := true"));
+    write(folder.path(), "Fails.avalla", "scenario Fails\nload Bad.asm\nstep\ncheck x = 7;\n");
+    for arguments in [
+        &["run", "Bad.asm"][..],
+        &["run", "Bad.asm", "--format", "json"],
+        &["run", "Bad.asm", "--keep-going", "--trace", "/dev/stdout"],
+        &["check", "Wrong.asm", "--format", "json"],
+        &["test", "Fails.avalla"],
+        &["test", "Fails.avalla", "--format", "json"],
+        &["verify", "Bad.asm"],
+        &["review", "Wrong.asm", "--format", "json"],
+    ] {
+        let (code, said) = closed(folder.path(), arguments);
+        assert_eq!(code, Some(1), "{arguments:?}: {said}");
+        assert!(!said.contains("panicked"), "{arguments:?}: {said}");
+    }
+    // What is not known is not known either: of the condition nothing was seen.
+    assert_eq!(closed(folder.path(), &["run", "Bad.asm", "-n", "3", "--until", "x = 9"]).0, Some(3));
+}
+
+#[test]
+fn each_failing_scenario_tells_its_reason() {
+    let folder = folder();
+    let text = "asm Bad\nimport StandardLibrary\nsignature:\n\tcontrolled x: Integer\ndefinitions:\n\
+                \tinvariant inv_few over x: x < 2\n\tmain rule r_Main = x := x + 1\ndefault init s0:\n\tfunction x = 0\n";
+    write(folder.path(), "Bad.asm", text);
+    for name in ["One", "Two"] {
+        write(folder.path(), &format!("{name}.avalla"), format!("scenario {name}\nload Bad.asm\nstep 5\n"));
+    }
+    let output = groundstate(folder.path(), &["test", "One.avalla", "Two.avalla"]);
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(text.matches("invariant inv_few does not hold after 2 steps").count(), 2, "{text}");
+    // A model that cannot be run is told of once, and then referred to.
+    write(folder.path(), "Bad.asm", model("Bad", "x := true"));
+    let output = groundstate(folder.path(), &["test", "One.avalla", "Two.avalla"]);
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert_eq!((text.matches("error[").count(), text.matches("faults are shown above").count()), (1, 1), "{text}");
+}
+
 #[test]
 fn standard_input_that_is_no_terminal_is_not_asked() {
     let folder = folder();
@@ -197,4 +278,118 @@ fn files_of_another_kind() {
     check(folder.path(), &["replay", "Model.asm"], 2, "--trace FILE` writes one");
     check(folder.path(), &["run", "Model"], 2, "is Model.asm meant?");
     check(folder.path(), &["run", "Model.asm", "--steps", "-3"], 2, "write a whole number");
+}
+
+const LAMP: &str = "chart Lamp\nmachine lamp\n\tcontrol light\n\tinitial state off\n\tstate on\n\tguard pressed\n\t\
+                    off -> pressed yes -> on\n\ton -> pressed\n\tpressed no -> off\nendmachine\n";
+
+#[test]
+fn what_is_read_is_not_written_over() {
+    let folder = folder();
+    let model = model("Count", "x := x + 1");
+    write(folder.path(), "Count.asm", &model);
+    write(folder.path(), "Lamp.chart", LAMP);
+    let says = "it is not written over";
+    check(folder.path(), &["run", "Count.asm", "--trace", "Count.asm", "-n", "1"], 2, says);
+    check(folder.path(), &["run", "./Count.asm", "--trace", "../x/../Count.asm", "-n", "1"], 2, "");
+    check(folder.path(), &["chart", "build", "Lamp.chart", "-o", "Lamp.chart"], 2, says);
+    check(folder.path(), &["chart", "draw", "Lamp.chart", "-o", "./Lamp.chart"], 2, "");
+    check(folder.path(), &["chart", "draw", "Lamp.chart", "-o", "Lamp.svg", "--quiet"], 0, "");
+    check(folder.path(), &["chart", "build", "Count.asm"], 2, "Count.asm is a model");
+    // A model that the chart imports is no place for what is built of it.
+    write(folder.path(), "Wide.chart", LAMP.replace("chart Lamp", "chart Wide\nimport Library"));
+    let library = "module Library\nimport StandardLibrary\nexport *\nsignature:\ndefinitions:\n";
+    write(folder.path(), "Library.asm", library);
+    check(folder.path(), &["chart", "build", "Wide.chart", "-o", "Library.asm"], 2, says);
+    let text = |name: &str| fs::read_to_string(folder.path().join(name)).expect("it is there");
+    assert_eq!((text("Count.asm"), text("Lamp.chart"), text("Library.asm")), (model, LAMP.into(), library.into()));
+    // What is brought up to date in place is written all the same.
+    check(folder.path(), &["chart", "place", "Lamp.chart"], 0, "Lamp.chart");
+    assert!(text("Lamp.chart").contains("layout lamp"));
+    check(folder.path(), &["chart", "build", "Lamp.chart"], 0, "Lamp.asm");
+    check(folder.path(), &["chart", "build", "Lamp.chart"], 0, "Lamp.asm");
+}
+
+#[test]
+fn a_model_with_faults_is_not_built() {
+    let folder = folder();
+    let nothing_written = |name: &str| assert!(!folder.path().join(name).exists(), "{name} was written");
+    write(folder.path(), "Empty.chart", "chart Empty\n");
+    check(folder.path(), &["chart", "build", "Empty.chart"], 1, "error[empty-chart]");
+    nothing_written("Empty.asm");
+    write(
+        folder.path(),
+        "Link.chart",
+        LAMP.replace("chart Lamp", "chart Link").replace("guard pressed", "guard pressed {level > 3}"),
+    );
+    check(folder.path(), &["chart", "build", "Link.chart"], 1, "Link.chart:6:");
+    check(folder.path(), &["check", "Link.chart"], 1, "there is no function `level`");
+    nothing_written("Link.asm");
+    let twice = "chart Twice\nmachine go\n\tcontrol c\n\tinitial state off\n\tstate on\n\taction go\n\toff -> go -> on\nendmachine\n";
+    write(folder.path(), "Twice.chart", twice);
+    check(folder.path(), &["chart", "build", "Twice.chart"], 1, "a second rule `r_go` would be made");
+    nothing_written("Twice.asm");
+    // A model that is there stays as it is.
+    write(folder.path(), "Old.asm", model("Old", "skip"));
+    write(
+        folder.path(),
+        "Old.chart",
+        LAMP.replace("chart Lamp", "chart Old").replace("guard pressed", "guard pressed {x}"),
+    );
+    let before = fs::read_to_string(folder.path().join("Old.asm")).expect("it is there");
+    check(folder.path(), &["chart", "build", "Old.chart"], 1, "it is not built");
+    assert_eq!(fs::read_to_string(folder.path().join("Old.asm")).expect("it is there"), before);
+}
+
+#[test]
+fn a_chart_without_a_model_is_not_compared() {
+    let folder = folder();
+    write(folder.path(), "Lamp.chart", LAMP);
+    write(folder.path(), "Empty.chart", "chart Empty\n");
+    check(folder.path(), &["chart", "check", "Lamp.chart"], 3, "not compared: there is no model Lamp.asm");
+    check(folder.path(), &["chart", "check", "Empty.chart"], 3, "not compared");
+    check(folder.path(), &["chart", "check", "Lamp.chart", "--model", "Other.asm"], 2, "there is no file Other.asm");
+}
+
+#[test]
+fn check_takes_all_that_a_project_is_made_of() {
+    let folder = folder();
+    write(folder.path(), "Count.asm", model("Count", "x := x + 1"));
+    write(folder.path(), "Lamp.chart", LAMP);
+    write(folder.path(), "Count.verify.yaml", "invariants: [x >= 0]\n");
+    check(folder.path(), &["check", "Lamp.chart"], 0, "Lamp.chart: no faults (1 machine)");
+    check(folder.path(), &["check", "Count.verify.yaml"], 0, "no faults");
+    write(folder.path(), "Count.verify.yaml", "invariants: [y >= 0]\n");
+    check(folder.path(), &["check", "Count.verify.yaml"], 1, "there is no function `y`");
+    check(folder.path(), &["check", "."], 1, "there is no function `y`");
+    write(folder.path(), "Count.verify.yaml", "bounds: {z: 0..3}\n");
+    check(folder.path(), &["check", "Count.verify.yaml"], 1, "`z` is no monitored or shared function");
+    write(folder.path(), "Count.report.yaml", "nonsense: 1\n");
+    check(folder.path(), &["check", "Count.report.yaml"], 1, "nonsense");
+    write(folder.path(), "Other.verify.yaml", "invariants: [x >= 0]\n");
+    check(folder.path(), &["check", "Other.verify.yaml"], 3, "not checked: there is no model Other.asm");
+    check(folder.path(), &["check", "other.yaml"], 2, "there is no file");
+}
+
+#[test]
+fn a_keyword_as_a_name_is_told_once() {
+    let folder = folder();
+    for word in ["init", "case", "rule", "par", "import"] {
+        let text = model("Word", "if x > 1 then x := x + 1 endif").replace('x', word);
+        write(folder.path(), "Word.asm", text);
+        check(folder.path(), &["check", "Word.asm"], 1, "Word.asm: 1 error");
+    }
+}
+
+#[test]
+fn messages_name_what_is_meant() {
+    let folder = folder();
+    check(folder.path(), &["explain", "chanel-master"], 2, "did you mean `channel-master`?");
+    write(folder.path(), "Rule.asm", model("Rule", "stop[]"));
+    check(folder.path(), &["check", "Rule.asm"], 1, "declare `rule r_stop = …`");
+    let system =
+        "chart S\nsystem s\n\tcomponent a synchronous period 10\n\t\telaborate x 6 ms\n\tendcomponent\nendsystem\n";
+    write(folder.path(), "S.chart", system);
+    check(folder.path(), &["chart", "draw", "S.chart"], 1, "S.chart:3:");
+    check(folder.path(), &["chart", "draw", "S.chart"], 1, "expected a unit");
 }

@@ -11,6 +11,7 @@ use crate::accessors::{accessors, initial_state, kept_from_start};
 use crate::body::Bodies;
 use crate::generator::{Generator, Need};
 use crate::plan::{DomainPlan, FunctionPlan, Role};
+use crate::renamed::{called, literals_called};
 use crate::storage::Updates;
 use crate::text::{Text, escaped};
 use crate::types::Type;
@@ -76,7 +77,10 @@ fn types(generator: &Generator<'_>, words: &BTreeSet<String>, text: &mut Text) {
             continue;
         }
         match &generator.program.domains[index].kind {
-            DomainKind::Enum { .. } => {
+            DomainKind::Enum { literals } => {
+                if let Some(told) = literals_called(literals, &plan.literals) {
+                    text.line(told);
+                }
                 text.line(format!("enum class {} : std::uint32_t {{ {} }};", plan.name, plan.literals.join(", ")));
             }
             DomainKind::Abstract { elements, .. } => {
@@ -99,10 +103,19 @@ fn environment(generator: &Generator<'_>, text: &mut Text) {
     text.line("/// What the machine asks for. Each location and clock is asked for once a step at most.");
     text.open("class Environment {");
     text.line("public:");
-    text.line("virtual ~Environment() = default;\n");
+    if generator.options.bare {
+        // A virtual destructor would bring `operator delete` along, and the heap with it.
+        text.line("Environment() = default;\n");
+    } else {
+        text.line("virtual ~Environment() = default;\n");
+    }
     for (id, plan) in functions(generator, &[Role::Input, Role::Shared]) {
         let result = generator.plan.cpp(plan.ty, false);
-        text.line(format!("/// {}", signature(generator.program, id)));
+        text.line(format!(
+            "/// {}{}",
+            signature(generator.program, id),
+            called(&generator.program.function(id).name, &plan.name)
+        ));
         text.line(format!("virtual {result} {}({}) = 0;", plan.name, parameters(generator, id).0));
     }
     text.line("\n/// A choice among candidates 0 … candidates - 1, by the choose rule at `site`.");
@@ -112,6 +125,11 @@ fn environment(generator: &Generator<'_>, text: &mut Text) {
     text.line("virtual double real(gs::Site, std::size_t) { return 0.0; }");
     text.line("/// The clock.");
     text.line("virtual std::int64_t time(gs::TimeUnit) { return 0; }");
+    if generator.options.bare {
+        text.line("\nprotected:");
+        text.line("/// Nobody deletes an environment by its base.");
+        text.line("~Environment() = default;");
+    }
     text.close("};\n");
 }
 
@@ -170,7 +188,11 @@ fn class(bodies: &Bodies<'_>, text: &mut Text) {
         let (list, names) = parameters(generator, id);
         let total = generator.assumed.total[id.0 as usize];
         let result = plan.cpp(function.ty, total);
-        text.line(format!("/// {}", signature(generator.program, id)));
+        text.line(format!(
+            "/// {}{}",
+            signature(generator.program, id),
+            called(&generator.program.function(id).name, &function.name)
+        ));
         if generator.is_lazy(id) {
             text.line(format!("{result} {}({list});", function.name));
         } else {
@@ -184,16 +206,14 @@ fn class(bodies: &Bodies<'_>, text: &mut Text) {
     text.line(
         "/// Calls visit(name, arguments, value) for each location of the state, with undef where it has no value.",
     );
-    text.line("/// Of a function with initial values those with an argument that is undef are left out.");
+    text.line("/// Where an argument is undef, an initial value is there once it was read, or where the function has an array.");
     text.line("template <class Visit>");
     text.open("void each_location([[maybe_unused]] Visit&& visit) const {");
     for (id, function) in functions(generator, &[Role::State, Role::Shared]) {
         let name = escaped(&generator.program.function(id).name);
         let dot = if function.role == Role::Shared { ".locations" } else { "" };
-        // An initial value may be due only when it is read: nobody can tell whether it is there.
-        let each = if function.initial.is_some() && !generator.is_inside(id) { "each_defined" } else { "each" };
         text.line(format!(
-            "{}{dot}.{each}([&](const auto& arguments, const auto& value) {{ visit(\"{name}\", arguments, value); }});",
+            "{}{dot}.each([&](const auto& arguments, const auto& value) {{ visit(\"{name}\", arguments, value); }});",
             function.member
         ));
     }
@@ -238,7 +258,14 @@ fn class(bodies: &Bodies<'_>, text: &mut Text) {
 /// The small functions that generated rules call.
 fn helpers(bodies: &Bodies<'_>, text: &mut Text) {
     let generator = &bodies.generator;
-    text.line("[[gnu::always_inline]] inline std::size_t choose(std::size_t candidates, gs::Site site);");
+    // Defined here: whoever includes the header alone would be warned of an inline function without a definition.
+    text.open("[[gnu::always_inline]] std::size_t choose(std::size_t candidates, gs::Site site) {");
+    text.line("const std::size_t chosen = environment_.choose(candidates, site);");
+    text.open("if (chosen >= candidates) {");
+    text.line("gs::fail(gs::FaultKind::environment, site, site);");
+    text.close("}");
+    text.line("return chosen;");
+    text.close("}");
     if generator.needs.contains(&Need::Rounds) {
         text.line("void iteration(gs::Site site);");
     }
@@ -424,13 +451,6 @@ fn frame(bodies: &Bodies<'_>, text: &mut Text) {
     for member in logs(generator) {
         text.line(format!("{member}.roll_back();"));
     }
-    text.close("}\n");
-    text.open("std::size_t Machine::choose(std::size_t candidates, gs::Site site) {");
-    text.line("const std::size_t chosen = environment_.choose(candidates, site);");
-    text.open("if (chosen >= candidates) {");
-    text.line("gs::fail(gs::FaultKind::environment, site, site);");
-    text.close("}");
-    text.line("return chosen;");
     text.close("}\n");
     if generator.needs.contains(&Need::Rounds) {
         text.open("void Machine::iteration(gs::Site site) {");

@@ -17,7 +17,7 @@ pub(crate) fn driver(bodies: &Bodies<'_>, file: &str) -> Text {
     text.line(format!("#include \"{file}.hpp\"\n"));
     text.line("#include <groundstate/machine/replay.hpp>\n");
     text.line(format!("namespace {} {{\nnamespace {{\n", plan.namespace));
-    text.open("class ReplayEnvironment : public Environment {");
+    text.open("class ReplayEnvironment final : public Environment {");
     text.line("public:");
     text.line("explicit ReplayEnvironment(gs::Script& script) : script_{script} {}\n");
     for (index, function) in plan.functions.iter().enumerate() {

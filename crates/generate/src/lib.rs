@@ -18,6 +18,7 @@ mod operation;
 mod plan;
 mod project;
 mod range;
+mod renamed;
 pub mod replay;
 mod rule;
 mod settle;
@@ -54,6 +55,8 @@ pub struct Generated {
     pub files: Vec<File>,
     /// The places that faults name by number, the first of number 1.
     pub sites: Vec<Span>,
+    /// What the class calls otherwise than the model, since C++ or the class has the name already: `(model's, class's)`.
+    pub renamed: Vec<(String, String)>,
 }
 
 /// Generates a model.
@@ -85,7 +88,8 @@ pub fn generate(
         add("replay.cpp".to_string(), &driver::driver(&bodies, &name));
     }
     add("CMakeLists.txt".to_string(), &project::project(&name, options));
-    Ok(Generated { name, files, sites: bodies.generator.sites.spans().to_vec() })
+    let sites = bodies.generator.sites.spans().to_vec();
+    Ok(Generated { name, files, sites, renamed: renamed::renamed(&bodies.generator) })
 }
 
 /// The last part of a path.

@@ -54,25 +54,34 @@ fn is_drawn(program: &Program, choose: Span, place: usize) -> bool {
     }
 }
 
-/// The locations of controlled, out and shared functions that have a value, one a line, sorted.
+/// The locations of controlled, out and shared functions that have a value, one a line, sorted; those with an argument that
+/// is undef begin with `? `. The last line is `.`, with the names of functions that have initial values: of such a function
+/// nobody can tell where an initial value for undef was due, and generated code may have more of them.
 pub fn state(program: &Program, locations: &[(Location, Value)]) -> String {
     let mut lines: Vec<String> = locations
         .iter()
         .filter(|(location, value)| {
             let function = program.function(location.function);
             let kind = matches!(function.kind, FunctionKind::Controlled | FunctionKind::Out | FunctionKind::Shared);
-            // An initial value is due there when somebody reads it, and nobody can tell who did.
-            let late = location.arguments.iter().any(Value::is_undef)
-                && program.initials.iter().any(|initial| initial.function == location.function);
-            kind && Some(location.function) != program.self_function && !value.is_undef() && !late
+            kind && Some(location.function) != program.self_function && !value.is_undef()
         })
         .map(|(location, value)| {
             let name = &program.function(location.function).name;
-            format!("{name} {} {}\n", arguments(location), encode(value))
+            let mark = if location.arguments.iter().any(Value::is_undef) { "? " } else { "" };
+            format!("{mark}{name} {} {}\n", arguments(location), encode(value))
         })
         .collect();
     lines.sort();
-    lines.push(".\n".to_string());
+    let mut late: Vec<&str> = program
+        .initials
+        .iter()
+        .map(|initial| program.function(initial.function))
+        .filter(|function| !function.parameters.is_empty())
+        .map(|function| function.name.as_str())
+        .collect();
+    late.sort_unstable();
+    late.dedup();
+    lines.push(format!("{}\n", [&["."], late.as_slice()].concat().join(" ")));
     lines.concat()
 }
 

@@ -161,7 +161,8 @@ impl Generator<'_> {
         }
         if self.is_lazy(function) {
             let place = if plan.role == Role::Shared { format!(", {site}") } else { String::new() };
-            text.marked(span, format!("(void){}({}{place});", plan.name, listed(&codes)));
+            // Who only writes the location does not need its initial value.
+            text.marked(span, format!("gs::prepare([&] {{ (void){}({}{place}); }});", plan.name, listed(&codes)));
         }
         let mut list = vec![site.to_string(), unwrapped(&value).to_string()];
         if self.storage(function).updates == Updates::Step {

@@ -25,14 +25,14 @@ pub fn diagnose_fault(fault: &Fault, program: &Program) -> Diagnostic {
     let mut diagnostic = match &fault.kind {
         FaultKind::InconsistentUpdate { location, first, second } => {
             let location = location.show(program).to_string();
-            let side = |value: &Value| format!("{location} becomes {} here", value.show(program));
+            let side = |value: &Value| format!("{location} becomes {} here", value.show(program).briefly());
             let clash = Diagnostic::error(fault.kind.id(), second.span, message).because(side(&second.value));
             if first.span == second.span {
                 // One rule, run twice: what it was run with tells the two apart.
                 clash.because(format!(
                     "{location} becomes {} and {} here",
-                    first.value.show(program),
-                    second.value.show(program)
+                    first.value.show(program).briefly(),
+                    second.value.show(program).briefly()
                 ))
             } else {
                 clash.with_label(first.span, side(&first.value))
@@ -61,7 +61,7 @@ fn reason(kind: &FaultKind) -> &'static str {
         FaultKind::DivisionByZero => "the divisor is 0",
         FaultKind::OutOfDomain { .. } => "the value comes here",
         FaultKind::NotEnumerable { .. } => "its elements are needed here",
-        FaultKind::Limit { .. } => "reached here",
+        FaultKind::Limit { .. } | FaultKind::Interrupted(_) => "reached here",
         FaultKind::Environment { .. } => "asked for here",
         _ => "here",
     }
@@ -117,7 +117,7 @@ pub fn diagnose_violation(violation: &Violation, step: u64, machine: &mut Machin
 pub fn diagnose_failure(failure: &Failure, program: &Program) -> Vec<Diagnostic> {
     let steps = |count: u64| if count == 1 { "1 step".to_string() } else { format!("{count} steps") };
     let after = steps(failure.step);
-    let show = |value: &Value| value.show(program).to_string();
+    let show = |value: &Value| value.show(program).briefly().to_string();
     let one = |diagnostic: Diagnostic| vec![diagnostic];
     match &failure.kind {
         FailureKind::Check { expected, actual, reads } => {
@@ -174,6 +174,6 @@ fn expected_words(expected: Expected, invariant: Option<&str>) -> String {
 
 fn with_readings(diagnostic: Diagnostic, reads: &[Reading], program: &Program) -> Diagnostic {
     reads.iter().fold(diagnostic, |diagnostic, reading| {
-        diagnostic.with_label(reading.span, format!("is {}", reading.value.show(program)))
+        diagnostic.with_label(reading.span, format!("is {}", reading.value.show(program).briefly()))
     })
 }

@@ -5,10 +5,13 @@
 //! only; it must not know files, terminals or wire formats.
 
 mod avalla;
+mod build;
 mod counterexample;
+mod decide;
 mod diagnose;
 mod diagnose_review;
 mod fingerprint;
+pub mod patterns;
 mod test;
 pub mod test_generation;
 
@@ -20,7 +23,9 @@ use program::{Expression, Program, Property, Rule, RuleId};
 use syntax::ast::{AstNode, TermFile};
 use syntax::{Diagnostic, Severity, SourceFile, Sources, Span};
 
+pub use build::{BuiltChart, Located, build_chart};
 pub use counterexample::{counterexample_run, counterexample_scenario};
+pub use decide::diagnose_no_main;
 pub use diagnose::{diagnose_failure, diagnose_fault, diagnose_outside, diagnose_violation};
 pub use diagnose_review::{REVIEW_IDS, diagnose_finding};
 pub use fingerprint::fingerprint;
@@ -49,19 +54,9 @@ pub struct Faulty {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Checks a model, its temporal properties included.
+/// Checks a model, its lowering and its temporal properties included: no error here means that [`load`] gives it.
 pub fn check(root: SourceFile, loader: &mut dyn Loader) -> Checked {
-    let mut checked = model::check(root, loader);
-    let temporal = |property: &model::Property| matches!(property.kind, PropertyKind::Ctl | PropertyKind::Ltl);
-    if !has_errors(&checked.diagnostics)
-        && checked.model.properties.iter().any(temporal)
-        && let Ok(program) = program::lower(&checked.model)
-        && let Err(faults) = verify::temporal::read::read(&Arc::new(program))
-    {
-        checked.diagnostics.extend(faults);
-        checked.diagnostics.sort_by_key(|fault| (fault.primary.span.file, fault.primary.span.start));
-    }
-    checked
+    decide::decide(root, loader).checked
 }
 
 /// Whether any of these stops the flow.
@@ -69,22 +64,34 @@ pub fn has_errors(diagnostics: &[Diagnostic]) -> bool {
     diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
 }
 
-/// Checks a model and lowers it.
+/// Checks a model as [`check`] does, and gives what runs.
 ///
 /// # Errors
 /// The model has errors.
 pub fn load(root: SourceFile, loader: &mut dyn Loader) -> Result<Loaded, Box<Faulty>> {
-    let Checked { sources, model, mut diagnostics } = model::check(root, loader);
-    if has_errors(&diagnostics) {
-        return Err(Box::new(Faulty { sources, diagnostics }));
+    let decide::Decision { checked, program } = decide::decide(root, loader);
+    let Checked { sources, model, diagnostics } = checked;
+    match program {
+        Some(program) => Ok(Loaded { sources, model, program, diagnostics }),
+        None => Err(Box::new(Faulty { sources, diagnostics })),
     }
-    match program::lower(&model) {
-        Ok(program) => Ok(Loaded { sources, model, program, diagnostics }),
-        Err(faults) => {
-            diagnostics.extend(faults);
-            Err(Box::new(Faulty { sources, diagnostics }))
-        }
+}
+
+/// A model as it would be if its root imported these libraries besides, `CTLLibrary` for one; none where it then has
+/// faults, since it has names of its own that are theirs. No line of the root moves.
+pub fn with_libraries(loaded: &Loaded, libraries: &[&str], loader: &mut dyn Loader) -> Option<Loaded> {
+    let root = loaded.sources.file(loaded.model.root);
+    let there = |library: &str| loaded.sources.iter().any(|(_, file)| file.name == format!("<std>/{library}.asm"));
+    let missing: Vec<&str> = libraries.iter().copied().filter(|library| !there(library)).collect();
+    if missing.is_empty() {
+        return None;
     }
+    let parse = syntax::parse_asmetal(loaded.model.root, &root.text);
+    let name = syntax::ast::SourceFile::cast(parse.syntax())?.machine_name()?;
+    let end = usize::from(name.syntax().text_range().end());
+    let (before, after) = root.text.split_at(end);
+    let imports: String = missing.iter().map(|library| format!(" import {library}")).collect();
+    load(SourceFile::new(root.name.clone(), format!("{before}{imports}{after}")), loader).ok()
 }
 
 impl Loaded {
@@ -93,7 +100,10 @@ impl Loaded {
     /// # Errors
     /// The faults of the text.
     pub fn property(&mut self, kind: PropertyKind, name: &str, text: &str) -> Result<(), Vec<Diagnostic>> {
-        let formula = self.condition(name, text)?;
+        let formula = self.condition(name, text).map_err(|mut faults| {
+            faults.iter_mut().for_each(|fault| model::missing_operator(fault, kind));
+            faults
+        })?;
         let span = self.program.term_span(formula.body);
         let reads_monitored = self.program.reads_monitored(&formula);
         let name = text.trim().to_string();

@@ -62,9 +62,12 @@ impl Blocks for BlockLoader<'_> {
     }
 }
 
-/// Whether a file is the user's: not one of the built-in libraries.
+/// Whether a file is the user's: not of a library that is built in.
 pub fn own_files(sources: &Sources) -> impl Fn(FileId) -> bool + '_ {
-    |file| !sources.file(file).name.starts_with("<std>")
+    |file| {
+        let name = &sources.file(file).name;
+        !name.starts_with("<std>") && !crate::patterns::is_pattern(name)
+    }
 }
 
 /// A scenario resolved, or why not.

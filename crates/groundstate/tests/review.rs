@@ -83,3 +83,15 @@ fn a_clash_is_found_with_a_run_that_ends_in_it() {
     let model = blocks(&page, "asmetal run")[0];
     assert!(findings(model).starts_with("MP1 violated\n"), "{}", findings(model));
 }
+
+#[test]
+fn all_clashes_of_a_step_are_found() {
+    let found = findings(
+        "asm Clashes\nsignature:\n\tcontrolled a: Boolean\n\tcontrolled b: Boolean\n\tcontrolled c: Boolean\ndefinitions:\n\
+         \tmain rule r_Main =\n\t\tpar\n\t\t\ta := true\n\t\t\ta := false\n\t\t\tb := true\n\t\t\tb := false\n\
+         \t\t\tseq\n\t\t\t\tc := true\n\t\t\t\tpar\n\t\t\t\t\tc := false\n\t\t\t\t\tc := true\n\t\t\t\tendpar\n\t\t\tendseq\n\
+         \t\tendpar\ndefault init s0:\n\tfunction a = true\n\tfunction b = true\n\tfunction c = true\n",
+    );
+    // Line by line: the second update of each pair that clashes. What is in sequence ends at its first.
+    assert_eq!(found.lines().filter(|line| line.ends_with("inconsistent-update")).count(), 3, "{found}");
+}

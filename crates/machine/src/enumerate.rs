@@ -12,6 +12,7 @@ use syntax::Span;
 use crate::execute::{Executor, Outcome};
 use crate::fault::FaultKind;
 use crate::value::Value;
+use crate::weighed::Items;
 
 /// What is done for each binding.
 pub(crate) type Visit<'v, 'a> = dyn FnMut(&mut Executor<'a>) -> Outcome<ControlFlow<()>> + 'v;
@@ -22,10 +23,71 @@ enum Elements {
     Enum(DomainId, u32),
     /// Elements `0..count` of an abstract domain, then those of the intermediate state.
     Counted(DomainId, u32, Vec<Value>),
-    Listed(Arc<Vec<Value>>),
+    Listed(Arc<Items>),
+}
+
+impl Elements {
+    fn len(&self) -> u64 {
+        match self {
+            Elements::Booleans => 2,
+            Elements::Enum(_, count) => u64::from(*count),
+            Elements::Counted(_, count, more) => u64::from(*count) + more.len() as u64,
+            Elements::Listed(values) => values.len() as u64,
+        }
+    }
+
+    fn get(&self, index: u64) -> Value {
+        match self {
+            Elements::Booleans => Value::Boolean(index == 1),
+            Elements::Enum(domain, _) => Value::Enum(*domain, index as u32),
+            Elements::Counted(domain, count, _) if index < u64::from(*count) => Value::Element(*domain, index as u32),
+            Elements::Counted(_, count, more) => more[(index - u64::from(*count)) as usize].clone(),
+            Elements::Listed(values) => values[index as usize].clone(),
+        }
+    }
+}
+
+/// The bindings of binders of whose ranges none depends on the binders before it, not built.
+pub(crate) struct Grid {
+    /// By binder, how many elements each, the last varying fastest.
+    ranges: Vec<Elements>,
+    /// How many bindings there are.
+    pub len: u64,
 }
 
 impl<'a> Executor<'a> {
+    /// The bindings of binders, where they can be counted without making them.
+    pub fn grid(&mut self, binders: &[Binder]) -> Option<Outcome<Grid>> {
+        let domain = |binder: &Binder| matches!(self.program.term(binder.range), Term::Domain(_));
+        if !binders.iter().skip(1).all(domain) || binders.iter().any(|binder| self.is_unordered(binder.range)) {
+            return None;
+        }
+        let mut grid = Grid { ranges: Vec::with_capacity(binders.len()), len: 1 };
+        for binder in binders {
+            // Where a range is empty those after it are not looked at.
+            if grid.len == 0 {
+                break;
+            }
+            match self.range_elements(binder.range) {
+                Ok(elements) => {
+                    grid.len = grid.len.saturating_mul(elements.len());
+                    grid.ranges.push(elements);
+                }
+                Err(fault) => return Some(Err(fault)),
+            }
+        }
+        Some(Ok(grid))
+    }
+
+    /// Binds the binders of a grid as in one of its bindings, by its number.
+    pub fn bind_from(&mut self, grid: &Grid, binders: &[Binder], number: u64) {
+        let mut rest = number;
+        for (binder, range) in binders.iter().zip(&grid.ranges).rev() {
+            self.bind(binder.slot, range.get(rest % range.len()));
+            rest /= range.len();
+        }
+    }
+
     /// Visits every binding of the binders until a visit breaks off.
     pub fn for_each_binding(&mut self, binders: &[Binder], visit: &mut Visit<'_, 'a>) -> Outcome<ControlFlow<()>> {
         let Some((binder, rest)) = binders.split_first() else { return visit(self) };
@@ -45,6 +107,9 @@ impl<'a> Executor<'a> {
         visit: &mut Visit<'_, 'a>,
     ) -> Outcome<ControlFlow<()>> {
         let visit_one = |this: &mut Self, visit: &mut Visit<'_, 'a>, value: Value| {
+            if this.works(1) {
+                this.look(this.program.term_span(binder.range))?;
+            }
             this.bind(binder.slot, value);
             if rest.is_empty() { visit(this) } else { this.for_each_binding(rest, visit) }
         };
@@ -111,11 +176,11 @@ impl<'a> Executor<'a> {
             Value::Set(elements) | Value::Seq(elements) => Ok(Elements::Listed(elements)),
             Value::Bag(counts) => {
                 let all = counts.iter().flat_map(|(value, count)| std::iter::repeat_n(value.clone(), *count as usize));
-                Ok(Elements::Listed(Arc::new(all.collect())))
+                Ok(Elements::Listed(listed(all.collect())))
             }
             Value::Map(entries) => {
                 let pairs = entries.iter().map(|(key, value)| Value::tuple(vec![key.clone(), value.clone()]));
-                Ok(Elements::Listed(Arc::new(pairs.collect())))
+                Ok(Elements::Listed(listed(pairs.collect())))
             }
             Value::Undef => {
                 self.fault(span, FaultKind::UndefinedOperand { operation: "ranging over the elements".into() })
@@ -142,7 +207,7 @@ impl<'a> Executor<'a> {
                 }
                 let carrier = &self.core.store.carriers[domain.0 as usize];
                 let elements = carrier.elements.iter().chain(&carrier.intermediate).cloned().collect();
-                Ok(Elements::Listed(Arc::new(elements)))
+                Ok(Elements::Listed(listed(elements)))
             }
             DomainKind::Concrete { .. } => match &self.core.contents[domain.0 as usize] {
                 Some(elements) => Ok(Elements::Listed(Arc::clone(elements))),
@@ -157,33 +222,39 @@ impl<'a> Executor<'a> {
                     columns.push(column);
                 }
                 self.check_size(size, span)?;
-                Ok(Elements::Listed(Arc::new(product(&columns))))
+                Ok(Elements::Listed(listed(product(&columns))))
             }
             DomainKind::Powerset(of) => {
                 let elements = self.listed(*of, span)?;
                 let size = 1u64.checked_shl(elements.len() as u32).unwrap_or(u64::MAX);
-                self.check_size(if elements.len() >= 64 { u64::MAX } else { size }, span)?;
-                Ok(Elements::Listed(Arc::new(subsets(&elements))))
+                // Each element is in half of the subsets.
+                let leaves = size.saturating_mul(elements.len() as u64 / 2);
+                self.check_size(if elements.len() >= 64 { u64::MAX } else { size.max(leaves) }, span)?;
+                Ok(Elements::Listed(listed(subsets(&elements))))
             }
             _ => self.fault(span, FaultKind::NotEnumerable { domain }),
         }
     }
 
     /// The elements of a domain, built, in canonical order.
-    pub fn listed(&mut self, domain: DomainId, span: Span) -> Outcome<Arc<Vec<Value>>> {
+    pub fn listed(&mut self, domain: DomainId, span: Span) -> Outcome<Arc<Items>> {
         Ok(match self.domain_elements(domain, span)? {
-            Elements::Booleans => Arc::new(vec![Value::Boolean(false), Value::Boolean(true)]),
-            Elements::Enum(domain, count) => Arc::new((0..count).map(|index| Value::Enum(domain, index)).collect()),
+            Elements::Booleans => listed(vec![Value::Boolean(false), Value::Boolean(true)]),
+            Elements::Enum(domain, count) => listed((0..count).map(|index| Value::Enum(domain, index)).collect()),
             Elements::Counted(domain, count, more) => {
                 self.check_size(u64::from(count), span)?;
-                Arc::new((0..count).map(|index| Value::Element(domain, index)).chain(more).collect())
+                listed((0..count).map(|index| Value::Element(domain, index)).chain(more).collect())
             }
             Elements::Listed(values) => values,
         })
     }
 }
 
-fn product(columns: &[Arc<Vec<Value>>]) -> Vec<Value> {
+fn listed(values: Vec<Value>) -> Arc<Items> {
+    Arc::new(Items::new(values))
+}
+
+fn product(columns: &[Arc<Items>]) -> Vec<Value> {
     let mut rows = vec![Vec::with_capacity(columns.len())];
     for column in columns {
         rows = extended(rows, column);

@@ -46,20 +46,23 @@ impl<'a> Executor<'a> {
                 let elements = self.listed(*domain, program.term_span(id))?;
                 Ok(Value::Set(elements))
             }
-            Term::Tuple(components) => Ok(Value::tuple(self.evaluate_all(*components)?)),
+            Term::Tuple(components) => {
+                let components = self.evaluate_all(*components)?;
+                self.made(Value::tuple(components), program.term_span(id))
+            }
             Term::Project { tuple, index } => match self.evaluate(*tuple)? {
                 Value::Tuple(components) => Ok(components[*index as usize].clone()),
                 _ => self.undefined_operand("taking a component", program.term_span(id)),
             },
             Term::Collection { kind, elements } => {
                 let elements = self.evaluate_all(*elements)?;
-                Ok(collection(*kind, elements))
+                self.made(collection(*kind, elements), program.term_span(id))
             }
             Term::Range { kind, low, high, step } => {
                 let (low, high) = (self.evaluate(*low)?, self.evaluate(*high)?);
                 let step = step.map(|step| self.evaluate(step)).transpose()?;
                 let elements = self.range(&low, &high, step.as_ref(), program.term_span(id))?;
-                Ok(collection(*kind, elements))
+                self.made(collection(*kind, elements), program.term_span(id))
             }
             Term::Comprehension { kind, binders, condition, body } => {
                 self.evaluate_comprehension(*kind, *binders, *condition, *body)
@@ -204,17 +207,28 @@ impl<'a> Executor<'a> {
     ) -> Outcome<Value> {
         let program = self.program;
         let mut elements = Vec::new();
+        // Sorting compares what is shared again and again: its size is held against the limit before.
+        let mut leaves = 0u64;
         let _ = self.for_each_binding(program.binder_list(binders), &mut |this| {
             if match condition {
                 Some(condition) => this.holds(condition)?,
                 None => true,
             } {
-                elements.push(this.evaluate(body)?);
-                this.check_size(elements.len() as u64, program.term_span(body))?;
+                let element = this.evaluate(body)?;
+                leaves = leaves.saturating_add(element.weight().leaves);
+                elements.push(element);
+                this.check_size(leaves, program.term_span(body))?;
             }
             Ok(ControlFlow::Continue(()))
         })?;
-        Ok(collection(kind, elements))
+        self.made(collection(kind, elements), program.term_span(body))
+    }
+
+    /// A value that was made, within the limits of size.
+    #[inline]
+    pub fn made(&mut self, value: Value, span: Span) -> Outcome<Value> {
+        self.check_made(&value, span)?;
+        Ok(value)
     }
 
     fn evaluate_quantified(
@@ -261,8 +275,10 @@ impl<'a> Executor<'a> {
                 let right = self.evaluate(*right)?;
                 // The operations that most models spend their time in.
                 match (builtin, &left, &right) {
-                    (Builtin::Eq, a, b) => return Ok(Boolean(a == b)),
-                    (Builtin::Neq, a, b) => return Ok(Boolean(a != b)),
+                    (Builtin::Eq | Builtin::Neq, a, b) => {
+                        self.work_of_comparing(a, b, self.program.term_span(id))?;
+                        return Ok(Boolean((a == b) == (builtin == Builtin::Eq)));
+                    }
                     (Builtin::Lt, Integer(a), Integer(b)) => return Ok(Boolean(a < b)),
                     (Builtin::Le, Integer(a), Integer(b)) => return Ok(Boolean(a <= b)),
                     (Builtin::Gt, Integer(a), Integer(b)) => return Ok(Boolean(a > b)),

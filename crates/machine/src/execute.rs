@@ -18,6 +18,8 @@ use crate::observe::Observations;
 use crate::store::Store;
 use crate::update::Updates;
 use crate::value::Value;
+use crate::weighed::Items;
+use crate::work::Work;
 
 /// What an evaluation gives.
 pub(crate) type Outcome<T> = Result<T, Box<Fault>>;
@@ -40,6 +42,8 @@ pub(crate) struct Core {
     pub clock: [Option<i64>; 3],
     /// Rounds of loops in this step.
     pub iterations: u64,
+    /// What this step has worked.
+    pub work: Work,
     /// Depth of calls.
     pub depth: u64,
     /// Calls being made, for the fault's report.
@@ -49,7 +53,7 @@ pub(crate) struct Core {
     /// The values of derived and static functions in this state.
     pub memo: Memo,
     /// The contents of static concrete domains, evaluated once.
-    pub contents: Vec<Option<std::sync::Arc<Vec<Value>>>>,
+    pub contents: Vec<Option<std::sync::Arc<Items>>>,
     /// What the values of each function must be checked for, by function.
     pub codomains: Vec<Membership>,
     /// Counts, where wanted.
@@ -190,6 +194,7 @@ impl Executor<'_> {
         if self.core.depth >= self.limits.call_depth {
             return self.fault(span, FaultKind::Limit { limit: "nested calls", value: self.limits.call_depth });
         }
+        self.work(1, span)?;
         let base = std::mem::replace(&mut self.core.base, arguments);
         self.core.frames.resize(arguments + frame as usize, Value::Undef);
         self.core.depth += 1;
@@ -236,7 +241,7 @@ impl Executor<'_> {
             return self
                 .fault(span, FaultKind::Limit { limit: "iterations in one step", value: self.limits.iterations });
         }
-        Ok(())
+        self.work(1, span)
     }
 
     /// The value of a location, asking the environment where it is an input not yet given.
@@ -288,7 +293,8 @@ impl Executor<'_> {
             return self.read_initial(function, arguments, span);
         }
         let codomain = self.program.function(function).codomain;
-        let given = if self.core.exploring {
+        // Also while an initial value that comes up late is evaluated, which explores nothing by itself.
+        let given = if self.environment.branches().is_some() {
             self.ask_among(location)
         } else {
             self.environment.monitored(self.program, location, codomain)

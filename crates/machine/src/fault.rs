@@ -8,6 +8,7 @@ use std::fmt;
 use program::{DomainId, FunctionId, Program};
 use syntax::Span;
 
+use crate::interrupt::Cause;
 use crate::location::Location;
 use crate::print::Show;
 use crate::value::Value;
@@ -110,6 +111,8 @@ pub enum FaultKind {
         /// Its value.
         value: u64,
     },
+    /// The step was to stop: see [`crate::Interrupt`].
+    Interrupted(Cause),
     /// The environment could not give a value.
     Environment {
         /// Its sentence.
@@ -138,9 +141,18 @@ impl FaultKind {
             FaultKind::WrongArguments { .. } => "wrong-arguments",
             FaultKind::Temporal => "temporal-operator",
             FaultKind::Limit { .. } => "limit-reached",
+            FaultKind::Interrupted(Cause::Asked) => "interrupted",
+            FaultKind::Interrupted(Cause::Memory) => "limit-reached",
             FaultKind::Environment { .. } => "no-input",
             FaultKind::NoMain => "no-main-rule",
         }
+    }
+}
+
+impl FaultKind {
+    /// Whether the model is at fault, whatever the environment and the limits.
+    pub(crate) fn is_of_the_model(&self) -> bool {
+        !matches!(self, FaultKind::Limit { .. } | FaultKind::Interrupted(_) | FaultKind::Environment { .. })
     }
 }
 
@@ -164,13 +176,13 @@ impl fmt::Display for ShowFault<'_> {
                 f,
                 "inconsistent update: {} is set to {} and to {} in one step",
                 location.show(program),
-                first.value.show(program),
-                second.value.show(program)
+                first.value.show(program).briefly(),
+                second.value.show(program).briefly()
             ),
             FaultKind::OutOfDomain { location, value, domain } => write!(
                 f,
                 "{} is not in {}, the domain of {}",
-                value.show(program),
+                value.show(program).briefly(),
                 program.domain(*domain).name,
                 location.show(program)
             ),
@@ -187,12 +199,16 @@ impl fmt::Display for ShowFault<'_> {
                 write!(f, "`{}` has no definition", program.function(*function).name)
             }
             FaultKind::Unbound => f.write_str("the variable is not bound here"),
-            FaultKind::NotARule { value } => write!(f, "{} is not a rule that can be run", value.show(program)),
+            FaultKind::NotARule { value } => {
+                write!(f, "{} is not a rule that can be run", value.show(program).briefly())
+            }
             FaultKind::WrongArguments { given, expected } => {
                 write!(f, "the rule takes {expected} arguments, {given} are given")
             }
             FaultKind::Temporal => f.write_str("a temporal operator has no value in a single state"),
             FaultKind::Limit { limit, value } => write!(f, "the limit of {value} {limit} is reached"),
+            FaultKind::Interrupted(Cause::Asked) => f.write_str("the step was interrupted"),
+            FaultKind::Interrupted(Cause::Memory) => f.write_str("the limit of memory is reached"),
             FaultKind::Environment { reason } => f.write_str(reason),
             FaultKind::NoMain => f.write_str("the model has no main rule to run"),
         }

@@ -12,9 +12,11 @@ use crate::fault::{Fault, FaultKind};
 use crate::limits::Limits;
 use crate::location::{Location, LocationRef};
 use crate::native::{Ended, Engine};
+use crate::start::AT_START;
 use crate::step::{Passed, Step};
 use crate::store::Store;
 use crate::value::Value;
+use crate::work::Work;
 
 /// One location whose value a step changed.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -110,6 +112,16 @@ impl Machine {
         Machine { program, limits, core, steps: 0, settled: false, engine, stale: false }
     }
 
+    /// From now on steps are made to their end, whoever waits: to tell again what was found before.
+    pub fn ignore_interrupts(&mut self) {
+        self.limits.interrupt = None;
+    }
+
+    /// From now on what these limits name is looked at within steps.
+    pub(crate) fn mind_interrupts(&mut self, limits: &Limits) {
+        self.limits.interrupt = limits.interrupt;
+    }
+
     /// The program.
     pub fn program(&self) -> &Arc<Program> {
         &self.program
@@ -123,7 +135,7 @@ impl Machine {
         let Machine { program, core, limits, .. } = self;
         core.frames.clear();
         core.calls.clear();
-        (core.base, core.depth) = (0, 0);
+        (core.base, core.depth, core.work) = (0, 0, Work::none());
         let mut executor = Executor { program, core, environment, limits: *limits };
         body(&mut executor, program).map_err(|fault| *fault)
     }
@@ -139,6 +151,16 @@ impl Machine {
         (self.core.coverage, self.core.exploring, self.core.unset) = (coverage, exploring, unset);
         self.steps = 0;
         self.settled = false;
+        self.execute(environment, |executor, _| executor.start())
+    }
+
+    /// The same from a copy of the state before any start, for who starts again and again while exploring.
+    pub(crate) fn start_from(&mut self, blank: &Snapshot, environment: &mut dyn Environment) -> Result<(), Fault> {
+        self.restore(blank);
+        // What is given now is of the initial state, in which values that come up later are evaluated.
+        self.core.epoch = AT_START;
+        self.core.origin = None;
+        (self.core.compacted, self.core.iterations) = (0, 0);
         self.execute(environment, |executor, _| executor.start())
     }
 

@@ -85,9 +85,10 @@ impl Executor<'_> {
                         self.note_carriers();
                     }
                     let carrier = &self.core.store.carriers[domain.0 as usize];
-                    let created = || self.core.updates.created().iter().any(|(d, v)| *d == domain && v == value);
+                    // Fresh elements have rising numbers; what is asked for is most often the newest.
+                    let created = || self.core.updates.created().iter().rev().any(|(d, v)| *d == domain && v == value);
                     return carrier.elements.binary_search(value).is_ok()
-                        || carrier.intermediate.contains(value)
+                        || carrier.intermediate.binary_search(value).is_ok()
                         || created();
                 }
                 match &self.core.contents[domain.0 as usize] {

@@ -2,13 +2,13 @@
 //!
 //! In: the steps that a machine makes while it is watched. Out: [`Observation`]s, each once. A guard that connects several
 //! conditions is told with the truth of each, as far as they were evaluated. INVARIANT: watching changes no step: nothing
-//! is evaluated that would not be anyway.
+//! is evaluated that would not be anyway, but that a step whose updates clash is made to its end to see what else does.
 
 use program::{Builtin, DomainId, FunctionId, Program, RuleId, Term, TermId};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::execute::{Core, Executor, Outcome};
-use crate::fault::FaultKind;
+use crate::fault::{Fault, FaultKind};
 use crate::value::Value;
 
 /// LIMIT: of a guard with more conditions only its branches are told.
@@ -55,11 +55,14 @@ pub(crate) struct Observations {
     conditions: FxHashMap<TermId, Vec<TermId>>,
     /// The conditions of the guard being evaluated.
     truths: Vec<(TermId, bool)>,
+    /// The first clash of the step. It goes on, so that all others are seen; nothing else is from then on.
+    pub clash: Option<Box<Fault>>,
 }
 
 impl Observations {
     fn note(&mut self, observation: Observation) {
-        if self.on && !self.known.contains(&observation) && !self.step.contains(&observation) {
+        let counts = self.clash.is_none() || matches!(observation, Observation::Clashed(..));
+        if self.on && counts && !self.known.contains(&observation) && !self.step.contains(&observation) {
             self.step.push(observation);
         }
     }

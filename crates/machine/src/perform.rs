@@ -140,9 +140,14 @@ impl<'a> Executor<'a> {
                 self.note_write(function, found);
             }
             if found.is_none_or(|index| self.core.store.given[index as usize] == 0) {
-                // An initial value that is due only when read must be there before it is overwritten.
+                // An initial value that is due only when read must be there before it is overwritten. Who only writes the location
+                // does not need it: where it cannot be evaluated, whoever reads it before it is written is told.
                 let arguments = self.core.frames[start..].to_vec();
-                self.read(function, &arguments, self.program.rule_span(id))?;
+                if let Err(fault) = self.read(function, &arguments, self.program.rule_span(id))
+                    && (value.is_undef() || !fault.kind.is_of_the_model())
+                {
+                    return Err(fault);
+                }
             }
         }
         if !self.is_member(function, &value) {
@@ -162,8 +167,25 @@ impl<'a> Executor<'a> {
         if core.updates.len() as u64 >= self.limits.updates || core.store.len() as u64 > self.limits.locations {
             return self.limit_of_updates(id);
         }
-        let pushed = core.updates.push(index, value, id);
-        self.consistent(pushed)
+        match core.updates.push(index, value, id) {
+            Ok(()) => Ok(()),
+            Err(clash) => self.clashed(*clash),
+        }
+    }
+
+    /// A clash of two updates ends the step, unless somebody watches for others. What runs in parallel does not see it; what
+    /// comes in sequence after it would.
+    #[cold]
+    fn clashed(&mut self, clash: Clash) -> Outcome<()> {
+        let fault = self.inconsistent::<()>(clash);
+        let outermost = self.core.updates.is_outermost();
+        match (&mut self.core.observations, fault) {
+            (Some(observations), Err(fault)) if observations.on && outermost => {
+                observations.clash.get_or_insert(fault);
+                Ok(())
+            }
+            (_, fault) => fault,
+        }
     }
 
     #[cold]

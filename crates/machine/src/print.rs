@@ -25,6 +25,49 @@ pub struct ShowValue<'a> {
     program: &'a Program,
 }
 
+/// LIMIT: so many bytes of a value are shown to people.
+const BRIEF: usize = 4096;
+
+impl<'a> ShowValue<'a> {
+    /// The same for people: a long one is cut, and says so.
+    pub fn briefly(self) -> BriefValue<'a> {
+        BriefValue(self)
+    }
+}
+
+/// See [`ShowValue::briefly`].
+pub struct BriefValue<'a>(ShowValue<'a>);
+
+impl fmt::Display for BriefValue<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut cut = Cut { out: f, left: BRIEF, full: false };
+        match fmt::write(&mut cut, format_args!("{}", self.0)) {
+            Err(_) if cut.full => write!(f, "… (cut here, of {} values)", self.0.value.weight().leaves),
+            outcome => outcome,
+        }
+    }
+}
+
+/// Takes so many bytes, and then no more.
+struct Cut<'f, 'o> {
+    out: &'f mut fmt::Formatter<'o>,
+    left: usize,
+    full: bool,
+}
+
+impl fmt::Write for Cut<'_, '_> {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        if text.len() <= self.left {
+            self.left -= text.len();
+            return self.out.write_str(text);
+        }
+        let end = (0..=self.left).rev().find(|end| text.is_char_boundary(*end)).unwrap_or(0);
+        self.out.write_str(&text[..end])?;
+        self.full = true;
+        Err(fmt::Error)
+    }
+}
+
 impl fmt::Display for ShowValue<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let program = self.program;

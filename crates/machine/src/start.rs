@@ -20,9 +20,11 @@ use crate::memo::Memo;
 use crate::store::Store;
 use crate::update::Updates;
 use crate::value::Value;
+use crate::weighed::Items;
+use crate::work::Work;
 
 /// The epoch of the initial state.
-const AT_START: u32 = 1;
+pub(crate) const AT_START: u32 = 1;
 /// LIMIT: a function with more locations has its initial values evaluated when they are first read.
 const EAGER_LIMIT: u64 = 1 << 20;
 
@@ -38,6 +40,7 @@ impl Core {
             inputs: Vec::new(),
             clock: [None; 3],
             iterations: 0,
+            work: Work::none(),
             depth: 0,
             calls: Vec::new(),
             constants: program.constants.iter().map(constant).collect(),
@@ -118,7 +121,7 @@ impl<'a> Executor<'a> {
                 }
                 values.sort_unstable();
                 values.dedup();
-                self.core.contents[index] = Some(Arc::new(values));
+                self.core.contents[index] = Some(Arc::new(Items::new(values)));
                 progress = true;
             }
             if !progress {
@@ -191,6 +194,11 @@ impl<'a> Executor<'a> {
     /// then is an input of the running step.
     fn in_initial_state<T>(&mut self, body: impl FnOnce(&mut Self) -> Outcome<T>) -> Outcome<T> {
         let Some(mut origin) = self.core.origin.take() else { return body(self) };
+        if self.core.exploring
+            && let Some(branches) = self.environment.branches()
+        {
+            branches.look_at_origin();
+        }
         let asked = self.core.inputs.len();
         let lent = self.lend_inputs(&mut origin);
         std::mem::swap(&mut self.core.store, &mut origin);
@@ -264,8 +272,9 @@ impl<'a> Executor<'a> {
     pub fn read_initial(&mut self, function: FunctionId, arguments: &[Value], span: Span) -> Outcome<Value> {
         let program = self.program;
         let index = self.core.store.number(function, arguments) as usize;
-        // `given` marks the locations whose initial value has been set.
-        if self.core.store.given[index] != 0 {
+        // `given` marks the locations whose initial value has been set. One that could not be evaluated may have been
+        // overwritten.
+        if self.core.store.given[index] != 0 || !self.core.store.values[index].is_undef() {
             return Ok(self.core.store.values[index].clone());
         }
         let Some(initial) = self.core.initials[function.0 as usize] else {

@@ -7,6 +7,7 @@ use program::{DomainKind, FunctionKind, Program};
 
 use crate::execute::Core;
 use crate::native;
+use crate::work::Work;
 
 /// What a step did.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -58,6 +59,7 @@ impl Core {
     pub fn begin_step(&mut self) {
         self.updates.release();
         self.iterations = 0;
+        self.work = Work::none();
         self.choices.forget();
         self.updates.begin();
     }

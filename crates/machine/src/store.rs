@@ -15,7 +15,7 @@ use crate::location::{Location, LocationRef};
 use crate::value::Value;
 
 /// The elements of a dynamic domain.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct Carrier {
     /// Abstract: how many elements the state has.
     pub count: u32,
@@ -114,6 +114,14 @@ impl Store {
     /// How many locations have a number.
     pub fn len(&self) -> usize {
         self.values.len()
+    }
+
+    /// Whether another store of the same program has the same values, given by whom they may be.
+    pub fn is_like(&self, other: &Store) -> bool {
+        self.values == other.values
+            && self.given == other.given
+            && self.sparse_locations == other.sparse_locations
+            && self.carriers == other.carriers
     }
 
     /// How many locations have a number beyond the dense ones.

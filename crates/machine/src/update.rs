@@ -4,9 +4,10 @@
 //! round of a `while`, the body of a turbo call. Units nest; their updates are consecutive suffixes of one stack.
 //! A location's *stamp* says whether the current unit holds an update for it, so a clash is found in constant time.
 //!
-//! A finished part of a `seq` is applied to the store at once and what it overwrote is logged; when the `seq` ends
-//! the log is taken back and its net effect (the U ⊕ V of the book) joins the enclosing unit. So reading in an
-//! intermediate state costs nothing extra.
+//! A finished part of a `seq` is applied to the store at once and what it overwrote is logged, once for each location: of
+//! the values that it has in between none is kept. When the `seq` ends the log is taken back and its net effect (the U ⊕ V of
+//! the book) joins the enclosing unit. So reading in an intermediate state costs nothing extra, and a loop takes the memory of
+//! what it writes, however often it does.
 
 use program::{DomainId, RuleId};
 
@@ -37,8 +38,20 @@ pub(crate) struct Stamp {
 #[derive(Debug, Clone)]
 struct Overwritten {
     location: LocationIndex,
-    before: Value,
+    /// The rule that wrote the location last.
     rule: RuleId,
+    before: Value,
+    /// When that was.
+    time: u64,
+    /// Where else the location stands in the log: for a sequence around this one.
+    previous: Logged,
+}
+
+/// Which sequence has logged a location last, and where in the log. Sequence 0 is none.
+#[derive(Debug, Clone, Copy, Default)]
+struct Logged {
+    sequence: u32,
+    index: u32,
 }
 
 /// A unit being computed.
@@ -52,6 +65,7 @@ pub(crate) struct Unit {
 /// A `seq` being computed.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sequence {
+    enclosing: u32,
     log: usize,
     created: usize,
 }
@@ -72,35 +86,47 @@ pub(crate) struct Updates {
     pub compound: bool,
     pub stamps: Vec<Stamp>,
     log: Vec<Overwritten>,
+    /// By location.
+    logged: Vec<Logged>,
+    /// The running sequence.
+    sequence: u32,
+    sequences: u32,
+    /// How often something was overwritten.
+    time: u64,
     /// Elements made by `extend`, with the domain that gets them.
     created: Vec<(DomainId, Value)>,
     unit: u32,
+    /// The unit that is the whole step.
+    outermost: u32,
     units: u32,
     merge: Vec<Overwritten>,
     /// The state before the step is shown, and the intermediate elements of each domain are kept here.
     original: bool,
     hidden: Vec<Vec<Value>>,
-    /// By location, the last merge that met it.
-    met: Vec<u32>,
-    merges: u32,
 }
 
 impl Updates {
     /// Begins a step; the last one was committed ([`Updates::release`]) or rolled back.
     pub fn begin(&mut self) {
-        if self.units.max(self.merges) > u32::MAX / 2 {
+        if self.units.max(self.sequences) > u32::MAX / 2 {
             self.renumbered();
         }
         // Unit numbers never come again, so that no old stamp can be taken for a new one.
         self.units += 1;
         self.unit = self.units;
+        self.outermost = self.unit;
+    }
+
+    /// Whether the current unit is the whole step.
+    pub fn is_outermost(&self) -> bool {
+        self.unit == self.outermost
     }
 
     /// Location numbers have changed: no stamp is valid any more.
     pub fn renumbered(&mut self) {
         self.stamps.clear();
-        self.met.clear();
-        (self.units, self.merges) = (0, 0);
+        self.logged.clear();
+        (self.units, self.sequences, self.sequence) = (0, 0, 0);
     }
 
     /// The current unit.
@@ -212,16 +238,30 @@ impl Updates {
 
     /// Begins a `seq`.
     pub fn begin_sequence(&mut self) -> Sequence {
-        Sequence { log: self.log.len(), created: self.created.len() }
+        self.sequences += 1;
+        let enclosing = std::mem::replace(&mut self.sequence, self.sequences);
+        Sequence { enclosing, log: self.log.len(), created: self.created.len() }
     }
 
     /// Ends a part of a `seq`: its updates become the intermediate state.
     pub fn apply(&mut self, unit: Unit, store: &mut Store) {
+        if self.logged.len() < self.stamps.len() {
+            self.logged.resize(self.stamps.len(), Logged::default());
+        }
         while self.stack.len() > unit.updates {
-            let update = self.stack.pop().expect("longer than the unit's start");
-            self.stamps[update.location as usize] = update.previous;
-            let before = std::mem::replace(&mut store.values[update.location as usize], update.value);
-            self.log.push(Overwritten { location: update.location, before, rule: update.rule });
+            let Update { location, rule, value, previous } = self.stack.pop().expect("longer than the unit's start");
+            self.stamps[location as usize] = previous;
+            let before = std::mem::replace(&mut store.values[location as usize], value);
+            self.time += 1;
+            let time = self.time;
+            let logged = &mut self.logged[location as usize];
+            if logged.sequence == self.sequence {
+                let entry = &mut self.log[logged.index as usize];
+                (entry.rule, entry.time) = (rule, time);
+                continue;
+            }
+            let previous = std::mem::replace(logged, Logged { sequence: self.sequence, index: self.log.len() as u32 });
+            self.log.push(Overwritten { location, rule, before, time, previous });
         }
         self.unit = unit.enclosing;
         for (domain, element) in &self.created[unit.created..] {
@@ -242,16 +282,18 @@ impl Updates {
         while self.log.len() > sequence.log {
             let mut entry = self.log.pop().expect("longer than the sequence's start");
             std::mem::swap(&mut store.values[entry.location as usize], &mut entry.before);
+            self.logged[entry.location as usize] = entry.previous;
             merge.push(entry); // `before` now holds the value after
         }
+        self.sequence = sequence.enclosing;
         self.forget_intermediate(sequence.created, store);
-        self.merges += 1;
-        self.met.resize(self.met.len().max(store.len()), 0);
+        // What was written last comes first.
+        if !merge.is_sorted_by(|one, other| one.time > other.time) {
+            merge.sort_unstable_by_key(|entry| std::cmp::Reverse(entry.time));
+        }
         let mut outcome = Ok(());
-        // The last write of a location comes first here; earlier ones are left out.
         for entry in merge.drain(..) {
-            let met = std::mem::replace(&mut self.met[entry.location as usize], self.merges);
-            if met == self.merges || local(store, entry.location) {
+            if local(store, entry.location) {
                 continue;
             }
             outcome = self.push(entry.location, entry.before, entry.rule);
@@ -265,7 +307,7 @@ impl Updates {
 
     /// Whether the intermediate state has overwritten a location.
     pub fn has_overwritten(&self, location: LocationIndex) -> bool {
-        self.log.iter().any(|entry| entry.location == location)
+        self.logged.get(location as usize).is_some_and(|logged| logged.sequence != 0)
     }
 
     /// Takes back every intermediate state and empties the update set; tells whether there was anything.
@@ -273,7 +315,9 @@ impl Updates {
         let any = !(self.stack.is_empty() && self.log.is_empty() && self.created.is_empty());
         while let Some(entry) = self.log.pop() {
             store.values[entry.location as usize] = entry.before;
+            self.logged[entry.location as usize] = entry.previous;
         }
+        self.sequence = 0;
         self.forget_intermediate(0, store);
         for (domain, _) in &self.created {
             let carrier = &mut store.carriers[domain.0 as usize];
@@ -283,9 +327,14 @@ impl Updates {
         any
     }
 
+    /// Takes elements out of the intermediate state. INVARIANT: those that were made last stand last in it; one whose part of
+    /// a `seq` was not finished never came there.
     fn forget_intermediate(&self, from: usize, store: &mut Store) {
-        for (domain, element) in &self.created[from..] {
-            store.carriers[domain.0 as usize].intermediate.retain(|kept| kept != element);
+        for (domain, element) in self.created[from..].iter().rev() {
+            let intermediate = &mut store.carriers[domain.0 as usize].intermediate;
+            if intermediate.last() == Some(element) {
+                intermediate.pop();
+            }
         }
     }
 

@@ -11,6 +11,8 @@ use std::sync::Arc;
 
 use program::{DomainId, ProcedureId};
 
+use crate::weighed::{Items, Weighed, Weight};
+
 /// A double without NaN and without negative zero, totally ordered.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Real(f64);
@@ -76,15 +78,15 @@ pub enum Value {
     /// A String.
     String(Arc<String>),
     /// A tuple.
-    Tuple(Arc<Vec<Value>>),
+    Tuple(Arc<Items>),
     /// A sequence.
-    Seq(Arc<Vec<Value>>),
+    Seq(Arc<Items>),
     /// A set: sorted, distinct.
-    Set(Arc<Vec<Value>>),
+    Set(Arc<Items>),
     /// A bag: each element with how often it occurs, never 0.
-    Bag(Arc<BTreeMap<Value, u64>>),
+    Bag(Arc<Weighed<BTreeMap<Value, u64>>>),
     /// A map.
-    Map(Arc<BTreeMap<Value, Value>>),
+    Map(Arc<Weighed<BTreeMap<Value, Value>>>),
 }
 
 impl Value {
@@ -95,19 +97,25 @@ impl Value {
 
     /// A tuple.
     pub fn tuple(components: Vec<Value>) -> Value {
-        Value::Tuple(Arc::new(components))
+        Value::Tuple(Arc::new(Weighed::new(components)))
     }
 
     /// A sequence.
     pub fn seq(elements: Vec<Value>) -> Value {
-        Value::Seq(Arc::new(elements))
+        Value::Seq(Arc::new(Weighed::new(elements)))
     }
 
     /// The set of these elements, which may repeat and come in any order.
     pub fn set(mut elements: Vec<Value>) -> Value {
         elements.sort_unstable();
         elements.dedup();
-        Value::Set(Arc::new(elements))
+        Value::sorted(elements)
+    }
+
+    /// The set of these elements, which are sorted and distinct.
+    pub(crate) fn sorted(elements: Vec<Value>) -> Value {
+        debug_assert!(elements.is_sorted_by(|a, b| a < b));
+        Value::Set(Arc::new(Weighed::new(elements)))
     }
 
     /// The bag of these elements.
@@ -116,12 +124,23 @@ impl Value {
         for element in elements {
             *counts.entry(element).or_insert(0) += 1;
         }
-        Value::Bag(Arc::new(counts))
+        Value::Bag(Arc::new(Weighed::new(counts)))
     }
 
     /// The map of these entries; of equal keys the last counts.
     pub fn map(entries: impl IntoIterator<Item = (Value, Value)>) -> Value {
-        Value::Map(Arc::new(entries.into_iter().collect()))
+        Value::Map(Arc::new(Weighed::new(entries.into_iter().collect())))
+    }
+
+    /// How large it is with all that is shared in it unfolded.
+    pub fn weight(&self) -> Weight {
+        match self {
+            Value::Tuple(items) | Value::Seq(items) | Value::Set(items) => items.weight(),
+            Value::Bag(counts) => counts.weight(),
+            Value::Map(entries) => entries.weight(),
+            Value::String(text) => Weight { leaves: 1 + text.len() as u64 / 16, depth: 0 },
+            _ => Weight::SCALAR,
+        }
     }
 
     /// Does it stand in its two words alone?

@@ -28,12 +28,14 @@ mod names;
 mod overload;
 mod site;
 mod suggest;
+mod unstarted;
 mod visit;
 
 pub use check::check;
 
 pub use domain::{Basic, Domain, DomainId, DomainKind, Domains};
 pub use fault::IDS;
+pub use fault::name::missing_operator;
 pub use fragment::Fragment;
 pub use model::{
     AgentProgram, Checked, Definition, Function, FunctionId, FunctionKind, Init, InitialFunction, Loader, Model,
@@ -41,4 +43,5 @@ pub use model::{
 };
 pub use names::Names;
 pub use rule::{Call, RuleKind, RuleNode, Target};
+pub use suggest::nearest;
 pub use term::{Binder, CollectionKind, Literal, Quantifier, Term, TermKind};

@@ -9,6 +9,8 @@ use std::collections::BTreeSet;
 use syntax::ast::{self, AstNode};
 use syntax::{FileId, SourceFile};
 
+use crate::model::PropertyKind;
+
 /// Name and text of each library.
 const LIBRARIES: [(&str, &str); 5] = [
     ("StandardLibrary", include_str!("../../../library/std/StandardLibrary.asm")),
@@ -65,6 +67,17 @@ pub(crate) fn stem(path: &str) -> &str {
 pub(crate) fn is_standard_name(name: &str) -> bool {
     let text = LIBRARIES[0].1;
     text.lines().filter_map(declared_name).any(|declared| declared == name)
+}
+
+/// The library of a logic's operators, if the name is one of them.
+pub(crate) fn of_operator(name: &str, kind: PropertyKind) -> Option<&'static str> {
+    let library = match kind {
+        PropertyKind::Ctl => "CTLLibrary",
+        PropertyKind::Ltl => "LTLLibrary",
+        _ => return None,
+    };
+    let (library, text) = LIBRARIES.iter().find(|(known, _)| *known == library)?;
+    text.lines().filter_map(declared_name).any(|declared| declared == name).then_some(*library)
 }
 
 fn declared_name(line: &str) -> Option<&str> {

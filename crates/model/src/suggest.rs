@@ -4,7 +4,7 @@
 //! meant: the same but for case, or few edits away for its length.
 
 /// The candidate that was likely meant.
-pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let allowed = match name.chars().count() {
         0..=2 => 1,
         3..=5 => 1,

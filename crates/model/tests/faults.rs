@@ -1,12 +1,10 @@
 //! Each fault that checking may report has a page `spec/faults/<id>.md`, and the page's example yields that fault.
 
-mod support;
-
 use std::path::PathBuf;
 
+use crate::support::{check_file, faults};
 use expect_test::expect_file;
 use model::IDS;
-use support::{check_file, faults};
 use syntax::Severity;
 
 struct Page {

@@ -1,10 +1,8 @@
 //! Fragments: terms, rules and updates read as if they stood in the root file of a checked model.
 
-mod support;
-
+use crate::support::{check_body, fault_text};
 use expect_test::{Expect, expect};
 use model::{Domains, Fragment, Model, Target};
-use support::{check_body, fault_text};
 use syntax::ast::{self, AstNode};
 use syntax::{FileId, Severity, SourceFile, Sources};
 

@@ -1,9 +1,7 @@
 //! Golden dumps: what names, overloads and coercions resolve to. Update with `UPDATE_EXPECT=1 cargo test`.
 
-mod support;
-
+use crate::support::{check_body, check_file, dump};
 use expect_test::{Expect, expect};
-use support::{check_body, check_file, dump};
 
 fn check(body: &str, expected: Expect) {
     expected.assert_eq(&dump(&check_body(body)));

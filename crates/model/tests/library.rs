@@ -1,11 +1,9 @@
 //! The built-in libraries: they have no faults, and spec/standard-library.md lists exactly their functions.
 
-mod support;
-
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use support::{check_file, faults};
+use crate::support::{check_file, faults};
 
 const LIBRARIES: [&str; 5] = ["StandardLibrary", "CTLLibrary", "LTLLibrary", "TimeLibrary", "TimeLibrarySimple"];
 

@@ -1,9 +1,7 @@
 //! Checking never panics: on mutated models, on any text, and on deep nesting with a small stack.
 
-mod support;
-
+use crate::support::check_file;
 use proptest::prelude::*;
-use support::check_file;
 
 /// Uses every construct once, so that mutations reach every part of the checker.
 const MODEL: &str = r#"asm t

@@ -20,12 +20,14 @@ pub struct Assignment {
     values: BTreeMap<VariableId, Value>,
     /// The agent whose program is run.
     pub agent: Option<Value>,
+    /// The location in the place of `result`, or why it has none.
+    pub result: Option<Result<Location, Fault>>,
 }
 
 impl Assignment {
     /// No variable bound, and `self` denoting an agent.
     pub fn of_agent(agent: Value) -> Assignment {
-        Assignment { values: BTreeMap::new(), agent: Some(agent) }
+        Assignment { values: BTreeMap::new(), agent: Some(agent), result: None }
     }
 
     /// ζ(x).
@@ -42,7 +44,12 @@ impl Assignment {
 
     /// The assignment of nothing but parameters to values; `self` goes on to denote the same agent.
     pub fn parameters(&self, parameters: &[VariableId], values: Vec<Value>) -> Assignment {
-        Assignment { values: parameters.iter().copied().zip(values).collect(), agent: self.agent.clone() }
+        Assignment { values: parameters.iter().copied().zip(values).collect(), agent: self.agent.clone(), result: None }
+    }
+
+    /// The same with this in the place of `result`.
+    pub fn returning(self, result: Option<Result<Location, Fault>>) -> Assignment {
+        Assignment { result, ..self }
     }
 }
 

@@ -99,7 +99,8 @@ impl Interpreter<'_> {
             }
             RuleKind::TurboCall(call) => {
                 let values = self.values(&call.arguments, state, zeta)?;
-                Ok(self.turbo(call, values, state, zeta)?)
+                let inner = zeta.parameters(&self.model.rule(call.rule).parameters, values);
+                Ok(self.turbo(call.rule, state, &inner.returning(zeta.result.clone()))?)
             }
             RuleKind::Return { target, call } => self.returned(target, call, state, zeta),
             RuleKind::RunValue { rule, arguments } => {
@@ -155,6 +156,9 @@ impl Interpreter<'_> {
     /// The location that a target denotes.
     fn location(&mut self, target: &Target, state: &State, zeta: &Assignment) -> Result<Location, Fault> {
         match target {
+            Target::Location { function, .. } if self.is_result(*function) && zeta.result.is_some() => {
+                zeta.result.clone().expect("there is one")
+            }
             Target::Location { function, arguments, .. } => {
                 Ok(Location::function(*function, self.values(arguments, state, zeta)?))
             }
@@ -276,29 +280,37 @@ impl Interpreter<'_> {
         substitution.rule(&rule.body)
     }
 
-    /// The update set of a turbo rule called by value, which is fired as one.
-    fn turbo(&mut self, call: &Call, values: Vec<Value>, state: &State, zeta: &Assignment) -> Result<UpdateSet, Fault> {
-        let rule = self.model.rule(call.rule);
-        let inner = zeta.parameters(&rule.parameters, values);
-        self.call(|this| consistent(this.yields(&rule.body, state, &inner)))
+    /// The update set of a turbo rule whose parameters are bound, which is fired as one.
+    fn turbo(&mut self, rule: model::RuleId, state: &State, inner: &Assignment) -> Result<UpdateSet, Fault> {
+        let body = &self.model.rule(rule).body;
+        self.call(|this| consistent(this.yields(body, state, inner)))
     }
 
-    /// l ← r(t₁,…,tₙ): what r yields with l in the place of `result` (section 4.1.2).
+    fn is_result(&self, function: model::FunctionId) -> bool {
+        let function = self.model.function(function);
+        function.library && function.name == "result"
+    }
+
+    /// l ← r(t₁,…,tₙ): what r yields with l in the place of `result` (section 4.1.2). What runs through a rule value or as an
+    /// agent's program writes `result` itself, and l is written at the end.
     fn returned(&mut self, target: &Target, call: &Call, state: &State, zeta: &Assignment) -> Yield {
         let values = self.values(&call.arguments, state, zeta)?;
-        let updates = self.turbo(call, values, state, zeta)?;
+        let kind = match target {
+            Target::Location { function, .. } => self.model.function(*function).kind,
+            Target::Parameter(..) => FunctionKind::Controlled,
+        };
+        // A monitored l is the environment's to write.
+        let location = (kind != FunctionKind::Monitored).then(|| self.location(target, state, zeta));
+        // The called rule knows no local function but its own, even if that is the same one.
+        let stands = location.clone().filter(|_| kind != FunctionKind::Local);
+        let inner = zeta.parameters(&self.model.rule(call.rule).parameters, values).returning(stands);
+        let updates = self.turbo(call.rule, state, &inner)?;
         let result = self.model.functions().find(|(_, function)| function.library && function.name == "result");
         let Some((result, _)) = result else { return Ok(updates) };
         let Some(value) = updates.value(&Location::function(result, Vec::new())).cloned() else { return Ok(updates) };
         let updates = updates.without(result);
-        // l is the environment's to write.
-        if let Target::Location { function, .. } = target
-            && self.model.function(*function).kind == FunctionKind::Monitored
-        {
-            return Ok(updates);
-        }
-        let update = self.location(target, state, zeta).map_err(Stop::from);
-        let update = update.and_then(|location| self.update(location, value, state));
+        let Some(location) = location else { return Ok(updates) };
+        let update = location.map_err(Stop::from).and_then(|location| self.update(location, value, state));
         join(updates, update)
     }
 
@@ -310,11 +322,10 @@ impl Interpreter<'_> {
             return Err(Fault::WrongArguments.into());
         }
         let values = self.values(arguments, state, zeta)?;
-        if rule.turbo {
-            let call = Call { rule: id, arguments: Vec::new() };
-            return Ok(self.turbo(&call, values, state, zeta)?);
-        }
         let inner = zeta.parameters(&rule.parameters, values);
+        if rule.turbo {
+            return Ok(self.turbo(id, state, &inner)?);
+        }
         self.call(|this| this.yields(&rule.body, state, &inner))
     }
 

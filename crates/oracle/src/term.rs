@@ -130,6 +130,12 @@ impl Interpreter<'_> {
         {
             return Ok(agent.clone());
         }
+        if function.library
+            && function.name == "result"
+            && let Some(location) = &zeta.result
+        {
+            return self.read(location.clone()?, state);
+        }
         if matches!(function.kind, FunctionKind::Static | FunctionKind::Derived) {
             return match function.library {
                 true => self.library(function, terms, domain, state, zeta),

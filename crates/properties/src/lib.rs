@@ -4,6 +4,7 @@
 //! seeds, call the same functions. INVARIANT: nothing here depends on anything but the bytes, so an input that breaks a
 //! property once does so always. It must not know who calls it, nor where seeds lie.
 
+pub mod commands;
 pub mod mutation;
 pub mod seeds;
 

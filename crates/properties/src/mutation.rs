@@ -75,6 +75,36 @@ fn tokens(text: &str) -> Vec<&str> {
 const EDGES: &[&str] =
     &["0", "1", "2", "300", "3001", "2147483648", "9223372036854775807", "9223372036854775808", "1e400"];
 
+/// A text like `text` of which whole lines are lost, doubled, exchanged, indented, or taken from elsewhere.
+pub fn with_lines_mutated(text: &str, others: &[String], random: &mut SplitMix) -> String {
+    let mut lines: Vec<String> = text.split_inclusive('\n').map(str::to_string).collect();
+    for _ in 0..=random.below(3) {
+        if lines.is_empty() {
+            break;
+        }
+        let (at, to) = (random.index(lines.len()), random.index(lines.len()));
+        match random.below(7) {
+            0 => {
+                lines.remove(at);
+            }
+            1 => {
+                let line = lines[at].clone();
+                lines.insert(to, line);
+            }
+            2 => lines.swap(at, to),
+            3 => lines[at].insert_str(0, ["\t", "  ", "// ", "\u{a0}", "\r"][random.index(5)]),
+            4 => lines[at] = lines[at].trim_end_matches('\n').to_string(),
+            5 => {
+                let other = random.pick(others).map(|other| other.split_inclusive('\n').collect::<Vec<_>>());
+                let line = other.and_then(|lines| random.pick(&lines).map(|line| (*line).to_string()));
+                lines.insert(at, line.unwrap_or_default());
+            }
+            _ => lines.insert(0, ["\t// comment\n", "\n\n", " /* a */ ", "\u{feff}"][random.index(4)].to_string()),
+        }
+    }
+    lines.concat()
+}
+
 /// A text like `text`; what is taken from elsewhere is of `others` or of `words`.
 pub fn mutated(text: &str, others: &[String], words: &[String], random: &mut SplitMix) -> Vec<u8> {
     let mut tokens: Vec<&str> = tokens(text);

@@ -58,7 +58,7 @@ pub(crate) fn scenario_never_panics(bytes: &[u8]) -> bool {
     let text = world::text(bytes);
     let (model, scenario) = text.split_once(DIVIDER).unwrap_or(("", &text));
     let mut models = Models { root: model.to_string() };
-    let options = scenario::Options { limits: world::limits(), bound: 20, coverage: true };
+    let options = scenario::Options { limits: world::limits(), bound: 20, coverage: true, story: true };
     let source = SourceFile::new("Scenario.avalla", scenario);
     let tested = groundstate::Suite::new().test(source, &mut models, options, &mut FirstCandidate);
     for fault in &tested.diagnostics {

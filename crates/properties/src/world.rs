@@ -20,7 +20,8 @@ pub(crate) fn text(data: &[u8]) -> String {
 
 /// Limits within which one input takes milliseconds.
 pub(crate) fn limits() -> Limits {
-    Limits { iterations: 300, call_depth: 200, collection: 3_000, updates: 3_000, locations: 20_000 }
+    let limits = Limits { iterations: 300, call_depth: 200, collection: 3_000, ..Limits::default() };
+    Limits { updates: 3_000, locations: 20_000, work: 100_000, ..limits }
 }
 
 /// The text as a file that is named as the text names itself: under another name no model checks.

@@ -11,6 +11,7 @@ mod reading;
 mod task;
 
 use crate::flow::Flow;
+use crate::levels::Levels;
 use crate::report::{Queue, Report, Series};
 use crate::spec::{CounterSpec, QueueSpec, SeriesSpec, Spec};
 use crate::tally::Tally;
@@ -117,10 +118,22 @@ impl ReportBuilder {
         self.buffers.iter_mut().for_each(|buffer| buffer.step(&moment));
         self.charts.iter_mut().for_each(|chart| chart.step(&moment));
         for (slot, queue) in &mut self.queues {
-            watch(*slot, &moment, &mut queue.length, &mut queue.lengths);
+            let length = moment.readings.integer(*slot);
+            if moment.shown {
+                queue.length.push(tick, length);
+            }
+            if let Some(length) = length {
+                queue.lengths.add(length.max(0) as u64, tick);
+            }
         }
         for (slot, series) in &mut self.series {
-            watch(*slot, &moment, &mut series.curve, &mut series.values);
+            let value = moment.readings.level(*slot);
+            if moment.shown {
+                series.curve.push(tick, value);
+            }
+            if let Some(value) = value {
+                series.values.add(value, tick);
+            }
         }
         if let Some((slots, flow)) = &mut self.flow {
             // From the sink backwards: what a hop hands on in the step in which it gets something new is the old one.
@@ -181,16 +194,6 @@ impl ReportBuilder {
     }
 }
 
-fn watch(slot: Slot, moment: &Moment, curve: &mut Curve, values: &mut Tally) {
-    let value = moment.readings.integer(slot);
-    if moment.shown {
-        curve.push(moment.tick, value);
-    }
-    if let Some(value) = value {
-        values.add(value.max(0) as u64, moment.tick);
-    }
-}
-
 fn new_queue(spec: &QueueSpec) -> Queue {
     Queue {
         from: spec.from.clone(),
@@ -206,8 +209,8 @@ fn new_series(spec: &SeriesSpec) -> Series {
     Series {
         name: spec.name.clone(),
         caption: spec.caption.clone(),
-        curve: Curve::default(),
-        values: Tally::default(),
+        curve: if spec.ticks { Curve::of_time() } else { Curve::default() },
+        values: Levels::default(),
         ticks: spec.ticks,
         bound: None,
     }

@@ -16,6 +16,8 @@ const ROW_GAP: f64 = 1.5;
 const LOCK: f64 = 4.0;
 const QUEUE: f64 = 20.0;
 const SERIES: f64 = 78.0;
+/// Room for the label of a bound.
+const HEAD: f64 = 15.0;
 /// The least height of a lane whose label has two lines.
 const TWO_LINES: f64 = 26.0;
 
@@ -64,8 +66,11 @@ pub(crate) struct Strip<'a> {
 #[derive(Debug)]
 pub(crate) struct Graph<'a> {
     pub curve: &'a Curve,
-    /// The value at the top.
+    /// The value at the top, and the one at the bottom: 0, or the least where that is below.
     pub top: i64,
+    pub low: i64,
+    /// Room above the top, for the bound's label: no value is drawn there.
+    pub head: f64,
     pub bound: Option<i64>,
     /// Values are ticks.
     pub ticks: bool,
@@ -110,7 +115,15 @@ fn channels(report: &Report) -> Vec<Lane<'_>> {
     let buffers = report.buffers.iter().map(buffer_lane);
     let queues = report.queues.iter().map(|queue| {
         let most = queue.lengths.greatest().map_or(1, |(most, _)| most).max(queue.capacity.unwrap_or(1)) as i64;
-        let graph = Graph { curve: &queue.length, top: most, bound: None, ticks: false, bound_label: String::new() };
+        let graph = Graph {
+            curve: &queue.length,
+            top: most,
+            low: 0,
+            head: 0.0,
+            bound: None,
+            ticks: false,
+            bound_label: String::new(),
+        };
         let lane = Lane::plain(queue.from.clone(), format!("\u{2192} {}, queue", queue.to), TWO_LINES.max(QUEUE));
         Lane { graph: Some(graph), ..lane }
     });
@@ -133,13 +146,28 @@ fn buffer_lane(buffer: &Buffer) -> Lane<'_> {
 }
 
 fn series_lane<'a>(report: &'a Report, series: &'a Series) -> Lane<'a> {
-    let greatest = series.values.greatest().map_or(1, |(greatest, _)| greatest as i64);
-    // A bound far above everything seen would press the curve flat; it is then told, not drawn.
-    let bound = series.bound.filter(|bound| *bound <= greatest.saturating_mul(3));
-    let top = greatest.max(bound.unwrap_or(0)).max(1);
-    let bound_label = series.bound.map_or(String::new(), |bound| format!("bound {}", series.show(report.time, bound)));
-    let graph = Graph { curve: &series.curve, top, bound, ticks: series.ticks, bound_label };
+    let graph = Graph::of_series(report, series);
     Lane { graph: Some(graph), ..Lane::plain(series.name.clone(), series.caption.clone(), SERIES) }
+}
+
+impl<'a> Graph<'a> {
+    /// A series with a scale that holds all its values.
+    pub fn of_series(report: &Report, series: &'a Series) -> Graph<'a> {
+        let greatest = series.values.greatest().map_or(1, |(greatest, _)| greatest);
+        // A bound far above everything seen would press the curve flat; it is then told, not drawn.
+        let bound = series.bound.filter(|bound| *bound <= greatest.max(1).saturating_mul(3));
+        let low = series.values.least().unwrap_or(0).min(bound.unwrap_or(0)).min(0);
+        let top = greatest.max(bound.unwrap_or(0)).max(low + 1).max(if low < 0 { 0 } else { 1 });
+        let bound_label = bound.map_or(String::new(), |bound| format!("bound {}", series.show(report.time, bound)));
+        let head = if bound.is_some() { HEAD } else { 0.0 };
+        Graph { curve: &series.curve, top, low, head, bound, ticks: series.ticks, bound_label }
+    }
+
+    /// Where a value lies in a drawing from `y` on, of this height.
+    pub fn place(&self, value: f64, y: f64, height: f64) -> f64 {
+        let share = (value - self.low as f64) / (self.top - self.low) as f64;
+        y + height - share.clamp(0.0, 1.0) * (height - self.head)
+    }
 }
 
 impl Lane<'_> {

@@ -12,6 +12,7 @@ mod builder;
 mod flow;
 mod html;
 mod lanes;
+mod levels;
 mod markup;
 mod program;
 mod report;
@@ -26,6 +27,7 @@ mod track;
 pub use builder::{ReportBuilder, SHOWN_TICKS};
 pub use flow::{Flow, Journey};
 pub use html::{render_html, render_program};
+pub use levels::Levels;
 pub use program::{ChannelAge, ClosedLoop, Held, Joint, Program, ProgramRun, TaskTiming, View};
 pub use report::{
     Buffer, Chart, Coverage, Fact, Invariant, Lights, Measure, Queue, Report, Scenario, Series, Task, Verdict,

@@ -5,6 +5,7 @@
 //! here knows how it is shown.
 
 use crate::flow::Flow;
+use crate::levels::Levels;
 use crate::tally::Tally;
 use crate::time::TimeBase;
 use crate::track::{Curve, Kind, Track};
@@ -134,8 +135,8 @@ pub struct Series {
     pub caption: String,
     /// The value.
     pub curve: Curve,
-    /// Its values (those below 0 as 0), weighed by ticks.
-    pub values: Tally,
+    /// Its values, weighed by ticks.
+    pub values: Levels,
     /// The value is a number of ticks.
     pub ticks: bool,
     /// What it must never exceed.
@@ -237,6 +238,12 @@ pub struct Fact {
 }
 
 impl Report {
+    /// Whether there is anything to be seen over time.
+    pub fn has_lanes(&self) -> bool {
+        let lanes = self.tasks.len() + self.buffers.len() + self.queues.len() + self.series.len() + self.charts.len();
+        lanes > 0
+    }
+
     /// Cycles of synchronous tasks that ended in time, and too late (those overdue at the end included).
     pub fn deadlines(&self) -> (u64, u64) {
         let met = self.tasks.iter().filter_map(|task| task.met).sum();
@@ -280,7 +287,7 @@ impl Report {
             }
         }
         for series in &self.series {
-            let greatest = series.values.greatest().map(|(value, _)| value as i64);
+            let greatest = series.values.greatest().map(|(value, _)| value);
             if let (Some(bound), Some(greatest)) = (series.bound, greatest)
                 && greatest > bound
             {
@@ -319,7 +326,7 @@ impl Task {
 impl Series {
     /// A value of this series in words.
     pub fn show(&self, time: TimeBase, value: i64) -> String {
-        if self.ticks { time.show(value.max(0) as u64) } else { value.to_string() }
+        if self.ticks { format!("{}\u{202f}{}", time.bare(value), time.unit()) } else { value.to_string() }
     }
 
     /// A mean of its values in words.

@@ -101,8 +101,8 @@ impl Tone {
             Tone::Message => (("#a768a4", "#ffffff"), ("#c78cc4", "#26102a")),
             Tone::Other => (("#8b8f94", "#ffffff"), ("#868c93", "#0c0e10")),
             Tone::Wait => (("#d4500c", "#ffffff"), ("#ff6f2e", "#2b0f00")),
-            Tone::ReadPlace => (("#d8ece6", "#0b5a49"), ("#1b3a34", "#9ed8c8")),
-            Tone::WritePlace => (("#d9e6f2", "#0f4570"), ("#1c3449", "#a5cdf0")),
+            Tone::ReadPlace => (("#c8ecc0", "#0b5a49"), ("#285033", "#9ed8c8")),
+            Tone::WritePlace => (("#d3d3ff", "#0f4570"), ("#3a3486", "#a5cdf0")),
         };
         Paint { light, dark }
     }
@@ -120,4 +120,45 @@ pub(crate) fn tone_css() -> String {
         }
     }
     format!("{light}@media (prefers-color-scheme: dark) {{\n{dark}}}\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A colour where equal distances look equally far apart (OKLab).
+    fn seen(colour: &str) -> [f64; 3] {
+        let part = |at: usize| {
+            let share = f64::from(u8::from_str_radix(&colour[at..at + 2], 16).expect("two digits")) / 255.0;
+            if share <= 0.04045 { share / 12.92 } else { ((share + 0.055) / 1.055).powf(2.4) }
+        };
+        let (r, g, b) = (part(1), part(3), part(5));
+        let l = (0.412_221 * r + 0.536_333 * g + 0.051_446 * b).cbrt();
+        let m = (0.211_903 * r + 0.680_700 * g + 0.107_397 * b).cbrt();
+        let s = (0.088_302 * r + 0.281_719 * g + 0.629_979 * b).cbrt();
+        [
+            0.210_454 * l + 0.793_618 * m - 0.004_072 * s,
+            1.977_998 * l - 2.428_592 * m + 0.450_594 * s,
+            0.025_904 * l + 0.782_772 * m - 0.808_676 * s,
+        ]
+    }
+
+    #[test]
+    fn tones_are_told_apart_on_light_and_on_dark_paper() {
+        let drawn: Vec<Tone> = Tone::ALL.into_iter().filter(|tone| *tone != Tone::Idle).collect();
+        for (paper, fill) in [("#ffffff", 0), ("#14181b", 1)] {
+            let colour = |tone: Tone| [tone.paint().light.0, tone.paint().dark.0][fill];
+            let apart = |one: &str, other: &str| {
+                let (one, other) = (seen(one), seen(other));
+                one.iter().zip(other).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+            };
+            for (index, tone) in drawn.iter().enumerate() {
+                assert!(apart(colour(*tone), paper) > 0.1, "{tone:?} on {paper}: {}", apart(colour(*tone), paper));
+                for other in &drawn[index + 1..] {
+                    let distance = apart(colour(*tone), colour(*other));
+                    assert!(distance > 0.07, "{tone:?} and {other:?} on {paper}: {distance:.3}");
+                }
+            }
+        }
+    }
 }

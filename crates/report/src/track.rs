@@ -90,14 +90,23 @@ pub struct Segment {
     pub slope: i64,
 }
 
-/// A value over time, kept without loss in as few segments as a run of constant slope allows.
+/// A value over time, kept without loss in as few segments as it allows.
+///
+/// A number stands still until it changes: each segment is level. Only a time runs on between two ticks: a curve made by
+/// [`Curve::of_time`] takes ±1 in a tick for a slope.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Curve {
     segments: Vec<Segment>,
     end: u64,
+    sloped: bool,
 }
 
 impl Curve {
+    /// The curve of a time: an age, a latency.
+    pub fn of_time() -> Curve {
+        Curve { sloped: true, ..Curve::default() }
+    }
+
     /// The segments in order.
     pub fn segments(&self) -> &[Segment] {
         &self.segments
@@ -115,7 +124,7 @@ impl Curve {
             let ticks = (tick - last.start) as i64;
             match (last.value, value) {
                 (None, None) => return,
-                (Some(from), Some(to)) if ticks == 1 => {
+                (Some(from), Some(to)) if ticks == 1 && self.sloped => {
                     last.slope = to.saturating_sub(from);
                     // A jump is no slope: it begins a segment of its own.
                     if last.slope.abs() <= 1 {
@@ -132,14 +141,19 @@ impl Curve {
 
     /// The straight pieces as `(start, value at the start, end, value at the end)`.
     ///
-    /// The value of a tick is the one at its end, when its step is done: a ramp therefore begins one slope below it.
+    /// The value of a tick is the one at its end, when its step is done. A ramp therefore is level in its first tick, of
+    /// whose begin it says nothing, and rises from that tick's end on. INVARIANT: both ends of a piece are values that the
+    /// curve was given.
     pub fn pieces(&self) -> impl Iterator<Item = (u64, i64, u64, i64)> + '_ {
-        self.segments.iter().enumerate().filter_map(|(index, segment)| {
+        self.segments.iter().enumerate().flat_map(|(index, segment)| {
             let end = self.segments.get(index + 1).map_or(self.end, |next| next.start);
-            let value = segment.value?;
-            let length = (end - segment.start) as i64;
-            let first = value.saturating_sub(segment.slope);
-            Some((segment.start, first, end, first.saturating_add(segment.slope.saturating_mul(length))))
+            let level = if segment.slope == 0 { end } else { segment.start + 1 };
+            let ramp = |value: i64| {
+                let ticks = (end - level) as i64;
+                (level, value, end, value.saturating_add(segment.slope.saturating_mul(ticks)))
+            };
+            let first = segment.value.map(|value| (segment.start, value, level, value));
+            first.into_iter().chain(segment.value.filter(|_| level < end).map(ramp))
         })
     }
 }
@@ -163,13 +177,23 @@ mod tests {
 
     #[test]
     fn a_sawtooth_takes_one_segment_a_tooth() {
-        let mut curve = Curve::default();
+        let mut curve = Curve::of_time();
         for (tick, value) in
             [None, Some(4), Some(5), Some(6), Some(2), Some(3), Some(3), Some(3)].into_iter().enumerate()
         {
             curve.push(tick as u64, value);
         }
         let pieces: Vec<_> = curve.pieces().collect();
-        assert_eq!(pieces, [(1, 3, 4, 6), (4, 1, 6, 3), (6, 3, 8, 3)]);
+        assert_eq!(pieces, [(1, 4, 2, 4), (2, 4, 4, 6), (4, 2, 5, 2), (5, 2, 6, 3), (6, 3, 8, 3)]);
+    }
+
+    #[test]
+    fn a_number_stands_still_until_it_changes() {
+        let mut curve = Curve::default();
+        for (tick, value) in [0, 1, 2, 2, 1, 0, 1].into_iter().enumerate() {
+            curve.push(tick as u64, Some(value));
+        }
+        let pieces: Vec<_> = curve.pieces().collect();
+        assert_eq!(pieces, [(0, 0, 1, 0), (1, 1, 2, 1), (2, 2, 4, 2), (4, 1, 5, 1), (5, 0, 6, 0), (6, 1, 7, 1)]);
     }
 }

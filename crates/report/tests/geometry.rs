@@ -1,6 +1,6 @@
 //! Boxes and labels in the drawing keep out of each other's way.
 
-mod fixture;
+use crate::fixture;
 
 use report::{SvgOptions, Track, render_svg};
 

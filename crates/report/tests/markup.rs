@@ -1,6 +1,6 @@
 //! The page is well-formed, self-contained and safe, whatever the names are.
 
-mod fixture;
+use crate::fixture;
 
 use report::{
     Coverage, Fact, Invariant, Measure, Report, Scenario, SummaryOptions, SvgOptions, Verdict, render_html, render_svg,

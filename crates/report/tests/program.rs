@@ -162,5 +162,51 @@ fn a_run_without_a_world_has_a_page_too() {
     assert!(!page.contains("id=\"views\"") && page.contains("id=\"deadlines\""));
     let empty = ProgramRun::of("virtual time", &Recording::default());
     program.runs = vec![empty];
-    assert!(render_program(&program).contains("id=\"deadlines\""));
+    let page = render_program(&program);
+    for section in ["timeline", "wake-ups", "ages", "deadlines"] {
+        assert!(!page.contains(&format!("id=\"{section}\"")), "{section} shows nothing");
+    }
+}
+
+#[test]
+fn a_section_is_there_where_it_shows_something() {
+    // All latencies are the same, and all ages; one run needs no key.
+    let mut program = program("");
+    program.runs.truncate(1);
+    program.runs[0].closed_loop = None;
+    let page = render_program(&program);
+    assert!(page.contains("<p>wake-up latency always 50\u{202f}µs</p>"), "{page}");
+    assert!(page.contains("<p>age when read always 150\u{202f}µs</p>"), "{page}");
+    assert!(!page.contains("class=\"distribution\"") && !page.contains("class=\"swatch0\""));
+    // Nobody is ever late.
+    program.runs[0].tasks.retain(|task| task.name == "camera");
+    assert!(!render_program(&program).contains("id=\"wake-ups\""));
+}
+
+#[test]
+fn a_stored_value_is_written_and_a_loaded_one_read() {
+    let event = |time_us: i64, kind: &str, object: &str| Event {
+        time_ns: time_us * 1_000,
+        kind: Kind::of(kind).expect("a kind"),
+        object: object.into(),
+        ..Event::default()
+    };
+    let track = |task: &str, kind: &str, phase: &str| Track {
+        task: task.into(),
+        events: vec![event(100, "begins", phase), event(200, kind, "goal"), event(400, "ends", phase)],
+        ..Track::default()
+    };
+    let recording = Recording {
+        tracks: vec![track("operator", "stores", "tell"), track("arm", "loads", "look"), track("desk", "sends", "ask")],
+        system: "cell".into(),
+        tick_ns: 100_000,
+        stopped_ns: Some(1_000_000),
+        ..Recording::default()
+    };
+    let run = ProgramRun::of("virtual time", &recording);
+    let label = |task: usize| {
+        let track = &run.lanes.tasks[task].track;
+        track.spans().iter().map(|span| track.kind(*span).label.as_str()).collect::<Vec<_>>()
+    };
+    assert_eq!((label(0), label(1), label(2)), (vec!["writing"], vec!["reading"], vec!["passing a message"]));
 }

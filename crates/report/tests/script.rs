@@ -2,7 +2,7 @@
 //!
 //! Runs the script's drawing part in Node, without a browser, and compares every path of both.
 
-mod fixture;
+use crate::fixture;
 
 use std::io::Write;
 use std::process::{Command, Stdio};

@@ -1,6 +1,6 @@
 //! The made-up run, checked figure by figure, drawing by drawing.
 
-mod fixture;
+use crate::fixture;
 
 use expect_test::{expect, expect_file};
 use report::{ReportBuilder, Spec, SummaryOptions, SvgOptions, render_html, render_svg, summarise};

@@ -31,6 +31,15 @@ impl Choices for FirstCandidate {
     }
 }
 
+/// A choice that was made.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Made {
+    /// The rule that chose.
+    pub span: Span,
+    /// What was chosen, one value a variable.
+    pub values: Vec<Value>,
+}
+
 /// A pick with its value.
 #[derive(Debug, Clone)]
 pub(crate) struct Picked {
@@ -58,6 +67,8 @@ pub(crate) struct ScenarioEnvironment<'a> {
     /// An input was asked for that is not set.
     pub missing: bool,
     pub mispick: Option<Mispick>,
+    /// The choices of the step, where they are kept.
+    pub made: Option<Vec<Made>>,
 }
 
 impl fmt::Debug for ScenarioEnvironment<'_> {
@@ -75,7 +86,15 @@ impl<'a> ScenarioEnvironment<'a> {
             seconds: 1,
             missing: false,
             mispick: None,
+            made: None,
         }
+    }
+
+    fn note(&mut self, choice: &Choice<'_>, index: usize) -> usize {
+        if let Some(made) = &mut self.made {
+            made.push(Made { span: choice.span, values: choice.candidate(index).to_vec() });
+        }
+        index
     }
 
     /// Of several picks for one variable of one choice the last counts.
@@ -143,7 +162,8 @@ impl Environment for ScenarioEnvironment<'_> {
     fn choose(&mut self, program: &Program, choice: &Choice<'_>) -> Result<usize, String> {
         let picks = self.picks_for(choice.span);
         if picks.is_empty() {
-            return Ok(self.choices.choose(choice.candidates()));
+            let index = self.choices.choose(choice.candidates());
+            return Ok(self.note(choice, index));
         }
         let fits = |index: &usize| {
             let candidate = choice.candidate(*index);
@@ -162,7 +182,8 @@ impl Environment for ScenarioEnvironment<'_> {
             self.mispick = Some(Mispick { span: pick.span, choice: choice.span, message: message.clone() });
             return Err(message);
         }
-        Ok(fitting[self.choices.choose(fitting.len()).min(fitting.len() - 1)])
+        let index = fitting[self.choices.choose(fitting.len()).min(fitting.len() - 1)];
+        Ok(self.note(choice, index))
     }
 
     fn time(&mut self, unit: TimeUnit) -> Result<i64, String> {

@@ -12,13 +12,15 @@ mod explain;
 mod resolve;
 mod run;
 mod script;
+mod story;
 mod verdict;
 
 pub use coverage::{Branch, Counts, Coverage, Forall, Item, Items};
-pub use environment::{Choices, FirstCandidate};
+pub use environment::{Choices, FirstCandidate, Made};
 pub use expand::Blocks;
 pub use explain::{Reading, explain};
 pub use resolve::{Parsed, parse, resolve};
 pub use run::{Options, run};
 pub use script::Script;
+pub use story::{Passage, PassageKind, Story};
 pub use verdict::{Failure, FailureKind, Judgement, Remark, Verdict};

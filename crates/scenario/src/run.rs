@@ -15,6 +15,7 @@ use crate::coverage::Counts;
 use crate::environment::{Choices, Picked, ScenarioEnvironment};
 use crate::explain::{explain, part, sides};
 use crate::script::{Action, Group, Pick, Script, Set, StepKind};
+use crate::story::{PassageKind, Story};
 use crate::verdict::{Failure, FailureKind, Judgement, Remark, Verdict};
 
 /// How a scenario is run.
@@ -26,11 +27,13 @@ pub struct Options {
     pub bound: u64,
     /// Whether to count what runs.
     pub coverage: bool,
+    /// Whether the verdict is to tell what happened.
+    pub story: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { limits: Limits::default(), bound: 1_000_000, coverage: false }
+        Options { limits: Limits::default(), bound: 1_000_000, coverage: false, story: false }
     }
 }
 
@@ -50,12 +53,14 @@ pub fn run(script: &Script, program: Arc<Program>, options: Options, choices: &m
         checks: (0, 0),
         failures: Vec::new(),
         remarks: Vec::new(),
+        story: options.story.then(Story::default),
     };
+    play.environment.made = options.story.then(Vec::new);
     play.play();
     let counts = play.machine.coverage().map(|coverage| Counts::of(&program, coverage)).unwrap_or_default();
-    let Play { steps, checks, failures, remarks, .. } = play;
+    let Play { steps, checks, failures, remarks, story, .. } = play;
     let judgement = judge(script, steps, failures);
-    (Verdict { name: script.name.clone(), judgement, steps, checks, remarks }, counts)
+    (Verdict { name: script.name.clone(), judgement, steps, checks, remarks, story }, counts)
 }
 
 /// Holds what happened against what was expected.
@@ -66,6 +71,8 @@ fn judge(script: &Script, step: u64, failures: Vec<Failure>) -> Judgement {
     let named = |name: &String| expectation.invariant.as_ref().is_none_or(|wanted| wanted == name);
     let fits = |failure: &Failure| match (&failure.kind, expectation.expected) {
         (FailureKind::Expected { .. }, _) => false,
+        // It says nothing of the model.
+        (FailureKind::Fault { fault, .. }, _) if matches!(fault.kind, FaultKind::Interrupted(_)) => false,
         (_, Expected::Failure) | (FailureKind::Check { .. }, Expected::Check) => true,
         (FailureKind::Invariant { name, .. }, Expected::Invariant) => named(name),
         (FailureKind::Fault { fault, .. }, expected) => is_trouble(fault, expected),
@@ -84,6 +91,9 @@ fn judge(script: &Script, step: u64, failures: Vec<Failure>) -> Judgement {
 
 fn is_trouble(fault: &Fault, expected: Expected) -> bool {
     let clash = matches!(fault.kind, FaultKind::InconsistentUpdate { .. });
+    if let FaultKind::Interrupted(_) = fault.kind {
+        return false;
+    }
     match expected {
         Expected::InconsistentUpdate => clash,
         Expected::Error => !clash,
@@ -102,6 +112,7 @@ struct Play<'a> {
     checks: (u64, u64),
     failures: Vec<Failure>,
     remarks: Vec<Remark>,
+    story: Option<Story>,
 }
 
 /// Whether to go on; the failures are noted already.
@@ -117,6 +128,9 @@ impl Play<'_> {
     fn play_groups(&mut self) -> Going {
         let script = self.script;
         self.start()?;
+        if let Some(story) = &mut self.story {
+            story.begin(&self.machine);
+        }
         self.invariants(false, script.span)?;
         for (index, group) in script.groups.iter().enumerate() {
             self.group(group, index == 0)?;
@@ -274,6 +288,7 @@ impl Play<'_> {
         let prepared = self.machine.prepare_procedure(procedure, &mut self.environment);
         self.try_to(prepared, span)?;
         self.machine.commit();
+        self.tell(PassageKind::Exec);
         // What it writes to monitored locations is an input until it is set again.
         for change in self.machine.changes() {
             if self.program.function(change.location.function).kind == FunctionKind::Monitored {
@@ -319,9 +334,13 @@ impl Play<'_> {
         // inputs are asked for anew.
         self.invariants(true, span)?;
         let prepared = self.machine.prepare(&mut self.environment);
+        if prepared.is_err() {
+            self.tell(PassageKind::Attempt(self.steps + 1));
+        }
         self.try_to(prepared, span)?;
         self.machine.commit();
         self.steps += 1;
+        self.tell(PassageKind::Step(self.steps));
         self.environment.seconds += 1;
         self.invariants(false, span)
     }
@@ -411,6 +430,13 @@ impl Play<'_> {
             self.fail(during, kind);
             Stopped
         })
+    }
+
+    fn tell(&mut self, kind: PassageKind) {
+        let made = self.environment.made.as_mut().map(std::mem::take).unwrap_or_default();
+        if let Some(story) = &mut self.story {
+            story.add(kind, &self.environment.inputs, made, &self.machine);
+        }
     }
 
     fn fail(&mut self, span: Span, kind: FailureKind) {

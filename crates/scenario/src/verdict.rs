@@ -5,6 +5,7 @@ use syntax::Span;
 use syntax::ast::Expected;
 
 use crate::explain::Reading;
+use crate::story::Story;
 
 /// The result of a scenario.
 #[derive(Debug, Clone)]
@@ -19,6 +20,8 @@ pub struct Verdict {
     pub checks: (u64, u64),
     /// What is odd but not wrong.
     pub remarks: Vec<Remark>,
+    /// What happened, where [`Options::story`](crate::Options::story) asks for it.
+    pub story: Option<Story>,
 }
 
 /// Passed or not.

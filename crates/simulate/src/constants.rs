@@ -35,7 +35,7 @@ impl Constants {
 }
 
 /// At the first `=` outside parentheses and quotes.
-fn split(text: &str) -> Option<(&str, &str)> {
+pub(crate) fn split(text: &str) -> Option<(&str, &str)> {
     let mut depth = 0;
     let mut quoted = false;
     for (at, c) in text.char_indices() {

@@ -19,6 +19,7 @@ mod read;
 mod recorded;
 mod run;
 mod trace;
+mod weighted;
 
 pub use choose::{ChoiceMade, Choices};
 pub use clock::{Clock, StepClock};
@@ -34,3 +35,4 @@ pub use read::{Written, expected, read_location, read_value, read_written};
 pub use recorded::{Parted, Recorded};
 pub use run::{Invariants, Options, Run};
 pub use trace::{End, Header, Record, StepRecord, Violation};
+pub use weighted::Weighted;

@@ -95,6 +95,11 @@ impl fmt::Write for StableHash {
     }
 }
 
+/// What a location is drawn by.
+pub(crate) fn location_key_of(name: &str, program: &Program, arguments: &[Value]) -> u64 {
+    location_key(StableHash::new().text(name), program, arguments)
+}
+
 /// What a location is drawn by: its function's name, which is hashed already, and its arguments.
 fn location_key(name: StableHash, program: &Program, arguments: &[Value]) -> u64 {
     use fmt::Write;

@@ -7,7 +7,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use machine::{EngineChoice, Fault, FaultKind, Limits, Machine, Passed, Snapshot, Step, Value};
+use machine::{Cause, EngineChoice, Fault, FaultKind, Limits, Machine, Passed, Snapshot, Step, Value};
 use program::{Expression, Program};
 
 use crate::inputs::{Inputs, Signal};
@@ -167,7 +167,7 @@ impl Run {
         let values = if self.options.keep { self.machine.locations() } else { Vec::new() };
         let mut violations = Vec::new();
         if let Err(fault) = self.watch.check_state(&mut self.machine, &mut self.inputs, &mut violations) {
-            self.stop_with(End::Fault(fault));
+            self.stop_with(self.trouble(*fault));
         }
         self.judge(&violations);
         if self.phase == Phase::Running {
@@ -275,7 +275,7 @@ impl Run {
         }
         self.watch.note(&self.machine, step.grown);
         if let Err(fault) = self.watch.check_state(&mut self.machine, &mut self.inputs, &mut record.violations) {
-            self.stop_with(End::Fault(fault));
+            self.stop_with(self.trouble(*fault));
         }
         self.judge(&record.violations);
         if self.phase == Phase::Running && self.options.until.is_some() {
@@ -300,8 +300,8 @@ impl Run {
     fn failed(&mut self, record: &mut StepRecord, fault: Fault, before: Option<Box<Snapshot>>) -> Made {
         self.machine.discard();
         let end = self.trouble(fault);
-        if let End::Quit = end {
-            return Made::Other(Box::new(self.end(End::Quit)));
+        if let End::Quit | End::Interrupted = end {
+            return Made::Other(Box::new(self.end(end)));
         }
         if self.inputs.signal == Some(Signal::Back) {
             self.inputs.signal = None;
@@ -330,6 +330,7 @@ impl Run {
     fn trouble(&self, fault: Fault) -> End {
         match (&fault.kind, self.inputs.signal) {
             (FaultKind::Environment { .. }, Some(Signal::Quit)) => End::Quit,
+            (FaultKind::Interrupted(Cause::Asked), _) => End::Interrupted,
             _ => End::Fault(Box::new(fault)),
         }
     }
@@ -357,7 +358,7 @@ impl Run {
         match self.machine.evaluate(until, &mut self.inputs) {
             Ok(Value::Boolean(true)) => self.stop_with(End::Until),
             Ok(_) => {}
-            Err(fault) => self.stop_with(End::Fault(Box::new(fault))),
+            Err(fault) => self.stop_with(self.trouble(fault)),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Faulty texts and all that is said about each: position, reason, help. One mistake, one fault, many in one run.
 
-mod render;
+use crate::render;
 
 use expect_test::{ExpectFile, expect_file};
 use syntax::{FileId, parse_asmetal, parse_avalla};

@@ -1,7 +1,7 @@
 //! Formatting: the canonical layout of a messy model and scenario, and that faulty texts stay as they are.
 
 use expect_test::{ExpectFile, expect_file};
-use syntax::{FileId, Parse, assert_invariants, format, parse_asmetal, parse_avalla, parse_term};
+use syntax::{FileId, Parse, assert_invariants, format, parse_asmetal, parse_avalla, parse_chart, parse_term};
 
 const FILE: FileId = FileId(0);
 
@@ -38,6 +38,24 @@ fn a_file_of_comments_alone() {
     let text = "// one\n\n\n\n/* two */\n";
     assert_eq!(format(&parse_asmetal(FILE, text)), "// one\n\n/* two */\n");
     assert_eq!(format(&parse_asmetal(FILE, "")), "");
+}
+
+#[test]
+fn comments_before_the_first_token() {
+    for (grammar, rest) in [
+        (parse_asmetal as fn(FileId, &str) -> Parse, "asm A\n\nsignature:\n\ndefinitions:\n\trule r_a =\n\t\tskip\n"),
+        (parse_avalla, "scenario a\nload A.asm\n"),
+        (parse_chart, "chart A\n"),
+    ] {
+        let formatted = |text: &str| {
+            assert_invariants(text.as_bytes());
+            format(&grammar(FILE, text))
+        };
+        assert_eq!(formatted(&format!("\t// x\n{rest}")), format!("// x\n{rest}"));
+        assert_eq!(formatted(&format!("  /* x */ {rest}")), format!("/* x */\n{rest}"));
+        assert_eq!(formatted(&format!("\n\t// x\n\n\n// y\n {rest}")), format!("// x\n\n// y\n{rest}"));
+        assert_eq!(formatted(&format!("// x\n\t\t// y\n{rest}")), format!("// x\n// y\n{rest}"));
+    }
 }
 
 #[test]

@@ -8,16 +8,18 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use machine::explore::{Bounds, Settings, Trouble, Unbounded};
-use machine::{Fault, Limits};
+use machine::{Fault, Interrupt, Limits};
 use program::{Expression, FunctionId, Program, PropertyKind};
 use smt::Outside;
 use smt::session::{Session, Silence, Solvers};
 use syntax::Span;
 
+use crate::again::made_again;
 use crate::assumed::assumed_bounds;
 use crate::checkpoint::{Keeper, Refusal};
 use crate::coverage::unreachable_rules;
 use crate::engine::{Ended, run_engine};
+use crate::heed::{Deaf, Heed, Listener};
 use crate::partial_order::Unreduced;
 use crate::runs::{OfRuns, Question, Why, decide};
 use crate::search::{Plan, Progress, Stop, Target};
@@ -31,7 +33,7 @@ use crate::trace::Trace;
 /// How states are gone through.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Engine {
-    /// One after the other while they are few, else as sets; one after the other again where sets become too large.
+    /// One after the other, and a solver where that has no end.
     #[default]
     Automatic,
     /// One after the other.
@@ -77,6 +79,8 @@ pub struct Options {
     pub symmetry: bool,
     /// Where states go that memory has no room for, if all of each is kept. They are gone through one by one then.
     pub disk: Option<Arc<dyn Disk>>,
+    /// Raised from another thread to end whatever takes long; looked at more often than the one who watches is asked.
+    pub interrupt: Interrupt,
 }
 
 impl Default for Options {
@@ -97,6 +101,7 @@ impl Default for Options {
             partial_order: false,
             symmetry: false,
             disk: None,
+            interrupt: Interrupt::default(),
         }
     }
 }
@@ -135,6 +140,8 @@ pub enum Reason {
     Temporal,
     /// A solver left it open; [`Report::left`] tells why.
     Left,
+    /// A run was found that the machine does not make: this program is at fault, not the model.
+    Odd,
 }
 
 /// What a check comes to.
@@ -206,6 +213,8 @@ pub enum NoStart {
     Fault(Box<Fault>),
     /// The initial states cannot be gone through.
     Unbounded(Unbounded),
+    /// Whoever waits has had enough before all initial states were made.
+    Stopped(Stop),
     /// It has a part that solvers have no place for.
     Outside(Outside),
     /// There is no solver: why, as a clause.
@@ -219,6 +228,7 @@ impl From<Trouble> for NoStart {
         match trouble {
             Trouble::Fault(fault) => NoStart::Fault(fault),
             Trouble::Unbounded(unbounded) => NoStart::Unbounded(unbounded),
+            Trouble::Interrupted(cause) => NoStart::Stopped(cause.into()),
             Trouble::TooNarrow(_) => unreachable!("the search widens its states"),
         }
     }
@@ -275,26 +285,49 @@ pub fn verify_kept(
     keeper: Option<&mut dyn Keeper>,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Report, NoStart> {
+    verify_heard(program, options, agents, solvers, keeper, &mut Deaf(watch))
+}
+
+/// The same, where whoever waits is told of what is violated while the search goes on.
+///
+/// # Errors
+/// There is no initial state, a solver cannot be asked, or what was kept does not fit.
+pub fn verify_heard(
+    program: &Arc<Program>,
+    options: &Options,
+    agents: Option<AgentFairness>,
+    solvers: &mut dyn Solvers,
+    keeper: Option<&mut dyn Keeper>,
+    listener: &mut dyn Listener,
+) -> Result<Report, NoStart> {
     let questions = Questions::of(program, options);
-    let mut ended = run_engine(program, &questions.plan, options.engine, solvers, keeper, watch)?;
+    let heed = &mut Heed { listener: &mut *listener, subjects: questions.violated(options), told: BTreeMap::new() };
+    let mut ended = run_engine(program, &questions.plan, options.engine, solvers, keeper, heed)?;
     let reasons = reasons(&ended, &questions, options);
     let assumed: Vec<Reason> = reasons.iter().filter(|reason| matches!(reason, Reason::Bounded(_))).copied().collect();
+    // All states may have been met by then.
+    let is_enough = options.first && !ended.found.is_empty();
     let (mut proofs, mut left) = (BTreeMap::new(), BTreeMap::new());
     let by_solver = matches!(ended.engine, Engine::Solver(_));
     let (mut of_runs, runs) = match by_solver {
         true => Default::default(),
         // Their graph keeps all of the states, of which there are too many.
         false if ended.omission.is_some() => Default::default(),
-        false => of_runs(program, &questions, options, agents, &reasons, watch),
+        false if is_enough => Default::default(),
+        false => of_runs(program, &questions, options, agents, &reasons, &mut |progress| listener.at(progress)),
     };
     let verdicts = questions.subjects.iter().map(|(subject, target)| {
         let outcome = match target {
             None if ended.omission.is_some() => Outcome::Unknown(reasons.clone()),
+            None if is_enough => Outcome::Unknown(vec![Reason::Stopped(Stop::Found)]),
             None => of_runs.remove(subject).unwrap_or(Outcome::Unknown(vec![Reason::Temporal])),
             Some(target) => match ended.found.remove(target) {
                 // With other inputs the state might not rest.
                 Some(_) if *target == Target::Rest && !options.bounds.is_empty() => Outcome::Unknown(reasons.clone()),
                 Some(trace) => Outcome::Violated(Box::new(trace)),
+                None if ended.odd.contains(target) => {
+                    Outcome::Unknown(reasons.iter().copied().chain([Reason::Odd]).collect())
+                }
                 None if ended.proved.contains_key(target) => {
                     proofs.extend(ended.proved.get(target).map(|proof| (*subject, *proof)));
                     if assumed.is_empty() { Outcome::Holds } else { Outcome::Unknown(assumed.clone()) }
@@ -376,6 +409,7 @@ fn of_runs(
         max_states: options.max_states,
         max_depth: options.max_depth,
         max_bytes: options.max_bytes,
+        first: options.first,
     };
     let stays = |reason: &&Reason| !matches!(reason, Reason::Stopped(_));
     let reasons: Vec<Reason> = reasons.iter().filter(stays).copied().collect();
@@ -384,6 +418,9 @@ fn of_runs(
     let decided = decide(program, &question, watch).unwrap_or_default();
     let outcomes = decided.into_iter().map(|(index, decided)| {
         let outcome = match decided {
+            OfRuns::Violated(trace) if !made_again(program, &question.settings, &trace, None) => {
+                Outcome::Unknown(vec![Reason::Odd])
+            }
             OfRuns::Holds if reasons.is_empty() => Outcome::Holds,
             // Inputs that were not tried may lead to what one tree of runs is found to lack, not undo what one run does.
             OfRuns::Violated(trace) if !trace.branch || reasons.is_empty() => Outcome::Violated(trace),
@@ -427,11 +464,18 @@ struct Questions {
 }
 
 impl Questions {
+    /// By what may be found, the check that is violated then. With other inputs a state might not rest.
+    fn violated(&self, options: &Options) -> BTreeMap<Target, Subject> {
+        let targets = self.subjects.iter().filter_map(|(subject, target)| Some(((*target)?, *subject)));
+        targets.filter(|(target, _)| *target != Target::Rest || options.bounds.is_empty()).collect()
+    }
+
     fn of(program: &Program, options: &Options) -> Questions {
         let mut bounds = assumed_bounds(program);
         bounds.extend(options.bounds.iter().map(|(function, values)| (*function, values.clone())));
         let mut settings = Settings { limits: options.limits, bounds: Arc::new(bounds), ..Settings::default() };
         settings.forgetful = options.forgetful;
+        settings.interrupt = options.interrupt.clone();
         let mut plan = Plan {
             settings,
             workers: options.workers,

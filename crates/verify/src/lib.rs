@@ -3,12 +3,14 @@
 //! In: a program, and bounds of the search. Out: verdicts with traces. The meaning of a step is the machine's alone; this
 //! crate decides which steps are made and what is kept of them. It must not know files, clocks or wire formats.
 
+mod again;
 mod assumed;
 mod check;
 mod checkpoint;
 mod coverage;
 mod engine;
 pub mod graph;
+mod heed;
 mod lineage;
 mod partial_order;
 pub mod review;
@@ -25,10 +27,11 @@ pub mod temporal;
 mod trace;
 
 pub use check::{
-    Engine, Expected, NoStart, Options, Outcome, Reason, Report, Subject, Verdict, verify, verify_fair, verify_kept,
-    verify_with,
+    Engine, Expected, NoStart, Options, Outcome, Reason, Report, Subject, Verdict, verify, verify_fair, verify_heard,
+    verify_kept, verify_with,
 };
 pub use checkpoint::{Keeper, Refusal};
+pub use heed::Listener;
 pub use partial_order::Unreduced;
 pub use search::{Progress, Stop};
 pub use storage::Storage;

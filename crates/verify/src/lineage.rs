@@ -8,6 +8,7 @@
 
 use std::collections::BTreeMap;
 
+use machine::Interrupt;
 use rustc_hash::FxHashSet;
 
 use crate::search::{Found, Progress, Search, Stop, representatives};
@@ -90,6 +91,7 @@ impl Search {
     ) -> BTreeMap<At, Box<[u64]>> {
         let mut plan = self.plan.clone();
         (plan.wanted, plan.wanted_steps, plan.terminal) = (Vec::new(), Vec::new(), None);
+        plan.settings.interrupt = Interrupt::default();
         let words = self.explorer.words();
         let count = self.shards.len();
         // The states of the first search make room.
@@ -105,8 +107,7 @@ impl Search {
             })
             .collect();
         let starts = representatives(&mut self.explorer, self.orbits.as_deref());
-        let starts: Vec<Box<[u64]>> =
-            starts.iter().map(|state| [&**state, &**state].concat().into_boxed_slice()).collect();
+        let starts: Vec<u64> = starts.chunks_exact(words).flat_map(|state| [state, state].concat()).collect();
         let deepest = lineage.wanted.last_key_value().map_or(0, |(level, _)| *level as u64);
         let mut decide = |reports: &[Report], depth: u64| {
             let progress = Progress::of(reports, depth);
@@ -120,9 +121,9 @@ impl Search {
                 false => Decision::Level,
             }
         };
-        let maker = self.maker.clone();
+        let maker = self.maker.clone().tireless();
         let crew = Crew { plan: &plan, explore: &|| maker.explorer() };
-        crew.work(&mut self.explorer, &mut shards, &starts, &mut decide);
+        crew.work(&mut self.explorer, &mut shards, &starts, 2 * words, &mut decide);
         let ancestors = shards.into_iter().filter_map(|shard| shard.lineage).flat_map(|lineage| lineage.ancestors);
         let ancestors = ancestors.collect();
         self.shards = (0..count)

@@ -9,16 +9,20 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use machine::explore::{Explorer, Interner, Orbits, Settings, Trouble, Unbounded, Widening};
+use machine::explore::{Explorer, Interner, Orbits, Settings, Starts, Trouble, Unbounded, Widening};
+use machine::{Cause, Interrupt};
 use program::Program;
 use syntax::Span;
 
+use crate::again::made_again;
 use crate::checkpoint::{Journal, Keeper, Past, Resumed, Unfit, keep, made, resume};
+use crate::heed::Heed;
 use crate::partial_order::{Reduction, Unreduced, reduction};
 use crate::shard::{Crew, Decision, Report, Shard, note};
 use crate::storage::disk::Disk;
 use crate::storage::{Storage, Store};
 use crate::symmetry::{Distinct, Interchange, Symmetry};
+use crate::trace::{tell, ways};
 
 /// What is looked for in a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -119,6 +123,15 @@ pub enum Stop {
     Found,
 }
 
+impl From<Cause> for Stop {
+    fn from(cause: Cause) -> Stop {
+        match cause {
+            Cause::Asked => Stop::Asked,
+            Cause::Memory => Stop::Memory,
+        }
+    }
+}
+
 /// Where something was found first.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Found {
@@ -137,18 +150,34 @@ pub(crate) struct Maker {
     settings: Settings,
     widening: Widening,
     pub interner: Arc<Interner>,
+    /// The initial states, once some explorer has made them.
+    starts: Option<Arc<Starts>>,
 }
 
 impl Maker {
     /// Of explorers with room for what did not fit.
     pub fn new(program: &Arc<Program>, plan: &Plan, widening: &Widening) -> Maker {
         let (settings, interner) = (plan.settings.clone(), Arc::default());
-        Maker { program: Arc::clone(program), settings, widening: widening.clone(), interner }
+        Maker { program: Arc::clone(program), settings, widening: widening.clone(), interner, starts: None }
+    }
+
+    /// One of explorers that go through all alternatives however long that takes.
+    pub fn tireless(mut self) -> Maker {
+        self.settings.interrupt = Interrupt::default();
+        self
+    }
+
+    /// The first one, whose initial states the others take.
+    pub fn first(&mut self) -> Result<Explorer, Trouble> {
+        let explorer = self.explorer()?;
+        self.starts = Some(explorer.starts());
+        Ok(explorer)
     }
 
     /// One more.
     pub fn explorer(&self) -> Result<Explorer, Trouble> {
-        Explorer::new(&self.program, self.settings.clone(), &self.widening, &self.interner)
+        let Maker { program, settings, widening, interner, starts } = self;
+        Explorer::like(program, settings.clone(), widening, interner, starts.as_ref())
     }
 }
 
@@ -191,7 +220,7 @@ impl Search {
         program: &Arc<Program>,
         plan: &Plan,
         mut keeper: Option<&mut dyn Keeper>,
-        watch: &mut dyn FnMut(&Progress) -> bool,
+        heed: &mut Heed<'_>,
     ) -> Result<Search, Unfit> {
         let mut resumed = match &mut keeper {
             Some(keeper) => resume(*keeper, program, plan)?,
@@ -216,7 +245,7 @@ impl Search {
                 continue;
             }
             let kept = keeper.as_mut().map(|keeper| (&mut **keeper, &past));
-            let (stop, progress) = search(&maker, &mut explorer, &mut shards, starts, &plan, kept, watch);
+            let (stop, progress) = search(&maker, &mut explorer, &mut shards, starts, &plan, kept, heed);
             if let Some(span) = ordered(&shards)
                 && let Some(found) = symmetry.as_mut().filter(|found| !found.unordered.is_empty())
             {
@@ -286,7 +315,7 @@ struct Begun {
     shards: Vec<Shard>,
     unreduced: Option<Unreduced>,
     /// The states that it begins with.
-    starts: Vec<Box<[u64]>>,
+    starts: Vec<u64>,
 }
 
 /// A search that has not begun yet, with the states it begins with.
@@ -297,7 +326,12 @@ fn begun(
     past: &mut Past,
     symmetry: &mut Option<Interchange>,
 ) -> Result<Begun, Unfit> {
-    let (maker, mut explorer) = made(program, plan, &mut past.widening)?;
+    let (mut maker, mut explorer) = made(program, plan, &mut past.widening)?;
+    if is_kept {
+        // What is kept must be whole: each state with its conditions, and the values that came up with its steps.
+        maker = maker.tireless();
+        explorer.ignore_interrupts();
+    }
     let orbits = symmetry.as_mut().and_then(|found| found.orbits(program, &explorer));
     // The order in which values come up can be told of one worker alone.
     let is_numbered = is_kept && !maker.interner.is_empty();
@@ -322,10 +356,11 @@ fn ordered(shards: &[Shard]) -> Option<Span> {
 }
 
 /// The initial states, up to interchangeable elements.
-pub(crate) fn representatives(explorer: &mut Explorer, orbits: Option<&Orbits>) -> Vec<Box<[u64]>> {
-    let mut starts: Vec<Box<[u64]>> = explorer.initial().iter().map(|(state, _)| state.clone()).collect();
+pub(crate) fn representatives(explorer: &mut Explorer, orbits: Option<&Orbits>) -> Vec<u64> {
+    let mut starts = Vec::with_capacity(explorer.initial().len() * explorer.words());
+    explorer.initial().iter().for_each(|(state, _)| starts.extend_from_slice(state));
     if let Some(orbits) = orbits {
-        starts.iter_mut().for_each(|state| explorer.normalise(orbits, state));
+        explorer.normalise(orbits, &mut starts);
     }
     starts
 }
@@ -335,23 +370,38 @@ fn search<'k>(
     maker: &Maker,
     explorer: &mut Explorer,
     shards: &mut [Shard],
-    mut starts: Vec<Box<[u64]>>,
+    mut starts: Vec<u64>,
     plan: &Plan,
     mut kept: Option<(&mut (dyn Keeper + 'k), &Past)>,
-    watch: &mut dyn FnMut(&Progress) -> bool,
+    heed: &mut Heed<'_>,
 ) -> (Option<Stop>, Progress) {
     let mut progress = Progress::default();
     let crew = Crew { plan, explore: &|| maker.explorer() };
+    let words = explorer.words();
+    // LIMIT: where not all of the states is kept, or elements are interchangeable, what is found is told at the end.
+    let tells = plan.storage == Storage::Exact && shards[0].orbits.is_none();
+    let mut heard = 0;
     loop {
-        let mut paused = false;
+        let (mut paused, mut news) = (false, 0);
         let mut decide = |reports: &[Report], depth: u64| {
-            let decision = decide(reports, depth, plan, &mut progress, watch);
+            let decision = decide(reports, depth, plan, &mut progress, &mut |progress| heed.at(progress));
             let goes_on = !matches!(decision, Decision::Stop(_));
+            let certain: usize = reports.iter().map(|report| report.certain).sum();
+            if goes_on && tells && certain > heard && heed.listener.wants() {
+                news = certain;
+            }
             paused = goes_on && kept.as_mut().is_some_and(|(keeper, _)| keeper.is_due());
-            if paused { Decision::Stop(None) } else { decision }
+            if paused || news > 0 { Decision::Stop(None) } else { decision }
         };
-        let stop = crew.work(explorer, shards, &starts, &mut decide);
-        starts.clear();
+        let stop = crew.work(explorer, shards, &starts, words, &mut decide);
+        starts = Vec::new();
+        if news > 0 {
+            heard = news;
+            tell_news(maker, plan, explorer, shards, heed);
+            if !paused {
+                continue;
+            }
+        }
         let Some((keeper, past)) = &mut kept else { return (stop, progress) };
         if shards.iter().any(|shard| !shard.widening.is_empty() || shard.store.is_full()) {
             return (stop, progress);
@@ -365,6 +415,26 @@ fn search<'k>(
             return (stop, progress);
         }
     }
+}
+
+/// Tells of what was found at distances at which all there is was looked at, if the machine makes the run as well.
+fn tell_news(maker: &Maker, plan: &Plan, explorer: &mut Explorer, shards: &mut [Shard], heed: &mut Heed<'_>) {
+    let mut found = Vec::new();
+    for one in shards.iter().flat_map(Shard::certain) {
+        note(&mut found, one.clone(), explorer);
+    }
+    found.retain(|one| heed.is_news(one));
+    found.sort_by_key(|one| one.target);
+    let interrupt = explorer.ignore_interrupts();
+    // It is not known only where files cannot be read: the search ends by that.
+    let ways = ways(explorer, shards, None, &found).unwrap_or_default();
+    for (one, way) in found.iter().zip(&ways) {
+        let trace = tell(explorer, way, one);
+        if made_again(&maker.program, &plan.settings, &trace, Some(one.target)) {
+            heed.tell(one, trace);
+        }
+    }
+    explorer.mind_interrupts(interrupt);
 }
 
 /// Attempts a search again and again, each time with room for what did not fit the time before.
@@ -396,6 +466,11 @@ fn decide(
     if any(|report| report.lost) {
         return Decision::Stop(Some(Stop::Disk));
     }
+    // What has cut a round short may have passed, as memory that was given back has; what was left out has not.
+    let cut = any(|report| report.cut).then(|| plan.settings.interrupt.cause().unwrap_or(Cause::Memory));
+    if let Some(cause) = cut {
+        return Decision::Stop(Some(cause.into()));
+    }
     if left + fresh + pending == 0 {
         return Decision::Stop(None);
     }
@@ -403,8 +478,14 @@ fn decide(
     if any(|report| report.full) || (progress.bytes > plan.max_bytes && plan.disk.is_none()) {
         return Decision::Stop(Some(Stop::Memory));
     }
+    if let Some(cause) = plan.settings.interrupt.cause() {
+        return Decision::Stop(Some(cause.into()));
+    }
     if !go_on {
         return Decision::Stop(Some(Stop::Asked));
+    }
+    if progress.states >= plan.max_states {
+        return Decision::Stop(Some(Stop::States));
     }
     // The rest is decided between levels, where it does not depend on how the work is shared.
     if left > 0 {
@@ -415,9 +496,6 @@ fn decide(
     }
     if plan.first && any(|report| report.found) {
         return Decision::Stop(Some(Stop::Found));
-    }
-    if progress.states >= plan.max_states {
-        return Decision::Stop(Some(Stop::States));
     }
     if depth >= plan.max_depth {
         return Decision::Stop(Some(Stop::Depth));

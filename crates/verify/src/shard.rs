@@ -16,11 +16,13 @@ use crate::checkpoint::Journal;
 use crate::lineage::Lineage;
 use crate::partial_order::Reduction;
 use crate::search::{Found, Plan, Stop, Target};
-use crate::storage::Store;
+use crate::storage::{Storage, Store};
 use crate::table::hash;
 
 /// How many states a worker expands before all exchange successors.
 const ROUND: usize = 1 << 12;
+/// It expands no more once it has so many words of successors.
+const BULK: u64 = 1 << 20;
 
 /// The states that are a worker's own, and what it knows of them.
 #[derive(Debug)]
@@ -48,6 +50,8 @@ pub(crate) struct Shard {
     pub order_mattered: Option<Span>,
     /// Where nothing but the ways to some states is looked for.
     pub lineage: Option<Lineage>,
+    /// Not all was done, since whoever waits has had enough.
+    pub cut: bool,
 }
 
 /// All that workers share but what they send each other.
@@ -70,6 +74,12 @@ struct Board {
     /// By worker.
     reports: Vec<Report>,
     decision: Decision,
+    /// How many successors each worker may make in the next round before it expands no further state, so that there are not many
+    /// more states than are allowed.
+    quota: u64,
+    /// The round was cut short, and what came of it does not count: the ways to what was found are found by making whole rounds
+    /// again.
+    void: bool,
 }
 
 /// What a worker tells the leader.
@@ -92,6 +102,10 @@ pub(crate) struct Report {
     /// It all begins anew.
     pub narrow: bool,
     pub found: bool,
+    /// So much was found at distances at which all there is was looked at.
+    pub certain: usize,
+    /// Not all of the round was done, since whoever waits has had enough.
+    pub cut: bool,
     /// The worker has panicked.
     pub broken: bool,
 }
@@ -114,21 +128,27 @@ pub(crate) type Leader<'a> = dyn FnMut(&[Report], u64) -> Decision + 'a;
 
 impl Crew<'_> {
     /// Lets the workers of the shards work until the leader decides to stop. `starts` are states that come in first, each
-    /// with what goes with it.
+    /// with what goes with it, so many words together.
     pub fn work(
         &self,
         explorer: &mut Explorer,
         shards: &mut [Shard],
-        starts: &[Box<[u64]>],
+        starts: &[u64],
+        item: usize,
         decide: &mut Leader<'_>,
     ) -> Option<Stop> {
         let (count, words) = (shards.len(), explorer.words());
         let mail: Mail = (0..count).map(|_| (0..count).map(|_| Mutex::default()).collect()).collect();
-        for item in starts {
+        for item in starts.chunks_exact(item) {
             lock(&mail[owner(&item[..words], count)][0]).extend_from_slice(item);
         }
         let barrier = Barrier::new(count);
-        let board = Mutex::new(Board { reports: vec![Report::default(); count], decision: Decision::Round });
+        let board = Mutex::new(Board {
+            reports: vec![Report::default(); count],
+            decision: Decision::Round,
+            quota: 0,
+            void: false,
+        });
         let (leader, others) = shards.split_first_mut().expect("at least one worker");
         std::thread::scope(|scope| {
             for (index, shard) in others.iter_mut().enumerate() {
@@ -183,6 +203,7 @@ impl Shard {
             orbits: None,
             order_mattered: None,
             lineage: None,
+            cut: false,
         }
     }
 
@@ -200,6 +221,7 @@ impl Shard {
     ) -> Option<Stop> {
         let mut sent = vec![Vec::new(); mail.len()];
         let mut settles = false;
+        let mut quota = 1;
         if self.reduction.is_some() {
             // Parts are told apart once the steps of some state were made.
             let initial = explorer.initial().first().map(|(state, _)| state.clone());
@@ -212,14 +234,21 @@ impl Shard {
                 panic = panic.take().or(catch_unwind(AssertUnwindSafe(body)).err());
             };
             guard(&mut || {
-                self.expand_round(explorer, plan, &mut sent);
+                self.cut |= !self.expand_round(explorer, plan, quota, &mut sent);
+                if self.cut && plan.storage != Storage::Exact {
+                    lock(board).void = true;
+                }
                 for (to, successors) in sent.iter_mut().enumerate() {
                     lock(&mail[to][index]).append(successors);
                 }
             });
             barrier.wait();
             guard(&mut || {
+                let void = lock(board).void;
                 for received in &mail[index] {
+                    if void {
+                        lock(received).clear();
+                    }
                     self.take_in(explorer, plan, &mut lock(received), false);
                 }
                 if settles && self.store.pending() > 0 {
@@ -235,16 +264,23 @@ impl Shard {
                 // The depth of the states that come in, once the initial ones are there.
                 let depth = self.levels.len() as u64;
                 let decided = catch_unwind(AssertUnwindSafe(|| leader(&reports, depth)));
-                lock(board).decision = decided.unwrap_or_else(|payload| {
+                let mut board = lock(board);
+                board.decision = decided.unwrap_or_else(|payload| {
                     panic = Some(payload);
                     Decision::Stop(None)
                 });
+                let states: u64 = reports.iter().map(|report| report.states).sum();
+                board.quota = (plan.max_states.saturating_sub(states) / reports.len() as u64).max(1);
             }
             barrier.wait();
             if let Some(panic) = panic {
                 resume_unwind(panic);
             }
-            let decision = lock(board).decision;
+            let decision;
+            (decision, quota) = {
+                let board = lock(board);
+                (board.decision, board.quota)
+            };
             settles = decision == Decision::Settle;
             match decision {
                 Decision::Round | Decision::Settle => {}
@@ -264,6 +300,16 @@ impl Shard {
         }
     }
 
+    /// What was found at distances at which all states of this worker were looked at: the states that come in are those of the
+    /// next distance, and of those of this one not all steps may have been made.
+    pub fn certain(&self) -> impl Iterator<Item = &Found> {
+        let (steps, states) = (self.levels.len().saturating_sub(1), self.levels.len());
+        self.found.iter().filter(move |found| match found.target {
+            Target::Condition(_) => found.depth < states,
+            Target::Fault(_) | Target::Rest | Target::StepCondition(_) => found.depth < steps,
+        })
+    }
+
     fn report(&self) -> Report {
         let end = self.levels.last().copied().unwrap_or(0);
         Report {
@@ -278,19 +324,26 @@ impl Shard {
             lost: self.store.is_lost(),
             narrow: !self.widening.is_empty() || self.order_mattered.is_some(),
             found: !self.found.is_empty(),
+            certain: self.certain().count(),
+            cut: self.cut,
             broken: false,
         }
     }
 
-    /// Makes the steps of some states of the level, and puts the successors where they belong.
-    fn expand_round(&mut self, explorer: &mut Explorer, plan: &Plan, sent: &mut [Vec<u64>]) {
+    /// Makes the steps of some states of the level, and puts the successors where they belong. A state whose steps were not all
+    /// made, since whoever waits has had enough, is none whose steps were made; then it is false.
+    fn expand_round(&mut self, explorer: &mut Explorer, plan: &Plan, quota: u64, sent: &mut [Vec<u64>]) -> bool {
         let end = self.levels.last().copied().unwrap_or(0).min(self.next + ROUND);
         let words = explorer.words();
         let mut successors = Vec::new();
+        let (mut made, most) = (0, quota.min(BULK / words as u64));
         if self.next < end && !self.store.load(self.next..end) {
-            return;
+            return true;
         }
-        while self.next < end {
+        while self.next < end && made < most {
+            if plan.settings.interrupt.is_raised() {
+                return false;
+            }
             let state = self.store.state(self.next);
             self.next += 1;
             let direct = sent.len() == 1 && self.lineage.is_none();
@@ -304,12 +357,19 @@ impl Shard {
                 explorer.normalise(orbits, &mut out[begin..]);
             }
             match expanded {
+                Ok(expansion) if expansion.interrupted => {
+                    out.truncate(begin);
+                    self.next -= 1;
+                    self.look_at(explorer, plan, self.next, &expansion);
+                    return false;
+                }
                 Ok(expansion) => {
                     self.transitions += u64::from(expansion.moved);
+                    made += u64::from(expansion.moved);
                     if expansion.moved == 0 || expansion.failed > 0 || expansion.faults != [0; 3] {
                         self.look_at(explorer, plan, self.next - 1, &expansion);
                         if !self.widening.is_empty() {
-                            return;
+                            return true;
                         }
                     }
                     if let Some(journal) = &mut self.journal {
@@ -318,7 +378,7 @@ impl Shard {
                 }
                 Err(widening) => {
                     self.widening = widening;
-                    return;
+                    return true;
                 }
             }
             for successor in successors.chunks_exact(words) {
@@ -330,6 +390,7 @@ impl Shard {
             }
             successors.clear();
         }
+        true
     }
 
     /// Notes what is looked for in an expansion.
@@ -339,10 +400,13 @@ impl Shard {
         let state: Box<[u64]> = self.store.state(place).into();
         let mut targets = Vec::new();
         targets.extend((0..3).filter(|class| expansion.faults[*class] > 0).map(Target::Fault));
-        if expansion.moved == 0 && expansion.stayed > 0 && expansion.faults == [0; 3] && expansion.unbounded == 0 {
+        let rests = expansion.moved == 0 && expansion.stayed > 0 && !expansion.interrupted;
+        if rests && expansion.faults == [0; 3] && expansion.unbounded == 0 {
             let may_rest = plan.terminal.map(|terminal| explorer.truth(terminal, &state));
             match may_rest {
                 Some(Truth::True) => {}
+                // It was not judged to the end, and the search ends.
+                Some(Truth::Unknown) if plan.settings.interrupt.is_raised() => self.cut = true,
                 Some(Truth::Fault | Truth::Unknown) => {
                     self.unknown.extend(plan.terminal);
                 }
@@ -352,15 +416,17 @@ impl Shard {
         let missing = |target: &usize| {
             !self.found.iter().any(|found| found.target == Target::StepCondition(*target) && found.depth < depth)
         };
-        if expansion.failed > 0 && plan.wanted_steps.iter().any(missing) {
+        let mut failing: BTreeSet<usize> =
+            plan.wanted_steps.iter().copied().filter(|wanted| expansion.may_fail(*wanted)).collect();
+        if failing.iter().filter(|wanted| **wanted >= Expansion::TOLD).any(missing) {
             let mut failed = BTreeSet::new();
             let looked = explorer.paths(&state, &mut |path| failed.extend(path.failed));
             if let Err(widening) = looked {
                 self.widening = widening;
             }
-            let wanted = plan.wanted_steps.iter().filter(|wanted| failed.contains(&(**wanted as u32)));
-            targets.extend(wanted.map(|wanted| Target::StepCondition(*wanted)));
+            failing.retain(|wanted| failed.contains(&(*wanted as u32)));
         }
+        targets.extend(failing.into_iter().filter(missing).map(Target::StepCondition));
         for target in targets {
             note(&mut self.found, Found { target, depth, state: state.clone() }, explorer);
         }
@@ -368,7 +434,7 @@ impl Shard {
 
     /// Adds states that have come in, or settles those that are pending.
     fn take_in(&mut self, explorer: &mut Explorer, plan: &Plan, states: &mut Vec<u64>, settles: bool) {
-        let Shard { store, levels, found, unknown, lineage, .. } = self;
+        let Shard { store, levels, found, unknown, lineage, cut, .. } = self;
         if !plan.assumed.is_empty() {
             let mut admitted = Vec::with_capacity(states.len());
             let words = explorer.words();
@@ -377,8 +443,10 @@ impl Shard {
                 for condition in &plan.assumed {
                     let truth = explorer.truth(*condition, &state[..words]);
                     all &= truth == Truth::True;
-                    if matches!(truth, Truth::Fault | Truth::Unknown) {
-                        unknown.insert(*condition);
+                    match truth {
+                        Truth::Unknown if plan.settings.interrupt.is_raised() => *cut = true,
+                        Truth::Fault | Truth::Unknown => _ = unknown.insert(*condition),
+                        _ => {}
                     }
                 }
                 if all {
@@ -396,6 +464,7 @@ impl Shard {
             for condition in &plan.wanted {
                 match explorer.truth(*condition, state) {
                     Truth::True => {}
+                    Truth::Unknown if plan.settings.interrupt.is_raised() => *cut = true,
                     Truth::Unknown => {
                         unknown.insert(*condition);
                     }

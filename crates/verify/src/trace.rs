@@ -7,10 +7,11 @@
 
 use std::ops::ControlFlow;
 
-use machine::explore::{Explorer, FaultClass, Outcome, Path, Told};
+use machine::explore::{Explorer, FaultClass, Orbits, Outcome, Path, Told};
 use machine::{Location, Value};
 
-use crate::search::{Found, Progress, Search, Stop, Target};
+use crate::heed::Heed;
+use crate::search::{Found, Search, Stop, Target};
 use crate::shard::Shard;
 use crate::storage::Storage;
 use crate::storage::disk::Lost;
@@ -35,8 +36,22 @@ pub struct Trace {
 
 impl Search {
     /// A shortest run to each state found, in the order of `found`. Where files cannot be read, nothing was found.
-    pub fn traces(&mut self, watch: &mut dyn FnMut(&Progress) -> bool) -> Vec<Trace> {
-        let chains = if self.plan.storage == Storage::Exact { self.chains() } else { Ok(self.chains_again(watch)) };
+    pub(crate) fn traces(&mut self, heed: &mut Heed<'_>) -> Vec<Trace> {
+        // What was found is to be told, however long that takes.
+        self.explorer.ignore_interrupts();
+        let told = |found: &Found| heed.told.get(&found.target).filter(|(depth, _)| *depth == found.depth);
+        let known: Vec<Option<Trace>> = self.found.iter().map(|found| Some(told(found)?.1.clone())).collect();
+        let untold: Vec<Found> = self
+            .found
+            .iter()
+            .zip(&known)
+            .filter(|(_, known)| known.is_none())
+            .map(|(found, _)| found.clone())
+            .collect();
+        let chains = match self.plan.storage {
+            Storage::Exact => ways(&mut self.explorer, &mut self.shards, self.orbits.as_deref(), &untold),
+            _ => Ok(self.chains_again(&mut |progress| heed.at(progress))),
+        };
         let Ok(chains) = chains else {
             self.found.clear();
             self.stop = Some(Stop::Disk);
@@ -45,24 +60,8 @@ impl Search {
         let chains: Vec<_> = chains.into_iter().map(|chain| self.concrete(chain)).collect();
         let explorer = &mut self.explorer;
         explorer.look_in_order();
-        self.found.iter().zip(&chains).map(|(found, chain)| tell(explorer, chain, found)).collect()
-    }
-
-    /// The states on the way to each state found.
-    fn chains(&mut self) -> Result<Vec<Vec<Box<[u64]>>>, Lost> {
-        let mut chains: Vec<Vec<Box<[u64]>>> = self.found.iter().map(|found| vec![found.state.clone()]).collect();
-        let deepest = self.found.iter().map(|found| found.depth).max().unwrap_or(0);
-        for level in (0..deepest).rev() {
-            let open: Vec<usize> = (0..chains.len()).filter(|index| self.found[*index].depth > level).collect();
-            let wanted: Vec<Box<[u64]>> =
-                open.iter().map(|index| chains[*index][chains[*index].len() - 1].clone()).collect();
-            let parents = self.parents(level, &wanted)?;
-            for (index, parent) in open.into_iter().zip(parents) {
-                chains[index].push(parent);
-            }
-        }
-        chains.iter_mut().for_each(|chain| chain.reverse());
-        Ok(chains)
+        let mut traces = untold.iter().zip(&chains).map(|(found, chain)| tell(explorer, chain, found));
+        known.into_iter().map(|known| known.unwrap_or_else(|| traces.next().expect("a way to each"))).collect()
     }
 
     /// A run that has these representatives: each state is one that the state before leads to. From the representative before
@@ -97,38 +96,65 @@ impl Search {
         }
         way
     }
+}
 
-    /// For each state that is wanted the least state of a level that leads to it.
-    fn parents(&mut self, level: usize, wanted: &[Box<[u64]>]) -> Result<Vec<Box<[u64]>>, Lost> {
-        let mut least: Vec<Option<Box<[u64]>>> = vec![None; wanted.len()];
-        let Search { explorer, shards, orbits, .. } = self;
-        let words = explorer.words();
-        let mut successors = Vec::new();
-        for Shard { store, levels, .. } in shards {
-            let begin = if level == 0 { 0 } else { levels[level - 1] };
-            for place in begin..levels[level] {
-                if (place - begin) % LOADED == 0 && !store.load(place..levels[level].min(place + LOADED)) {
-                    return Err(Lost);
-                }
-                let state = store.state(place);
-                successors.clear();
-                if explorer.expand(state, &mut successors).is_err() {
-                    continue;
-                }
-                if let Some(orbits) = orbits {
-                    explorer.normalise(orbits, &mut successors);
-                }
-                for (wanted, least) in wanted.iter().zip(&mut least) {
-                    let leads = successors.chunks_exact(words).any(|successor| *successor == **wanted);
-                    if leads && least.as_deref().is_none_or(|former| explorer.compare(state, former).is_lt()) {
-                        *least = Some(state.into());
-                    }
+/// The states on the way to each state found, of which all that is before it was looked at.
+pub(crate) fn ways(
+    explorer: &mut Explorer,
+    shards: &mut [Shard],
+    orbits: Option<&Orbits>,
+    found: &[Found],
+) -> Result<Vec<Vec<Box<[u64]>>>, Lost> {
+    let mut chains: Vec<Vec<Box<[u64]>>> = found.iter().map(|found| vec![found.state.clone()]).collect();
+    let deepest = found.iter().map(|found| found.depth).max().unwrap_or(0);
+    for level in (0..deepest).rev() {
+        let open: Vec<usize> = (0..chains.len()).filter(|index| found[*index].depth > level).collect();
+        let wanted: Vec<Box<[u64]>> =
+            open.iter().map(|index| chains[*index][chains[*index].len() - 1].clone()).collect();
+        let parents = parents(explorer, shards, orbits, level, &wanted)?;
+        for (index, parent) in open.into_iter().zip(parents) {
+            chains[index].push(parent);
+        }
+    }
+    chains.iter_mut().for_each(|chain| chain.reverse());
+    Ok(chains)
+}
+
+/// For each state that is wanted the least state of a level that leads to it.
+fn parents(
+    explorer: &mut Explorer,
+    shards: &mut [Shard],
+    orbits: Option<&Orbits>,
+    level: usize,
+    wanted: &[Box<[u64]>],
+) -> Result<Vec<Box<[u64]>>, Lost> {
+    let mut least: Vec<Option<Box<[u64]>>> = vec![None; wanted.len()];
+    let words = explorer.words();
+    let mut successors = Vec::new();
+    for Shard { store, levels, .. } in shards {
+        let begin = if level == 0 { 0 } else { levels[level - 1] };
+        for place in begin..levels[level] {
+            if (place - begin) % LOADED == 0 && !store.load(place..levels[level].min(place + LOADED)) {
+                return Err(Lost);
+            }
+            let state = store.state(place);
+            successors.clear();
+            if explorer.expand(state, &mut successors).is_err() {
+                continue;
+            }
+            if let Some(orbits) = orbits {
+                explorer.normalise(orbits, &mut successors);
+            }
+            for (wanted, least) in wanted.iter().zip(&mut least) {
+                let leads = successors.chunks_exact(words).any(|successor| *successor == **wanted);
+                if leads && least.as_deref().is_none_or(|former| explorer.compare(state, former).is_lt()) {
+                    *least = Some(state.into());
                 }
             }
         }
-        let found = least.into_iter().map(|state| state.expect("a state is met from one of the level before"));
-        Ok(found.collect())
     }
+    let found = least.into_iter().map(|state| state.expect("a state is met from one of the level before"));
+    Ok(found.collect())
 }
 
 /// The first alternative of a state that is as wanted.
@@ -152,8 +178,8 @@ pub(crate) fn picks_between(explorer: &mut Explorer, from: &[u64], to: &[u64]) -
 
 /// The steps from an initial state along a chain of states.
 pub(crate) fn tell_way(explorer: &mut Explorer, chain: &[Box<[u64]>]) -> Trace {
-    let start = explorer.initial().iter().find(|(state, _)| *state == chain[0]);
-    let start = start.map(|(_, told)| told.clone()).unwrap_or_default();
+    let start = explorer.initial().iter().find(|(state, _)| *state == chain[0]).map(|(_, start)| *start);
+    let start = start.map(|start| explorer.told_of_start(start)).unwrap_or_default();
     let mut trace = Trace { start, values: explorer.values(&chain[0]), steps: Vec::new(), turn: None, branch: false };
     for pair in chain.windows(2) {
         let picks = picks_between(explorer, &pair[0], &pair[1]);

@@ -2,8 +2,6 @@
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
-mod models;
-
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicI64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
@@ -12,11 +10,11 @@ use program::{Program, PropertyKind};
 use syntax::SourceFile;
 use verify::{Engine, Options, Outcome, Reason, Report, Stop, Subject, Tape, verify};
 
-use models::lowered;
+use crate::models::lowered;
 
 fn program(name: &str) -> Arc<Program> {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../bench/models/verify/{name}.asm"));
-    lowered(models::Disk::read(&path).expect("the model is there"))
+    lowered(crate::models::Disk::read(&path).expect("the model is there"))
 }
 
 /// Files of a search: how many words may still be written or read, and how many files there are.
@@ -126,10 +124,18 @@ fn limits_and_the_first_violation_end_it_alike() {
     for options in [
         Options { first: true, ..Options::default() },
         Options { max_depth: 9, ..Options::default() },
-        Options { max_states: 100, ..Options::default() },
         Options { partial_order: true, ..Options::default() },
     ] {
         agrees(&program, &options, 0);
+    }
+    // How many of a level are met by then depends on the workers.
+    for workers in [1, 2, 3] {
+        let disk = Some(Files::new(i64::MAX) as Arc<_>);
+        let options =
+            Options { max_states: 100, max_bytes: 0, engine: Engine::Explicit, workers, disk, ..Options::default() };
+        let report = check(&program, &options);
+        assert_eq!(report.stop, Some(Stop::States));
+        assert!((100..110).contains(&report.progress.states), "{}", report.progress.states);
     }
 }
 

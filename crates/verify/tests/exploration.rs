@@ -154,7 +154,7 @@ fn explorers(program: &Arc<Program>, bounds: &Bounds, widening: &Widening) -> Re
 }
 
 fn limits() -> Limits {
-    Limits { iterations: 200, call_depth: 100, collection: 100, updates: 2_000, locations: 2_000 }
+    Limits { iterations: 200, call_depth: 100, collection: 100, updates: 2_000, locations: 2_000, ..Limits::default() }
 }
 
 #[derive(Debug, Default)]

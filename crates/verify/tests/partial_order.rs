@@ -4,8 +4,6 @@
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
-mod models;
-
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -16,7 +14,7 @@ use program::Program;
 use syntax::SourceFile;
 use verify::{Engine, Options, Outcome, Report, Subject, Trace, Unreduced, verify};
 
-use models::{Disk, lowered};
+use crate::models::{Disk, lowered};
 
 fn program(path: &str) -> Arc<Program> {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..").join(path);

@@ -3,8 +3,6 @@
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
-mod models;
-
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -12,7 +10,7 @@ use machine::Show;
 use program::Program;
 use verify::{Options, Outcome, Report, Subject, verify};
 
-use models::{Disk, lowered};
+use crate::models::{Disk, lowered};
 
 fn program(name: &str) -> Arc<Program> {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../bench/models/verify/{name}.asm"));

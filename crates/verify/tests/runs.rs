@@ -2,8 +2,6 @@
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
-mod models;
-
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -14,7 +12,7 @@ use verify::Trace;
 use verify::runs::{OfRuns, Question, Why, decide};
 use verify::temporal::fairness::AgentFairness;
 
-use models::{Disk, lowered};
+use crate::models::{Disk, lowered};
 
 /// The swinging buffer, with more assumptions before its properties.
 fn swing(assumptions: &str) -> Arc<Program> {
@@ -272,4 +270,33 @@ fn temporal_properties_are_checked_with_all_others() {
     assert_eq!(outcome(0), Outcome::Unknown(vec![Reason::Bounded(level)]));
     assert!(matches!(outcome(1), Outcome::Violated(trace) if trace.steps.len() == 1));
     assert_eq!(outcome(2), Outcome::Unknown(vec![Reason::Bounded(level)]));
+}
+
+#[test]
+fn a_subset_that_does_not_grow_is_gone_through() {
+    let program = model(
+        "domain P subsetof Agent\ncontrolled eating: P -> Boolean\nstatic p1: P\nstatic p2: P",
+        "CTLSPEC (forall $p in P with ag(ef(eating($p))))\n\
+         main rule r_Main = choose $p in P with true do eating($p) := not eating($p)\n\
+         default init s0: function eating($p in P) = false",
+    );
+    assert!(
+        words(&program, &unlimited()).iter().all(|word| word.ends_with("holds")),
+        "{:?}",
+        words(&program, &unlimited())
+    );
+}
+
+#[test]
+fn a_formula_at_fault_leaves_the_others_their_verdicts() {
+    let program = model(
+        "dynamic abstract domain Q\ncontrolled on: Q -> Boolean\ncontrolled c: Boolean",
+        "CTLSPEC (forall $q in Q with ag(ef(on($q))))\nCTLSPEC ag(ef(c))\nLTLSPEC g(c)\n\
+         main rule r_Main = c := not c\ndefault init s0: function c = false",
+    );
+    let answers = ask(&program, &unlimited());
+    let said: Vec<&OfRuns> = answers.iter().map(|(_, answer)| answer).collect();
+    assert!(matches!(said[0], OfRuns::Unknown(Why::Unread(what)) if what.contains("changes from state to state")));
+    assert_eq!(*said[1], OfRuns::Holds);
+    assert!(matches!(said[2], OfRuns::Violated(_)));
 }

@@ -2,8 +2,6 @@
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
-mod models;
-
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -13,7 +11,7 @@ use program::{Program, PropertyKind};
 use syntax::SourceFile;
 use verify::{Engine, Options, Outcome, Reason, Report, Storage, Subject, Trace, verify};
 
-use models::{Disk, lowered};
+use crate::models::{Disk, lowered};
 
 fn program(name: &str) -> Arc<Program> {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../bench/models/verify/{name}.asm"));

@@ -2,8 +2,6 @@
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
-mod models;
-
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -14,7 +12,7 @@ use program::{DomainKind, FunctionId, FunctionKind, Program};
 use syntax::{Severity, SourceFile};
 use verify::{Engine, Options, Outcome, Report, Subject, verify};
 
-use models::{Disk, lowered};
+use crate::models::{Disk, lowered};
 
 fn reference(name: &str, change: impl Fn(&str) -> String) -> Arc<Program> {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../bench/models/verify").join(name);

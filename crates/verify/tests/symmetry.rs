@@ -4,8 +4,6 @@
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
-mod models;
-
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -16,7 +14,7 @@ use program::Program;
 use syntax::SourceFile;
 use verify::{Distinct, Engine, Options, Outcome, Report, Storage, Subject, Symmetry, Trace, verify};
 
-use models::{Disk, lowered};
+use crate::models::{Disk, lowered};
 
 fn check(program: &Arc<Program>, options: &Options) -> Report {
     verify(program, options, &mut |_| true).expect("there is an initial state")

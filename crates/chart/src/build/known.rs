@@ -8,6 +8,9 @@ use syntax::{Diagnostic, Severity, SourceFile};
 use crate::chart::Chart;
 use crate::fault;
 
+/// The library of patterns, as a chart imports it that does not know where it is.
+const PATTERNS: &str = "patterns/ControlTask";
+
 /// Names that exist already.
 #[derive(Debug, Clone, Default)]
 pub struct Known {
@@ -57,6 +60,28 @@ impl Known {
             Some(fault::import::no_model(*chart.places.get(number)?, found, of_chart.then_some(import.as_str())))
         });
         Err(Box::new(Unknown { imports: placed.collect(), modules, checked }))
+    }
+
+    /// As [`Known::imported`]; a system to which no import brings the patterns imports them itself where the loader finds
+    /// them, as if the chart said so.
+    ///
+    /// # Errors
+    /// The faults of the imports.
+    pub fn completed(chart: &mut Chart, beside: &str, loader: &mut dyn Loader) -> Result<Known, Box<Unknown>> {
+        let known = Known::imported(chart, beside, loader)?;
+        let Some(system) = chart.system.as_ref().filter(|_| super::system::missing(&known).is_some()) else {
+            return Ok(known);
+        };
+        let mut whole = chart.clone();
+        whole.imports.push(PATTERNS.to_string());
+        whole.places.push(system.span);
+        match Known::imported(&whole, beside, loader) {
+            Ok(known) if super::system::missing(&known).is_none() => {
+                *chart = whole;
+                Ok(known)
+            }
+            _ => Ok(known),
+        }
     }
 
     /// The names of a model, those of its imports included.

@@ -14,7 +14,7 @@ pub use known::{Known, Unknown};
 pub(crate) use module::{call, function_name, rule_name, state_value};
 pub(crate) use rule::{machine_rule, origin_condition};
 
-use crate::chart::{Chart, Control};
+use crate::chart::{Chart, Control, Machine, ShapeKind};
 use crate::fault;
 
 /// What is built.
@@ -28,7 +28,11 @@ pub struct Built {
 
 /// What of a chart cannot be built; the places are those of the chart.
 pub fn unbuilt(chart: &Chart, known: &Known) -> Vec<syntax::Diagnostic> {
-    let mut faults = chart.system.as_ref().map(system::unbuilt).unwrap_or_default();
+    if chart.machines.is_empty() && chart.system.is_none() {
+        let file = chart.places.first().map_or(syntax::FileId(0), |place| place.file);
+        return vec![fault::empty_chart(syntax::Span { file, start: 0, end: 0 })];
+    }
+    let mut faults = chart.system.as_ref().map(|one| system::unbuilt(one, known)).unwrap_or_default();
     for machine in &chart.machines {
         if let Some(Control::Made { name, span }) = &machine.control
             && known.terms.contains(name)
@@ -36,7 +40,44 @@ pub fn unbuilt(chart: &Chart, known: &Known) -> Vec<syntax::Diagnostic> {
             faults.push(fault::made_already(*span, name));
         }
     }
+    if chart.system.is_none() {
+        faults.extend(twice(chart, known));
+    }
     faults
+}
+
+/// Names that would be made of two things: an action's rule that is a machine's, a guard's function that is a control
+/// variable. What is linked names on purpose what there is.
+fn twice(chart: &Chart, known: &Known) -> Vec<syntax::Diagnostic> {
+    let mut faults = Vec::new();
+    for machine in &chart.machines {
+        for shape in machine.shapes.iter().filter(|shape| shape.link.is_none()) {
+            let text = module::call(machine, shape);
+            let name = text.split(['(', '[']).next().unwrap_or_default();
+            let machines = || chart.machines.iter();
+            let (what, first) = match shape.kind {
+                ShapeKind::Action if !known.rules.contains(name) => {
+                    ("rule", machines().find(|other| module::rule_name(other) == name).map(|other| other.span))
+                }
+                ShapeKind::Guard if !known.terms.contains(name) => {
+                    let control = |other: &Machine| match &other.control {
+                        Some(Control::Made { name: made, span }) if made == name => Some(*span),
+                        _ => None,
+                    };
+                    ("function", machines().find_map(control))
+                }
+                _ => continue,
+            };
+            faults.extend(first.map(|first| fault::made_twice(shape.span, what, name, first)));
+        }
+    }
+    faults
+}
+
+/// The text of a chart's system where there is no file yet, whatever the imports declare.
+pub(crate) fn fresh(chart: &Chart) -> String {
+    let known = Known::default();
+    chart.system.as_ref().map_or_else(String::new, |one| module::fresh(chart, &system::parts(chart, one, &known)))
 }
 
 /// Builds the specification of a chart of which nothing is [`unbuilt`].

@@ -153,7 +153,9 @@ pub(super) fn parts(chart: &Chart, known: &Known) -> Parts {
     controls(chart, known, &mut parts);
     for machine in &chart.machines {
         for shape in &machine.shapes {
-            stub(machine, shape, known, &mut parts);
+            let of_a_machine =
+                chart.machines.iter().any(|other| call(machine, shape).starts_with(&(rule_name(other) + "[")));
+            stub(machine, shape, known, of_a_machine, &mut parts);
         }
     }
     for machine in &chart.machines {
@@ -249,7 +251,7 @@ fn parameters_of(machine: &Machine, text: &str) -> Option<Vec<(String, String)>>
 }
 
 /// What a guard or an action stands for, if nothing declares it: a monitored function, a rule that does nothing yet.
-fn stub(machine: &Machine, shape: &Shape, known: &Known, parts: &mut Parts) {
+fn stub(machine: &Machine, shape: &Shape, known: &Known, of_a_machine: bool, parts: &mut Parts) {
     let text = call(machine, shape);
     let is_application = shape.link.as_ref().is_none_or(|link| link.is_application);
     let name = text.split(['(', '[', ' ']).next().unwrap_or_default();
@@ -271,7 +273,7 @@ fn stub(machine: &Machine, shape: &Shape, known: &Known, parts: &mut Parts) {
             };
             add(&mut parts.declarations, name, format!("{note}monitored {name}: {of}Boolean\n"), false)
         }
-        ShapeKind::Action if !known.rules.contains(name) => {
+        ShapeKind::Action if !known.rules.contains(name) && !of_a_machine => {
             let of: Vec<String> =
                 parameters.iter().map(|(variable, domain)| format!("{variable} in {domain}")).collect();
             let of = if of.is_empty() { String::new() } else { format!("({})", of.join(", ")) };

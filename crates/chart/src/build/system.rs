@@ -12,10 +12,18 @@ use super::known::Known;
 use super::module::{Item, Parts};
 use crate::chart::Chart;
 use crate::fault;
-use crate::system::{Action, ChannelKind, Component, System, Timing};
+use crate::system::{Action, ChannelKind, Component, Phase, System, Timing};
 
-/// What of a system is not built yet.
-pub(crate) fn unbuilt(system: &System) -> Vec<Diagnostic> {
+/// What of a system cannot be built.
+pub(super) fn unbuilt(system: &System, known: &Known) -> Vec<Diagnostic> {
+    match missing(known) {
+        Some(missing) => vec![fault::no_patterns(system.span, missing)],
+        None => late(system),
+    }
+}
+
+/// Deadlines for which there are no patterns.
+pub(crate) fn late(system: &System) -> Vec<Diagnostic> {
     let late = system.components.iter().filter(|component| match component.timing {
         Timing::Synchronous { period, deadline, .. } => period < deadline,
         Timing::Asynchronous { .. } => false,
@@ -23,8 +31,14 @@ pub(crate) fn unbuilt(system: &System) -> Vec<Diagnostic> {
     late.map(|component| fault::not_built(component.span, "a deadline after the end of the period")).collect()
 }
 
+/// What the patterns have to declare and the imports of a chart do not.
+pub(super) fn missing(known: &Known) -> Option<&'static str> {
+    let domain = OWNED.into_iter().find(|domain| !known.domains.contains(*domain));
+    domain.or_else(|| ["r_scheduler_execute", "r_sem_arbitrate"].into_iter().find(|rule| !known.rules.contains(*rule)))
+}
+
 /// Domains whose elements the chart alone decides.
-pub(super) const OWNED: [&str; 7] =
+pub(crate) const OWNED: [&str; 7] =
     ["Scheduler", "Task", "SwingingBuffer", "Semaphore", "SchedulePhase", "MessageQueue", "SharedValue"];
 
 /// The parts of a system's file.
@@ -160,15 +174,19 @@ fn tasks(system: &System, define: &mut impl FnMut(&str, &str)) {
 
 /// The ticks of a cycle without waiting: a slave's access takes one more than its time, a master's two.
 pub(crate) fn busy(system: &System, component: &Component) -> u64 {
+    component.phases.iter().map(|phase| taken(system, component, phase)).sum()
+}
+
+/// The ticks of a phase without waiting.
+pub(crate) fn taken(system: &System, component: &Component, phase: &Phase) -> u64 {
     let index = system.components.iter().position(|known| known.name == component.name);
-    let one = |phase: &crate::system::Phase| match phase.action {
+    match phase.action {
         Action::Read(channel) | Action::Write(channel) => match system.channels[channel].kind {
             ChannelKind::Buffer { master, .. } => phase.time + if Some(master) == index { 2 } else { 1 },
             _ => phase.time,
         },
         Action::Elaborate(_) => phase.time,
-    };
-    component.phases.iter().map(one).sum()
+    }
 }
 
 fn channels(system: &System, define: &mut impl FnMut(&str, &str)) {

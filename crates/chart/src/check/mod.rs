@@ -7,7 +7,9 @@
 //! Both rules are executed symbolically for each value of the control variable; what they do under which tests is
 //! compared as propositional formulas over the tests, exactly. LIMIT: tests are told apart by their text; [`CASES`].
 
+mod ground;
 mod paths;
+pub(crate) mod system;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -72,25 +74,52 @@ fn probe_name(index: usize) -> String {
     format!("r_chart_{index}_probe")
 }
 
-/// Compares a chart with its specification; `solver` decides of guards what cannot be gone through.
-pub fn check(chart: &Chart, probed: &Probed, checked: &Checked, solver: &mut dyn Solver) -> Vec<Diagnostic> {
-    let mut faults = Vec::new();
-    let root = checked.model.root;
+/// The errors of a model that was built from a chart, those of its links told at the chart; without one the model is as
+/// good as any.
+pub fn built_faults(chart: &Chart, probed: &Probed, checked: &Checked) -> Vec<Diagnostic> {
+    let (of_links, others) = located(chart, probed, checked);
+    let known: BTreeSet<&str> = of_links.iter().map(|(message, _)| message.as_str()).collect();
+    // The rule of a machine has the same fault where it is built and where it is probed.
+    let others = others.into_iter().filter(|fault| !known.contains(fault.message.as_str()));
+    let mut faults: Vec<Diagnostic> = others.collect();
+    faults.extend(of_links.into_iter().map(|(_, fault)| fault));
+    faults.sort_by_key(|fault| (fault.primary.span.file, fault.primary.span.start));
+    faults.dedup();
+    faults
+}
+
+/// The errors of a probed specification: those within a probe, told at its links with what they said, and the others.
+fn located(chart: &Chart, probed: &Probed, checked: &Checked) -> (Vec<(String, Diagnostic)>, Vec<Diagnostic>) {
+    let (mut of_links, mut others) = (Vec::new(), Vec::new());
     for diagnostic in checked.diagnostics.iter().filter(|found| found.severity == Severity::Error) {
         let place = diagnostic.primary.span;
         let start = place.start as usize;
-        let machine = probed.ranges.iter().position(|range| place.file == root && range.contains(&start));
+        let machine = probed.ranges.iter().position(|range| place.file == checked.model.root && range.contains(&start));
         match machine.map(|index| &chart.machines[index]) {
-            Some(machine) => faults.push(broken(machine, checked.sources.text(place), diagnostic)),
-            None => faults.push(diagnostic.clone()),
+            Some(machine) => {
+                let fault = broken(machine, checked.sources.text(place), diagnostic);
+                of_links.push((diagnostic.message.clone(), fault));
+            }
+            None => others.push(diagnostic.clone()),
         }
     }
+    (of_links, others)
+}
+
+/// Compares a chart with its specification; `solver` decides of guards what cannot be gone through.
+pub fn check(chart: &Chart, probed: &Probed, checked: &Checked, solver: &mut dyn Solver) -> Vec<Diagnostic> {
+    let (of_links, mut faults) = located(chart, probed, checked);
+    faults.extend(of_links.into_iter().map(|(_, fault)| fault));
+    let root = checked.model.root;
     if faults.is_empty() {
         let mut model = checked.model.clone();
         chart.machines.iter().for_each(|machine| paths::paths(chart, machine, &mut model, solver, &mut faults));
         for (index, machine) in chart.machines.iter().enumerate() {
             one(chart, machine, &probe_name(index), &checked.model, &mut faults);
         }
+    }
+    if let Some(system) = &chart.system {
+        faults.extend(system::compare(chart, system, root, &checked.sources.file(root).text));
     }
     refinements(chart, &mut faults);
     faults.sort_by_key(|fault| (fault.primary.span.file, fault.primary.span.start));

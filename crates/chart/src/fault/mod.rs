@@ -18,11 +18,13 @@ pub const IDS: &[&str] = &[
     "control-variable",
     "dead-end",
     "duplicate-shape",
+    "empty-chart",
     "foreign-notation",
     "forked-path",
     "guard-exit",
     "initial-state",
     "instance-arguments",
+    "long-cycle",
     "machine-state",
     "made-name",
     "misplaced-exit",
@@ -30,6 +32,7 @@ pub const IDS: &[&str] = &[
     "not-control-state",
     "not-generated",
     "overlapping-paths",
+    "system-differs",
     "time-unit",
     "to-refine",
     "uncovered-case",
@@ -150,8 +153,8 @@ pub(crate) fn misplaced_exit(span: Span, word: &str, reason: &str) -> Diagnostic
 
 /// A name that nothing declares.
 pub(crate) fn unknown(span: Span, what: &str, name: &str, known: &[&str]) -> Diagnostic {
-    let help = match known.iter().find(|known| known.eq_ignore_ascii_case(name)) {
-        Some(close) => format!("is `{close}` meant?"),
+    let help = match model::nearest(name, known.iter().copied()) {
+        Some(close) => format!("did you mean `{close}`?"),
         None if known.is_empty() => "declare it".to_string(),
         None => format!("declare it, or use one of: {}", known.join(", ")),
     };
@@ -209,6 +212,49 @@ pub(crate) fn chart_differs(
     fault
         .with_label(sides.rule.0, sides.rule.1)
         .with_help("change the chart or the rule; `groundstate chart build` writes the rule as the chart says")
+}
+
+/// A system and its model that do not mean the same: where in the chart, what, and where in the model.
+pub(crate) fn system_differs(place: Span, message: String, model: Option<(Span, &str)>) -> Diagnostic {
+    let fault = Diagnostic::error("system-differs", place, message).because("the chart's");
+    let fault = match model {
+        Some((span, label)) => fault.with_label(span, label),
+        None => fault,
+    };
+    fault.with_help("change the chart or the model; `groundstate chart build` writes the model as the chart says")
+}
+
+/// A chart of which nothing can be built.
+pub(crate) fn empty_chart(span: Span) -> Diagnostic {
+    Diagnostic::error("empty-chart", span, "the chart has no machine and no system: there is nothing to build")
+        .because("a model is built from these")
+        .with_help("write a `machine`, a `pattern` or a `system`")
+}
+
+/// A system whose imports do not bring the patterns that it is built of.
+pub(crate) fn no_patterns(span: Span, missing: &str) -> Diagnostic {
+    Diagnostic::error(
+        "chart-import",
+        span,
+        format!("no import of the chart brings the patterns: `{missing}` is declared nowhere"),
+    )
+    .because("a system is built of the library of patterns")
+    .with_help("import it: `import …/library/patterns/ControlTask`, as a path from the chart's folder")
+}
+
+/// Two parts of a chart of which one name is made.
+pub(crate) fn made_twice(span: Span, what: &str, name: &str, first: Span) -> Diagnostic {
+    Diagnostic::error("made-name", span, format!("a second {what} `{name}` would be made"))
+        .because("of this name")
+        .with_label(first, "the first one is made of this")
+        .with_help(format!("rename one of them, or link it to what it stands for: `{{…}}` instead of `{name}`"))
+}
+
+/// A cycle that cannot be done in time, with what it consists of.
+pub(crate) fn long_cycle(span: Span, name: &str, sum: &str, until: &str) -> Diagnostic {
+    Diagnostic::warning("long-cycle", span, format!("every cycle of `{name}` misses {until}: it takes {sum}"))
+        .because("the phases take longer than there is time")
+        .with_help("shorten its phases, or let it have more time")
 }
 
 /// A rule that cannot be compared.

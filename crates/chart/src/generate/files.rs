@@ -59,10 +59,12 @@ pub(super) fn cmake(chart: &str, name: &str) -> String {
     format!(
         "# The program of {chart}. This file is yours: it is written once, and never touched again.\n\
          cmake_minimum_required(VERSION 3.16)\nproject({name} LANGUAGES CXX)\n\n\
-         set(GROUNDSTATE_CPP ${{CMAKE_CURRENT_SOURCE_DIR}}/generated/include CACHE PATH \"the headers of the runtime\")\n\
+         set(GROUNDSTATE_CPP \"\" CACHE PATH \"A folder of the C++ runtime, with include/ in it; empty: what was generated\")\n\
+         set({name}_runtime \"${{CMAKE_CURRENT_SOURCE_DIR}}/generated\")\nif(GROUNDSTATE_CPP)\n  \
+         set({name}_runtime \"${{GROUNDSTATE_CPP}}\")\nendif()\n\
          if(NOT CMAKE_BUILD_TYPE)\n  set(CMAKE_BUILD_TYPE RelWithDebInfo)\nendif()\n\
          find_package(Threads REQUIRED)\n\nadd_executable({name} main.cpp)\n\
-         target_include_directories({name} PRIVATE ${{CMAKE_CURRENT_SOURCE_DIR}} ${{GROUNDSTATE_CPP}})\n\
+         target_include_directories({name} PRIVATE ${{CMAKE_CURRENT_SOURCE_DIR}} ${{{name}_runtime}}/include)\n\
          target_compile_features({name} PRIVATE cxx_std_20)\n\
          target_compile_options({name} PRIVATE -Wall -Wextra -Wconversion)\n\
          target_link_libraries({name} PRIVATE Threads::Threads)\n"

@@ -12,7 +12,7 @@ mod names;
 
 use syntax::{Diagnostic, Span};
 
-use crate::build::system::unbuilt;
+use crate::build::system::late;
 use crate::chart::Chart;
 use crate::fault;
 use crate::system::{Action, System};
@@ -37,7 +37,7 @@ pub struct Form {
 
 /// What of a system cannot be generated; the places are those of the chart.
 pub fn ungenerated(system: &System) -> Vec<Diagnostic> {
-    let mut faults = unbuilt(system);
+    let mut faults = late(system);
     for component in &system.components {
         let mut hooks: Vec<String> = Vec::new();
         for phase in &component.phases {

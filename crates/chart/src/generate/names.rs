@@ -5,7 +5,8 @@ use cpp_names::{is_reserved, snake};
 /// `camera_to_vs` as `CameraToVs`, `visionSystem` as `VisionSystem`.
 pub(super) fn pascal(name: &str) -> String {
     let parts = name.split('_').filter(|part| !part.is_empty());
-    parts.map(|part| part[..1].to_uppercase() + &part[1..]).collect()
+    let joined: String = parts.map(|part| part[..1].to_uppercase() + &part[1..]).collect();
+    member(&joined)
 }
 
 /// A name as that of a member: with `_` behind it where it means something in C++.
@@ -32,6 +33,8 @@ mod tests {
         check("setPoint", "SetPoint", "set_point");
         check("visionSystem", "VisionSystem", "vision_system");
         check("grab", "Grab", "grab");
+        // A macro of the headers that the program includes.
+        check("EIO", "EIO_", "eio");
         assert_eq!((member("operator").as_str(), member("camera").as_str()), ("operator_", "camera"));
     }
 }

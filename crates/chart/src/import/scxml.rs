@@ -21,6 +21,11 @@ use crate::read::spoken;
 
 /// Reads an SCXML document; `name` is the chart's, `file` names the text in faults.
 pub fn scxml(file: FileId, text: &str, name: &str) -> Imported {
+    if let Some(at) = crowded_tag(text) {
+        let span = Span { file, start: at, end: at };
+        let message = format!("an element has more than {MAX_ATTRIBUTES} attributes");
+        return Imported { text: None, diagnostics: vec![fault::malformed(span, &message)] };
+    }
     let document = match Document::parse(text) {
         Ok(document) => document,
         Err(error) => {
@@ -55,6 +60,40 @@ pub fn scxml(file: FileId, text: &str, name: &str) -> Imported {
     let sound = faults.iter().all(|fault| fault.severity != Severity::Error);
     let parse = syntax::parse_chart(file, &out);
     Imported { text: sound.then(|| syntax::format(&parse)), diagnostics: faults }
+}
+
+/// LIMIT: attributes of one element. The reader of XML compares each with each.
+const MAX_ATTRIBUTES: usize = 1000;
+
+/// Where the first tag is that has more attributes than that.
+fn crowded_tag(text: &str) -> Option<u32> {
+    let mut rest = text;
+    while let Some(start) = rest.find('<') {
+        rest = &rest[start..];
+        let tag = (text.len() - rest.len()) as u32;
+        // What stands in these is no attribute.
+        let other = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>")];
+        if let Some((open, close)) = other.iter().find(|(open, _)| rest.starts_with(open)) {
+            let end = rest[open.len()..].find(close)?;
+            rest = &rest[open.len() + end..];
+            continue;
+        }
+        let (mut attributes, mut quote) = (0, None);
+        let end = rest.bytes().position(|byte| {
+            match (quote, byte) {
+                (None, b'"' | b'\'') => quote = Some(byte),
+                (None, b'=') => attributes += 1,
+                (Some(open), _) if open == byte => quote = None,
+                _ => {}
+            }
+            attributes > MAX_ATTRIBUTES || quote.is_none() && byte == b'>'
+        });
+        if attributes > MAX_ATTRIBUTES {
+            return Some(tag);
+        }
+        rest = &rest[end? + 1..];
+    }
+    None
 }
 
 fn offset(text: &str, at: roxmltree::TextPos) -> u32 {

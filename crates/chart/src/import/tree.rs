@@ -2,6 +2,8 @@
 //!
 //! In: the elements. Out: [`States`], flat lists with parents. What has no counterpart is told on the way.
 
+use std::collections::BTreeMap;
+
 use roxmltree::{Document, Node};
 use syntax::{Diagnostic, FileId, Span};
 
@@ -30,6 +32,10 @@ pub(super) struct State<'d> {
 pub(super) struct States<'d> {
     /// In the order of the document, outer ones first.
     pub(super) all: Vec<State<'d>>,
+    /// The first state of each id.
+    named: BTreeMap<String, usize>,
+    /// The first state in each state, and in the whole machine.
+    first: BTreeMap<Option<usize>, usize>,
 }
 
 /// The span of an element's first tag's name.
@@ -107,19 +113,21 @@ impl<'d> States<'d> {
                 return;
             }
             let id = child.attribute("id").map_or_else(|| format!("{name}{}", self.all.len() + 1), str::to_string);
-            if let Some(first) = self.all.iter().find(|state| state.id == id) {
-                faults.push(fault::second_state(place(file, child), &id, place(file, first.node)));
+            let index = self.all.len();
+            let first = *self.named.entry(id.clone()).or_insert(index);
+            if first < index {
+                faults.push(fault::second_state(place(file, child), &id, place(file, self.all[first].node)));
             }
+            self.first.entry(parent).or_insert(index);
             let compound = child.children().any(is_state);
             self.all.push(State { id, node: child, parent, compound });
-            let index = self.all.len() - 1;
             self.below(file, child, Some(index), depth + 1, faults);
         }
     }
 
     /// The state of that id.
     pub(super) fn named(&self, id: &str) -> Option<usize> {
-        self.all.iter().position(|state| state.id == id)
+        self.named.get(id).copied()
     }
 
     /// The states around one, itself first.
@@ -133,7 +141,7 @@ impl<'d> States<'d> {
 
     /// The first state directly within one, or within the whole machine.
     pub(super) fn first_in(&self, parent: Option<usize>) -> Option<usize> {
-        self.all.iter().position(|state| state.parent == parent)
+        self.first.get(&parent).copied()
     }
 }
 

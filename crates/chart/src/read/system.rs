@@ -9,6 +9,8 @@ use syntax::{Span, SyntaxKind, SyntaxToken};
 use super::Reader;
 use super::link::link;
 use super::machine::spoken;
+use crate::build::system::{busy, taken};
+use crate::check::system::length;
 use crate::fault;
 use crate::system::{Action, Channel, ChannelKind, Component, Device, Phase, System, Timing};
 
@@ -73,7 +75,34 @@ impl Reader {
             }
             system.connections.push((from.text().to_string(), to.text().to_string()));
         }
+        if self.faults.is_empty() {
+            self.long_cycles(&system);
+        }
         Some(system)
+    }
+
+    /// Cycles that cannot be done in time, whatever they wait for.
+    fn long_cycles(&mut self, system: &System) {
+        for component in &system.components {
+            let Timing::Synchronous { period, deadline, .. } = component.timing else { continue };
+            let (until, word) = if deadline < period { (deadline, "deadline") } else { (period, "period") };
+            let whole = busy(system, component);
+            if whole <= until {
+                continue;
+            }
+            let shown = |ticks: u64| length(ticks as i64, system.tick_ns);
+            let parts = component.phases.iter().map(|phase| {
+                let time = taken(system, component, phase);
+                let lock = if time > phase.time { " with its lock" } else { "" };
+                format!("{} ({}{lock})", shown(time), phase.subject)
+            });
+            let sum = match &parts.collect::<Vec<_>>()[..] {
+                [one] => one.clone(),
+                several => format!("{} = {}", several.join(" + "), shown(whole)),
+            };
+            let until = format!("its {word} of {}", shown(until));
+            self.faults.push(fault::long_cycle(component.span, &component.name, &sum, &until));
+        }
     }
 
     /// A length of time in nanoseconds.

@@ -3,13 +3,13 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use chart::Known;
 use clap::Args;
-use syntax::{SourceFile, Sources};
+use groundstate::BuiltChart;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::{read_text, write_text};
+use crate::files::{present_text, write_text};
+use crate::overwrite;
 use crate::shell::Shell;
 
 /// Arguments of `chart build`.
@@ -24,46 +24,31 @@ pub struct Arguments {
 
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
-    let (sources, chart) = match super::read(shell, &arguments.file)? {
-        Ok(read) => read,
-        Err(exit) => return Ok(exit),
-    };
-    let beside = arguments.file.with_file_name("Imports.asm").display().to_string();
-    let known = match Known::imported(&chart, &beside, &mut shell.disk()) {
-        Ok(known) => known,
-        Err(unknown) => {
-            shell.diagnostics(&sources, &unknown.imports)?;
-            shell.diagnostics(&unknown.checked.sources, &unknown.modules)?;
-            return Ok(Exit::Model);
-        }
-    };
-    let unbuilt = chart::unbuilt(&chart, &known);
-    if !unbuilt.is_empty() {
-        shell.diagnostics(&sources, &unbuilt)?;
-        return Ok(Exit::Model);
-    }
+    super::is_chart(&arguments.file)?;
+    let root = shell.disk().root(&arguments.file)?;
     let output = arguments.output.clone().unwrap_or_else(|| arguments.file.with_extension("asm"));
     let to_stdout = output == Path::new("-");
-    let limit = shell.global.limits.max_file_size;
-    let existing = match read_text(&output, limit) {
-        _ if to_stdout => None,
-        Ok(text) => Some(text),
-        Err(Failure::Missing(_)) => None,
-        Err(failure) => return Err(failure),
-    };
-    let built = match chart::build(&chart, &known, existing.as_deref()) {
-        Ok(built) => built,
-        Err(faults) => {
-            let mut sources = Sources::default();
-            sources.add(SourceFile::new(output.display().to_string(), existing.unwrap_or_default()));
-            shell.diagnostics(&sources, &faults)?;
-            return Ok(Exit::Model);
+    // What is there is brought up to date; but it is neither the chart nor anything that the chart is made of.
+    overwrite::refuse(&output)?;
+    let existing = if to_stdout { None } else { present_text(&output, shell.global.limits.max_file_size)? };
+    let name = if to_stdout { arguments.file.with_extension("asm") } else { output.clone() };
+    let name = name.display().to_string();
+    let BuiltChart { built, faults, .. } =
+        groundstate::build_chart(root, &name, existing.as_deref(), &mut shell.disk());
+    for (sources, faults) in &faults {
+        shell.diagnostics(sources, faults)?;
+    }
+    let Some(built) = built else {
+        if shell.talks() {
+            shell.note(&format!("{} has faults; it is not built", arguments.file.display()))?;
         }
+        return Ok(Exit::Model);
     };
     if to_stdout {
         shell.out().write_all(built.text.as_bytes())?;
         return Ok(Exit::Good);
     }
+    overwrite::refuse(&output)?;
     if existing.as_deref() != Some(&built.text) {
         write_text(&output, &built.text)?;
     }

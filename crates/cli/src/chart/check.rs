@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::PathBuf;
 
+use chart::Known;
 use clap::Args;
 use syntax::{Severity, SourceFile, Sources};
 
@@ -28,14 +29,21 @@ pub struct Arguments {
 
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
-    let root = shell.disk().root(&arguments.file)?;
     let (_, chart) = match super::read(shell, &arguments.file)? {
         Ok(read) => read,
         Err(exit) => return Ok(exit),
     };
+    if chart.machines.is_empty() && chart.system.is_none() {
+        return not_compared(shell, arguments, "the chart has no machine and no system");
+    }
     let path = arguments.model.clone().unwrap_or_else(|| arguments.file.with_extension("asm"));
     let name = path.display().to_string();
-    let specification = read_text(&path, shell.global.limits.max_file_size)?;
+    let specification = match read_text(&path, shell.global.limits.max_file_size) {
+        Err(Failure::Missing(_)) if arguments.model.is_none() => {
+            return not_compared(shell, arguments, &format!("there is no model {name}"));
+        }
+        read => read?,
+    };
     let probed = match chart::probed(&chart, &specification) {
         Ok(probed) => probed,
         Err(faults) => {
@@ -45,11 +53,18 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
             return Ok(Exit::Model);
         }
     };
+    let root = shell.disk().root(&arguments.file)?;
     let mut checked = groundstate::check(SourceFile::new(name, probed.text.clone()), &mut shell.disk());
     // The chart's own places, beside those of the specification.
     let loaded = chart::load_beside(std::mem::take(&mut checked.sources), root, &mut shell.disk());
-    let chart = loaded.chart;
+    let mut chart = loaded.chart;
     checked.sources = loaded.sources;
+    // Faults of the imports are the model's, too, and told there.
+    let _ = Known::completed(
+        &mut chart,
+        &arguments.file.with_file_name("Imports.asm").display().to_string(),
+        &mut shell.disk(),
+    );
     let mut solver = Process::find(arguments.solver.as_deref());
     let faults = chart::check(&chart, &probed, &checked, &mut solver);
     let (notes, faults): (Vec<_>, Vec<_>) = faults.into_iter().partition(|fault| fault.severity == Severity::Note);
@@ -60,7 +75,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     if shell.talks() {
         let errors = faults.iter().filter(|fault| fault.severity == Severity::Error).count();
         let warnings = faults.len() - errors;
-        let differ = faults.iter().all(|fault| fault.severity != Severity::Error || fault.id == "chart-differs");
+        let differ = faults
+            .iter()
+            .all(|fault| fault.severity != Severity::Error || ["chart-differs", "system-differs"].contains(&fault.id));
         let verdict = match errors {
             0 => "agrees with its specification".to_string(),
             count if differ => plural(count, "difference"),
@@ -74,4 +91,15 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         }
     }
     Ok(if groundstate::has_errors(&faults) { Exit::Model } else { Exit::Good })
+}
+
+/// Nothing was held to anything.
+fn not_compared(shell: &mut Shell, arguments: &Arguments, reason: &str) -> Result<Exit, Failure> {
+    let text = format!("{}: not compared: {reason}", arguments.file.display());
+    if shell.talks() {
+        writeln!(shell.out(), "{text}")?;
+    } else {
+        shell.note(&text)?;
+    }
+    Ok(Exit::Unknown)
 }

@@ -16,6 +16,7 @@ use syntax::Sources;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::load::another;
 use crate::shell::Shell;
 
 /// Arguments of `chart`.
@@ -58,6 +59,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
 
 /// Reads a chart and those that it imports; their faults are shown, and with errors there is none.
 pub fn read(shell: &mut Shell, path: &Path) -> Result<Result<(Sources, Chart), Exit>, Failure> {
+    is_chart(path)?;
     let mut disk = shell.disk();
     let root = disk.root(path)?;
     let ::chart::Loaded { sources, chart, diagnostics } = ::chart::load(root, &mut disk);
@@ -66,4 +68,13 @@ pub fn read(shell: &mut Shell, path: &Path) -> Result<Result<(Sources, Chart), E
         return Ok(Err(Exit::Model));
     }
     Ok(Ok((sources, chart)))
+}
+
+/// A model or a scenario is no chart, whatever is in it.
+fn is_chart(path: &Path) -> Result<(), Failure> {
+    match path.extension().and_then(|extension| extension.to_str()) {
+        Some("asm") => Err(another(path, "model", "`groundstate chart extract` writes the chart of a model's rules")),
+        Some("avalla") => Err(another(path, "scenario", "charts end with .chart")),
+        _ => Ok(()),
+    }
 }

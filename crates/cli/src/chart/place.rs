@@ -7,7 +7,8 @@ use clap::Args;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::write_text;
+use crate::files::{rewrite_text, write_text};
+use crate::overwrite;
 use crate::shell::Shell;
 
 /// Arguments of `chart place`.
@@ -45,8 +46,11 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         shell.out().write_all(placed.as_bytes())?;
         return Ok(Exit::Good);
     }
-    if arguments.output.is_some() || *placed != **text {
+    let in_place = output == arguments.file || overwrite::same(output, &arguments.file);
+    if !in_place {
         write_text(output, &placed)?;
+    } else if *placed != **text {
+        rewrite_text(output, &placed)?;
     }
     if shell.talks() {
         writeln!(shell.out(), "{}", output.display())?;

@@ -21,6 +21,8 @@ use crate::shell::Shell;
 
 /// From one look at the file to the next.
 const PAUSE: Duration = Duration::from_millis(50);
+/// So much is read before what came is looked at.
+const AT_ONCE: u64 = 8 << 20;
 
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let mut loaded = match load(shell, &arguments.model)? {
@@ -29,14 +31,16 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     };
     interrupt::listen();
     let path = &arguments.recording;
-    let mut tail = Tail::default();
+    let mut tail = Tail { file: None, read: 0, limit: shell.global.limits.recording() };
     let mut reader = Reader::default();
     let mut replay: Option<Session> = None;
     let status = Status::new(shell.talks());
     loop {
         // Asked before the last look, so that what was written till then is looked at.
-        let stops = interrupt::asked();
+        let asked = interrupt::asked();
         let bytes = tail.read(path)?;
+        let is_all = (bytes.len() as u64) < AT_ONCE;
+        let stops = asked && is_all;
         reader.feed(&bytes).map_err(|malformed| unreadable(path, &malformed))?;
         let recording = reader.recording();
         let more = !reader.has_ended() && !stops;
@@ -64,7 +68,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         } else {
             status.awaits(path);
         }
-        std::thread::sleep(PAUSE);
+        if is_all {
+            std::thread::sleep(PAUSE);
+        }
     }
 }
 
@@ -79,10 +85,11 @@ fn interrupted(verdict: Verdict) -> Verdict {
 }
 
 /// A file that grows, read where it was left.
-#[derive(Default)]
 struct Tail {
     file: Option<File>,
     read: u64,
+    /// The most bytes that are read.
+    limit: u64,
 }
 
 impl Tail {
@@ -104,7 +111,12 @@ impl Tail {
             ));
         }
         let mut bytes = Vec::new();
-        self.read += file.read_to_end(&mut bytes).map_err(wrong)? as u64;
+        // One byte more than allowed tells a file at the limit from one beyond it.
+        let left = (self.limit - self.read).saturating_add(1).min(AT_ONCE);
+        self.read += file.take(left).read_to_end(&mut bytes).map_err(wrong)? as u64;
+        if self.read > self.limit {
+            return Err(Failure::TooLarge { path: path.to_path_buf(), limit: self.limit });
+        }
         Ok(bytes)
     }
 }

@@ -7,13 +7,14 @@ mod follow;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use ::conform::{Malformed, Parted, Recording, Refusal, Session, Verdict, Way};
+use ::conform::{Malformed, Parted, Reader, Recording, Refusal, Session, Verdict, Way};
 use clap::Args;
 use groundstate::Loaded;
 use syntax::{Diagnostic, Sources};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::files::Bounded;
 use crate::load::load;
 use crate::shell::Shell;
 use crate::wire;
@@ -38,7 +39,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     if arguments.follow {
         return follow::run(shell, arguments);
     }
-    let recording = read(&arguments.recording)?;
+    let recording = read(shell, &arguments.recording)?;
     let loaded = match load(shell, &arguments.model)? {
         Ok(loaded) => loaded,
         Err(exit) => return Ok(exit),
@@ -49,10 +50,14 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     }
 }
 
-/// Reads the events of a generated program.
-pub fn read(path: &Path) -> Result<Recording, Failure> {
-    let bytes = std::fs::read(path).map_err(|error| Failure::of_file("read", path, error))?;
-    Recording::read(&bytes).map_err(|malformed| unreadable(path, &malformed))
+/// Reads the events of a generated program, a piece at a time.
+pub fn read(shell: &Shell, path: &Path) -> Result<Recording, Failure> {
+    let mut file = Bounded::open(path, shell.global.limits.recording())?;
+    let mut reader = Reader::default();
+    while let Some(piece) = file.piece()? {
+        reader.feed(piece).map_err(|malformed| unreadable(path, &malformed))?;
+    }
+    reader.finish().map_err(|malformed| unreadable(path, &malformed))
 }
 
 fn unreadable(path: &Path, Malformed(reason): &Malformed) -> Failure {
@@ -90,7 +95,7 @@ fn session(
     untimed: bool,
 ) -> Result<Result<Session, Exit>, Failure> {
     let Loaded { sources, model, program, .. } = loaded;
-    match Session::new(sources, model, program, shell.global.limits.machine(), head, untimed) {
+    match Session::new(sources, model, program, shell.global.limits.uninterrupted(), head, untimed) {
         Ok(session) => Ok(Ok(session)),
         Err(refusal) => refused(shell, path, refusal).map(Err),
     }
@@ -117,9 +122,14 @@ fn tell(
         shell.object(&wire::Conformance::new(sources, verdict, way))?;
     }
     match verdict {
-        Verdict::Conforms { events, steps } => {
+        Verdict::Conforms { events, steps, after } => {
             if shell.talks() {
-                writeln!(shell.out(), "conforms {way}: {events} events, {steps} steps of the model")?;
+                let after = match after {
+                    0 => String::new(),
+                    1 => "; 1 event after the tasks were asked to stop is not compared".to_string(),
+                    more => format!("; {more} events after the tasks were asked to stop are not compared"),
+                };
+                writeln!(shell.out(), "conforms {way}: {events} events, {steps} steps of the model{after}")?;
             }
             Ok(Exit::Good)
         }

@@ -9,7 +9,7 @@ use clap::{Args, Subcommand};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::{read_text, write_text};
+use crate::files::{present_text, write_text};
 use crate::shell::Shell;
 
 /// Arguments of `generate`.
@@ -77,7 +77,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
 
 /// Writes a file of a generated folder, unless it is there with that text.
 fn write(shell: &Shell, path: &Path, text: &str) -> Result<(), Failure> {
-    if matches!(read_text(path, shell.global.limits.max_file_size), Ok(there) if there == text) {
+    if matches!(present_text(path, shell.global.limits.max_file_size), Ok(Some(there)) if there == text) {
         return Ok(());
     }
     if let Some(folder) = path.parent() {

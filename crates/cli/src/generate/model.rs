@@ -1,6 +1,7 @@
 //! `groundstate generate cpp MODEL.asm`: the class of a model, what it needs of the runtime, and the source map.
 
 use std::io::Write;
+use std::path::{Component, Path};
 use std::sync::Arc;
 
 use generate::{Generated, Options};
@@ -27,7 +28,9 @@ pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
     // An initial value that asks the environment, or is at fault, does so again when the program starts.
     let _ = started.start(&mut Closed);
     let options = Options { bare: arguments.bare, capacities: arguments.capacity.clone() };
-    let placed = placed(&loaded.sources);
+    let folder = &arguments.output;
+    std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
+    let placed = placed(&loaded.sources, folder);
     let generated = match generate::generate(&program, &placed, &mut started, &options) {
         Ok(generated) => generated,
         Err(refused) => {
@@ -35,7 +38,6 @@ pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
             return Ok(Exit::Model);
         }
     };
-    let folder = &arguments.output;
     for file in &generated.files {
         write(shell, &folder.join(&file.name), &file.text)?;
     }
@@ -46,22 +48,41 @@ pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
     write(shell, &folder.join("source-map.json"), &map)?;
     if shell.talks() {
         writeln!(shell.out(), "{}", folder.join(format!("{}.hpp", generated.name)).display())?;
+        if !generated.renamed.is_empty() {
+            let names: Vec<String> = generated.renamed.iter().map(|(model, cpp)| format!("{model} is {cpp}")).collect();
+            writeln!(shell.out(), "called otherwise in C++: {}", names.join(", "))?;
+        }
     }
     Ok(Exit::Good)
 }
 
-/// The texts under paths that a debugger finds wherever it is started.
-fn placed(sources: &Sources) -> Sources {
+/// The texts under their paths from the folder that is written to: the same wherever the command runs and the two folders lie.
+fn placed(sources: &Sources, folder: &Path) -> Sources {
     let mut placed = Sources::default();
+    let whole = |path: &Path| std::fs::canonicalize(path).or_else(|_| std::path::absolute(path)).unwrap_or(path.into());
+    let folder = whole(folder);
     for (_, file) in sources.iter() {
-        let path = std::path::absolute(&file.name).map(|path| path.display().to_string());
-        let name = if file.name.starts_with('<') { file.name.clone() } else { path.unwrap_or(file.name.clone()) };
+        let name =
+            if file.name.starts_with('<') { file.name.clone() } else { from(&folder, &whole(Path::new(&file.name))) };
         placed.add(SourceFile::new(name, Arc::clone(&file.text)));
     }
     placed
 }
 
-/// Which generated lines stand for which places of the model, and which place each number in a fault is.
+/// The way from a folder to a file, with `/` between its parts; the file's own path where there is none.
+fn from(folder: &Path, file: &Path) -> String {
+    let (here, there): (Vec<Component>, Vec<Component>) = (folder.components().collect(), file.components().collect());
+    let shared = here.iter().zip(&there).take_while(|(a, b)| a == b).count();
+    if shared == 0 {
+        return file.display().to_string();
+    }
+    let up = here[shared..].iter().map(|_| "..".to_string());
+    let down = there[shared..].iter().map(|part| part.as_os_str().to_string_lossy().into_owned());
+    up.chain(down).collect::<Vec<_>>().join("/")
+}
+
+/// Which generated lines stand for which places of the model, which place each number in a fault is, and which names are
+/// others in C++.
 fn source_map(generated: &Generated, sources: &Sources) -> Value {
     let place = |span: Span| {
         let file = sources.file(span.file);
@@ -88,5 +109,7 @@ fn source_map(generated: &Generated, sources: &Sources) -> Value {
         .enumerate()
         .map(|(index, span)| json!({ "site": index + 1, "model": place(*span) }))
         .collect();
-    json!({ "lines": lines, "sites": sites })
+    let names: Vec<Value> =
+        generated.renamed.iter().map(|(model, cpp)| json!({ "model": model, "generated": cpp })).collect();
+    json!({ "lines": lines, "sites": sites, "names": names })
 }

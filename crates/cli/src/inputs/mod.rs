@@ -6,6 +6,7 @@ mod table;
 mod yaml;
 
 pub use options::{Assembled, Chosen, HELP, InputArguments, assemble};
+pub use prompt::Look;
 
 use groundstate::simulate::{Given, Steps, Written};
 use syntax::{Diagnostic, FileId, Span};

@@ -2,9 +2,12 @@
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
-use groundstate::simulate::{Bounds, Choices, Clock, Constants, Inputs, Named, Positional, RandomSource, StepClock};
+use groundstate::simulate::{
+    Bounds, Choices, Clock, Constants, Inputs, Named, Positional, RandomSource, StepClock, Weighted,
+};
 use machine::TimeUnit;
 use program::{FunctionKind, Program, Term};
 use syntax::{Diagnostic, SourceFile, Sources};
@@ -34,6 +37,9 @@ pub struct InputArguments {
     /// A value that holds in every step, such as passed=true or f(1)=RED
     #[arg(long, value_name = "LOCATION=VALUE")]
     pub set: Vec<String>,
+    /// How often random values come, such as stop=true:1,false:99; values not named never do
+    #[arg(long, value_name = "LOCATION=VALUE:N,…", requires = "random")]
+    pub weight: Vec<String>,
     /// Which candidate a choose rule takes
     #[arg(long, value_enum, default_value_t = Chosen::First, value_name = "HOW")]
     pub choose: Chosen,
@@ -159,6 +165,8 @@ pub struct Assembled {
     pub inputs: Inputs,
     /// Somebody at a terminal is asked, so steps can be taken back.
     pub interactive: bool,
+    /// What who is asked can look at.
+    pub told: prompt::Told,
 }
 
 /// Makes the sources. Faults in input files are given as diagnostics over `sources`, which takes in their texts.
@@ -181,11 +189,17 @@ pub fn assemble(
         inputs = inputs.with(Positional::new(&path.display().to_string(), &text));
     }
     let mut interactive = false;
+    let told = prompt::Told::default();
     if arguments.random {
+        let mut weighted = Weighted::new(arguments.seed);
+        for text in &arguments.weight {
+            weighted.add(program, text).map_err(|message| Failure::usage(format!("--weight {text}: {message}")))?;
+        }
+        inputs = inputs.with(weighted);
         inputs = inputs.with(RandomSource::new(arguments.seed, arguments.bounds.bounds()));
     } else if std::io::stdin().is_terminal() {
         interactive = !asked(program).is_empty();
-        inputs = inputs.with(prompt::Prompt::new());
+        inputs = inputs.with(prompt::Prompt::new(Arc::clone(&told)));
     } else if arguments.input.is_none() && arguments.env.is_none() && arguments.set.is_empty() {
         refuse_without_source(program)?;
     }
@@ -194,7 +208,7 @@ pub fn assemble(
         Ticking::Steps(step_ns) => inputs.timed_by(StepClock::new(step_ns)),
         Ticking::System => inputs.timed_by(SystemClock),
     };
-    Ok(Ok(Assembled { inputs, interactive }))
+    Ok(Ok(Assembled { inputs, interactive, told }))
 }
 
 /// What to pass when inputs are missing.

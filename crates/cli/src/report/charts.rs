@@ -12,29 +12,29 @@ use syntax::{Diagnostic, Sources};
 use super::node::fault;
 use super::specification::{Specification, Wanted};
 use crate::failure::Failure;
-use crate::shell::Shell;
+use crate::files::Disk;
 
 /// The class of the pictures in the page.
 const CLASS: &str = "chart";
 
-/// Adds the charts that are wanted to the specification; `false`: there are faults, and they were shown.
+/// Adds the charts that are wanted to the specification, and gives their faults.
 pub fn add(
-    shell: &mut Shell,
+    disk: &mut Disk,
     sources: &mut Sources,
     specification: &mut Specification,
     path: &Path,
-) -> Result<bool, Failure> {
+) -> Result<Vec<Diagnostic>, Failure> {
     let mut faults = Vec::new();
     for wanted in std::mem::take(&mut specification.charts) {
         let file = path.parent().unwrap_or(Path::new("")).join(&wanted.file);
-        let source = match shell.disk().root(&file) {
+        let source = match disk.root(&file) {
             Ok(source) => source,
             Err(failure) => {
                 faults.push(fault(wanted.span, failure.to_string()));
                 continue;
             }
         };
-        let loaded = chart::load_beside(std::mem::take(sources), source, &mut shell.disk());
+        let loaded = chart::load_beside(std::mem::take(sources), source, disk);
         *sources = loaded.sources;
         let chart = loaded.chart;
         let whole = !groundstate::has_errors(&loaded.diagnostics);
@@ -44,8 +44,7 @@ pub fn add(
         }
     }
     specification.spec.chart_style = chart::draw::style(CLASS);
-    shell.diagnostics(sources, &faults)?;
-    Ok(!groundstate::has_errors(&faults))
+    Ok(faults)
 }
 
 fn show(

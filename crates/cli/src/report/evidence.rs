@@ -26,7 +26,7 @@ pub fn add(shell: &Shell, report: &mut Report, model: &Path, paths: &[PathBuf], 
     }
     let files = collect(paths, &["avalla"])?;
     let mut suite = Suite::new();
-    let options = Options { limits: shell.global.limits.machine(), coverage: true, ..Options::default() };
+    let options = Options { limits: shell.global.limits.uninterrupted(), coverage: true, ..Options::default() };
     let mut progress = Progress::new(Some(files.len() as u64), shell.global.quiet);
     for (index, path) in files.iter().enumerate() {
         if interrupt::asked() {

@@ -1,10 +1,12 @@
 //! `groundstate report MODEL`: a run, shown: a page, a picture, a summary.
 //!
-//! The report specification says which terms make which lane; they are evaluated in every state. Scenarios run
+//! The report specification says which terms make which lane; they are evaluated in every state. Where there is none the
+//! system of the chart beside the model says it. Scenarios run
 //! beside it give verdicts and coverage. The page holds no date and no path of this machine but those given, so the
 //! same model, options and version give the same bytes.
 
 mod charts;
+mod derived;
 mod evidence;
 pub mod node;
 mod recorded;
@@ -20,11 +22,11 @@ use clap::Args;
 use groundstate::Loaded;
 use groundstate::simulate::{End, Invariants, Options, Record, Run, Violation};
 use program::{Program, PropertyKind};
-use syntax::{SourceFile, Sources};
+use syntax::{Diagnostic, SourceFile, Sources};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::{read_text, write_text};
+use crate::files::{Disk, read_text, write_text};
 use crate::inputs::{self, Assembled};
 use crate::interrupt;
 use crate::load::load;
@@ -77,7 +79,7 @@ A report specification is a YAML file that says which terms of the model make wh
 pub struct Arguments {
     /// The model
     model: PathBuf,
-    /// What to show of it; MODEL.report.yaml beside the model unless given
+    /// What to show of it. Default: MODEL.report.yaml beside the model; where there is none, the system of MODEL.chart
     #[arg(long, value_name = "FILE")]
     spec: Option<PathBuf>,
     /// The steps to make
@@ -121,7 +123,12 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Err(exit) => return Ok(exit),
     };
     let path = arguments.spec.clone().unwrap_or_else(|| arguments.model.with_extension("report.yaml"));
-    let Some((mut builder, mut watch)) = prepare(shell, &mut loaded, &path)? else { return Ok(Exit::World) };
+    let wanted = match wanted(shell, &path, arguments.spec.is_some())? {
+        Some(wanted) => wanted,
+        None => return Err(nothing_wanted(&path, false)),
+    };
+    let origin = wanted.name.clone();
+    let Some((mut builder, mut watch)) = prepare(shell, &mut loaded, wanted, &path)? else { return Ok(Exit::World) };
     let Loaded { mut sources, program, .. } = loaded;
     let program = Arc::new(program);
     let Assembled { inputs, .. } = match inputs::assemble(shell, &arguments.inputs, &mut sources, &program)? {
@@ -149,7 +156,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let mut report = builder.finish(&program.name);
     report.invariants = story.invariants;
     report.stopped = story.stopped;
-    report.facts = facts(arguments, &path, &sources);
+    report.facts = facts(arguments, &origin, &sources);
     let scenarios = evidence::add(shell, &mut report, &arguments.model, &arguments.scenarios, arguments.inputs.seed)?;
     write(shell, arguments, &report)?;
     let troubled = if report.troubles().is_empty() { Exit::Good } else { Exit::Model };
@@ -164,10 +171,8 @@ pub fn page_of(
     run: RunOf<'_>,
 ) -> Result<Option<String>, Failure> {
     let path = model.with_extension("report.yaml");
-    if !path.exists() {
-        return Ok(None);
-    }
-    let Some((mut builder, mut watch)) = prepare(shell, loaded, &path)? else { return Ok(None) };
+    let Some(wanted) = wanted(shell, &path, false)? else { return Ok(None) };
+    let Some((mut builder, mut watch)) = prepare(shell, loaded, wanted, &path)? else { return Ok(None) };
     let program = Arc::new(loaded.program.clone());
     let mut run = run(&program);
     let mut story = Story { invariants: invariants(&program, &loaded.sources), stopped: None, exit: Exit::Good };
@@ -206,36 +211,68 @@ fn look(record: &Record, run: &mut Run, watch: &mut Watch, builder: &mut ReportB
 /// Makes a run of a program.
 pub type RunOf<'a> = &'a dyn Fn(&Arc<Program>) -> Run;
 
-/// The specification read, its terms checked; none where it has faults, which are then shown.
-fn prepare(shell: &mut Shell, loaded: &mut Loaded, path: &Path) -> Result<Option<(ReportBuilder, Watch)>, Failure> {
-    let text = match read_text(path, shell.global.limits.max_file_size) {
-        Err(Failure::Missing(path)) => {
-            return Err(Failure::usage_with_help(
-                format!("there is no file {}, so nothing says what to show of the model", path.display()),
-                "name a report specification with --spec FILE",
-            ));
+/// The text of the specification: of the file, or, where the file is not there and nobody named it, of the system of the
+/// chart beside the model; none where there is neither.
+fn wanted(shell: &mut Shell, path: &Path, given: bool) -> Result<Option<SourceFile>, Failure> {
+    match read_text(path, shell.global.limits.max_file_size) {
+        Ok(text) => Ok(Some(SourceFile::new(path.display().to_string(), text))),
+        Err(Failure::Missing(_)) if given => Err(nothing_wanted(path, true)),
+        Err(Failure::Missing(_)) => {
+            let chart = derived::chart_beside(path);
+            let text = derived::text(shell, &chart)?;
+            Ok(text.map(|text| SourceFile::new(format!("<what {} says>", chart.display()), text)))
         }
-        read => read?,
-    };
-    let file = loaded.sources.add(SourceFile::new(path.display().to_string(), text.as_str()));
+        Err(failure) => Err(failure),
+    }
+}
+
+fn nothing_wanted(path: &Path, given: bool) -> Failure {
+    let message = format!("there is no file {}, so nothing says what to show of the model", path.display());
+    let mut help = "name a report specification with --spec FILE".to_string();
+    if !given {
+        let chart = derived::chart_beside(path);
+        help += &format!(", or build the model from a chart with a system ({})", chart.display());
+    }
+    Failure::usage_with_help(message, help)
+}
+
+/// The specification read, its terms checked; none where it has faults, which are then shown.
+fn prepare(
+    shell: &mut Shell,
+    loaded: &mut Loaded,
+    source: SourceFile,
+    path: &Path,
+) -> Result<Option<(ReportBuilder, Watch)>, Failure> {
+    let Checked { ready, faults } = checked(&mut shell.disk(), loaded, source, path)?;
+    shell.diagnostics(&loaded.sources, &faults)?;
+    Ok(ready)
+}
+
+/// What reading a specification came to; without faults it is ready, with warnings alone too.
+pub struct Checked {
+    ready: Option<(ReportBuilder, Watch)>,
+    pub faults: Vec<Diagnostic>,
+}
+
+/// Reads a specification and checks it against its model. What it names lies relative to `path`.
+pub fn checked(disk: &mut Disk, loaded: &mut Loaded, source: SourceFile, path: &Path) -> Result<Checked, Failure> {
+    let text = source.text.clone();
+    let file = loaded.sources.add(source);
     let mut wanted = match specification(file, &text) {
         Ok(wanted) => wanted,
-        Err(faults) => {
-            shell.diagnostics(&loaded.sources, &faults)?;
-            return Ok(None);
-        }
+        Err(faults) => return Ok(Checked { ready: None, faults }),
     };
-    if !charts::add(shell, &mut loaded.sources, &mut wanted, path)? {
-        return Ok(None);
+    let mut faults = charts::add(disk, &mut loaded.sources, &mut wanted, path)?;
+    if groundstate::has_errors(&faults) {
+        return Ok(Checked { ready: None, faults });
     }
     let Specification { spec, places, .. } = wanted;
     let builder = ReportBuilder::new(spec);
-    let ready = Watch::new(loaded, builder.terms(), &places).map(|watch| (builder, watch));
-    match ready {
-        Ok(ready) => Ok(Some(ready)),
-        Err(faults) => {
-            shell.diagnostics(&loaded.sources, &faults)?;
-            Ok(None)
+    match Watch::new(loaded, builder.terms(), &places) {
+        Ok(watch) => Ok(Checked { ready: Some((builder, watch)), faults }),
+        Err(found) => {
+            faults.extend(found);
+            Ok(Checked { ready: None, faults })
         }
     }
 }
@@ -286,13 +323,13 @@ impl Story {
     }
 }
 
-fn facts(arguments: &Arguments, spec: &Path, sources: &Sources) -> Vec<Fact> {
+fn facts(arguments: &Arguments, spec: &str, sources: &Sources) -> Vec<Fact> {
     let fact = |label: &str, value: String| Fact { label: label.to_string(), value };
     let inputs = &arguments.inputs;
     let random = inputs.random || inputs.choose == inputs::Chosen::Random;
     let mut facts = vec![
         fact("Model", arguments.model.display().to_string()),
-        fact("Report specification", spec.display().to_string()),
+        fact("Report specification", spec.to_string()),
         fact("Fingerprint of all texts", groundstate::fingerprint(sources)),
         fact("Steps asked for", arguments.steps.to_string()),
         fact(

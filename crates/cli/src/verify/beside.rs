@@ -5,6 +5,8 @@
 
 use std::path::{Path, PathBuf};
 
+use groundstate::Loaded;
+use program::PropertyKind;
 use syntax::{Diagnostic, SourceFile, Sources, Span};
 
 use crate::failure::Failure;
@@ -42,15 +44,54 @@ pub fn beside(
         Err(Failure::Missing(_)) if named.is_none() => return Ok(Some(Beside::default())),
         read => read?,
     };
-    let file = sources.add(SourceFile::new(path.display().to_string(), text.as_str()));
-    match read(file, &text).and_then(|root| understood(&root)) {
+    match parsed(sources, &path, &text) {
         Ok(beside) => Ok(Some(beside)),
-        Err(mut fault) => {
-            fault.id = "bad-verification-file";
+        Err(fault) => {
             shell.diagnostic(sources, &fault)?;
             Ok(None)
         }
     }
+}
+
+/// What a text says.
+fn parsed(sources: &mut Sources, path: &Path, text: &str) -> Result<Beside, Box<Diagnostic>> {
+    let file = sources.add(SourceFile::new(path.display().to_string(), text));
+    read(file, text).and_then(|root| understood(&root)).map_err(|mut fault| {
+        fault.id = "bad-verification-file";
+        fault
+    })
+}
+
+/// The faults of a text against its model: its own, and those of its terms.
+pub fn check(loaded: &mut Loaded, path: &Path, text: &str) -> Vec<Diagnostic> {
+    let beside = match parsed(&mut loaded.sources, path, text) {
+        Ok(beside) => beside,
+        Err(fault) => return vec![*fault],
+    };
+    let name = path.display().to_string();
+    let mut faults = Vec::new();
+    if let Err(failure) = super::bound::read(&loaded.program, &beside.bounds) {
+        faults.push(whole(loaded, &failure.to_string()));
+    }
+    if beside.fair.as_deref().is_some_and(|fair| !["weak", "strong"].contains(&fair)) {
+        faults.push(whole(loaded, "`fair` is neither weak nor strong"));
+    }
+    let kinds = [PropertyKind::Invariant, PropertyKind::Ctl, PropertyKind::Ltl];
+    let properties =
+        kinds.iter().zip(&beside.properties).flat_map(|(kind, texts)| texts.iter().map(|text| (*kind, text)));
+    for (kind, text) in beside.assumptions.iter().map(|text| (PropertyKind::Invar, text)).chain(properties) {
+        faults.extend(loaded.property(kind, &name, text).err().into_iter().flatten());
+    }
+    if let Some(text) = &beside.terminal {
+        faults.extend(loaded.condition(&name, text).err().into_iter().flatten());
+    }
+    faults
+}
+
+/// A fault whose line is not known.
+fn whole(loaded: &Loaded, message: &str) -> Diagnostic {
+    let file = loaded.sources.iter().map(|(file, _)| file).last().unwrap_or(loaded.model.root);
+    *fault(Span { file, start: 0, end: 0 }, message)
 }
 
 fn fault(span: Span, message: impl Into<String>) -> Box<Diagnostic> {

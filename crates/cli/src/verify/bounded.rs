@@ -29,7 +29,7 @@ pub struct Bounded {
     /// The most steps from an initial state
     #[arg(long, value_name = "N", value_parser = crate::limits::count)]
     pub depth: Option<u64>,
-    /// The most memory for states, in MiB
+    /// The most memory that the program may take, in MiB
     #[arg(long, value_name = "MIB", default_value_t = 8192)]
     pub max_memory: u64,
     /// The most time, in seconds
@@ -37,10 +37,35 @@ pub struct Bounded {
     pub time: Option<u64>,
 }
 
+/// What a survey looks at where nobody says how much: it has no other end where states have none.
+const STATES: u64 = 1_000_000;
+const SECONDS: u64 = 60;
+
 impl Bounded {
+    /// The same with an end, where none is given; tells whether one was.
+    pub fn with_end(&self) -> (Bounded, bool) {
+        let given = self.max_states.is_some() || self.depth.is_some() || self.time.is_some();
+        let ends = Bounded { max_states: Some(STATES), time: Some(SECONDS), ..self.clone() };
+        if given { (self.clone(), false) } else { (ends, true) }
+    }
+
+    /// What to say where the end that was not given has come.
+    pub fn at_end(shell: &mut Shell) -> Result<(), Failure> {
+        shell.note(&format!(
+            "where no limit is given {STATES} states or {SECONDS} seconds are: --max-states, --depth or --time give others"
+        ))
+    }
+
     /// What stands in the file beside a model; none after a fault.
     pub fn beside(&self, shell: &mut Shell, sources: &mut Sources, model: &Path) -> Result<Option<Beside>, Failure> {
         beside(shell, sources, self.spec.as_deref(), model)
+    }
+
+    /// Holds the process to the limit. Below what it takes before the search begins, the states alone are counted.
+    fn bound_memory(&self) {
+        if interrupt::resident_bytes().is_some_and(|bytes| bytes >> 20 < self.max_memory) {
+            interrupt::bound_memory(self.max_memory);
+        }
     }
 
     /// The options of a search, and who watches it.
@@ -48,14 +73,16 @@ impl Bounded {
         let mut bounds = bound::read(program, &beside.bounds)?;
         bounds.extend(bound::read(program, &self.bounds)?);
         let options = Options {
-            limits: shell.global.limits.machine(),
+            limits: shell.global.limits.uninterrupted(),
             max_states: self.max_states.unwrap_or(u64::MAX),
             max_depth: self.depth.unwrap_or(u64::MAX),
             max_bytes: self.max_memory.saturating_mul(1 << 20),
             bounds,
+            interrupt: interrupt::request().clone(),
             ..Options::default()
         };
         interrupt::listen();
+        self.bound_memory();
         Ok((options, Watch::new(self.time, shell.global.quiet || shell.json())))
     }
 }

@@ -35,12 +35,14 @@ pub fn write(
     let sources = loaded.sources.clone();
     let writer = Writer { model, fingerprint, program, sources: &sources, properties: loaded.model.properties.len() };
     let mut written: Vec<PathBuf> = Vec::new();
+    let mut names: Vec<String> = Vec::new();
     let kind = path.extension().and_then(|extension| extension.to_str());
     for (subject, trace) in violated {
         let name = match subject {
             Subject::Property(index) => file_name(&program.properties[index].name),
             subject => id(subject).unwrap_or_default().to_string(),
         };
+        let name = another(name, &mut names);
         match kind {
             Some("avalla") => {
                 writer.scenario(shell, path, trace, subject, &name)?;
@@ -58,7 +60,7 @@ pub fn write(
                 writer.scenario(shell, &scenario, trace, subject, &name)?;
                 writer.trace(shell, &file, trace, subject)?;
                 written.extend([scenario, file]);
-                let limits = shell.global.limits.machine();
+                let limits = shell.global.limits.uninterrupted();
                 let header = writer.header(trace, subject);
                 let run = |program: &Arc<Program>| groundstate::counterexample_run(program, limits, trace, &header);
                 if let Some(page) = page_of(shell, loaded, model, &run)? {
@@ -135,7 +137,7 @@ impl Writer<'_> {
 
     fn trace(&self, shell: &Shell, path: &Path, trace: &Trace, subject: Subject) -> Result<(), Failure> {
         let header = self.header(trace, subject);
-        let limits = shell.global.limits.machine();
+        let limits = shell.global.limits.uninterrupted();
         let mut run = groundstate::counterexample_run(self.program, limits, trace, &header);
         let mut file = TraceFile::create(path, false)?;
         file.write(&Wire::header(&header))?;
@@ -148,9 +150,28 @@ impl Writer<'_> {
     }
 }
 
-/// A property's name as that of a file.
+/// LIMIT: a formula is a file's name up to so many letters.
+const LONGEST: usize = 60;
+
+/// A property's name, or its formula, as that of a file: its words, joined.
 fn file_name(name: &str) -> String {
-    name.chars().map(|c| if c.is_alphanumeric() || c == '_' { c } else { '_' }).collect()
+    let words: Vec<&str> = name.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+    let words: Vec<&str> = words.iter().map(|word| word.trim_matches('_')).filter(|word| !word.is_empty()).collect();
+    let mut joined: String = words.join("_").chars().take(LONGEST).collect();
+    joined.truncate(joined.trim_end_matches('_').len());
+    match joined.chars().next() {
+        Some(first) if first.is_alphabetic() => joined,
+        Some(_) => format!("property_{joined}"),
+        None => "property".to_string(),
+    }
+}
+
+/// The name, or with a number, where another property has come to it already.
+fn another(name: String, names: &mut Vec<String>) -> String {
+    let numbered = |n: usize| if n == 1 { name.clone() } else { format!("{name}_{n}") };
+    let free = (1..).map(numbered).find(|name| !names.contains(name)).unwrap_or_default();
+    names.push(free.clone());
+    free
 }
 
 /// The path of a file as seen from a folder, as a scenario writes it.
@@ -162,4 +183,24 @@ pub fn relative(file: &Path, folder: &Path) -> String {
     let up = from[shared..].iter().map(|_| "..".to_string());
     let down = to[shared..].iter().map(|part| part.as_os_str().to_string_lossy().into_owned());
     up.chain(down).collect::<Vec<_>>().join("/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_named_by_words() {
+        assert_eq!(file_name("inv_sound"), "inv_sound");
+        assert_eq!(file_name("g(emergency implies x != extended(RIGHT))"), "g_emergency_implies_x_extended_RIGHT");
+        assert_eq!(
+            (file_name("__ 1 > 0"), file_name("(()"), file_name("a__")),
+            ("property_1_0".into(), "property".into(), "a".into())
+        );
+        assert!(file_name(&"long ".repeat(40)).len() <= LONGEST);
+        let mut names = Vec::new();
+        let taken: Vec<String> =
+            ["x > 1", "x < 1", "x = 1", "y"].iter().map(|name| another(file_name(name), &mut names)).collect();
+        assert_eq!(taken, ["x_1", "x_1_2", "x_1_3", "y"]);
+    }
 }

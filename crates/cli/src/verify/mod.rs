@@ -2,12 +2,15 @@
 //!
 //! Exit codes: 0 all hold, 1 something is violated, 3 nothing is violated but something is not known.
 
-mod beside;
+pub mod beside;
 mod bound;
 mod bounded;
 mod checkpoint;
 mod counterexample;
 mod disk;
+mod hint;
+mod live;
+mod operators;
 mod symmetry;
 mod tell;
 mod watch;
@@ -19,7 +22,7 @@ use clap::Args;
 use groundstate::own_files;
 use groundstate::verify::solver::Method;
 use groundstate::verify::temporal::fairness::AgentFairness;
-use groundstate::verify::{Disk, Keeper, NoStart, Options, Outcome, Report, verify_kept};
+use groundstate::verify::{Disk, Keeper, NoStart, Options, Outcome, Reason, Report, verify_heard};
 
 use program::PropertyKind;
 
@@ -32,6 +35,7 @@ pub use bounded::Bounded;
 use checkpoint::Checkpoint;
 pub use counterexample::relative;
 use disk::Folder;
+use live::Live;
 pub use tell::{Explored, StepLine, Teller};
 
 /// Arguments of `verify`.
@@ -73,10 +77,10 @@ pub struct Arguments {
     /// Another invariant; may be repeated
     #[arg(long = "invariant", value_name = "TERM")]
     invariants: Vec<String>,
-    /// Another formula over the CTL library, which the model imports; may be repeated
+    /// Another formula with the operators of CTL; may be repeated
     #[arg(long, value_name = "FORMULA")]
     ctl: Vec<String>,
-    /// Another formula over the LTL library, which the model imports; may be repeated
+    /// Another formula with the operators of LTL; may be repeated
     #[arg(long, value_name = "FORMULA")]
     ltl: Vec<String>,
     /// Another assumption, as INVAR: states in which it is not true are left out, or steps if it reads inputs; may be
@@ -239,6 +243,12 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     if arguments.counterexample.is_some() && arguments.model.as_os_str() == "-" {
         return Err(Failure::usage("no scenario can load standard input: write the model to a file"));
     }
+    let Some(beside) = bounded.beside(shell, &mut loaded.sources.clone(), &arguments.model)? else {
+        return Ok(Exit::World);
+    };
+    let asked = |said: &[String], beside: &[String]| !said.is_empty() || !beside.is_empty();
+    let (ctl, ltl) = (asked(&arguments.ctl, &beside.properties[1]), asked(&arguments.ltl, &beside.properties[2]));
+    loaded = operators::import(shell, loaded, ctl, ltl);
     let Some(beside) = bounded.beside(shell, &mut loaded.sources, &arguments.model)? else { return Ok(Exit::World) };
     // What the command line assumes counts instead of what the file does.
     let assumed = if arguments.assumptions.is_empty() { &beside.assumptions } else { &arguments.assumptions };
@@ -272,7 +282,11 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let sources = loaded.sources.clone();
     let (root, users) = (loaded.model.root, own_files(&sources));
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
-    let (options, mut watch) = bounded.options(shell, &program, &beside)?;
+    let (options, watch) = bounded.options(shell, &program, &beside)?;
+    if arguments.disk.is_some() {
+        // The limit is that of the states in memory; what is more goes to files.
+        crate::interrupt::bound_memory(u64::MAX);
+    }
     let folder = match &arguments.disk {
         Some(path) => Some(Folder::new(path)?),
         None => None,
@@ -311,9 +325,12 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         None => None,
     };
     let keeper = checkpoint.as_mut().map(|checkpoint| checkpoint as &mut dyn Keeper);
-    let outcome = verify_kept(&program, &options, agents, &mut solver, keeper, &mut |progress| watch.at(progress));
-    let timed_out = watch.done();
-    let teller = Teller { program: &program, sources: &loaded.sources, timed_out };
+    let mut teller = Teller::new(&program, &sources, false);
+    teller.assumed(shell, assumed)?;
+    let mut live = Live::new(shell, &teller, watch);
+    let outcome = verify_heard(&program, &options, agents, &mut solver, keeper, &mut live);
+    let (timed_out, told) = live.done()?;
+    teller.timed_out = timed_out;
     let mut report = match outcome {
         Ok(report) => report,
         Err(NoStart::Refused(refusal)) => {
@@ -322,8 +339,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Err(trouble) => return no_start(shell, &teller, trouble),
     };
     report.unreachable.retain(|span| span.file == root || (arguments.imports && users(span.file)));
-    teller.assumed(shell, assumed)?;
-    teller.report(shell, &report)?;
+    teller.report(shell, &report, &told)?;
     if let Some(path) = &arguments.counterexample {
         let model = (arguments.model.as_path(), fingerprint.as_str());
         counterexample::write(shell, path, model, &program, &mut loaded, &report)?;
@@ -340,6 +356,13 @@ pub fn no_start(shell: &mut Shell, teller: &Teller<'_>, trouble: NoStart) -> Res
         NoStart::Fault(fault) => {
             shell.diagnostic(teller.sources, &groundstate::diagnose_fault(&fault, teller.program))?;
             Ok(Exit::Model)
+        }
+        NoStart::Stopped(stop) => {
+            shell.note(&format!(
+                "not known: {} before all initial states were there",
+                teller.reason(&Reason::Stopped(stop))
+            ))?;
+            Ok(Exit::Unknown)
         }
         NoStart::Unbounded(unbounded) => {
             shell.diagnostic(teller.sources, &teller.unbounded(&unbounded))?;

@@ -1,6 +1,7 @@
 //! Verdicts and counterexamples, for people and as JSON.
 
-use std::collections::BTreeMap;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 
 use groundstate::verify::runs::Why;
@@ -17,6 +18,7 @@ use syntax::{Diagnostic, Sources, Span};
 use crate::check::plural;
 use crate::failure::Failure;
 use crate::shell::Shell;
+use crate::verify::hint::hint;
 use crate::verify::symmetry::DomainLine;
 use crate::wire::Place;
 
@@ -26,6 +28,8 @@ pub struct Teller<'a> {
     pub sources: &'a Sources,
     /// The search was stopped because its time was up.
     pub timed_out: bool,
+    /// The initial state that was told last.
+    told: RefCell<Vec<String>>,
 }
 
 /// `{"type":"verdict",…}`
@@ -80,7 +84,8 @@ struct ExploredLine<'a> {
     r#type: &'static str,
     complete: bool,
     states: u64,
-    transitions: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    transitions: Option<u64>,
     depth: u64,
     bytes: u64,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -103,6 +108,9 @@ pub struct Explored {
     /// Where interchangeable elements were to be found: which there are.
     #[serde(skip_serializing_if = "Option::is_none")]
     symmetry: Option<Vec<DomainLine>>,
+    /// States were gone through as sets, of which transitions are not counted.
+    #[serde(skip)]
+    sets: bool,
 }
 
 /// `{"type":"assumed",…}`
@@ -110,6 +118,13 @@ pub struct Explored {
 struct AssumedLine<'a> {
     r#type: &'static str,
     term: &'a str,
+}
+
+impl<'a> Teller<'a> {
+    /// Tells of a search over a program.
+    pub fn new(program: &'a Program, sources: &'a Sources, timed_out: bool) -> Self {
+        Teller { program, sources, timed_out, told: RefCell::default() }
+    }
 }
 
 impl Teller<'_> {
@@ -125,8 +140,8 @@ impl Teller<'_> {
         Ok(())
     }
 
-    /// Tells everything.
-    pub fn report(&self, shell: &mut Shell, report: &Report) -> Result<(), Failure> {
+    /// Tells everything; of what was told while the search went on no more than the verdict.
+    pub fn report(&self, shell: &mut Shell, report: &Report, told: &BTreeSet<Subject>) -> Result<(), Failure> {
         for span in &report.unreachable {
             let diagnostic = Diagnostic::warning("unreachable-rule", *span, "no reachable state runs this rule")
                 .because("never runs")
@@ -134,7 +149,12 @@ impl Teller<'_> {
             shell.diagnostic(self.sources, &diagnostic)?;
         }
         for verdict in &report.verdicts {
-            if shell.json() {
+            if told.contains(&verdict.subject) {
+                if let (Outcome::Violated(trace), true) = (&verdict.outcome, shell.talks()) {
+                    let (name, steps) = (self.name(verdict.subject), plural(trace.steps.len(), "step"));
+                    writeln!(shell.out(), "violated  {name}, after {steps}, as shown above")?;
+                }
+            } else if shell.json() {
                 shell.object(&self.line(verdict, report))?;
             } else if shell.talks() || !matches!(verdict.outcome, Outcome::Holds) {
                 self.verdict(shell, verdict, report)?;
@@ -157,7 +177,8 @@ impl Teller<'_> {
         let symmetry = report.symmetry.as_ref().map(|symmetry| self.symmetry_lines(symmetry));
         let omission = report.omission.map(|expected| expected.0);
         let reduced = report.reduced.map(|reduced| reduced.map_or_else(why_unreduced, |()| "reduced"));
-        let explored = Explored { bits: Some(report.width.1), omission, partial_order: reduced, symmetry };
+        let sets = report.engine == Engine::Symbolic;
+        let explored = Explored { bits: Some(report.width.1), omission, partial_order: reduced, symmetry, sets };
         self.explored(shell, &report.progress, report.complete, &explored)
     }
 
@@ -174,7 +195,7 @@ impl Teller<'_> {
                 r#type: "explored",
                 complete,
                 states: progress.states,
-                transitions: progress.transitions,
+                transitions: (!more.sets).then_some(progress.transitions),
                 depth: progress.depth,
                 bytes: progress.bytes,
                 disk: (progress.spilled > 0).then_some(progress.spilled),
@@ -190,13 +211,17 @@ impl Teller<'_> {
                 (false, _) => "not all that can be reached",
             };
             let states = plural(progress.states as usize, "state");
-            let transitions = plural(progress.transitions as usize, "transition");
-            let depth = progress.depth;
+            let transitions = match more.sets {
+                true => "met as sets".to_string(),
+                false => plural(progress.transitions as usize, "transition"),
+            };
+            // The rounds in which sets grow say nothing of distances.
+            let depth = if more.sets { String::new() } else { format!(", depth {}", progress.depth) };
             let disk = match progress.spilled {
                 0 => String::new(),
                 bytes => format!(", {} MiB on disk", bytes.div_ceil(1 << 20)),
             };
-            writeln!(shell.out(), "{states} ({whole}), {transitions}, depth {depth}{disk}")?;
+            writeln!(shell.out(), "{states} ({whole}), {transitions}{depth}{disk}")?;
         }
         Ok(())
     }
@@ -212,24 +237,37 @@ impl Teller<'_> {
                 let reasons = self.reasons(verdict.subject, reasons, report);
                 writeln!(shell.out(), "unknown   {name}: {}", reasons.join("; "))?;
             }
-            Outcome::Violated(trace) => {
-                let steps = plural(trace.steps.len(), "step");
-                writeln!(shell.out(), "violated  {name}, after {steps}")?;
-                self.trace(shell, trace, verdict.subject)?;
-            }
+            Outcome::Violated(trace) => self.violated(shell, verdict.subject, trace)?,
         }
         Ok(())
     }
 
-    /// Tells a run, step by step.
+    /// Tells of a violation.
+    pub fn violated(&self, shell: &mut Shell, subject: Subject, trace: &Trace) -> Result<(), Failure> {
+        if shell.json() {
+            return shell.object(&self.violated_line(subject, trace));
+        }
+        let steps = plural(trace.steps.len(), "step");
+        writeln!(shell.out(), "violated  {}, after {steps}", self.name(subject))?;
+        self.trace(shell, trace, subject)?;
+        if let Some(hint) = hint(self.program, subject, trace) {
+            writeln!(shell.out(), "  hint: {hint}")?;
+        }
+        Ok(())
+    }
+
+    /// Tells a run, step by step. An initial state that was told of the run before is not repeated.
     pub fn run(&self, shell: &mut Shell, trace: &Trace) -> Result<(), Failure> {
         let binders = groundstate::choice_variables(self.program);
-        writeln!(shell.out(), "  state 0")?;
-        for (location, value) in &trace.start.inputs {
-            writeln!(shell.out(), "    in {}", self.value(location, value))?;
-        }
-        for (location, value) in &trace.values {
-            writeln!(shell.out(), "    {}", self.value(location, value))?;
+        let inputs = trace.start.inputs.iter().map(|(location, value)| format!("in {}", self.value(location, value)));
+        let values = trace.values.iter().map(|(location, value)| self.value(location, value));
+        let state: Vec<String> = inputs.chain(values).collect();
+        if state.len() > 1 && *self.told.borrow() == state {
+            writeln!(shell.out(), "  state 0, as above")?;
+        } else {
+            writeln!(shell.out(), "  state 0")?;
+            state.iter().try_for_each(|line| writeln!(shell.out(), "    {line}"))?;
+            self.told.replace(state);
         }
         for (index, step) in trace.steps.iter().enumerate() {
             let made = if step.fault.is_some() { ", not made" } else { "" };
@@ -273,14 +311,24 @@ impl Teller<'_> {
         Ok(())
     }
 
-    fn line(&self, verdict: &Verdict, report: &Report) -> VerdictLine {
-        let (kind, span) = match verdict.subject {
+    fn violated_line(&self, subject: Subject, trace: &Trace) -> VerdictLine {
+        VerdictLine {
+            verdict: "violated",
+            trace: Some(self.steps(trace)),
+            again_from: trace.turn.map(|turn| turn + 1),
+            ..self.line_of(subject)
+        }
+    }
+
+    /// The line of a check that holds.
+    fn line_of(&self, subject: Subject) -> VerdictLine {
+        let (kind, span) = match subject {
             Subject::Property(index) => ("property", Some(self.program.properties[index].span)),
             _ => ("builtin", None),
         };
-        let mut line = VerdictLine {
+        VerdictLine {
             r#type: "verdict",
-            check: id(verdict.subject).map_or_else(|| self.name(verdict.subject), str::to_string),
+            check: id(subject).map_or_else(|| self.name(subject), str::to_string),
             kind,
             at: span.map(|span| Place::new(self.sources, span)),
             verdict: "holds",
@@ -289,7 +337,11 @@ impl Teller<'_> {
             reasons: Vec::new(),
             trace: None,
             again_from: None,
-        };
+        }
+    }
+
+    fn line(&self, verdict: &Verdict, report: &Report) -> VerdictLine {
+        let mut line = self.line_of(verdict.subject);
         match &verdict.outcome {
             Outcome::Holds => match self.proof(verdict.subject, report) {
                 None => line.states = Some(report.progress.states),
@@ -299,11 +351,7 @@ impl Teller<'_> {
                 line.verdict = "unknown";
                 line.reasons = self.reasons(verdict.subject, reasons, report);
             }
-            Outcome::Violated(trace) => {
-                line.verdict = "violated";
-                line.trace = Some(self.steps(trace));
-                line.again_from = trace.turn.map(|turn| turn + 1);
-            }
+            Outcome::Violated(trace) => line = self.violated_line(verdict.subject, trace),
         }
         line
     }
@@ -378,7 +426,7 @@ impl Teller<'_> {
             Why::NoScheduler => "the main rule does not choose who moves".to_string(),
             Why::TooLarge(what, most) => format!("more than {most} {what}"),
             Why::Asked => self.reason(&Reason::Stopped(Stop::Asked)),
-            Why::Unread => "its formula is at fault".to_string(),
+            Why::Unread(what) => format!("its formula is at fault: {what}"),
         }
     }
 
@@ -434,6 +482,11 @@ impl Teller<'_> {
             Reason::Undecided => "it has no value in some state".to_string(),
             Reason::Temporal => "temporal formulas are not decided".to_string(),
             Reason::Left => "the solver left it open".to_string(),
+            Reason::Odd => {
+                "the search found a run that the machine does not make, which is a fault of this program: please \
+                            report it"
+                    .to_string()
+            }
         }
     }
 

@@ -1,10 +1,17 @@
 //! Watching a search: how far it is, on stderr, and whether it goes on.
+//!
+//! The time is kept by a thread of its own, which raises the request to stop: whoever searches tells how far it is between rounds,
+//! and looks at the request more often.
 
 use std::io::IsTerminal;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
 use groundstate::verify::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use machine::Cause;
 
 use crate::interrupt;
 
@@ -14,21 +21,28 @@ const PATIENCE: Duration = Duration::from_millis(700);
 /// See the module.
 pub struct Watch {
     began: Instant,
-    limit: Option<Duration>,
     wanted: bool,
     bar: Option<ProgressBar>,
-    timed_out: bool,
+    timed_out: Arc<AtomicBool>,
+    /// While it is there the time is kept.
+    _clock: Option<Sender<()>>,
 }
 
 impl Watch {
     pub fn new(seconds: Option<u64>, quiet: bool) -> Watch {
+        let timed_out = Arc::new(AtomicBool::new(false));
         Watch {
             began: Instant::now(),
-            limit: seconds.map(Duration::from_secs),
             wanted: !quiet && std::io::stderr().is_terminal(),
             bar: None,
-            timed_out: false,
+            _clock: seconds.map(|seconds| clock(Duration::from_secs(seconds), Arc::clone(&timed_out))),
+            timed_out,
         }
+    }
+
+    /// How long the search has been going on.
+    pub fn elapsed(&self) -> Duration {
+        self.began.elapsed()
     }
 
     /// Shows how far the search is and says whether it goes on.
@@ -50,8 +64,14 @@ impl Watch {
                 progress.bytes >> 20
             ));
         }
-        self.timed_out = self.limit.is_some_and(|limit| elapsed >= limit);
-        !self.timed_out && !interrupt::asked()
+        !interrupt::asked()
+    }
+
+    /// Takes the bar away while something else is written.
+    pub fn hide(&mut self) {
+        if let Some(bar) = self.bar.take() {
+            bar.finish_and_clear();
+        }
     }
 
     /// Removes the bar; tells whether the time was up.
@@ -59,8 +79,20 @@ impl Watch {
         if let Some(bar) = self.bar {
             bar.finish_and_clear();
         }
-        self.timed_out
+        self.timed_out.load(Ordering::Relaxed)
     }
+}
+
+/// Raises the request to stop when the time is up, unless what it gives is dropped before.
+fn clock(limit: Duration, timed_out: Arc<AtomicBool>) -> Sender<()> {
+    let (sender, ended) = channel::<()>();
+    std::thread::spawn(move || {
+        if ended.recv_timeout(limit) == Err(RecvTimeoutError::Timeout) {
+            timed_out.store(true, Ordering::Relaxed);
+            interrupt::request().raise(Cause::Asked);
+        }
+    });
+    sender
 }
 
 fn bar() -> ProgressBar {

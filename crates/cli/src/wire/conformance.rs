@@ -11,6 +11,9 @@ pub struct Conformance {
     verdict: &'static str,
     way: String,
     events: usize,
+    /// Of a run that conforms: those after its tasks were asked to stop, which are not compared.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    after: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -47,7 +50,11 @@ impl Conformance {
                 ("parts", parted.agreed, parted.reason.clone(), Some(Parts::new(sources, parted)))
             }
         };
-        Conformance { kind: "conformance", verdict: word, way: way.to_string(), events, reason, parts }
+        let after = match verdict {
+            Verdict::Conforms { after, .. } => Some(*after),
+            Verdict::Unknown { .. } | Verdict::Parts(_) => None,
+        };
+        Conformance { kind: "conformance", verdict: word, way: way.to_string(), events, after, reason, parts }
     }
 }
 

@@ -21,6 +21,9 @@ pub struct ScenarioResult<'a> {
     failed_checks: u64,
     faults: Vec<Fault<'a>>,
     remarks: Vec<Remark<'a>>,
+    /// What happened in one that failed, where it is asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    run: Option<serde_json::Value>,
 }
 
 #[derive(Debug, Serialize)]
@@ -31,7 +34,7 @@ struct Remark<'a> {
 }
 
 impl<'a> ScenarioResult<'a> {
-    pub fn new(path: &Path, tested: &'a Tested, faults: Vec<Fault<'a>>) -> Self {
+    pub fn new(path: &Path, tested: &'a Tested, faults: Vec<Fault<'a>>, run: Option<serde_json::Value>) -> Self {
         let verdict = tested.verdict.as_ref();
         let (held, broken) = verdict.map_or((0, 0), |verdict| verdict.checks);
         let remarks = verdict
@@ -53,6 +56,7 @@ impl<'a> ScenarioResult<'a> {
             failed_checks: broken,
             faults,
             remarks: remarks.collect(),
+            run,
         }
     }
 }

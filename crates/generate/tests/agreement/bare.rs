@@ -139,7 +139,9 @@ fn printed(compiler: &Compiler, model: &str, bare: bool) -> String {
     if bare {
         let names = Command::new("nm").args(["-u", "-C"]).arg(&program).output().expect("nm runs");
         let names = String::from_utf8_lossy(&names.stdout).into_owned();
-        let heap = ["malloc", "operator new", "__cxa_throw"].iter().find(|name| names.contains(*name));
+        let heap = ["malloc", "free@", "operator new", "operator delete", "__cxa_throw"]
+            .iter()
+            .find(|name| names.contains(*name));
         assert_eq!(heap, None, "{model} asks for it");
     }
     let output = Command::new(&program).output().expect("the program runs");

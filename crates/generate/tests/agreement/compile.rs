@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use std::sync::Mutex;
+use std::sync::{Mutex, OnceLock};
 
 use crate::run::Prepared;
 
@@ -62,7 +62,7 @@ impl Compiler {
 
     /// Compiles the code of all models, two units at a time; the same order comes back.
     pub fn compile_all(&self, units: &[Unit]) -> Vec<Result<Program, String>> {
-        let header = self.precompiled();
+        let header = precompiled();
         let waiting = Mutex::new(shared(units));
         let done: Mutex<BTreeMap<usize, Result<Program, String>>> = Mutex::new(BTreeMap::new());
         std::thread::scope(|scope| {
@@ -70,32 +70,13 @@ impl Compiler {
                 scope.spawn(|| {
                     loop {
                         let Some(group) = waiting.lock().expect("unpoisoned").pop() else { return };
-                        let outcomes = self.compile(&header, units, &group);
+                        let outcomes = self.compile(header, units, &group);
                         done.lock().expect("unpoisoned").extend(outcomes);
                     }
                 });
             }
         });
         done.into_inner().expect("unpoisoned").into_values().collect()
-    }
-
-    /// What all models include, compiled beforehand, once.
-    fn precompiled(&self) -> PathBuf {
-        let header = self.folder.join("all.hpp");
-        if header.exists() {
-            return header;
-        }
-        let runtime = runtime().join("groundstate/machine");
-        let mut names: Vec<String> = std::fs::read_dir(&runtime)
-            .expect("the runtime's headers")
-            .flatten()
-            .map(|entry| format!("#include <groundstate/machine/{}>\n", entry.file_name().to_string_lossy()))
-            .collect();
-        names.sort();
-        std::fs::write(&header, names.concat()).expect("a file of one's own");
-        let compiled = strict().arg("-x").arg("c++-header").arg(&header).status().expect("g++ runs");
-        assert!(compiled.success(), "the runtime's headers do not compile");
-        header
     }
 
     /// Compiles some models as one unit, or in parts if that fails.
@@ -156,6 +137,30 @@ pub fn write(folder: &Path, model: &str, prepared: &Prepared) -> std::io::Result
         std::fs::write(folder.join(&file.name), &file.text)?;
     }
     Ok(generated.files.iter().map(|file| file.text.len()).sum())
+}
+
+/// What all models include, compiled beforehand, once for all tests.
+fn precompiled() -> &'static Path {
+    static HEADER: OnceLock<PathBuf> = OnceLock::new();
+    HEADER.get_or_init(|| {
+        // Only tests have a folder of their own among what is built.
+        let folder = match option_env!("CARGO_TARGET_TMPDIR") {
+            Some(folder) => Path::new(folder).join("groundstate-headers"),
+            None => std::env::temp_dir().join(format!("groundstate-headers-{}", std::process::id())),
+        };
+        std::fs::create_dir_all(&folder).expect("a folder of the tests' own");
+        let header = folder.join("all.hpp");
+        let mut names: Vec<String> = std::fs::read_dir(runtime().join("groundstate/machine"))
+            .expect("the runtime's headers")
+            .flatten()
+            .map(|entry| format!("#include <groundstate/machine/{}>\n", entry.file_name().to_string_lossy()))
+            .collect();
+        names.sort();
+        std::fs::write(&header, names.concat()).expect("a file of one's own");
+        let compiled = strict().arg("-x").arg("c++-header").arg(&header).status().expect("g++ runs");
+        assert!(compiled.success(), "the runtime's headers do not compile");
+        header
+    })
 }
 
 /// The models in groups of one unit each. Those of one namespace are apart.

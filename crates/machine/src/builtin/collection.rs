@@ -7,6 +7,7 @@ use program::Builtin;
 
 use super::{Result, Trouble, number};
 use crate::value::Value;
+use crate::weighed::Weighed;
 
 pub(super) fn apply(builtin: Builtin, operands: &[Value]) -> Option<Result> {
     set(builtin, operands).or_else(|| bag(builtin, operands)).or_else(|| map(builtin, operands))
@@ -14,12 +15,6 @@ pub(super) fn apply(builtin: Builtin, operands: &[Value]) -> Option<Result> {
 
 fn elements(value: &Value) -> Result<&[Value]> {
     if let Value::Set(items) = value { Ok(items) } else { Err(Trouble::Undefined) }
-}
-
-/// A sorted slice, made a set without sorting again.
-fn sorted(items: Vec<Value>) -> Value {
-    debug_assert!(items.is_sorted());
-    Value::Set(Arc::new(items))
 }
 
 fn difference(a: &[Value], b: &[Value]) -> Vec<Value> {
@@ -42,13 +37,16 @@ fn set(builtin: Builtin, operands: &[Value]) -> Option<Result> {
         Builtin::NotAllIn => two(|a, b| Value::Boolean(!a.iter().all(|v| b.binary_search(v).is_ok()))),
         Builtin::SetUnion => two(|a, b| Value::set([a, b].concat())),
         Builtin::SetIntersection => {
-            two(|a, b| sorted(a.iter().filter(|v| b.binary_search(v).is_ok()).cloned().collect()))
+            two(|a, b| Value::sorted(a.iter().filter(|v| b.binary_search(v).is_ok()).cloned().collect()))
         }
-        Builtin::SetDifference => two(|a, b| sorted(difference(a, b))),
+        Builtin::SetDifference => two(|a, b| Value::sorted(difference(a, b))),
         Builtin::SymmetricDifference => two(|a, b| Value::set([difference(a, b), difference(b, a)].concat())),
-        Builtin::SetIncluding => elements(&operands[0]).map(|s| Value::set([s, &operands[1..2]].concat())),
+        Builtin::SetIncluding => elements(&operands[0]).map(|s| match s.binary_search(&operands[1]) {
+            Ok(_) => operands[0].clone(),
+            Err(place) => Value::sorted([&s[..place], &operands[1..2], &s[place..]].concat()),
+        }),
         Builtin::SetExcluding => {
-            elements(&operands[0]).map(|s| sorted(s.iter().filter(|v| **v != operands[1]).cloned().collect()))
+            elements(&operands[0]).map(|s| Value::sorted(s.iter().filter(|v| **v != operands[1]).cloned().collect()))
         }
         Builtin::SetSum | Builtin::SeqSum | Builtin::BagSum => members(&operands[0]).and_then(|items| sum(&items)),
         Builtin::AsSequence => members(&operands[0]).map(Value::seq),
@@ -58,7 +56,9 @@ fn set(builtin: Builtin, operands: &[Value]) -> Option<Result> {
             (Value::Integer(low), Value::Integer(high)) if high.saturating_sub(*low) > 100_000_000 => {
                 Err(Trouble::Bad(format!("the range from {low} to {high} is too large")))
             }
-            (Value::Integer(low), Value::Integer(high)) => Ok(sorted((*low..=*high).map(Value::Integer).collect())),
+            (Value::Integer(low), Value::Integer(high)) => {
+                Ok(Value::sorted((*low..=*high).map(Value::Integer).collect()))
+            }
             _ => Err(Trouble::Undefined),
         },
         _ => return None,
@@ -110,7 +110,7 @@ type Counts = BTreeMap<Value, u64>;
 /// A collection as a bag.
 fn counts(value: &Value) -> Result<Counts> {
     match value {
-        Value::Bag(counts) => Ok((**counts).clone()),
+        Value::Bag(counts) => Ok((***counts).clone()),
         Value::Set(items) => Ok(items.iter().map(|v| (v.clone(), 1)).collect()),
         _ => Err(Trouble::Undefined),
     }
@@ -131,9 +131,9 @@ fn bag(builtin: Builtin, operands: &[Value]) -> Option<Result> {
         if count > 0 {
             changed.insert(operands[1].clone(), count);
         }
-        Ok(Value::Bag(Arc::new(changed)))
+        Ok(Value::Bag(Arc::new(Weighed::new(changed))))
     };
-    let as_bag = |counts: Counts| Value::Bag(Arc::new(counts));
+    let as_bag = |counts: Counts| Value::Bag(Arc::new(Weighed::new(counts)));
     Some(match builtin {
         Builtin::BagUnion | Builtin::SetBagUnion | Builtin::BagSetUnion => {
             combine(|a, b| a.saturating_add(b)).map(as_bag)
@@ -141,7 +141,7 @@ fn bag(builtin: Builtin, operands: &[Value]) -> Option<Result> {
         Builtin::BagIntersection => combine(u64::min).map(as_bag),
         // A set counts each element once; the result is of the first operand's kind.
         Builtin::BagSetIntersection => combine(u64::min).map(as_bag),
-        Builtin::SetBagIntersection => combine(u64::min).map(|counts| sorted(counts.into_keys().collect())),
+        Builtin::SetBagIntersection => combine(u64::min).map(|counts| Value::sorted(counts.into_keys().collect())),
         Builtin::BagContains => counts(&operands[0]).map(|b| Value::Boolean(b.contains_key(&operands[1]))),
         Builtin::BagCount => counts(&operands[0])
             .map(|b| Value::Integer(i64::try_from(b.get(&operands[1]).copied().unwrap_or(0)).unwrap_or(i64::MAX))),
@@ -158,11 +158,11 @@ fn map(builtin: Builtin, operands: &[Value]) -> Option<Result> {
     let entries = |index: usize| -> Result<&BTreeMap<Value, Value>> {
         if let Value::Map(entries) = &operands[index] { Ok(entries) } else { Err(Trouble::Undefined) }
     };
-    let changed = |entries: BTreeMap<Value, Value>| Value::Map(Arc::new(entries));
+    let changed = |entries: BTreeMap<Value, Value>| Value::Map(Arc::new(Weighed::new(entries)));
     Some(match builtin {
         Builtin::MapAt => entries(0).map(|m| m.get(&operands[1]).cloned().unwrap_or_default()),
         Builtin::MapSize => entries(0).map(|m| Value::Integer(m.len() as i64)),
-        Builtin::MapKeys => entries(0).map(|m| sorted(m.keys().cloned().collect())),
+        Builtin::MapKeys => entries(0).map(|m| Value::sorted(m.keys().cloned().collect())),
         Builtin::MapValues => entries(0).map(|m| Value::set(m.values().cloned().collect())),
         Builtin::MapAssign => entries(0).map(|m| {
             let mut next = m.clone();

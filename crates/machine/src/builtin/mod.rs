@@ -38,6 +38,7 @@ impl<'a> Executor<'a> {
     #[inline(never)]
     pub fn apply(&mut self, builtin: Builtin, operands: &[Value], id: TermId) -> Outcome<Value> {
         let span = self.program.term_span(id);
+        self.work_of_applying(builtin, operands, span)?;
         let outcome = match builtin {
             Builtin::Eq => Ok(Value::Boolean(operands[0] == operands[1])),
             Builtin::Neq => Ok(Value::Boolean(operands[0] != operands[1])),
@@ -82,7 +83,7 @@ impl<'a> Executor<'a> {
         };
         match outcome {
             Ok(value) => {
-                self.check_built(&value, span)?;
+                self.check_made(&value, span)?;
                 Ok(value)
             }
             Err(trouble) => self.trouble(trouble, builtin, operands, span),
@@ -101,18 +102,6 @@ impl<'a> Executor<'a> {
         }
     }
 
-    /// Keeps collections within the limit.
-    #[inline]
-    fn check_built(&self, value: &Value, span: Span) -> Outcome<()> {
-        match value {
-            Value::Set(items) | Value::Seq(items) => self.check_size(items.len() as u64, span),
-            Value::String(text) => self.check_size(text.len() as u64, span),
-            Value::Map(entries) => self.check_size(entries.len() as u64, span),
-            Value::Bag(counts) => self.check_size(counts.values().fold(0u64, |sum, n| sum.saturating_add(*n)), span),
-            _ => Ok(()),
-        }
-    }
-
     #[cold]
     fn trouble(&self, trouble: Trouble, builtin: Builtin, operands: &[Value], span: Span) -> Outcome<Value> {
         let name = name::name(builtin);
@@ -121,7 +110,8 @@ impl<'a> Executor<'a> {
                 FaultKind::UndefinedOperand { operation: format!("`{name}`") }
             }
             Trouble::Undefined => {
-                let shown: Vec<String> = operands.iter().map(|value| value.show(self.program).to_string()).collect();
+                let shown: Vec<String> =
+                    operands.iter().map(|value| value.show(self.program).briefly().to_string()).collect();
                 FaultKind::BadOperand { reason: format!("`{name}` is not defined on ({})", shown.join(", ")) }
             }
             Trouble::Bad(reason) => FaultKind::BadOperand { reason },

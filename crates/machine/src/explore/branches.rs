@@ -8,7 +8,7 @@
 //! guard does not hold is *dead*, and only where all are dead does the rule have no candidate. So an alternative looks
 //! at no more of the state than its own guard does.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use program::{DomainId, FunctionId, Program};
@@ -93,6 +93,10 @@ pub struct Branches {
     pub(crate) fields: Arc<[u32]>,
     /// The field of the rest, if the packed state has one.
     pub(crate) rest: Option<u32>,
+    /// The field that says in which initial state the run began, if there is one.
+    pub(crate) origin: Option<u32>,
+    /// The functions whose inputs may be in the rest of an initial state.
+    pub(crate) inputs_in_rest: BTreeSet<FunctionId>,
     pub(crate) bounds: Arc<Bounds>,
     /// The alternative taken is none.
     pub(crate) dead: bool,
@@ -111,6 +115,8 @@ impl Branches {
             pass: 0,
             fields: Arc::new([]),
             rest: None,
+            origin: None,
+            inputs_in_rest: BTreeSet::new(),
             bounds,
             dead: false,
             unbounded: None,
@@ -192,6 +198,11 @@ impl Branches {
         if std::mem::replace(&mut self.looked[index], self.pass) != self.pass {
             self.events.push(Event::Look(field));
         }
+    }
+
+    /// Notes that it is looked at in which initial state the run began.
+    pub(crate) fn look_at_origin(&mut self) {
+        self.look(self.origin.unwrap_or(NOWHERE));
     }
 
     /// Where a location stands; `found` is its number, if it has one, and `kept` says whether its function's locations are

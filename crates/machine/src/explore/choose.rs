@@ -26,6 +26,7 @@ impl Executor<'_> {
     pub fn note_look(&mut self, function: FunctionId, found: Option<u32>) {
         let kept = is_kept(self.program, function);
         if let Some(branches) = self.environment.branches() {
+            let kept = kept || branches.inputs_in_rest.contains(&function);
             branches.look(branches.field(found, kept));
         }
     }
@@ -99,11 +100,22 @@ impl Executor<'_> {
         let program = self.program;
         let span = program.rule_span(id);
         let mut bindings = 0u64;
-        let counted = self.for_each_binding(binders, &mut |this| {
-            bindings += 1;
-            this.check_size(bindings, span)?;
-            Ok(ControlFlow::Continue(()))
-        });
+        // Bindings are counted rather than gone through where that can be: each is an alternative, and gets here.
+        let (grid, counted) = match self.grid(binders) {
+            Some(Ok(grid)) => {
+                bindings = grid.len;
+                (Some(grid), self.check_size(bindings, span))
+            }
+            Some(Err(fault)) => (None, Err(fault)),
+            None => {
+                let counted = self.for_each_binding(binders, &mut |this| {
+                    bindings += 1;
+                    this.check_size(bindings, span)?;
+                    Ok(ControlFlow::Continue(()))
+                });
+                (None, counted.map(|_| ()))
+            }
+        };
         if let Err(fault) = counted {
             return self.endless_choice(fault, span);
         }
@@ -123,11 +135,16 @@ impl Executor<'_> {
         if taken == bindings {
             return none(self);
         }
-        let mut passed = 0;
-        let _ = self.for_each_binding(binders, &mut |_| {
-            passed += 1;
-            Ok(if passed > taken { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
-        })?;
+        match grid {
+            Some(grid) => self.bind_from(&grid, binders, taken),
+            None => {
+                let mut passed = 0;
+                let _ = self.for_each_binding(binders, &mut |_| {
+                    passed += 1;
+                    Ok(if passed > taken { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+                })?;
+            }
+        }
         if let Some(guard) = guard
             && !self.holds(guard)?
         {

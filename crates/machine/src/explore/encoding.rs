@@ -17,6 +17,8 @@ use crate::explore::branches::{NOWHERE, REST};
 use crate::explore::choose::is_kept;
 use crate::explore::conditions::{initial_value, is_fixed};
 use crate::explore::interner::{Rest, View};
+use crate::explore::kept::{Kept, is_input};
+use crate::explore::paths::Told;
 use crate::layout::Layout;
 use crate::location::Location;
 use crate::machine::Machine;
@@ -29,7 +31,7 @@ const CODES: usize = 1 << 12;
 /// A function with more locations does not have all its initial values from the start, see [`crate::machine::Machine::start`].
 const EAGER: usize = 1 << 20;
 /// LIMIT: the fields of a state have at most so many bits; what would not fit belongs to the rest.
-const BITS: usize = 1 << 14;
+pub(crate) const BITS: usize = 1 << 14;
 
 /// What has been found not to fit since the encoding was made.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -55,11 +57,31 @@ impl Widening {
 
 /// How values of one function become codes.
 #[derive(Debug, Clone)]
-enum Codes {
+pub(crate) enum Codes {
     /// The place in this list, sorted; undef, where it is possible, comes last.
     Listed { values: Arc<Vec<Value>>, undefined: bool },
     /// The number that an interner gives.
     Interned,
+}
+
+impl Codes {
+    /// The codes of values of a domain and these, of undef where that is possible; and how many bits they need.
+    pub fn of<'v>(
+        program: &Program,
+        machine: &mut Machine,
+        domain: DomainId,
+        found: impl Iterator<Item = &'v Value>,
+        undefined: bool,
+    ) -> (Codes, usize) {
+        let Some(mut values) = finite(program, machine, domain) else { return (Codes::Interned, 32) };
+        values.extend(found.cloned());
+        values.retain(|value| !value.is_undef());
+        values.sort_unstable();
+        values.dedup();
+        let count = values.len() + usize::from(undefined);
+        let bits = (usize::BITS - count.saturating_sub(1).leading_zeros()) as usize;
+        (Codes::Listed { values: Arc::new(values), undefined }, bits)
+    }
 }
 
 /// How a function's values become codes, for who asks.
@@ -76,7 +98,7 @@ pub(crate) enum Coding<'e> {
 pub(crate) struct Field {
     /// The location whose value it holds; unused for the rest.
     pub location: u32,
-    function: FunctionId,
+    pub function: FunctionId,
     pub word: u32,
     pub shift: u8,
     pub bits: u8,
@@ -101,7 +123,7 @@ impl Field {
 pub(crate) struct Encoding {
     pub fields: Vec<Field>,
     /// By function.
-    codes: Vec<Option<Codes>>,
+    pub codes: Vec<Option<Codes>>,
     /// By dense location number: its field, [`REST`] or [`NOWHERE`].
     pub of_location: Arc<[u32]>,
     /// The dense locations that belong to the rest.
@@ -114,6 +136,10 @@ pub(crate) struct Encoding {
     lazy: Vec<bool>,
     /// Some domain may grow.
     grows: bool,
+    /// The inputs of initial states.
+    pub kept: Kept,
+    /// The field that says which initial state a run began in, where initial values that come up later depend on it.
+    pub origin: Option<u32>,
 }
 
 /// The state does not fit into the encoding.
@@ -121,9 +147,16 @@ pub(crate) struct Encoding {
 pub(crate) struct TooNarrow(pub Widening);
 
 impl Encoding {
-    /// The encoding of a program's states; `machine` stands in an initial state, and `initial` are the values of all
-    /// initial states by location.
-    pub fn new(program: &Program, machine: &mut Machine, initial: &[Vec<Value>], widening: &Widening) -> Encoding {
+    /// The encoding of a program's states; `machine` stands in an initial state, `initial` are the values of all initial
+    /// states by location, `kept` the inputs that these keep, and so many `origins` are to be told apart.
+    pub fn new(
+        program: &Program,
+        machine: &mut Machine,
+        initial: &[Vec<Value>],
+        kept: Kept,
+        origins: usize,
+        widening: &Widening,
+    ) -> Encoding {
         let assigned_undef = assigned_undef(program);
         let mut encoding = Encoding {
             fields: Vec::new(),
@@ -138,18 +171,22 @@ impl Encoding {
                 DomainKind::Abstract { dynamic, .. } | DomainKind::Concrete { dynamic, .. } => *dynamic,
                 _ => false,
             }),
+            kept: Kept::default(),
+            origin: None,
         };
-        let mut of_location = vec![NOWHERE; machine.core.store.len()];
+        // What is sparse has other numbers in other states.
+        let dense = machine.core.store.len() - machine.core.store.sparse_len();
+        let mut of_location = vec![NOWHERE; dense];
         let mut used = 0usize;
         for (index, function) in program.functions.iter().enumerate() {
             let id = FunctionId(index as u32);
-            let kept = is_kept(program, id);
+            let is_kept = is_kept(program, id);
             let (first, len) = match &machine.core.store.layouts[index] {
                 Layout::Single(location) => (*location, 1),
                 Layout::Dense { base, len, .. } => (*base, *len),
                 Layout::None | Layout::Sparse => continue,
             };
-            if !kept {
+            if !is_kept {
                 continue;
             }
             of_location[first as usize..(first + len) as usize].fill(REST);
@@ -159,22 +196,7 @@ impl Encoding {
             let Some(locations) = declared_locations(program, machine, id) else { continue };
             let found = || locations.iter().flat_map(|location| initial.iter().map(|state| &state[*location as usize]));
             let undefined = widening.undefined.contains(&id) || assigned_undef[index] || found().any(Value::is_undef);
-            let listed = finite(program, machine, function.codomain).map(|values| {
-                let mut values = values;
-                values.extend(found().cloned());
-                values.retain(|value| !value.is_undef());
-                values.sort_unstable();
-                values.dedup();
-                values
-            });
-            let (codes, bits) = match listed {
-                Some(values) => {
-                    let count = values.len() + usize::from(undefined);
-                    let bits = (usize::BITS - count.saturating_sub(1).leading_zeros()) as usize;
-                    (Codes::Listed { values: Arc::new(values), undefined }, bits)
-                }
-                None => (Codes::Interned, 32),
-            };
+            let (codes, bits) = Codes::of(program, machine, function.codomain, found(), undefined);
             if used + bits * locations.len() > BITS {
                 continue;
             }
@@ -184,6 +206,7 @@ impl Encoding {
                 of_location[location as usize] = encoding.add_field(location, id, bits);
             }
         }
+        encoding.place_inputs(program, machine, initial, kept, &mut of_location);
         for (location, place) in of_location.iter().enumerate() {
             if *place == REST {
                 encoding.others.push(location as u32);
@@ -197,10 +220,14 @@ impl Encoding {
             let field = encoding.add_field(NOWHERE, FunctionId(0), 32);
             encoding.rest = Some(field);
         }
+        if origins > 1 {
+            let bits = usize::BITS - (origins - 1).leading_zeros();
+            encoding.origin = Some(encoding.add_field(NOWHERE, FunctionId(0), bits as usize));
+        }
         encoding
     }
 
-    fn add_field(&mut self, location: u32, function: FunctionId, bits: usize) -> u32 {
+    pub fn add_field(&mut self, location: u32, function: FunctionId, bits: usize) -> u32 {
         let (mut word, mut shift) = match self.fields.last() {
             Some(last) => (last.word, u32::from(last.shift + last.bits)),
             None => (0, 0),
@@ -259,10 +286,17 @@ impl Encoding {
         *word = *word & !field.mask() | u64::from(code) << field.shift;
     }
 
-    /// Packs the machine's state.
-    pub fn pack(&self, program: &Program, machine: &mut Machine, view: &mut View) -> Result<Box<[u64]>, TooNarrow> {
+    /// Packs the machine's state, an initial one that has asked for what is told, of this origin.
+    pub fn pack(
+        &self,
+        program: &Program,
+        machine: &mut Machine,
+        (told, origin): (&Told, u32),
+        view: &mut View,
+    ) -> Result<Box<[u64]>, TooNarrow> {
         let mut rest = self.gather(program, &machine.core, false);
         self.settle(machine, &mut rest);
+        self.add_inputs(&mut rest, told);
         let core = &machine.core;
         let mut words = vec![0; self.words].into_boxed_slice();
         for field in self.fields.iter().filter(|field| field.location != NOWHERE) {
@@ -270,6 +304,9 @@ impl Encoding {
             Encoding::put(*field, code, &mut words);
         }
         self.put_rest(rest, &mut words, view)?;
+        if let Some(field) = self.origin {
+            Encoding::put(self.fields[field as usize], origin, &mut words);
+        }
         Ok(words)
     }
 
@@ -287,7 +324,7 @@ impl Encoding {
             core.store.values[index as usize] = Value::Undef;
             core.store.given[index as usize] = 0;
         }
-        for (location, value) in &rest.locations {
+        for (location, value) in rest.locations.iter().filter(|(location, _)| !is_input(program, location)) {
             let index = core.store.number(location.function, &location.arguments) as usize;
             core.store.values[index] = value.clone();
             core.store.given[index] = 1;
@@ -389,6 +426,9 @@ impl Encoding {
             }
             if self.rest == Some(index as u32) {
                 return view.rest(field.code(a)).cmp(&view.rest(field.code(b)));
+            }
+            if self.origin == Some(index as u32) {
+                return field.code(a).cmp(&field.code(b));
             }
             return self.value(*field, a, view).cmp(&self.value(*field, b, view));
         }

@@ -7,6 +7,7 @@
 
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use hashbrown::HashMap;
@@ -18,12 +19,18 @@ use crate::coverage::Coverage;
 use crate::explore::branches::{Bounds, Branches, REST, Unbounded, UnboundedKind};
 use crate::explore::conditions::Condition;
 use crate::explore::encoding::{Encoding, TooNarrow, Widening};
+use crate::explore::expansion::Expansion;
 use crate::explore::interner::{Interner, View};
+use crate::explore::kept::{Kept, is_input};
+use crate::explore::origin::Origins;
 use crate::explore::paths::Told;
 use crate::explore::sets::Overwrite;
 use crate::explore::sighted::Sighting;
-use crate::explore::tree::{DEAD, End, Tree};
+use crate::explore::starts::{Begun, Start, Starts, each_start};
+use crate::explore::successors::Successors;
+use crate::explore::tree::{DEAD, End, Tree, Unwalked};
 use crate::fault::{Fault, FaultKind};
+use crate::interrupt::{Cause, Interrupt};
 use crate::limits::Limits;
 use crate::location::Location;
 use crate::machine::{EngineChoice, Machine};
@@ -44,6 +51,8 @@ pub struct Settings {
     pub step_conditions: Vec<(Expression, bool)>,
     /// Nothing is remembered.
     pub forgetful: bool,
+    /// Looked at between the alternatives of a state, of which there may be many.
+    pub interrupt: Interrupt,
     /// What happens within steps is told: see [`Explorer::sightings`].
     pub observed: bool,
     /// By term, where any is: a range whose elements are to be interchangeable. Quantifiers look at all of them, and where a
@@ -60,23 +69,8 @@ pub enum Trouble {
     Unbounded(Unbounded),
     /// The states do not fit: try again with this.
     TooNarrow(Widening),
-}
-
-/// What the alternatives of a state came to, all together.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Expansion {
-    /// Alternatives that change the state.
-    pub moved: u32,
-    /// Alternatives that leave it as it is.
-    pub stayed: u32,
-    /// Alternatives that are faults, by [`FaultClass`].
-    pub faults: [u32; 3],
-    /// Alternatives that cannot be gone through.
-    pub unbounded: u32,
-    /// Alternatives in which a condition on the step does not hold.
-    pub failed: u32,
-    /// Alternatives that an assumption leaves out.
-    pub excluded: u32,
+    /// Whoever waits has had enough before all initial states were made.
+    Interrupted(Cause),
 }
 
 /// What an end of the tree of steps means.
@@ -146,7 +140,8 @@ pub struct Explorer {
     /// The packed state that the machine is in.
     loaded: Vec<u64>,
     is_loaded: bool,
-    initial: Vec<(Box<[u64]>, Told)>,
+    pub(super) starts: Arc<Starts>,
+    pub(super) origins: Origins,
     /// What could not be gone through.
     pub(super) unbounded: BTreeSet<Unbounded>,
     pub(super) sightings: Vec<Sighting>,
@@ -165,41 +160,72 @@ impl Explorer {
         widening: &Widening,
         interner: &Arc<Interner>,
     ) -> Result<Explorer, Trouble> {
+        Explorer::like(program, settings, widening, interner, None)
+    }
+
+    /// The same with the initial states of another one, which was made with the same settings, widening and interner.
+    ///
+    /// # Errors
+    /// See [`Trouble`].
+    pub fn like(
+        program: &Arc<Program>,
+        settings: Settings,
+        widening: &Widening,
+        interner: &Arc<Interner>,
+        known: Option<&Arc<Starts>>,
+    ) -> Result<Explorer, Trouble> {
         let mut machine = Machine::new(Arc::clone(program), settings.limits);
         machine.use_engine(EngineChoice::Interpreted);
         machine.enable_coverage();
         machine.core.exploring = true;
         let mut branches = Branches::new(Arc::clone(&settings.bounds));
-        let mut starts = Vec::new();
-        branches.first();
-        loop {
-            if let Err(fault) = machine.start(&mut branches) {
-                return Err(match branches.unbounded {
-                    Some(unbounded) => Trouble::Unbounded(unbounded),
-                    None => Trouble::Fault(Box::new(fault)),
-                });
-            }
-            let told =
-                Told { inputs: machine.inputs(), choices: std::mem::take(&mut branches.chosen), ..Told::default() };
-            starts.push((machine.snapshot(), told));
-            if !branches.next() {
-                break;
-            }
+        let (blank, mut begun) = (machine.snapshot(), Begun::default());
+        // One alone is soon made, and whoever has the others relies on it.
+        let interrupt = match known {
+            Some(_) => Interrupt::default(),
+            None => settings.interrupt.clone(),
+        };
+        if known.is_some() {
+            machine.ignore_interrupts();
         }
-        let values: Vec<Vec<Value>> = starts
-            .iter()
-            .map(|(snapshot, _)| {
-                machine.restore(snapshot);
-                machine.core.store.values.clone()
-            })
-            .collect();
-        let encoding = Encoding::new(program, &mut machine, &values, widening);
+        branches.first();
+        each_start(&mut machine, &blank, &mut branches, &interrupt, &mut |machine, _| {
+            begun.add(machine);
+            Ok(if known.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+        })?;
+        machine.mind_interrupts(&settings.limits);
+        let seen = match known {
+            Some(known) => Arc::clone(&known.seen),
+            None => Arc::new(begun.seen()),
+        };
+        let mut origins = Origins::of(&seen.origins);
+        origins.number(&machine);
+        let kept = Kept::new(program, &settings, std::iter::once(&seen.asked));
+        let encoding = Encoding::new(program, &mut machine, &seen.rows, kept, origins.count(), widening);
         let mut view = View::new(Arc::clone(interner));
-        let mut initial = Vec::new();
-        for (snapshot, told) in starts {
-            machine.restore(&snapshot);
-            let words = encoding.pack(program, &mut machine, &mut view);
-            initial.push((words.map_err(|TooNarrow(widening)| Trouble::TooNarrow(widening))?, told));
+        let starts = match known {
+            Some(known) => Arc::clone(known),
+            None => {
+                let mut starts = Starts::new(seen);
+                branches.first();
+                each_start(&mut machine, &blank, &mut branches, &settings.interrupt, &mut |machine, branches| {
+                    let told = Told { inputs: machine.inputs(), ..Told::default() };
+                    let origin = origins.number(machine);
+                    let words = encoding.pack(program, machine, (&told, origin), &mut view);
+                    starts.push(words.map_err(|TooNarrow(widening)| Trouble::TooNarrow(widening))?, branches);
+                    Ok(ControlFlow::Continue(()))
+                })?;
+                Arc::new(starts)
+            }
+        };
+        // Nothing that was asked for belongs to the state, but where it is kept.
+        let state = machine.snapshot();
+        machine.restore(&state);
+        branches.chosen.clear();
+        for index in 0..machine.core.store.len() {
+            if is_input(program, &machine.core.store.location(index as u32)) {
+                machine.core.store.values[index] = Value::Undef;
+            }
         }
         if !settings.unordered.is_empty() {
             machine.core.unordered = Arc::clone(&settings.unordered);
@@ -207,7 +233,8 @@ impl Explorer {
             machine.core.memo.forget();
         }
         branches.fields = Arc::clone(&encoding.of_location);
-        branches.rest = encoding.rest;
+        (branches.rest, branches.origin) = (encoding.rest, encoding.origin);
+        branches.inputs_in_rest = encoding.kept.functions_in_rest();
         let conditions =
             settings.conditions.iter().map(|formula| Condition::new(program, &mut machine, formula)).collect();
         let observed = settings.observed;
@@ -226,11 +253,13 @@ impl Explorer {
             failures: HashMap::default(),
             conditions,
             is_loaded: false,
-            initial,
+            starts,
+            origins,
             unbounded: BTreeSet::new(),
             sightings: Vec::new(),
             in_faults: FxHashSet::default(),
         };
+        explorer.leave_out_starts();
         if observed {
             explorer.watch();
         }
@@ -247,9 +276,14 @@ impl Explorer {
         self.encoding.fields.iter().map(|field| usize::from(field.bits)).sum()
     }
 
-    /// The initial states, with the inputs and choices they come from; one may come up several times.
-    pub fn initial(&self) -> &[(Box<[u64]>, Told)] {
-        &self.initial
+    /// The initial states; one may come up several times.
+    pub fn initial(&self) -> &[(Box<[u64]>, Start)] {
+        &self.starts.states
+    }
+
+    /// The same, for another explorer: see [`Explorer::like`].
+    pub fn starts(&self) -> Arc<Starts> {
+        Arc::clone(&self.starts)
     }
 
     /// Which rules ran, in all steps that a machine has made.
@@ -275,17 +309,22 @@ impl Explorer {
     pub fn expand(&mut self, state: &[u64], out: &mut Vec<u64>) -> Result<Expansion, Widening> {
         let start = out.len();
         if self.steps.is_used() {
-            let Explorer { steps, effects, overwrites, .. } = self;
+            let Explorer { steps, effects, overwrites, failures, settings, .. } = self;
             let mut expansion = Expansion::default();
-            let walked = steps.walk(state, &mut |end| {
+            let mut found = Successors::new(out);
+            let walked = steps.walk(state, &settings.interrupt, &mut |end| {
                 let effect = effects[end as usize];
                 let overwrites = &overwrites[effect.first as usize..(effect.first + effect.len) as usize];
-                expansion.count(effect.kind, effect.failed, state, overwrites, out);
+                expansion.count(effect.kind, state, overwrites, &mut found);
+                if effect.failed {
+                    expansion.fail(failures.get(&end).map_or(&[], |failed| failed));
+                }
             });
-            if walked.is_ok() {
-                return Ok(expansion);
+            match walked {
+                Ok(()) => return Ok(expansion),
+                Err(Unwalked::Interrupted) => return Ok(Expansion { interrupted: true, ..expansion }),
+                Err(Unwalked::Unknown) => out.truncate(start),
             }
-            out.truncate(start);
         }
         self.expand_by_machine(state, out)
     }
@@ -303,13 +342,20 @@ impl Explorer {
 
     pub(super) fn expand_by_machine(&mut self, state: &[u64], out: &mut Vec<u64>) -> Result<Expansion, Widening> {
         let mut expansion = Expansion::default();
+        let mut found = Successors::new(out);
         self.branches.first();
         loop {
+            if self.settings.interrupt.is_raised() {
+                return Ok(Expansion { interrupted: true, ..expansion });
+            }
             match self.attempt(state)? {
                 None => self.learn(state, DEAD),
                 Some(attempt) => {
                     let failed = !attempt.failed.is_empty();
-                    expansion.count(attempt.kind, failed, state, &attempt.overwrites, out);
+                    expansion.count(attempt.kind, state, &attempt.overwrites, &mut found);
+                    if failed {
+                        expansion.fail(&attempt.failed);
+                    }
                     if self.steps.is_used() && !self.settings.forgetful {
                         let first = self.overwrites.len() as u32;
                         self.overwrites.extend(&attempt.overwrites);
@@ -346,7 +392,9 @@ impl Explorer {
             self.loaded.copy_from_slice(state);
             self.is_loaded = true;
         }
+        self.load_origin(state);
         self.machine.forget_inputs();
+        self.keep_inputs(state);
     }
 
     /// Makes the step with the alternatives that are due and takes it back; none where they are dead.
@@ -355,7 +403,10 @@ impl Explorer {
         let mut attempt = Attempt { kind: Kind::Next, fault: None, failed: Vec::new(), overwrites: Vec::new() };
         self.begin_watching();
         let mut outcome = self.machine.prepare(&mut self.branches);
-        self.end_watching();
+        if let Some(clash) = self.end_watching() {
+            self.branches.unbounded = None;
+            outcome = Err(*clash);
+        }
         if outcome.is_ok() {
             outcome = self.check_step(&mut attempt);
         }
@@ -368,9 +419,7 @@ impl Explorer {
             }
             Ok(()) => {}
             Err(fault) => {
-                if let FaultKind::Limit { .. } = fault.kind {
-                    self.branches.endless(UnboundedKind::Limit, fault.span);
-                }
+                note_limit(&mut self.branches, &fault);
                 attempt.kind = match self.branches.unbounded {
                     Some(unbounded) => {
                         self.unbounded.insert(unbounded);
@@ -406,7 +455,8 @@ impl Explorer {
         let Explorer { program, machine, branches, encoding, view, .. } = self;
         let mut next = state.to_vec();
         let mut written = vec![0u64; state.len()];
-        let mut rest_written = !machine.core.updates.created().is_empty();
+        let mut rest_written = !machine.core.updates.created().is_empty() || !encoding.kept.in_rest.is_empty();
+        encoding.drop_inputs(&mut next, &mut written, view);
         for update in &machine.core.updates.stack {
             match encoding.of_location.get(update.location as usize) {
                 Some(field) if *field < REST => {
@@ -439,6 +489,19 @@ impl Explorer {
             .map(|(word, clear)| Overwrite { word: word as u32, clear: *clear, set: next[word] & clear })
             .collect();
         Ok(())
+    }
+
+    /// From now on all alternatives are gone through, however long that takes; for telling what was found. Gives what would have
+    /// been looked at.
+    pub fn ignore_interrupts(&mut self) -> Interrupt {
+        self.machine.ignore_interrupts();
+        std::mem::take(&mut self.settings.interrupt)
+    }
+
+    /// From now on this is looked at between alternatives.
+    pub fn mind_interrupts(&mut self, interrupt: Interrupt) {
+        self.machine.mind_interrupts(&self.settings.limits);
+        self.settings.interrupt = interrupt;
     }
 
     /// Tells of the step that these answers lead to.
@@ -488,6 +551,13 @@ impl Explorer {
 
     /// The locations of a state that have a value, in canonical order.
     pub fn values(&mut self, state: &[u64]) -> Vec<(Location, Value)> {
+        let mut values = self.values_and_inputs(state);
+        values.retain(|(location, _)| !is_input(&self.program, location));
+        values
+    }
+
+    /// The same with the inputs that an initial state keeps.
+    pub fn values_and_inputs(&mut self, state: &[u64]) -> Vec<(Location, Value)> {
         self.load(state);
         self.machine.locations()
     }
@@ -499,34 +569,9 @@ impl Explorer {
     }
 }
 
-impl Expansion {
-    #[inline]
-    fn count(&mut self, kind: Kind, failed: bool, state: &[u64], overwrites: &[Overwrite], out: &mut Vec<u64>) {
-        self.failed += u32::from(failed);
-        match kind {
-            Kind::Next => {
-                let start = out.len();
-                out.extend_from_slice(state);
-                apply(overwrites, &mut out[start..]);
-                // Word by word: a call to compare memory takes longer than a state of few words.
-                if out[start..].iter().zip(state).all(|(next, word)| next == word) {
-                    out.truncate(start);
-                    self.stayed += 1;
-                } else {
-                    self.moved += 1;
-                }
-            }
-            Kind::Fault(class) => self.faults[class as usize] += 1,
-            Kind::Unbounded => self.unbounded += 1,
-            Kind::Excluded => self.excluded += 1,
-        }
-    }
-}
-
-#[inline]
-pub(super) fn apply(overwrites: &[Overwrite], words: &mut [u64]) {
-    for Overwrite { word, clear, set } in overwrites {
-        let word = &mut words[*word as usize];
-        *word = *word & !clear | set;
+/// A step, or the value of a condition, was not computed to its end: what it would come to is not known.
+pub(super) fn note_limit(branches: &mut Branches, fault: &Fault) {
+    if let FaultKind::Limit { .. } | FaultKind::Interrupted(_) = fault.kind {
+        branches.endless(UnboundedKind::Limit, fault.span);
     }
 }

@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use crate::explore::conditions::{Part, Truth};
-use crate::explore::explorer::Explorer;
+use crate::explore::explorer::{Explorer, note_limit};
 use crate::value::Value;
 
 impl Explorer {
@@ -56,21 +56,27 @@ impl Explorer {
         let mut truth = Truth::True;
         let walked = tree.is_used() && {
             let mut worst = |end| truth = truth.max(Truth::of_end(end));
-            tree.walk(state, &mut worst).is_ok()
+            tree.walk(state, &self.settings.interrupt, &mut worst).is_ok()
         };
         if walked { truth } else { self.decide(condition, part, state) }
     }
 
-    /// Decides a part of a condition by evaluating it.
+    /// Decides a part of a condition by evaluating it; not known where whoever waits has had enough.
     #[cold]
     pub(super) fn decide(&mut self, condition: usize, part: usize, state: &[u64]) -> Truth {
         let mut worst = Truth::True;
         self.branches.first();
         loop {
+            if self.settings.interrupt.is_raised() {
+                return Truth::Unknown;
+            }
             self.load(state);
             let Part { bindings, term, frame, .. } = &self.conditions[condition].parts[part];
             let (bindings, term, frame) = (Arc::clone(bindings), *term, *frame);
             let outcome = self.machine.evaluate_with(term, frame, &bindings, &mut self.branches);
+            if let Err(fault) = &outcome {
+                note_limit(&mut self.branches, fault);
+            }
             let truth = match outcome {
                 Ok(Value::Boolean(true)) => Truth::True,
                 Ok(Value::Boolean(false)) => Truth::False,

@@ -112,6 +112,9 @@ impl Orbits {
         classes: &[Vec<Value>],
         holds: &dyn Fn(FunctionId) -> bool,
     ) -> Option<Orbits> {
+        if encoding.tells_origins() {
+            return None;
+        }
         let mut orbits = Orbits {
             classes: classes.to_vec(),
             places: BTreeMap::new(),

@@ -6,7 +6,8 @@ use std::ops::ControlFlow;
 
 use crate::explore::branches::{ChoiceTaken, Unbounded};
 use crate::explore::encoding::Widening;
-use crate::explore::explorer::{Explorer, Kind, apply};
+use crate::explore::expansion::apply;
+use crate::explore::explorer::{Explorer, Kind};
 use crate::fault::Fault;
 use crate::location::Location;
 use crate::machine::Change;
@@ -34,6 +35,8 @@ pub struct Path {
     pub outcome: Outcome,
     /// The conditions on the step that do not hold, by their numbers.
     pub failed: Vec<u32>,
+    /// What was chosen.
+    pub choices: Vec<ChoiceTaken>,
 }
 
 /// All there is to say of one step.
@@ -50,11 +53,11 @@ pub struct Told {
 }
 
 impl Explorer {
-    /// Each alternative of a state, in order.
+    /// Each alternative of a state, in order; false where these are not all, since whoever waits has had enough.
     ///
     /// # Errors
     /// A successor does not fit.
-    pub fn paths(&mut self, state: &[u64], visit: &mut dyn FnMut(Path)) -> Result<(), Widening> {
+    pub fn paths(&mut self, state: &[u64], visit: &mut dyn FnMut(Path)) -> Result<bool, Widening> {
         self.paths_until(state, &mut |path| {
             visit(path);
             ControlFlow::Continue(())
@@ -69,9 +72,12 @@ impl Explorer {
         &mut self,
         state: &[u64],
         visit: &mut dyn FnMut(Path) -> ControlFlow<()>,
-    ) -> Result<(), Widening> {
+    ) -> Result<bool, Widening> {
         self.branches.first();
         loop {
+            if self.settings.interrupt.is_raised() {
+                return Ok(false);
+            }
             if let Some(attempt) = self.attempt(state)? {
                 let picks = self.branches.answers().iter().map(|asked| asked.taken).collect();
                 let outcome = match (attempt.kind, attempt.fault, self.branches.unbounded) {
@@ -84,12 +90,13 @@ impl Explorer {
                     (_, Some(fault), _) => Outcome::Fault(fault),
                     _ => Outcome::Excluded,
                 };
-                if visit(Path { picks, outcome, failed: attempt.failed }).is_break() {
-                    return Ok(());
+                let choices = std::mem::take(&mut self.branches.chosen);
+                if visit(Path { picks, outcome, failed: attempt.failed, choices }).is_break() {
+                    return Ok(true);
                 }
             }
             if !self.branches.next() {
-                return Ok(());
+                return Ok(true);
             }
         }
     }

@@ -91,6 +91,8 @@ pub enum SetTrouble<F> {
     Narrow(Widening),
     /// The tree has grown beyond its limit: steps look at too much of the state.
     Crowded,
+    /// Whoever waits has had enough.
+    Interrupted,
     /// The sets' owner failed.
     Failed(F),
 }
@@ -187,6 +189,9 @@ impl Explorer {
             let state = sets.member(&set);
             self.expand_by_machine(&state, &mut Vec::new()).map_err(SetTrouble::Narrow)?;
         }
+        if self.settings.interrupt.is_raised() {
+            return Err(SetTrouble::Interrupted);
+        }
         let Some(stop) = self.steps.stop(place) else { return Err(SetTrouble::Crowded) };
         stacker::maybe_grow(1 << 18, 4 << 20, || match stop {
             Stop::Dead => Ok(None),
@@ -282,6 +287,9 @@ impl Explorer {
         if tree.stop(place).is_none() && !tree.is_crowded() {
             let state = sets.member(&set);
             self.decide(condition, part, &state);
+        }
+        if self.settings.interrupt.is_raised() {
+            return Err(SetTrouble::Interrupted);
         }
         let tree = &self.conditions[condition].parts[part].tree;
         let Some(stop) = tree.stop(place) else { return Err(SetTrouble::Crowded) };

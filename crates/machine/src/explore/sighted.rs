@@ -10,6 +10,8 @@ use rustc_hash::FxHashSet;
 
 use crate::explore::encoding::Encoding;
 use crate::explore::explorer::{Explorer, Kind};
+use crate::explore::kept::is_input;
+use crate::fault::Fault;
 use crate::location::Location;
 use crate::observe::{Observation, Observations};
 use crate::value::Value;
@@ -101,14 +103,18 @@ impl Explorer {
     /// The values met, by location.
     pub fn values_met(&mut self, met: &Met) -> BTreeMap<Location, BTreeSet<Value>> {
         let mut values: BTreeMap<Location, BTreeSet<Value>> = BTreeMap::new();
-        let Explorer { encoding, machine, view, .. } = self;
+        let Explorer { encoding, machine, view, program, .. } = self;
         for (index, codes) in met.codes.iter().enumerate() {
             let field = encoding.fields[index];
             let mut codes: Vec<u32> = codes.iter().copied().collect();
             codes.sort_unstable();
             for code in codes {
+                if encoding.origin == Some(index as u32) || encoding.kept.fields.contains(&(index as u32)) {
+                    continue;
+                }
                 if encoding.rest == Some(index as u32) {
-                    for (location, value) in &view.rest(code).locations {
+                    let rest = view.rest(code);
+                    for (location, value) in rest.locations.iter().filter(|one| !is_input(program, &one.0)) {
                         values.entry(location.clone()).or_default().insert(value.clone());
                     }
                     continue;
@@ -130,14 +136,15 @@ impl Explorer {
     pub(super) fn begin_watching(&mut self) {
         if let Some(observations) = &mut self.machine.core.observations {
             observations.step.clear();
-            observations.on = true;
+            (observations.clash, observations.on) = (None, true);
         }
     }
 
-    pub(super) fn end_watching(&mut self) {
-        if let Some(observations) = &mut self.machine.core.observations {
-            observations.on = false;
-        }
+    /// Ends it; gives the first clash of a step that has gone on after it.
+    pub(super) fn end_watching(&mut self) -> Option<Box<Fault>> {
+        let observations = self.machine.core.observations.as_mut()?;
+        observations.on = false;
+        observations.clash.take()
     }
 
     pub(super) fn watch(&mut self) {

@@ -12,6 +12,7 @@ use rustc_hash::FxBuildHasher;
 use crate::explore::branches::{Asked, Event};
 use crate::explore::encoding::Field;
 use crate::explore::sets::Bits;
+use crate::interrupt::Interrupt;
 
 /// The number of an end, given by who keeps what ends mean.
 pub(crate) type End = u32;
@@ -82,9 +83,14 @@ pub(crate) enum Below {
     Table(u32),
 }
 
-/// Some alternative is not known.
+/// Why a walk ends early.
 #[derive(Debug, PartialEq, Eq)]
-pub(crate) struct Unknown;
+pub(crate) enum Unwalked {
+    /// Some alternative is not known.
+    Unknown,
+    /// Whoever waits has had enough.
+    Interrupted,
+}
 
 impl Tree {
     /// Whether it pays to walk it.
@@ -100,14 +106,15 @@ impl Tree {
 
     /// Visits the ends of all alternatives of a state, in their order, dead ones left out.
     #[inline]
-    pub fn walk(&mut self, words: &[u64], visit: &mut impl FnMut(End)) -> Result<(), Unknown> {
+    pub fn walk(&mut self, words: &[u64], interrupt: &Interrupt, visit: &mut impl FnMut(End)) -> Result<(), Unwalked> {
         self.walks += 1;
-        match self.walk_from(self.root, words, visit) {
+        match self.walk_from(self.root, words, interrupt, visit) {
             Ok(_) => Ok(()),
-            Err(unknown) => {
+            Err(Unwalked::Unknown) => {
                 self.fail();
-                Err(unknown)
+                Err(Unwalked::Unknown)
             }
+            Err(interrupted) => Err(interrupted),
         }
     }
 
@@ -123,7 +130,13 @@ impl Tree {
         }
     }
 
-    fn walk_from(&self, mut link: Link, words: &[u64], visit: &mut impl FnMut(End)) -> Result<bool, Unknown> {
+    fn walk_from(
+        &self,
+        mut link: Link,
+        words: &[u64],
+        interrupt: &Interrupt,
+        visit: &mut impl FnMut(End),
+    ) -> Result<bool, Unwalked> {
         loop {
             if link & END != 0 {
                 let end = link & !END;
@@ -133,7 +146,7 @@ impl Tree {
                 return Ok(end != DEAD);
             }
             if link == 0 {
-                return Err(Unknown);
+                return Err(Unwalked::Unknown);
             }
             match self.nodes[link as usize - 1] {
                 Node::Field { word, shift, bits, base } => {
@@ -144,17 +157,19 @@ impl Tree {
                     let code = (words[word as usize] >> shift & ((1 << bits) - 1)) as u32;
                     link = self.wide.get(&(index, code)).copied().unwrap_or(0);
                 }
+                // The alternatives of one state may be many, where questions multiply.
+                Node::Ask { .. } | Node::Guarded { .. } if interrupt.is_raised() => return Err(Unwalked::Interrupted),
                 Node::Ask { base, of } => {
                     let mut alive = false;
                     for child in &self.links[base as usize..(base + of) as usize] {
-                        alive |= self.walk_from(*child, words, visit)?;
+                        alive |= self.walk_from(*child, words, interrupt, visit)?;
                     }
                     return Ok(alive);
                 }
                 Node::Guarded { base, of } => {
                     let mut alive = false;
                     for child in &self.links[base as usize..(base + of) as usize] {
-                        alive |= self.walk_from(*child, words, visit)?;
+                        alive |= self.walk_from(*child, words, interrupt, visit)?;
                     }
                     if alive {
                         return Ok(true);

@@ -25,6 +25,7 @@ impl Translator<'_, '_> {
     pub fn each_binding(&mut self, binders: &[Binder], body: &mut dyn FnMut(&mut Self)) {
         let Some((binder, rest)) = binders.split_first() else { return body(self) };
         let walk = self.walk(binder.range);
+        let around = self.count_rounds(&walk);
         let index = self.variable(types::I64);
         let (head, inner, done) = (self.block(), self.block(), self.block());
         let first = match walk {
@@ -61,6 +62,32 @@ impl Translator<'_, '_> {
         self.set(index, next);
         self.jump(head);
         self.switch(done);
+        self.rounds = around;
+    }
+
+    /// Counts the rounds of a loop that begins, all at once. Outer loops that together have a few rounds are not counted: how
+    /// often the body they stand in runs is. Gives the rounds before.
+    fn count_rounds(&mut self, walk: &Walk) -> i64 {
+        /// LIMIT: so many rounds of a body pass uncounted.
+        const UNCOUNTED: i64 = 64;
+        let around = self.rounds;
+        let all = match *walk {
+            Walk::Numbers(_, low, high) => {
+                let all = high.saturating_sub(low).saturating_add(1).max(0);
+                self.rounds = around.saturating_mul(all.max(1));
+                self.word(all)
+            }
+            Walk::Values { count, .. } => {
+                self.rounds = i64::MAX;
+                count
+            }
+        };
+        if self.rounds > UNCOUNTED {
+            // From here inwards every loop is.
+            self.rounds = i64::MAX;
+            self.spend(all);
+        }
+        around
     }
 
     fn walk(&mut self, range: TermId) -> Walk {

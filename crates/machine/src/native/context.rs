@@ -11,6 +11,7 @@ use crate::execute::{Core, Executor};
 use crate::native::Tables;
 use crate::update::{Stamp, Update};
 use crate::value::Value;
+use crate::work::INTERVAL;
 
 /// LIMIT: compound values that one statement may hold at a time.
 const TEMPORARIES: usize = 1 << 16;
@@ -40,6 +41,8 @@ pub(super) struct Context {
     pub candidate: u64,
     pub candidate_capacity: u64,
     pub depth: u64,
+    /// Work left until the machine looks whether the step is to end ([`crate::work`]).
+    pub budget: i64,
     /// The executor of the running step.
     executor: *mut Executor<'static>,
     /// What belongs to the compiled code.
@@ -68,10 +71,11 @@ impl Offset {
     pub const candidate: i32 = offset_of!(Context, candidate) as i32;
     pub const candidate_capacity: i32 = offset_of!(Context, candidate_capacity) as i32;
     pub const depth: i32 = offset_of!(Context, depth) as i32;
+    pub const budget: i32 = offset_of!(Context, budget) as i32;
 
     /// Whether compiled code itself changes the field.
     pub fn is_counter(offset: i32) -> bool {
-        [Self::held, Self::temporary, Self::candidate, Self::depth].contains(&offset)
+        [Self::held, Self::temporary, Self::candidate, Self::depth, Self::budget].contains(&offset)
     }
 }
 
@@ -112,6 +116,7 @@ impl Context {
             candidate: 0,
             candidate_capacity: memory.candidates.capacity() as u64,
             depth: 0,
+            budget: 0,
             executor: std::ptr::null_mut(),
             tables,
         }
@@ -121,6 +126,7 @@ impl Context {
     #[inline]
     pub fn begin(&mut self, executor: &mut Executor<'_>) {
         self.count(executor.core);
+        self.budget = INTERVAL as i64;
         self.executor = std::ptr::from_mut(executor).cast::<Executor<'static>>();
     }
 

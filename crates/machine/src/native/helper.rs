@@ -40,10 +40,11 @@ pub(super) enum Helper {
     AgentProgram,
     Fill,
     KeepDerived,
+    Look,
 }
 
 impl Helper {
-    const ALL: [Helper; 30] = [
+    const ALL: [Helper; 31] = [
         Helper::Grow,
         Helper::Agrees,
         Helper::Read,
@@ -74,6 +75,7 @@ impl Helper {
         Helper::AgentProgram,
         Helper::Fill,
         Helper::KeepDerived,
+        Helper::Look,
     ];
 
     /// Its name, its address, how many words it takes and whether it gives one.
@@ -109,6 +111,7 @@ impl Helper {
             Helper::AgentProgram => ("agent_program", runtime::agent_program as *const u8, 2, true),
             Helper::Fill => ("fill", runtime::fill as *const u8, 4, true),
             Helper::KeepDerived => ("keep_derived", runtime::keep_derived as *const u8, 4, false),
+            Helper::Look => ("look", runtime::look as *const u8, 1, true),
         }
     }
 }

@@ -19,6 +19,7 @@ use crate::native::total::total_functions;
 use crate::native::translate::UnitKey;
 use crate::update::{Sequence, Unit};
 use crate::value::Value;
+use crate::weighed::Items;
 
 /// LIMIT: a body of more terms and rules is translated once, where it is called from more than one place.
 const INLINE: usize = 60;
@@ -52,7 +53,7 @@ pub(crate) struct Tables {
     pub sequences: Vec<(Sequence, memo::Version)>,
     pub memory: super::context::Memory,
     /// Arrays that code refers to.
-    pinned: Vec<Arc<Vec<Value>>>,
+    pinned: Vec<Arc<Items>>,
 }
 
 /// The knowledge of one compilation.
@@ -61,10 +62,10 @@ pub(super) struct Plan {
     /// The procedure that is compiled.
     main: ProcedureId,
     pub helpers: Helpers,
-    pub constants: Arc<Vec<Value>>,
+    pub constants: Arc<Items>,
     pub layouts: Vec<Layout>,
     pub codomains: Vec<Membership>,
-    pub contents: Vec<Option<Arc<Vec<Value>>>>,
+    pub contents: Vec<Option<Arc<Items>>>,
     /// By function: read without asking anybody.
     pub plain: Vec<bool>,
     /// By function: some initial values are still to be evaluated.
@@ -102,7 +103,7 @@ impl Plan {
                 _ => {}
             }
         }
-        let constants = Arc::new(core.constants.clone());
+        let constants = Arc::new(Items::new(core.constants.clone()));
         Plan {
             main,
             helpers,
@@ -129,7 +130,7 @@ impl Plan {
     }
 
     /// Keeps an array alive as long as the code.
-    pub fn pin(&mut self, values: Arc<Vec<Value>>) {
+    pub fn pin(&mut self, values: Arc<Items>) {
         self.tables.pinned.push(values);
     }
 

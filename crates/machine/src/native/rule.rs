@@ -435,7 +435,7 @@ impl Translator<'_, '_> {
             }
             values.extend(row.into_iter().rev());
         }
-        let values = std::sync::Arc::new(values);
+        let values = std::sync::Arc::new(crate::weighed::Items::new(values));
         let start = self.address(values.as_ptr());
         self.plan.pin(values);
         let (rule, width, count) =

@@ -17,6 +17,7 @@ use crate::execute::{Executor, Outcome};
 use crate::native::Tables;
 use crate::native::context::Context;
 use crate::value::Value;
+use crate::work::INTERVAL;
 
 type Pointer = *mut Context;
 
@@ -154,8 +155,8 @@ pub unsafe extern "C" fn apply(context: Pointer, term: i64, operands: *const *co
             let id = TermId(term as u32);
             let outcome = match executor.program.term(id) {
                 Term::Builtin { builtin, .. } => executor.apply(*builtin, slice(&operands), id),
-                Term::Tuple(_) => Ok(Value::tuple(slice(&operands).to_vec())),
-                Term::Collection { kind, .. } => Ok(collection(*kind, slice(&operands).to_vec())),
+                Term::Tuple(_) => executor.made(Value::tuple(slice(&operands).to_vec()), NOWHERE),
+                Term::Collection { kind, .. } => executor.made(collection(*kind, slice(&operands).to_vec()), NOWHERE),
                 _ => unreachable!("only these are applied"),
             };
             kept(context, outcome)
@@ -460,6 +461,18 @@ pub unsafe extern "C" fn keep_derived(context: Pointer, place: i64, mark: i64, v
     unsafe {
         let value = (*value).clone();
         Context::with(context, |executor, _| executor.core.memo.keep((place as u32, mark as u64), value));
+    }
+}
+
+/// Looks whether the step is to end, when its budget is spent.
+pub unsafe extern "C" fn look(context: Pointer) -> i64 {
+    // SAFETY: see `grow`.
+    unsafe {
+        Context::with(context, |executor, context| {
+            let spent = INTERVAL as i64 - std::mem::replace(&mut context.budget, INTERVAL as i64);
+            executor.works(u64::try_from(spent).unwrap_or(0));
+            status(executor.look(NOWHERE))
+        })
     }
 }
 

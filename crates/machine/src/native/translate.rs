@@ -62,6 +62,8 @@ pub(super) struct Translator<'t, 'f> {
     pub foralls: Option<Vec<program::Slot>>,
     /// Terms and rules translated into this function.
     pub weight: usize,
+    /// How often the loops around that do not count their rounds run what is being translated.
+    pub rounds: i64,
     references: Vec<(Helper, FuncRef)>,
 }
 
@@ -89,6 +91,7 @@ impl<'t, 'f> Translator<'t, 'f> {
             keepers: 0,
             foralls: None,
             weight: 0,
+            rounds: 1,
             references: Vec::new(),
         }
     }
@@ -192,6 +195,21 @@ impl<'t, 'f> Translator<'t, 'f> {
 
     pub fn get(&mut self, variable: Variable) -> ir::Value {
         self.builder.use_var(variable)
+    }
+
+    /// Counts work, and looks whether the step is to end where the budget is spent.
+    pub fn spend(&mut self, amount: ir::Value) {
+        let budget = self.field(Offset::budget);
+        let left = self.builder.ins().isub(budget, amount);
+        self.set_field(Offset::budget, left);
+        let spent = self.builder.ins().icmp_imm(IntCC::SignedLessThan, left, 0);
+        let (look, next) = (self.block(), self.block());
+        self.builder.set_cold_block(look);
+        self.branch(spent, look, next);
+        self.switch(look);
+        self.call_or_bail(Helper::Look, &[self.context]);
+        self.jump(next);
+        self.switch(next);
     }
 
     // ---- helpers

@@ -74,6 +74,8 @@ impl Translator<'_, '_> {
         let depth = self.field(Offset::depth);
         let deep = self.builder.ins().icmp_imm(IntCC::UnsignedGreaterThan, depth, NESTED);
         self.refuse(deep);
+        let one = self.word(1);
+        self.spend(one);
         let deeper = self.builder.ins().iadd_imm(depth, 1);
         self.set_field(Offset::depth, deeper);
         match key {

@@ -2,6 +2,7 @@
 
 mod collections;
 mod faults;
+mod limits;
 mod pages;
 mod rules;
 mod states;
@@ -58,7 +59,7 @@ fn machine_of(text: &str) -> Machine {
         .collect();
     assert!(errors.is_empty(), "{errors:#?}");
     let program = program::lower(&checked.model).expect("small enough");
-    let limits = Limits { iterations: 1000, call_depth: 200, collection: 10_000, ..Limits::default() };
+    let limits = Limits { iterations: 1000, call_depth: 200, collection: 10_000, work: 300_000, ..Limits::default() };
     Machine::new(Arc::new(program), limits)
 }
 

@@ -388,3 +388,87 @@ fn a_number_is_drawn_where_nothing_guards_it() {
         "#]],
     );
 }
+
+#[test]
+fn the_location_stands_in_the_place_of_result() {
+    let model = |rules: &str, main: &str| {
+        format!(
+            "signature:
+                domain Small subsetof Integer
+                controlled k: Integer
+                controlled n: Small
+                controlled f: Integer -> Integer
+                derived doubled: Integer
+            definitions:
+                domain Small = {{0 : 9}}
+                function doubled = 2 * k
+                {rules}
+                main rule r_Main = {main}
+            default init s: function k = 1 function n = 1 function f($i in Integer) = $i"
+        )
+    };
+    // Overwritten within the `seq`, as any other update of the location would be.
+    check(
+        &model("turbo rule r_t in Integer = seq k := 5 result := 7 endseq", "k <- r_t()"),
+        1,
+        expect![[r#"
+            1: k=7
+        "#]],
+    );
+    check(
+        &model("turbo rule r_t in Integer = seq result := 7 k := 5 endseq", "k <- r_t()"),
+        1,
+        expect![[r#"
+            1: k=5
+        "#]],
+    );
+    // What reads `result` reads the location, and what reads the location reads what was written.
+    check(
+        &model("turbo rule r_t in Integer = seq result := result + 1 f(1) := doubled endseq", "k <- r_t()"),
+        2,
+        expect![[r#"
+            1: k=2 f(1)=4
+            2: k=3 f(1)=6
+        "#]],
+    );
+    // Through a macro rule and another turbo rule; the arguments of the location have the values they had at the call.
+    check(
+        &model(
+            "turbo rule r_inner in Integer = seq f(2) := 8 result := result * 10 endseq
+             macro rule r_more($x in Integer) = result := $x + result
+             turbo rule r_t($a in Integer) in Integer =
+                seq k := $a result <- r_inner() r_more[k] endseq",
+            "f(k + 1) <- r_t(4)",
+        ),
+        1,
+        expect![[r#"
+            1: k=4 f(2)=84
+        "#]],
+    );
+    // Beside each other they are two locations.
+    check(
+        &model(
+            "turbo rule r_t($a in Integer) in Integer = seq result := $a result := result + 1 endseq",
+            "par f(1) <- r_t(10) f(2) <- r_t(20) k <- r_t(30) endpar",
+        ),
+        1,
+        expect![[r#"
+            1: k=31 f(1)=11 f(2)=21
+        "#]],
+    );
+    // An update of the result is one of the location, in its domain each time.
+    check(
+        &model("turbo rule r_t in Small = seq result := 0 - 1 result := 7 endseq", "n <- r_t()"),
+        1,
+        expect![[r#"
+            1: -1 is not in Small, the domain of n
+        "#]],
+    );
+    check(
+        &model("turbo rule r_t in Integer = par k := 5 result := 7 endpar", "k <- r_t()"),
+        1,
+        expect![[r#"
+            1: inconsistent update: k is set to 5 and to 7 in one step
+        "#]],
+    );
+}

@@ -320,3 +320,52 @@ fn going_back_is_as_if_nothing_had_been_done() {
     machine.go_back(&third);
     assert_eq!((machine.steps(), machine.locations()), before);
 }
+
+#[test]
+fn a_location_that_is_only_written_needs_no_initial_value() {
+    let model = |main: &str| {
+        format!(
+            "signature:
+                controlled g: Boolean -> Integer
+                controlled h: Integer -> Integer
+                controlled b: Boolean
+                controlled x: Integer
+            definitions:
+                main rule r_Main = {main}
+            default init s:
+                function g($y in Boolean) = if $y then 1 else 2 endif
+                function h($i in Integer) = idiv(10, $i)"
+        )
+    };
+    check(
+        &model("par g(not b) := 3 h(0) := 4 x := x endpar"),
+        1,
+        expect![[r#"
+            1: g(undef)=3 h(0)=4
+        "#]],
+    );
+    // What is written is read after it, within the step and in the next one.
+    check(
+        &model("if x = undef then seq h(0) := 4 x := h(0) endseq else x := h(0) + x endif"),
+        2,
+        expect![[r#"
+            1: h(0)=4 x=4
+            2: x=8
+        "#]],
+    );
+    // Whoever reads it before it is written does need it.
+    check(
+        &model("par h(0) := 4 x := h(0) endpar"),
+        1,
+        expect![[r#"
+            1: division by zero
+        "#]],
+    );
+    check(
+        &model("seq h(0) := 4 h(0) := h(0) + 1 h(2) := h(2) + 1 x := h(2) endseq"),
+        1,
+        expect![[r#"
+            1: h(0)=5 h(2)=6 x=6
+        "#]],
+    );
+}

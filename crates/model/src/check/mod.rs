@@ -30,7 +30,7 @@ use crate::model::{Checked, FunctionKind, Loader, Model, RuleId, VariableId};
 use crate::names::{Names, Selection};
 use crate::site::{Site, kind_word};
 use crate::suggest::nearest;
-use crate::{declare, endless, macros};
+use crate::{declare, endless, macros, unstarted};
 use body::{Body, Bound};
 use definition::Defined;
 use local_state::UpdatedParameters;
@@ -81,6 +81,7 @@ pub fn check(root: SourceFile, loader: &mut dyn Loader) -> Checked {
     macros::check(&model, &mut faults);
     if !faults.has_errors() {
         endless::check(&model, &mut faults);
+        unstarted::check(&model, &mut faults);
         report_undefined(&model, &mut faults);
         report_without_contents(&model, &mut faults);
     }

@@ -41,12 +41,14 @@ pub(crate) fn property(mut site: Site<'_>, written: &ast::Property, sources: &So
     };
     let line = sources.file(span.file).line_column(span.start).line;
     let name = name.map_or_else(|| format!("{} at line {line}", word(kind)), |token| token.text().to_string());
+    let before = site.faults.len();
     let mut body = Body::new(site, &[], Bound::Parameter);
     let mut formulas =
         formulas.into_iter().map(|formula| formula_of(&mut body, formula, span, what)).collect::<Vec<_>>().into_iter();
     let Some(formula) = formulas.next() else { return };
     let conclusion = formulas.next();
     let Body { site, variables, .. } = body;
+    site.faults.amend(before, |fault| fault::name::missing_operator(fault, kind));
     site.model.properties.push(Property { kind, name, variables, formula, conclusion, span });
 }
 

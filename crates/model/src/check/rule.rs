@@ -159,7 +159,15 @@ impl Body<'_> {
 
     /// A term in the place of a rule: an agent's program, or a rule value.
     fn term_rule(&mut self, rule: &ast::TermRule, span: Span) -> RuleKind {
+        let before = self.site.faults.len();
         let term = self.optional_term(rule.term(), span);
+        if let (Some(ast::Term::Function(written)), TermKind::Error) = (rule.term(), &term.kind)
+            && let Some(name) = written.name().filter(|_| written.arguments().is_none())
+        {
+            let name = name.text();
+            let known = self.site.names.rules.keys().any(|known| known == &format!("r_{name}"));
+            self.site.faults.amend(before, |fault| fault::rule::not_called_by_rule_name(fault, name, known));
+        }
         let arguments: Vec<Term> =
             rule.arguments().into_iter().flat_map(|list| list.terms()).map(|argument| self.term(&argument)).collect();
         if let TermKind::Apply { function, arguments: agents } = &term.kind {

@@ -37,6 +37,18 @@ pub(crate) fn undefined(span: Span, name: &str, kind: &str) -> Diagnostic {
         .with_help(format!("define it: `function {name}… = …` in the definitions section"))
 }
 
+/// A function that is set only where it has a value already, and begins without one.
+pub(crate) fn unstarted(span: Span, name: &str, asked: Span, has_init: bool) -> Diagnostic {
+    let help = match has_init {
+        true => format!("give it its first value in the `default init` section: `function {name} = …`"),
+        false => format!("give it its first value behind the main rule: `default init s0: function {name} = …`"),
+    };
+    Diagnostic::warning("never-begins", span, format!("`{name}` never gets a value, so nothing that asks for one runs"))
+        .because("it has no initial value, and every rule that sets it asks for a value first")
+        .with_label(asked, "asked for here")
+        .with_help(help)
+}
+
 /// Definitions that use each other in a circle whatever the state is.
 pub(crate) fn endless(span: Span, cycle: &[String], declared: Span) -> Diagnostic {
     let name = cycle.last().map(String::as_str).unwrap_or_default();

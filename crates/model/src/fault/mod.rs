@@ -52,6 +52,7 @@ pub const IDS: &[&str] = &[
     "missing-default-init",
     "missing-standard-library",
     "narrower-domain",
+    "never-begins",
     "no-such-overload",
     "not-a-collection",
     "not-a-location",
@@ -109,6 +110,16 @@ impl Faults {
         self.list.iter().any(|fault| fault.severity == Severity::Error)
     }
 
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    /// Changes those that came after the first `from`.
+    pub(crate) fn amend(&mut self, from: usize, change: impl FnMut(&mut Diagnostic)) {
+        self.list.iter_mut().skip(from).for_each(change);
+    }
+
     /// Adds faults of an earlier stage.
     pub(crate) fn extend(&mut self, faults: impl IntoIterator<Item = Diagnostic>) {
         self.list.extend(faults);
@@ -121,8 +132,20 @@ impl Faults {
         }
     }
 
+    /// What a name that is a keyword leaves of a text is not what was meant: behind it the fault of the name alone counts.
+    fn drop_what_follows_from_keywords(&mut self) {
+        let names = self.list.iter().filter(|fault| fault.id == "keyword-as-name");
+        let places: Vec<Span> = names.map(|fault| fault.primary.span).collect();
+        self.list.retain(|fault| {
+            let place = fault.primary.span;
+            let behind = places.iter().any(|name| name.file == place.file && name.start < place.start);
+            !behind || fault.id == "keyword-as-name" || syntax::FAULT_IDS.contains(&fault.id)
+        });
+    }
+
     /// All faults, in the order of files and positions.
     pub(crate) fn into_sorted(mut self) -> Vec<Diagnostic> {
+        self.drop_what_follows_from_keywords();
         self.list.sort_by_key(|fault| (fault.primary.span.file, fault.primary.span.start));
         self.list
     }

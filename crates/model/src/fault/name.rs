@@ -2,6 +2,9 @@
 
 use syntax::{Diagnostic, Span};
 
+use crate::library;
+use crate::model::PropertyKind;
+
 /// A domain that is not declared.
 pub(crate) fn unknown_domain(span: Span, name: &str, help: String) -> Diagnostic {
     Diagnostic::error("unknown-domain", span, format!("there is no domain `{name}`")).with_help(help)
@@ -10,6 +13,14 @@ pub(crate) fn unknown_domain(span: Span, name: &str, help: String) -> Diagnostic
 /// A function that is not declared.
 pub(crate) fn unknown_function(span: Span, name: &str, help: String) -> Diagnostic {
     Diagnostic::error("unknown-function", span, format!("there is no function `{name}`")).with_help(help)
+}
+
+/// Says of an unknown function in a formula about runs which library has it as an operator.
+pub fn missing_operator(fault: &mut Diagnostic, kind: PropertyKind) {
+    let name = fault.message.split('`').nth(1).filter(|_| fault.id == "unknown-function");
+    if let Some((name, library)) = name.and_then(|name| Some((name, library::of_operator(name, kind)?))) {
+        fault.help = Some(format!("`{name}` is an operator of this logic: `import {library}`"));
+    }
 }
 
 /// A rule that is not declared.

@@ -4,6 +4,17 @@ use syntax::{Diagnostic, Span};
 
 use super::Mismatch;
 
+/// Says of an unknown function in the place of a rule how rules are called.
+pub(crate) fn not_called_by_rule_name(fault: &mut Diagnostic, name: &str, known: bool) {
+    if fault.id != "unknown-function" {
+        return;
+    }
+    fault.help = Some(match known {
+        true => format!("is the rule meant? It is called `r_{name}[]`"),
+        false => format!("a rule's name starts with `r_`: declare `rule r_{name} = …`, and call it `r_{name}[]`"),
+    });
+}
+
 /// An update with a value of the wrong domain.
 pub(crate) fn update_domain(span: Span, target: &str, mismatch: &Mismatch, declared: Span) -> Diagnostic {
     let Mismatch { expected, found, .. } = mismatch;

@@ -1,8 +1,8 @@
 //! Machine and oracle agree: on random models, and on every model of library/ and examples/.
 //!
 //! Both run the same steps with the same inputs and choices; states, domains, faults, candidates, inputs asked for and
-//! values of invariants must be the same. `GROUNDSTATE_CASES` sets how many random models (a few seconds' worth if
-//! absent), `GROUNDSTATE_SEED` the first seed. A model on which they disagree is made small and printed.
+//! values of invariants must be the same. `GROUNDSTATE_FULL` takes long runs and many random models; `GROUNDSTATE_CASES` sets
+//! how many random models, `GROUNDSTATE_STEPS` how long runs, `GROUNDSTATE_SEED` the first seed. A model on which they disagree is made small and printed.
 #![allow(
     clippy::disallowed_methods,
     clippy::disallowed_macros,
@@ -16,7 +16,7 @@ mod world;
 
 use std::collections::BTreeMap;
 use std::panic::AssertUnwindSafe;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use compare::{Disagreement, Outcome, Plan};
 use files::{Disk, NoFiles};
@@ -87,6 +87,11 @@ fn setting(name: &str, default: u64) -> u64 {
     std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default)
 }
 
+/// Whether all of what is slow is wanted.
+fn full() -> bool {
+    std::env::var_os("GROUNDSTATE_FULL").is_some()
+}
+
 /// Runs with a deep stack.
 fn deep<T: Send>(body: impl FnOnce() -> T + Send) -> T {
     std::thread::scope(|scope| {
@@ -97,7 +102,7 @@ fn deep<T: Send>(body: impl FnOnce() -> T + Send) -> T {
 
 #[test]
 fn random_models() {
-    let cases = setting("GROUNDSTATE_CASES", 150);
+    let cases = setting("GROUNDSTATE_CASES", if full() { 1500 } else { 150 });
     let first = setting("GROUNDSTATE_SEED", 1);
     let total = std::sync::Mutex::new(Total::default());
     let failures = std::sync::Mutex::new(Vec::new());
@@ -166,31 +171,36 @@ fn random_models() {
 
 #[test]
 fn models_of_the_library_and_the_examples() {
-    let mut run = 0;
     let engines = [EngineChoice::Interpreted, EngineChoice::Compiled];
-    for (path, engine) in files::models().into_iter().flat_map(|path| engines.map(|engine| (path.clone(), engine))) {
-        let plan = Plan { seed: 1, steps: setting("GROUNDSTATE_STEPS", 50), bounds: Bounds::default(), engine };
-        let name = path.display().to_string();
-        let text = std::fs::read_to_string(&path).expect("a readable file");
-        let found = deep(|| {
+    let steps = setting("GROUNDSTATE_STEPS", if full() { 50 } else { 10 });
+    let models: Vec<_> =
+        files::models().into_iter().flat_map(|path| engines.map(|engine| (path.clone(), engine))).collect();
+    let (next, run) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let work = || {
+        while let Some((path, engine)) = models.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let plan = Plan { seed: 1, steps, bounds: Bounds::default(), engine: *engine };
+            let name = path.display().to_string();
+            let text = std::fs::read_to_string(path).expect("a readable file");
             let checked = model::check(SourceFile::new(name.as_str(), text), &mut Disk);
-            checked.model.main?;
-            let errors: Vec<&str> = checked
-                .diagnostics
-                .iter()
-                .filter(|d| d.severity == Severity::Error)
-                .map(|d| d.message.as_str())
-                .collect();
+            if checked.model.main.is_none() {
+                continue;
+            }
+            let errors = checked.diagnostics.iter().filter(|found| found.severity == Severity::Error);
+            let errors: Vec<&str> = errors.map(|found| found.message.as_str()).collect();
             assert!(errors.is_empty(), "{name}: {errors:?}");
             let program = program::lower(&checked.model).expect("small enough");
-            Some(compare::run(&checked.model, program, plan))
-        });
-        match found {
-            None => {}
-            Some(Ok(_)) => run += 1,
-            Some(Err(found)) => panic!("machine and oracle disagree on {name}: {}\n{}", found.kind, found.detail),
+            match compare::run(&checked.model, program, plan) {
+                Ok(_) => run.fetch_add(1, Ordering::Relaxed),
+                Err(found) => panic!("machine and oracle disagree on {name}: {}\n{}", found.kind, found.detail),
+            };
         }
-    }
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..setting("GROUNDSTATE_THREADS", 2) {
+            std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work).expect("a thread");
+        }
+    });
+    let run = run.into_inner();
     assert!(run > 5, "only {run} models found");
 }
 

@@ -13,6 +13,7 @@ use syntax::Span;
 use crate::ir::{self, Procedure, ProcedureId, Slot, TermId, TermList};
 use crate::lower::argument::ArgumentId;
 use crate::lower::environment::{Binding, Environment, Frame};
+use crate::lower::result::{InPlace, Place};
 use crate::lower::{Lowering, MAX_PROCEDURES};
 
 /// Which procedure stands for which rule with which arguments.
@@ -31,11 +32,18 @@ pub(super) struct Pending<'m> {
     body: &'m model::RuleNode,
     environment: Environment<'m>,
     frame: Frame,
+    place: Option<Place>,
 }
 
 impl<'m> Lowering<'m, '_> {
-    /// The procedure of a call, and the terms passed to it.
-    pub(super) fn lower_call(&mut self, id: RuleId, arguments: &'m [Term], span: Span) -> (ProcedureId, TermList) {
+    /// The procedure of a call, and the terms passed to it; `stands` says what stands in the place of `result` in it.
+    pub(super) fn lower_call(
+        &mut self,
+        id: RuleId,
+        arguments: &'m [Term],
+        stands: InPlace,
+        span: Span,
+    ) -> (ProcedureId, TermList) {
         let rule = self.model.rule(id);
         let mut callee = Environment { variables: &rule.variables, bindings: BTreeMap::new() };
         let mut frame = Frame::default();
@@ -73,7 +81,22 @@ impl<'m> Lowering<'m, '_> {
             key.push(';');
             callee.bindings.insert(parameter, Binding::ByName { argument, slots: given });
         }
-        let procedure = self.procedure(key, id, callee, frame);
+        let location = match stands {
+            InPlace::Nothing => None,
+            InPlace::Location(function, given) => Some((function, given)),
+            // A macro rule's arguments may read `result`, whether it does itself or not.
+            InPlace::AsAround if rule.turbo && !self.uses_result(id) => None,
+            InPlace::AsAround => self.program.result_function.and_then(|result| self.in_place_of(result, span)),
+        };
+        let place = location.map(|(function, given)| {
+            write!(key, " r{}", function.0).expect("a string takes any text");
+            let given = self.program.term_list(given).to_vec();
+            let domains = &self.model.function(function).parameters;
+            let slots = domains.iter().map(|domain| frame.add("$$result".to_string(), *domain)).collect();
+            passed.extend(given);
+            Place { function, slots }
+        });
+        let procedure = self.procedure(key, id, callee, frame, place);
         (procedure, self.term_list(&passed))
     }
 
@@ -88,14 +111,20 @@ impl<'m> Lowering<'m, '_> {
             environment.bindings.insert(*parameter, Binding::Slot(frame.add(variable.name.clone(), variable.domain)));
             key.push_str(" v");
         }
-        self.procedure(key, id, environment, frame)
+        self.procedure(key, id, environment, frame, None)
     }
 
     /// A procedure of a rule without parameters that is none of the model's: a fragment.
     pub(super) fn fragment_procedure(&mut self, rule: &'m model::Rule) -> ProcedureId {
         let procedure = self.add_procedure(None, rule, &Frame::default());
         let environment = Environment { variables: &rule.variables, bindings: BTreeMap::new() };
-        self.pending.push_back(Pending { procedure, body: &rule.body, environment, frame: Frame::default() });
+        self.pending.push_back(Pending {
+            procedure,
+            body: &rule.body,
+            environment,
+            frame: Frame::default(),
+            place: None,
+        });
         procedure
     }
 
@@ -103,6 +132,7 @@ impl<'m> Lowering<'m, '_> {
     pub(super) fn lower_pending(&mut self, pending: Pending<'m>) {
         self.environment = pending.environment;
         self.frame = pending.frame;
+        self.place = pending.place;
         self.depth = 0;
         let body = self.lower_rule(pending.body);
         let names = std::mem::take(&mut self.frame).names;
@@ -127,14 +157,21 @@ impl<'m> Lowering<'m, '_> {
         (self.frame.names[slot.0 as usize].clone(), self.frame.domains[slot.0 as usize])
     }
 
-    fn procedure(&mut self, key: String, id: RuleId, environment: Environment<'m>, frame: Frame) -> ProcedureId {
+    fn procedure(
+        &mut self,
+        key: String,
+        id: RuleId,
+        environment: Environment<'m>,
+        frame: Frame,
+        place: Option<Place>,
+    ) -> ProcedureId {
         if let Some(known) = self.program.specialisations.procedures.get(&key) {
             return *known;
         }
         let rule = self.model.rule(id);
         let procedure = self.add_procedure(Some(id), rule, &frame);
         self.program.specialisations.procedures.insert(key, procedure);
-        self.pending.push_back(Pending { procedure, body: &rule.body, environment, frame });
+        self.pending.push_back(Pending { procedure, body: &rule.body, environment, frame, place });
         if self.program.procedures.len() > MAX_PROCEDURES {
             self.stop(rule.span, format!("calls by name make more than {MAX_PROCEDURES} procedures"));
         }

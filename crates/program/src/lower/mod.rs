@@ -19,6 +19,7 @@ mod functions;
 mod initial;
 mod number;
 mod property;
+mod result;
 mod rule;
 mod term;
 
@@ -107,6 +108,10 @@ struct Lowering<'m, 'p> {
     frame: Frame,
     /// How deep in the body.
     depth: u32,
+    /// What stands in the place of `result` in the body.
+    place: Option<result::Place>,
+    /// What rules do, as far as that was asked for.
+    reaches: BTreeMap<model::RuleId, Rc<result::Reach>>,
 }
 
 impl<'m, 'p> Lowering<'m, 'p> {
@@ -125,6 +130,8 @@ impl<'m, 'p> Lowering<'m, 'p> {
             environment: Environment::default(),
             frame: Frame::default(),
             depth: 0,
+            place: None,
+            reaches: BTreeMap::new(),
         }
     }
 
@@ -173,6 +180,7 @@ impl<'m, 'p> Lowering<'m, 'p> {
         self.environment = Environment { variables, bindings: BTreeMap::new() };
         self.frame = Frame::default();
         self.depth = 0;
+        self.place = None;
     }
 
     /// Lowers something one level deeper.

@@ -9,6 +9,7 @@ use syntax::{Diagnostic, Span};
 use crate::ir::{self, RuleId, RuleList, TermList};
 use crate::lower::Lowering;
 use crate::lower::environment::Binding;
+use crate::lower::result::InPlace;
 
 impl<'m> Lowering<'m, '_> {
     /// Adds a rule with all that stands in it.
@@ -36,7 +37,9 @@ impl<'m> Lowering<'m, '_> {
             RuleKind::MacroCall(call) | RuleKind::TurboCall(call) => self.lower_call_rule(call, span),
             RuleKind::Return { target, call } => match self.lower_target(target) {
                 Some((function, target)) => {
-                    let (procedure, arguments) = self.lower_call(call.rule, &call.arguments, span);
+                    let needed = self.needs_place(call.rule, function);
+                    let stands = if needed { InPlace::Location(function, target) } else { InPlace::Nothing };
+                    let (procedure, arguments) = self.lower_call(call.rule, &call.arguments, stands, span);
                     ir::Rule::Return { function, target, procedure, arguments }
                 }
                 None => ir::Rule::Skip,
@@ -103,7 +106,7 @@ impl<'m> Lowering<'m, '_> {
 
     fn lower_call_rule(&mut self, call: &'m Call, span: Span) -> ir::Rule {
         let turbo = self.model.rule(call.rule).turbo;
-        let (procedure, arguments) = self.lower_call(call.rule, &call.arguments, span);
+        let (procedure, arguments) = self.lower_call(call.rule, &call.arguments, InPlace::AsAround, span);
         if turbo { ir::Rule::TurboCall { procedure, arguments } } else { ir::Rule::Call { procedure, arguments } }
     }
 
@@ -128,7 +131,10 @@ impl<'m> Lowering<'m, '_> {
     /// The location written to; none where the parameter is no location here, which is reported.
     fn lower_target(&mut self, target: &'m Target) -> Option<(FunctionId, TermList)> {
         match target {
-            Target::Location { function, arguments, .. } => {
+            Target::Location { function, arguments, span } => {
+                if let Some(place) = self.in_place_of(*function, *span) {
+                    return Some(place);
+                }
                 let is_location = self.is_location(*function, arguments);
                 is_location.then(|| (*function, self.lower_terms(arguments)))
             }
@@ -151,7 +157,10 @@ impl<'m> Lowering<'m, '_> {
             if location.is_none() {
                 this.report_no_location(name, span, Some(term.span));
             }
-            location.map(|(function, arguments)| (function, this.lower_terms(arguments)))
+            location.map(|(function, arguments)| {
+                let place = this.in_place_of(function, term.span);
+                place.unwrap_or_else(|| (function, this.lower_terms(arguments)))
+            })
         })
     }
 

@@ -101,6 +101,9 @@ impl<'m> Lowering<'m, '_> {
         if self.model.function(function).parameters.len() != arguments.len() {
             return self.undef(term.domain, term.span);
         }
+        if let Some((function, arguments)) = self.in_place_of(function, term.span) {
+            return self.term(ir::Term::Read { function, arguments }, term.domain, term.span);
+        }
         let lowered = match self.meaning(function) {
             Meaning::Read => ir::Term::Read { function, arguments: self.lower_terms(arguments) },
             Meaning::Define => ir::Term::Define { function, arguments: self.lower_terms(arguments) },

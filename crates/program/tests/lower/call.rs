@@ -214,10 +214,17 @@ fn turbo_rules_are_called_by_value_and_may_recurse() {
                 result := 1
               else
                 seq
-                  f($k) <- r_factorial#1(IntSub($k, 1))
+                  f($k) <- r_factorial#3(IntSub($k, 1), $k)
                   result := IntMul($k, f($k))
             turbo r_clear#2($k)
               f($k) := undef
+            turbo r_factorial#3($k, $$result)
+              if Le($k, 1)
+                f($$result) := 1
+              else
+                seq
+                  f($k) <- r_factorial#3(IntSub($k, 1), $k)
+                  f($$result) := IntMul($k, f($k))
         "#]],
     );
 }

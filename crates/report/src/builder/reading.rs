@@ -80,6 +80,16 @@ impl Readings {
         self.now[slot.0].integer
     }
 
+    /// The number to be drawn: truth is 1, falsehood 0.
+    pub fn level(&self, slot: Slot) -> Option<i64> {
+        let Reading { word, integer } = self.now[slot.0];
+        integer.or_else(|| match self.texts[word as usize].as_str() {
+            "true" => Some(1),
+            "false" => Some(0),
+            _ => None,
+        })
+    }
+
     pub fn integer_before(&self, slot: Slot) -> Option<i64> {
         self.before[slot.0].integer
     }

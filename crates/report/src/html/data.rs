@@ -130,7 +130,14 @@ fn put_spans(out: &mut String, track: &Track, letters: &[String]) {
 }
 
 fn put_graph(out: &mut String, graph: &Graph) {
-    put!(out, ",\"g\":{{\"top\":{},\"ticks\":{}", graph.top, graph.ticks);
+    put!(
+        out,
+        ",\"g\":{{\"top\":{},\"low\":{},\"head\":{},\"ticks\":{}",
+        graph.top,
+        graph.low,
+        Px(graph.head),
+        graph.ticks
+    );
     if let Some(bound) = graph.bound {
         put!(out, ",\"bound\":{bound},\"label\":{}", Json(&graph.bound_label));
     }

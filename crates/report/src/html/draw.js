@@ -180,17 +180,22 @@ function drawWays(view) {
 /** For each pixel column with something in it: from the least to the greatest value. */
 function extremes(pieces) {
   const columns = [];
-  for (const [at, from, , to] of pieces) {
-    const x = Math.floor(at), low = Math.min(from, to), high = Math.max(from, to), last = columns[columns.length - 1];
-    if (last && last[0] === x) { last[1] = Math.min(last[1], low); last[3] = Math.max(last[3], high); }
-    else columns.push([x, low, x + 1, high]);
+  for (const [from, first, to, last] of pieces) {
+    const value = (x) => first + (last - first) * (to > from ? (x - from) / (to - from) : 0);
+    for (let x = Math.floor(from); x < to; x++) {
+      const a = value(Math.max(x, from)), b = value(Math.min(x + 1, to)), column = columns[columns.length - 1];
+      const low = Math.min(a, b), high = Math.max(a, b);
+      if (column && column[0] === x) { column[1] = Math.min(column[1], low); column[3] = Math.max(column[3], high); }
+      else columns.push([x, low, x + 1, high]);
+    }
   }
   return columns;
 }
 
 function drawGraph(lane, view) {
   const graph = lane.g, bottom = lane.y + lane.h;
-  const place = (value) => bottom - Math.min(Math.max(value / graph.top, 0), 1) * lane.h;
+  const share = (value) => Math.min(Math.max((value - graph.low) / (graph.top - graph.low), 0), 1);
+  const place = (value) => bottom - share(value) * (lane.h - graph.head), zero = place(0);
   let pieces = [], line = "", area = "", at = -Infinity;
   for (let i = 0; i < graph.p.length; i += 4) {
     const start = graph.p[i], from = graph.p[i + 1], end = graph.p[i + 2], to = graph.p[i + 3];
@@ -203,17 +208,17 @@ function drawGraph(lane, view) {
   for (const [x1, v1, x2, v2] of pieces) {
     const a = `${px(x1)} ${px(place(v1))}`, b = `${px(x2)} ${px(place(v2))}`;
     line += `${x1 - at < 1e-6 ? "L" : "M"}${a}L${b}`;
-    area += `M${px(x1)} ${px(bottom)}L${a}L${b}V${px(bottom)}z`;
+    area += `M${px(x1)} ${px(zero)}L${a}L${b}V${px(zero)}z`;
     at = x2;
   }
-  let out = `<path class="base" d="M${px(view.left)} ${px(bottom)}H${px(view.right)}"/><path class="area" d="${area}"/><path class="curve" d="${line}"/>`;
+  let out = `<path class="base" d="M${px(view.left)} ${px(zero)}H${px(view.right)}"/><path class="area" d="${area}"/><path class="curve" d="${line}"/>`;
   if (graph.bound !== undefined) {
     const y = place(graph.bound);
-    out += `<path class="bound" d="M${px(view.left)} ${px(y)}H${px(view.right)}"/><text class="boundlabel" x="${px(view.right)}" y="${px(y + 12)}">${escaped(graph.label)}</text>`;
+    out += `<path class="bound" d="M${px(view.left)} ${px(y)}H${px(view.right)}"/><text class="boundlabel" x="${px(view.right)}" y="${px(lane.y + 10)}">${escaped(graph.label)}</text>`;
   }
   if (lane.h > 40) {
-    const x = px(view.left - 6), top = graph.ticks ? time(graph.top) : graph.top;
-    out += `<g class="scale"><text x="${x}" y="${px(place(graph.top) + 8)}">${top}</text><text x="${x}" y="${px(bottom)}">0</text></g>`;
+    const x = px(view.left - 6), told = (value) => graph.ticks ? time(value) : value, top = told(graph.top);
+    out += `<g class="scale"><text x="${x}" y="${px(place(graph.top) + 8)}">${top}</text><text x="${x}" y="${px(bottom)}">${graph.low < 0 ? told(graph.low) : 0}</text></g>`;
   }
   return out;
 }

@@ -82,14 +82,15 @@ const actions = {
 };
 const keys = { ArrowLeft: "back", ArrowRight: "forth", "+": "in", "=": "in", "-": "out", Home: "first", 0: "all", w: "wait" };
 
-/** What stands at a place of the drawing, as markup. */
-function read(tick, y) {
-  const lane = run.lanes.find((lane) => y >= lane.y - 4 && y <= lane.y + lane.h + 4);
+/** What stands at a place of the drawing, as one line of markup: of a lane with several strips the one that is pointed at. */
+function read(lane, tick, y) {
   if (!lane) return `<span>${timed(tick, 1)}</span>`;
   let out = `<b>${escaped(lane.n)}${lane.c.startsWith("\u2192") ? " " + escaped(lane.c) : ""}</b>`;
+  const away = (strip) => Math.max(strip.y - y, y - strip.y - strip.h, 0);
+  const nearest = lane.s.reduce((best, strip, row) => (best < 0 || away(strip) < away(lane.s[best]) ? row : best), -1);
   lane.s.forEach((strip, row) => {
     const i = lower(strip.ends, tick + 1e-9);
-    if (!(strip.starts[i] <= tick)) return;
+    if (row !== nearest || !(strip.starts[i] <= tick)) return;
     const [label, tone] = run.kinds[strip.kinds[i]], [a, b] = [strip.starts[i], strip.ends[i]];
     const array = strip.f && tone !== "hold" ? `array ${row} ` : "";
     out += `<span><i class="${tone}"></i>${array}${escaped(label)}, ${timed(b - a)}, from ${time(a)} to ${time(b)}</span>`;
@@ -115,11 +116,15 @@ function point(event) {
   tip.hidden = !inside;
   cursor.setAttribute("d", inside ? `M${px(x)} -4V${run.height}` : "");
   if (!inside) return;
-  tip.innerHTML = read(tickAt(x), y);
+  const lane = run.lanes.find((lane) => y >= lane.y - 4 && y <= lane.y + lane.h + 4);
+  tip.innerHTML = read(lane, tickAt(x), y);
   for (const told of pointed) told(tickAt(x));
   const width = tip.offsetWidth, room = stage.clientWidth;
-  tip.style.left = `${Math.max(0, x + 14 + width > room ? x - 14 - width : x + 14)}px`;
-  tip.style.top = `${y + HEAD + 16}px`;
+  tip.style.left = `${Math.max(0, Math.min(x + 14, room - width))}px`;
+  // Below the lane that is pointed at, never over it; above the last one.
+  const [top, bottom] = lane ? [lane.y, lane.y + lane.h] : [y - 10, y + 10];
+  const below = bottom + HEAD + 5, fits = below + tip.offsetHeight <= run.height + HEAD;
+  tip.style.top = `${fits ? below : Math.max(0, top + HEAD - 5 - tip.offsetHeight)}px`;
 }
 
 const fingers = new Map();

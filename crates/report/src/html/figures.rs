@@ -86,15 +86,9 @@ fn age(out: &mut String, report: &Report) {
     let mut bad = false;
     if let Some(bound) = series.bound {
         put!(remark, ", bound {}", Text(series.show(report.time, bound)));
-        bad = most as i64 > bound;
+        bad = most > bound;
     }
-    figure(
-        out,
-        &Text(format!("{}, most", series.name)).to_string(),
-        &series.show(report.time, most as i64),
-        &remark,
-        bad,
-    );
+    figure(out, &Text(format!("{}, most", series.name)).to_string(), &series.show(report.time, most), &remark, bad);
 }
 
 fn scenarios(out: &mut String, report: &Report) {

@@ -47,7 +47,9 @@ pub(super) fn timeline_section(out: &mut String, report: &Report) {
 
 fn legend(out: &mut String, report: &Report) {
     let mut activities: Vec<(String, &str)> = Vec::new();
-    for kind in &report.activities {
+    // What nobody ever does needs no key.
+    let done = |index: usize| report.tasks.iter().any(|task| task.shares.get(index).is_some_and(|ticks| *ticks > 0));
+    for (_, kind) in report.activities.iter().enumerate().filter(|(index, _)| done(*index)) {
         let outline = if kind.tone == Tone::Idle { " outlined" } else { "" };
         activities.push((format!("{}{outline}", kind.tone.name()), &kind.label));
     }
@@ -71,7 +73,7 @@ fn legend(out: &mut String, report: &Report) {
             marks.push((class.to_owned(), label));
         }
     }
-    for list in [activities, marks] {
+    for list in [activities, marks].into_iter().filter(|list| !list.is_empty()) {
         out.push_str("<ul class=\"legend\">\n");
         for (class, label) in list {
             put!(out, "<li><i class=\"{class}\"></i>{}</li>\n", Text(label));

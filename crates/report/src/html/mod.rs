@@ -31,7 +31,9 @@ pub fn render_html(report: &Report) -> String {
     open(&mut out, &report.title, if report.charts.is_empty() { "" } else { &report.chart_style });
     figures::header(&mut out, report);
     out.push_str("<main>\n");
-    lanes::timeline_section(&mut out, report);
+    if report.has_lanes() {
+        lanes::timeline_section(&mut out, report);
+    }
     charts::charts(&mut out, report);
     tables::tasks(&mut out, report);
     tables::waiting(&mut out, report);
@@ -47,7 +49,13 @@ pub fn render_html(report: &Report) -> String {
         "<footer>Written by Groundstate from a run of {}. This page is complete: it loads nothing.</footer>\n",
         Text(&report.model)
     );
-    scripts(&mut out, &data::run_data(report), if report.charts.is_empty() { "" } else { include_str!("charts.js") });
+    if report.has_lanes() {
+        scripts(
+            &mut out,
+            &data::run_data(report),
+            if report.charts.is_empty() { "" } else { include_str!("charts.js") },
+        );
+    }
     out.push_str("</body>\n</html>\n");
     out
 }

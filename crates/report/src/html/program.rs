@@ -23,7 +23,7 @@ pub fn render_program(program: &Program) -> String {
         error(&mut out, world);
         joints(&mut out, world);
     }
-    if let Some(run) = first {
+    if let Some(run) = first.filter(|run| run.lanes.has_lanes()) {
         lanes::timeline_section(&mut out, &run.lanes);
     }
     wake_ups(&mut out, program);
@@ -36,7 +36,7 @@ pub fn render_program(program: &Program) -> String {
         out,
         "<footer>Written by Groundstate from runs of a program made for {model}. This page is complete: it loads nothing.</footer>\n"
     );
-    if let Some(run) = first {
+    if let Some(run) = first.filter(|run| run.lanes.has_lanes()) {
         super::scripts(&mut out, &data::run_data(&run.lanes), "");
     }
     out.push_str("</body>\n</html>\n");
@@ -155,8 +155,11 @@ fn joints(out: &mut String, world: &ClosedLoop) {
     out.push_str("</div>\n</section>\n");
 }
 
-/// What tells the runs apart in a picture.
+/// What tells the runs apart in a picture; one alone needs no telling.
 fn key(out: &mut String, program: &Program) {
+    if program.runs.len() < 2 {
+        return;
+    }
     out.push_str("<ul class=\"legend\">\n");
     for (index, run) in program.runs.iter().enumerate() {
         put!(out, "<li><i class=\"swatch{index}\"></i>{}</li>\n", Text(&run.name));
@@ -167,7 +170,10 @@ fn key(out: &mut String, program: &Program) {
 /// A distribution, and its figures run by run.
 fn spread(out: &mut String, program: &Program, name: &str, caption: &str, axis: &str, tallies: &[&Tally]) {
     put!(out, "<figure><figcaption>{}<small>{}</small></figcaption>\n", Text(name), Text(caption));
-    out.push_str(&distribution(tallies, &format!("{name}: {axis}"), axis));
+    match always(tallies) {
+        Some(value) => put!(out, "<p>{} always {}</p>\n", Text(axis), show_ns(value)),
+        None => out.push_str(&distribution(tallies, &format!("{name}: {axis}"), axis)),
+    }
     out.push_str("<table class=\"small\">\n<thead><tr><th scope=\"col\"></th><th scope=\"col\">p50</th><th scope=\"col\">p99</th><th scope=\"col\">max</th></tr></thead>\n<tbody>\n");
     for (run, tally) in program.runs.iter().zip(tallies) {
         let Some((most, _)) = tally.greatest() else { continue };
@@ -184,6 +190,13 @@ fn spread(out: &mut String, program: &Program, name: &str, caption: &str, axis: 
     out.push_str("</tbody></table></figure>\n");
 }
 
+/// The one value of all runs, where there is only one: nothing to be drawn.
+fn always(tallies: &[&Tally]) -> Option<u64> {
+    let least = tallies.iter().filter_map(|tally| tally.least()).min()?;
+    let most = tallies.iter().filter_map(|tally| tally.greatest()).map(|(most, _)| most).max()?;
+    (least == most).then_some(least)
+}
+
 const NONE: &Tally = &Tally::new();
 
 fn wake_ups(out: &mut String, program: &Program) {
@@ -196,7 +209,8 @@ fn wake_ups(out: &mut String, program: &Program) {
         |tallies: &[&Tally]| tallies.iter().all(|tally| tally.greatest().is_none_or(|(most, _)| most == 0));
     let timed: Vec<&TaskTiming> =
         first.tasks.iter().filter(|task| of(&task.name).iter().any(|t| !t.is_empty())).collect();
-    if timed.is_empty() {
+    // Where nobody ever was late there is nothing to be drawn; the table of deadlines says so.
+    if timed.iter().all(|task| never_late(&of(&task.name))) {
         return;
     }
     let mut lead =
@@ -227,7 +241,21 @@ fn rhythm(task: &TaskTiming) -> String {
 
 fn ages(out: &mut String, program: &Program) {
     let Some(first) = program.runs.first() else { return };
-    if first.channels.is_empty() {
+    let images: &[(String, Tally)] = first.closed_loop.as_ref().map_or(&[], |world| &world.image_ages);
+    let of_image = |at: usize| -> Vec<&Tally> {
+        let worlds = program.runs.iter().filter_map(|run| run.closed_loop.as_ref());
+        worlds.filter_map(|world| world.image_ages.get(at)).map(|(_, tally)| tally).collect()
+    };
+    let of_channel = |name: &str| -> Vec<&Tally> {
+        let find = |other: &&ChannelAge| other.name == name;
+        program.runs.iter().map(|run| run.channels.iter().find(find).map_or(NONE, |found| &found.ages)).collect()
+    };
+    let known = |tallies: &[&Tally]| tallies.iter().any(|tally| !tally.is_empty());
+    let images: Vec<(usize, &String)> =
+        images.iter().map(|(name, _)| name).enumerate().filter(|(at, _)| known(&of_image(*at))).collect();
+    let channels: Vec<&ChannelAge> =
+        first.channels.iter().filter(|channel| known(&of_channel(&channel.name))).collect();
+    if images.is_empty() && channels.is_empty() {
         return;
     }
     section(
@@ -238,31 +266,18 @@ fn ages(out: &mut String, program: &Program) {
     );
     key(out, program);
     out.push_str("<div class=\"multiples plots\">\n");
-    if let Some(world) = &first.closed_loop {
-        for (at, (name, _)) in world.image_ages.iter().enumerate() {
-            let find =
-                |run: &'_ ProgramRun| run.closed_loop.as_ref().and_then(|world| world.image_ages.get(at)).is_some();
-            let tallies: Vec<&Tally> = program
-                .runs
-                .iter()
-                .filter(|run| find(run))
-                .filter_map(|run| run.closed_loop.as_ref().map(|world| &world.image_ages[at].1))
-                .collect();
-            spread(out, program, &format!("Image \u{2192} {name}"), "", "age of the image", &tallies);
-        }
+    for (at, name) in images {
+        spread(out, program, &format!("Image \u{2192} {name}"), "", "age of the image", &of_image(at));
     }
-    for channel in &first.channels {
-        let find = |other: &&ChannelAge| other.name == channel.name;
-        let tallies: Vec<&Tally> =
-            program.runs.iter().map(|run| run.channels.iter().find(find).map_or(NONE, |found| &found.ages)).collect();
+    for channel in channels {
         let caption = format!("{} \u{2192} {}", channel.from, channel.to);
-        spread(out, program, &channel.name, &caption, "age when read", &tallies);
+        spread(out, program, &channel.name, &caption, "age when read", &of_channel(&channel.name));
     }
     out.push_str("</div>\n</section>\n");
 }
 
 fn deadlines(out: &mut String, program: &Program) {
-    let Some(first) = program.runs.first() else { return };
+    let Some(first) = program.runs.first().filter(|run| !run.tasks.is_empty()) else { return };
     section(
         out,
         "deadlines",

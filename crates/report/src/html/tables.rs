@@ -126,6 +126,9 @@ pub(super) fn waiting(out: &mut String, report: &Report) {
         [] => return,
         labels => format!("Every time a task was {}, by its length in {}.", labels.join(" or "), report.time.unit()),
     };
+    if waited.is_empty() {
+        return;
+    }
     if !never.is_empty() {
         let names: Vec<&str> = never.iter().map(|task| task.name.as_str()).collect();
         put!(lead, " Never: {}.", names.join(", "));
@@ -210,7 +213,7 @@ fn series_section(out: &mut String, report: &Report, series: &Series, index: usi
     let time = report.time;
     let mut lead = capital(&series.caption);
     if let Some((most, _)) = series.values.greatest() {
-        let show = |value: Option<u64>| series.show(time, value.unwrap_or(0) as i64);
+        let show = |value: Option<i64>| series.show(time, value.unwrap_or(0));
         put!(
             lead,
             "{}mean {}, in 95\u{202f}% of the time at most {}, most {}",
@@ -223,6 +226,12 @@ fn series_section(out: &mut String, report: &Report, series: &Series, index: usi
             put!(lead, ", bound {}", series.show(time, bound));
         }
         lead.push('.');
+    }
+    if series.values.is_empty() {
+        put!(lead, "{}never defined in this run.", if lead.is_empty() { "" } else { ": " });
+        section(out, &format!("series-{index}"), &series.name, &capital(&lead));
+        out.push_str("</section>\n");
+        return;
     }
     section(out, &format!("series-{index}"), &series.name, &lead);
     put!(out, "<div class=\"wide\">{}</div>\n</section>\n", profile(report, series));

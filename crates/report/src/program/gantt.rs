@@ -34,8 +34,8 @@ enum Activity {
 
 const ACTIVITIES: [(Activity, &str, Tone); 5] = [
     (Activity::Elaborates, "elaborating", Tone::Work),
-    (Activity::Reads, "reading a buffer", Tone::Read),
-    (Activity::Writes, "writing a buffer", Tone::Write),
+    (Activity::Reads, "reading", Tone::Read),
+    (Activity::Writes, "writing", Tone::Write),
     (Activity::Passes, "passing a message", Tone::Message),
     (Activity::Waits, "waiting for a lock that another task holds", Tone::Wait),
 ];
@@ -160,11 +160,9 @@ fn activities(recording: &Recording) -> BTreeMap<&str, Activity> {
                     phase = None;
                     continue;
                 }
-                EventKind::Reads => Activity::Reads,
-                EventKind::Writes => Activity::Writes,
-                EventKind::Sends | EventKind::Takes | EventKind::Refuses | EventKind::Stores | EventKind::Loads => {
-                    Activity::Passes
-                }
+                EventKind::Reads | EventKind::Loads => Activity::Reads,
+                EventKind::Writes | EventKind::Stores => Activity::Writes,
+                EventKind::Sends | EventKind::Takes | EventKind::Refuses => Activity::Passes,
                 _ => continue,
             };
             if let Some(known) = phase.and_then(|phase| found.get_mut(phase)) {

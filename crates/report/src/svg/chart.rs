@@ -103,17 +103,9 @@ pub(crate) fn legs(flow: &Flow, time: TimeBase) -> String {
 /// A value over the whole run.
 pub(crate) fn profile(report: &Report, series: &Series) -> String {
     let (width, height, head) = (1120.0, 150.0, 24.0);
-    let greatest = series.values.greatest().map_or(1, |(greatest, _)| greatest as i64);
-    let bound = series.bound.filter(|bound| *bound <= greatest.saturating_mul(3));
-    let plan = Graph {
-        curve: &series.curve,
-        top: greatest.max(bound.unwrap_or(0)).max(1),
-        bound,
-        ticks: series.ticks,
-        bound_label: series.bound.map_or(String::new(), |bound| format!("bound {}", series.show(report.time, bound))),
-    };
+    let plan = Graph::of_series(report, series);
     let mut view = View::new(0, report.shown.max(1), width);
-    view.left = 40.0;
+    view.left = 52.0;
     let mut out = String::new();
     open(&mut out, "profile", width, head + height + 4.0, &format!("{} over the whole run", series.name));
     put!(out, "<g transform=\"translate(0 {head})\">\n");

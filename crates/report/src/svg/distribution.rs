@@ -17,6 +17,10 @@ const TOP: f64 = 10.0;
 const BASE: f64 = 112.0;
 /// Bins of a linear scale, at most.
 const BINS: u64 = 32;
+/// Bins of a linear scale, at least.
+const FEWEST: u64 = 8;
+/// A bin is no narrower than the greatest value divided by this.
+const FINEST: u64 = 2_000;
 /// Bins of a decade.
 const PER_DECADE: u32 = 6;
 /// A greatest value so many times the median makes decades.
@@ -68,9 +72,12 @@ fn edges(tallies: &[&Tally]) -> (Vec<f64>, bool) {
     // From zero where that is not far, so that lengths are compared by eye.
     let least = tallies.iter().filter_map(|tally| tally.least()).min().unwrap_or(0);
     let from = if least < most / 2 { 0 } else { least };
-    let width = nice((most - from + 1).div_ceil(BINS));
-    let first = from / width * width;
-    ((0..=(most - first) / width + 1).map(|index| (first + index * width) as f64).collect(), false)
+    // No finer than its labels can tell: lengths that hardly differ have few bins in the middle of the scale.
+    let width = nice((most - from + 1).div_ceil(BINS).max(most / FINEST));
+    let (first, count) = (from / width, most / width + 1 - from / width);
+    let room = FEWEST.saturating_sub(count);
+    let first = if from == 0 { 0 } else { first.saturating_sub(room / 2) };
+    ((0..=count.max(FEWEST)).map(|index| ((first + index) * width) as f64).collect(), false)
 }
 
 /// The next of 1, 2, 5, 10, 20, …
@@ -184,6 +191,7 @@ mod tests {
         let (edges, log) = edges(&[&tally]);
         assert!(!log);
         assert_eq!((edges[0], edges[1], *edges.last().expect("edges")), (0.0, 1_000.0, 32_000.0));
+        assert_eq!(edges.len(), 33);
         let shares = shares(&tally, &edges);
         assert_eq!((shares[12], shares[13], shares[31]), (0.5, 0.25, 0.25));
     }
@@ -195,6 +203,25 @@ mod tests {
         assert!(log);
         assert!((edges[0] - 10_000.0).abs() < 1e-6 && *edges.last().expect("edges") > 9_000_000.0, "{edges:?}");
         assert!((shares(&tally, &edges).iter().sum::<f64>() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn lengths_that_hardly_differ_have_a_scale_that_can_be_read() {
+        for values in [&[300_000_200, 300_000_400][..], &[300_000_000, 300_000_000, 300_000_001], &[7, 7], &[5_000_000]]
+        {
+            let tally = tally(values);
+            let (edges, _) = edges(&[&tally]);
+            let shares = shares(&tally, &edges);
+            assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-12 && edges.len() > 8, "{values:?}: {edges:?}");
+            assert!(values.iter().all(|value| edges[0] <= *value as f64 && (*value as f64) < edges[edges.len() - 1]));
+            let drawn = distribution(&[&tally], "", "age");
+            let document = roxmltree::Document::parse(&drawn).expect("well-formed");
+            let ticks = document.descendants().find(|node| node.attribute("class") == Some("ticks")).expect("ticks");
+            let labels: Vec<&str> = ticks.children().filter_map(|node| node.text()).collect();
+            let different: std::collections::BTreeSet<&&str> = labels.iter().collect();
+            assert!(labels.len() > 1 && different.len() == labels.len(), "{labels:?}");
+            assert!(labels[..labels.len() - 1].iter().all(|label| label.len() <= 5), "{labels:?}");
+        }
     }
 
     #[test]

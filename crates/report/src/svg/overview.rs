@@ -1,5 +1,6 @@
 //! The whole run in a strip: how busy each task was, and where anybody waited. The script lays a window over it.
 
+use crate::lanes::Graph;
 use crate::markup::{Px, put};
 use crate::report::{Report, Task};
 use crate::svg::columns::columns;
@@ -36,9 +37,9 @@ pub(crate) fn overview(report: &Report) -> String {
         row(&mut out, task, &view, index as f64 * (ROW + GAP));
     }
     if let Some(series) = report.series.first() {
-        let top = series.values.greatest().map_or(1, |(greatest, _)| greatest).max(1) as f64;
-        let bottom = rows + CURVE + 1.0;
-        let (line, area) = curve_paths(&series.curve, &view, bottom, &|value| bottom - value.max(0.0) / top * CURVE);
+        let plan = Graph { bound: None, head: 0.0, ..Graph::of_series(report, series) };
+        let place = |value: f64| plan.place(value, rows + 1.0, CURVE);
+        let (line, area) = curve_paths(&series.curve, &view, place(0.0), &place);
         put!(out, "<path class=\"area\" d=\"{area}\"/>\n<path class=\"curve\" d=\"{line}\"/>\n");
     }
     let to = view.x(report.window.min(report.shown)).max(2.0);

@@ -144,7 +144,7 @@ fn series_line(report: &Report, series: &Series) -> String {
     let mut line = format!(
         "mean {}, most {} (at {})",
         series.show_mean(report.time),
-        series.show(report.time, most as i64),
+        series.show(report.time, most),
         report.time.show(at)
     );
     if let Some(bound) = series.bound {

@@ -15,6 +15,12 @@ impl Terms {
         self.put(Op::Variable(id), kind, bounds)
     }
 
+    /// A variable that there is.
+    pub fn known(&mut self, id: VariableId) -> Node {
+        let Variable { kind, bounds, .. } = self.variables[id.0 as usize];
+        self.put(Op::Variable(id), kind, bounds)
+    }
+
     /// A truth value.
     pub fn boolean(&self, truth: bool) -> Node {
         if truth { Terms::TRUE } else { Terms::FALSE }

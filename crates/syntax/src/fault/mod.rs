@@ -26,6 +26,7 @@ pub const IDS: &[&str] = &[
     "expected-token",
     "file-too-large",
     "foreign-operator",
+    "keyword-as-name",
     "misplaced-branch",
     "misplaced-section",
     "missing-brackets",

@@ -74,6 +74,20 @@ pub(crate) fn expected_name(found: Found<'_>, kind: SyntaxKind) -> Diagnostic {
     }
 }
 
+/// A keyword that is declared, or defined, as a name.
+pub(crate) fn keyword_as_name(found: Found<'_>, kind: SyntaxKind) -> Diagnostic {
+    Diagnostic::error("keyword-as-name", found.span, format!("`{}` cannot be {}", found.text, name_of(kind)))
+        .because("this word is a keyword")
+        .with_help("choose another name, here and wherever it is used; what follows from this is not told")
+}
+
+/// A length of time without its unit.
+pub(crate) fn expected_unit(found: Found<'_>) -> Diagnostic {
+    Diagnostic::error("expected-token", found.span, format!("expected a unit behind the length of time, found {found}"))
+        .because("the unit is missing here")
+        .with_help("write `ns`, `us`, `ms` or `s` behind the number, as in `10 ms`")
+}
+
 /// The end of a construct is missing; `within` is the opener of a construct in it whose end may be the missing one.
 pub(crate) fn missing_end(
     found: Found<'_>,

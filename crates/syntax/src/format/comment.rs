@@ -125,7 +125,11 @@ pub(super) fn at_start_of_file(root: &SyntaxNode) -> Document {
         .filter_map(|element| element.into_token())
         .find(|token| !token.kind().is_trivia())
     {
-        Some(first) => gap(&first, false).outer,
+        // There is nothing before the file that an indented comment could belong to.
+        Some(first) => {
+            let Gap { inner, outer } = gap(&first, false);
+            Document::Concat(vec![inner, outer])
+        }
         None => Document::nothing(),
     }
 }

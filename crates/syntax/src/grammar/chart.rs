@@ -147,8 +147,9 @@ fn starts_path(p: &Parser<'_>) -> bool {
     p.peek(1) == ARROW || p.peek(2) == ARROW
 }
 
+/// A word that [`shape_name`] takes as a name, so that what starts with one always goes on.
 fn is_name(p: &Parser<'_>) -> bool {
-    p.token_text().starts_with(|letter: char| letter.is_alphabetic() || letter == '_')
+    p.token_text().starts_with(|letter: char| letter.is_alphabetic() || letter == '_') && keyword(p, &ENDS).is_none()
 }
 
 fn item(p: &mut Parser<'_>) {
@@ -400,6 +401,29 @@ mod tests {
               PLACEMENT(enter at COORDINATE(0) , COORDINATE(0))
               endlayout)"#]],
         );
+    }
+
+    #[test]
+    fn a_word_that_ends_another_block_is_no_name() {
+        check(
+            "chart C machine m endsystem -> A endmachine",
+            expect![[r#"
+            chart
+            C
+            MACHINE_CHART(machine m ERROR(endsystem -> A) endmachine)
+            !expected-shape"#]],
+        );
+        // Wherever an item may start, every such word is passed over.
+        let blocks = ["machine m", "pattern p", "system s", "system s component c", "layout l", ""];
+        for block in blocks {
+            for end in ["endmachine", "endpattern", "endsystem", "endcomponent", "endlayout"] {
+                for rest in ["->", "-> A", "A ->", "at 1, 2", "yes ->", ""] {
+                    crate::assert_invariants(format!("chart C {block} {end}{rest} {end} {rest} endlayout").as_bytes());
+                    crate::assert_invariants(format!("{block} {end}{rest}").as_bytes());
+                    crate::assert_invariants(format!("{block} A -> {end} {rest}").as_bytes());
+                }
+            }
+        }
     }
 
     #[test]

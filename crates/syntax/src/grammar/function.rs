@@ -162,23 +162,23 @@ mod tests {
         check(
             "asm a signature: static F: A static r_a: A static out: A static g A static h: A -> static definitions:",
             expect![[r#"
-            MACHINE_NAME(asm a)
-            SIGNATURE(
-              signature
-              :
-              FUNCTION(static F : A)
-              FUNCTION(static r_a : A)
-              FUNCTION(static out : A)
-              FUNCTION(static g A)
-              FUNCTION(static h : A ->)
-              static)
-            DEFINITIONS(definitions :)
-            !name-class
-            !name-class
-            !expected-name
-            !expected-token
-            !expected-domain
-            !expected-name"#]],
+                MACHINE_NAME(asm a)
+                SIGNATURE(
+                  signature
+                  :
+                  FUNCTION(static F : A)
+                  FUNCTION(static r_a : A)
+                  FUNCTION(static out : A)
+                  FUNCTION(static g A)
+                  FUNCTION(static h : A ->)
+                  static)
+                DEFINITIONS(definitions :)
+                !name-class
+                !name-class
+                !keyword-as-name
+                !expected-token
+                !expected-domain
+                !expected-name"#]],
         );
         check(
             "asm a signature: definitions: function f 1 function g = function h(x in A) = 1 function i = 1 function k = 1;",

@@ -33,13 +33,14 @@ pub(super) fn name(p: &mut Parser<'_>, kind: SyntaxKind) -> bool {
         p.bump();
         return true;
     }
-    p.fault(fault::expected_name(found, kind));
     let keyword = found.kind.text().is_some_and(|text| text.starts_with(|c: char| c.is_ascii_alphabetic()));
     let section = matches!(found.kind, SIGNATURE_KW | DEFINITIONS_KW);
     if keyword && !section && matches!(p.peek(1), COLON | EQ | L_PAREN) {
+        p.keyword_as_name(fault::keyword_as_name(found, kind));
         p.bump_as(kind); // a keyword, meant as a name
         return true;
     }
+    p.fault(fault::expected_name(found, kind));
     false
 }
 

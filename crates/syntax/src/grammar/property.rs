@@ -159,11 +159,7 @@ mod tests {
                   ERROR(p))
                 !expected-token
                 !name-class
-                !expected-name
-                !expected-token
-                !name-class
-                !expected-token
-                !expected-token"#]],
+                !keyword-as-name"#]],
         );
     }
 }

@@ -65,6 +65,10 @@ pub(crate) struct Parser<'t> {
     /// Constructs whose end is not below their beginning.
     crooked: Vec<Open<'t>>,
     nesting_reported: bool,
+    /// Keywords that are declared as names.
+    keywords: Vec<&'t str>,
+    /// One of these was used, and read as the keyword it is: faults behind it follow from that.
+    confused: bool,
     depth: usize,
     /// The greatest depth of the tree since the last [`Parser::take_deepest`].
     deepest: usize,
@@ -96,6 +100,8 @@ pub(crate) fn parse(file: FileId, text: &str, mode: Mode, root: SyntaxKind, gram
         open: Vec::new(),
         crooked: Vec::new(),
         nesting_reported: false,
+        keywords: Vec::new(),
+        confused: false,
         depth: 0,
         deepest: 0,
         looks: Cell::new(0),

@@ -15,6 +15,23 @@ impl<'t> Parser<'t> {
         }
     }
 
+    /// Reports a keyword at the cursor that is declared as a name, once for each word.
+    pub(crate) fn keyword_as_name(&mut self, fault: Diagnostic) {
+        let word = self.token_text();
+        if !self.keywords.contains(&word) {
+            self.fault(fault);
+            self.keywords.push(word);
+        }
+        self.fault_at = self.at;
+    }
+
+    /// The current token, or one of the two before it, is a keyword that is declared as a name: the text behind it does
+    /// not mean what it says.
+    fn follows_keyword(&self) -> bool {
+        let before = (0..=self.at).rev().filter(|at| !self.is_skipped(*at)).take(3);
+        !self.keywords.is_empty() && before.into_iter().any(|at| self.keywords.contains(&self.text_of(at)))
+    }
+
     /// Something new starts at the current token: a fault there is news, even if what stands before was reported there.
     pub(crate) fn starts_anew(&mut self) {
         self.fault_at = usize::MAX;
@@ -74,7 +91,8 @@ impl<'t> Parser<'t> {
     }
 
     fn push_fault(&mut self, fault: Diagnostic) {
-        if !self.has_enough_faults() {
+        self.confused |= self.follows_keyword();
+        if !self.confused && !self.has_enough_faults() {
             self.faults.push(fault);
         }
     }

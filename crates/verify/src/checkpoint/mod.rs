@@ -250,10 +250,12 @@ impl Kept {
             before.chunks_exact(words).try_for_each(|state| again(&mut explorer, state))?;
             match explorer.expand(last, &mut Vec::new()).and_then(|_| explorer.paths(last, &mut |_| {})) {
                 Err(more) => past.widening.merge(&more),
-                Ok(()) => return Err(Refusal::Damaged.into()),
+                Ok(_) => return Err(Refusal::Damaged.into()),
             }
         }
         let (maker, mut explorer) = made(program, plan, &mut past.widening)?;
+        let maker = maker.tireless();
+        explorer.ignore_interrupts();
         if explorer.words() as u64 != words || layout(&explorer) != fields {
             return Err(Refusal::Damaged.into());
         }
@@ -316,8 +318,8 @@ fn again(explorer: &mut Explorer, state: &[u64]) -> Result<(), Refusal> {
 /// An explorer whose initial states fit.
 pub(crate) fn made(program: &Arc<Program>, plan: &Plan, widening: &mut Widening) -> Result<(Maker, Explorer), Unfit> {
     loop {
-        let maker = Maker::new(program, plan, widening);
-        match maker.explorer() {
+        let mut maker = Maker::new(program, plan, widening);
+        match maker.first() {
             Ok(explorer) => return Ok((maker, explorer)),
             Err(Trouble::TooNarrow(more)) => widening.merge(&more),
             Err(trouble) => return Err(Unfit::Trouble(trouble)),

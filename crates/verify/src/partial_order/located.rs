@@ -15,7 +15,7 @@ pub(crate) fn located(explorer: &mut Explorer) -> Vec<Option<Location>> {
     let Some(state) = explorer.initial().first().map(|(state, _)| state.clone()) else {
         return vec![None; fields.len()];
     };
-    let base = explorer.values(&state);
+    let base = explorer.values_and_inputs(&state);
     fields.iter().map(|field| locate(explorer, *field, &state, &base)).collect()
 }
 
@@ -28,7 +28,7 @@ fn locate(explorer: &mut Explorer, field: Bits, state: &[u64], base: &[(Location
     (0..1u64 << bits).filter(|other| *other != code).find_map(|other| {
         let mut changed: Box<[u64]> = state.into();
         changed[word as usize] ^= (code ^ other) << shift;
-        let values = explorer.values(&changed);
+        let values = explorer.values_and_inputs(&changed);
         let gone = base.iter().filter(|pair| !values.contains(pair));
         let come = values.iter().filter(|pair| !base.contains(pair));
         let mut differing = gone.chain(come).map(|(location, _)| location);

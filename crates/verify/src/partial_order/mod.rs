@@ -51,6 +51,8 @@ pub(crate) struct Reduction {
     written_by: Vec<u64>,
     /// By field: some condition may look at it.
     visible: Vec<bool>,
+    /// By field: it holds an input that an initial state keeps. Every step takes it away, and nothing puts it back.
+    inputs: Vec<bool>,
     /// The parts whose steps may be enough.
     candidates: Vec<usize>,
 }
@@ -94,6 +96,7 @@ impl Reduction {
             written_by: by(&|part, field| part.writes[field]),
             located: locations.iter().map(Option::is_some).collect(),
             visible: visible.looks,
+            inputs: explorer.are_inputs(&fields),
             looks: parts.iter().map(|part| part.looks.clone()).collect(),
             writes: parts.into_iter().map(|part| part.writes).collect(),
             candidates: Vec::new(),
@@ -115,6 +118,10 @@ impl Reduction {
     /// A successor does not fit.
     pub fn expand(&self, explorer: &mut Explorer, state: &[u64], out: &mut Vec<u64>) -> Result<Expansion, Widening> {
         let start = out.len();
+        // Whoever moves first takes the inputs that an initial state keeps from all others.
+        if explorer.keeps_inputs(state) {
+            return explorer.expand(state, out);
+        }
         // Steps that are not remembered by parts are made all at once.
         let known = explorer.parts() == self.looks.len();
         for part in self.candidates.iter().filter(|_| known) {
@@ -156,7 +163,8 @@ impl Reduction {
         });
         match visited {
             Ok(Some(_)) => {}
-            Ok(None) | Err(SetTrouble::Crowded) => return Ok(None),
+            // Where whoever waits has had enough, so they have with all steps.
+            Ok(None) | Err(SetTrouble::Crowded | SetTrouble::Interrupted) => return Ok(None),
             Err(SetTrouble::Narrow(widening)) => return Err(widening),
             Err(SetTrouble::Failed(never)) => match never {},
         }
@@ -177,6 +185,9 @@ impl Reduction {
             overwrite.clear >> shift & ((1 << bits) - 1) != 0
         });
         touched.all(|field| {
+            if self.inputs[field] {
+                return true;
+            }
             assert!(!self.located[field] || self.writes[part][field], "a part writes what its text does not");
             self.is_own(part, field)
         })

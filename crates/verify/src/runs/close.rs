@@ -16,6 +16,13 @@ pub fn closed(program: &mut Program, proposition: &Proposition) -> Option<Expres
     Some(Expression { parameters: Vec::new(), frame: proposition.frame, names, body })
 }
 
+/// True, where a proposition stands.
+pub fn truth(program: &mut Program, proposition: &Proposition) -> Expression {
+    program.constants.push(Literal::Boolean(true));
+    let body = add(program, Term::Constant(program.constants.len() as u32 - 1), proposition.term);
+    Expression { parameters: Vec::new(), frame: 0, names: Vec::new(), body }
+}
+
 /// The negation of an expression.
 pub fn negated(program: &mut Program, expression: &Expression) -> Expression {
     let arguments = TermList { start: program.term_lists.len() as u32, len: 1 };

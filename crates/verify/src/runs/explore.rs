@@ -8,9 +8,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use hashbrown::HashMap;
-use machine::Value;
+use hashbrown::{HashMap, HashSet};
 use machine::explore::{Explorer, Interner, Outcome, Path, Settings, Trouble, Truth, Widening};
+use machine::{Cause, Value};
 use program::Program;
 use rustc_hash::FxBuildHasher;
 use syntax::Span;
@@ -60,7 +60,7 @@ pub struct Explored {
     /// The states.
     pub states: Vec<Box<[u64]>>,
     /// By number: for each condition on steps, whether it and its negation fail.
-    letters: Vec<Vec<u32>>,
+    pub(super) letters: Vec<Vec<u32>>,
     /// By label: what was chosen.
     pub choices: Vec<Vec<Value>>,
     /// By proposition: a state in which it is neither true nor false, if there is one.
@@ -68,7 +68,7 @@ pub struct Explored {
     /// Why it is not complete, if a limit is the reason.
     pub stop: Option<Stop>,
     /// The first of the conditions on steps that are propositions.
-    first_step: u32,
+    pub(super) first_step: u32,
 }
 
 /// A step of a state: its letter, where it leads, its label.
@@ -153,7 +153,9 @@ impl<'s> Exploration<'s> {
             if next % 4096 == 0 {
                 self.stop = self.stop.or_else(|| (!watch(&self.progress(next))).then_some(Stop::Asked));
             }
-            if (self.states.len() as u64) > self.source.max_states {
+            if let Some(cause) = self.source.settings.interrupt.cause() {
+                self.stop = Some(cause.into());
+            } else if (self.states.len() as u64) > self.source.max_states {
                 self.stop = Some(Stop::States);
             } else if self.bytes() > self.source.max_bytes {
                 self.stop = Some(Stop::Memory);
@@ -166,9 +168,15 @@ impl<'s> Exploration<'s> {
                 self.stop = Some(Stop::Depth);
                 break;
             }
-            self.expand(next)?;
+            if !self.expand(next)? {
+                let cause = self.source.settings.interrupt.cause().unwrap_or(Cause::Memory);
+                self.stop = Some(cause.into());
+                break;
+            }
             next += 1;
         }
+        // What was found is to be told, however long that takes.
+        self.explorer.ignore_interrupts();
         Ok(self.graph())
     }
 
@@ -205,7 +213,8 @@ impl<'s> Exploration<'s> {
         Some(number)
     }
 
-    fn expand(&mut self, index: usize) -> Result<(), Widening> {
+    /// False where whoever waits has had enough before all alternatives were there.
+    fn expand(&mut self, index: usize) -> Result<bool, Widening> {
         let state = self.states[index].clone();
         let depth = self.depths[index] + 1;
         let start = self.rows.len();
@@ -213,6 +222,9 @@ impl<'s> Exploration<'s> {
         if self.first_step == u32::MAX && self.source.scheduler.is_none() {
             let mut successors = Vec::new();
             let expansion = self.explorer.expand(&state, &mut successors)?;
+            if expansion.interrupted {
+                return Ok(false);
+            }
             for successor in successors.chunks_exact(self.explorer.words()) {
                 if let Some(target) = self.state(successor, depth) {
                     self.rows.push((0, target, 0));
@@ -226,14 +238,29 @@ impl<'s> Exploration<'s> {
             }
             cut = expansion.unbounded > 0;
         } else {
-            let mut paths: Vec<Path> = Vec::new();
-            self.explorer.paths(&state, &mut |path| paths.push(path))?;
+            // Of alternatives that come to the same one is kept: there may be many.
+            let (mut paths, mut seen) = (Vec::new(), HashSet::<_, FxBuildHasher>::default());
+            let scheduler = self.source.scheduler;
+            let whole = self.explorer.paths(&state, &mut |mut path| {
+                path.choices.retain(|choice| Some(choice.span) == scheduler);
+                let next = match &path.outcome {
+                    Outcome::Next(next) => Some(next.clone()),
+                    _ => None,
+                };
+                let chosen: Vec<Vec<Value>> = path.choices.iter().map(|choice| choice.values.clone()).collect();
+                if seen.insert((std::mem::discriminant(&path.outcome), next, path.failed.clone(), chosen)) {
+                    paths.push(path);
+                }
+            })?;
+            if !whole {
+                return Ok(false);
+            }
             for path in paths {
                 let letter = self.letter_of(&path);
                 match &path.outcome {
                     Outcome::Next(next) => {
                         if let Some(target) = self.state(next, depth) {
-                            let label = self.label_of(&state, &path);
+                            let label = self.label_of(&path);
                             self.rows.push((letter, target, label));
                         }
                     }
@@ -252,7 +279,7 @@ impl<'s> Exploration<'s> {
         own.sort_unstable_by_key(|(letter, ..)| *letter);
         self.ends.push(self.rows.len());
         self.cut.push(cut);
-        Ok(())
+        Ok(true)
     }
 
     /// What holds of the inputs of a step.
@@ -279,14 +306,13 @@ impl<'s> Exploration<'s> {
         next
     }
 
-    fn label_of(&mut self, state: &[u64], path: &Path) -> u32 {
+    fn label_of(&mut self, path: &Path) -> u32 {
         let Some(scheduler) = self.source.scheduler else { return 0 };
-        let told = self.explorer.tell(state, &path.picks);
-        let Some(choice) = told.choices.into_iter().find(|choice| choice.span == scheduler) else {
+        let Some(choice) = path.choices.iter().find(|choice| choice.span == scheduler) else {
             return Label::STUTTER.0;
         };
         let next = self.choices.len() as u32;
-        *self.choice.entry(choice.values).or_insert_with_key(|values| {
+        *self.choice.entry(choice.values.clone()).or_insert_with_key(|values| {
             self.choices.push(values.clone());
             next
         })
@@ -368,10 +394,8 @@ impl<'s> Exploration<'s> {
     }
 }
 
-impl Explored {
-    /// Whether a step as it was made again is one with this letter.
-    pub fn has_letter(&self, path: &Path, letter: u32) -> bool {
-        let own = path.failed.iter().filter(|condition| **condition >= self.first_step);
-        self.letters.get(letter as usize).is_none_or(|failed| own.eq(failed.iter()))
-    }
+/// Whether a step as it was made again is one with this letter.
+pub(super) fn has_letter(letters: &[Vec<u32>], first_step: u32, path: &Path, letter: u32) -> bool {
+    let own = path.failed.iter().filter(|condition| **condition >= first_step);
+    letters.get(letter as usize).is_none_or(|failed| own.eq(failed.iter()))
 }

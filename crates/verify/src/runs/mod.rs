@@ -8,10 +8,11 @@ mod close;
 mod explore;
 mod scheduler;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use machine::explore::{Outcome as Came, Path, Settings, Told, Trouble};
+use machine::explore::{Outcome as Came, Settings, Told, Trouble};
 use machine::{Location, Value};
 use program::Program;
 use syntax::Span;
@@ -23,11 +24,11 @@ use crate::temporal::checker::Checker;
 use crate::temporal::fairness::{AgentFairness, Fairness};
 use crate::temporal::formula::{Ctl, CtlFormulas, FormulaId};
 use crate::temporal::ltl::propositions;
-use crate::temporal::read::{Formula, Properties, read};
+use crate::temporal::read::{Formula, Properties, read_each};
 use crate::temporal::run::Run;
 use crate::temporal::{Verdict, decide_ctl, decide_ltl};
 use crate::trace::Trace;
-use explore::{Explored, Place, Source, explore};
+use explore::{Explored, Place, Source, explore, has_letter};
 
 pub use scheduler::scheduler;
 
@@ -46,6 +47,8 @@ pub struct Question {
     pub max_depth: u64,
     /// See there.
     pub max_bytes: u64,
+    /// One violation is enough.
+    pub first: bool,
 }
 
 /// What a property of runs comes to.
@@ -74,8 +77,8 @@ pub enum Why {
     TooLarge(&'static str, u64),
     /// Whoever watches has had enough.
     Asked,
-    /// The formula has a fault, or a value in it cannot be written down.
-    Unread,
+    /// The formula, or an assumption about runs, has a fault, or a value in it cannot be written down: what it is.
+    Unread(String),
 }
 
 /// Decides all temporal properties of a program, by their indices.
@@ -87,44 +90,65 @@ pub fn decide(
     question: &Question,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Vec<(usize, OfRuns)>, Trouble> {
+    let temporal = |kind| matches!(kind, program::PropertyKind::Ctl | program::PropertyKind::Ltl);
     let all = |why: Why| {
-        let temporal = |kind| matches!(kind, program::PropertyKind::Ctl | program::PropertyKind::Ltl);
         let formulas = program.properties.iter().enumerate().filter(|(_, property)| temporal(property.kind));
         formulas.map(|(index, _)| (index, OfRuns::Unknown(why.clone()))).collect()
     };
     if question.agents.is_some() && scheduler(program).is_none() {
         return Ok(all(Why::NoScheduler));
     }
-    let Ok(properties) = read(program) else { return Ok(all(Why::Unread)) };
-    let Some(source) = source(program, question, &properties) else { return Ok(all(Why::Unread)) };
-    let mut explored = explore(&source, watch)?;
+    let (properties, faults) = read_each(program);
+    let mut unread: BTreeMap<usize, String> = BTreeMap::new();
+    for (index, fault) in faults {
+        let what = format!("{}: {}", fault.message, fault.primary.text);
+        if !temporal(program.properties[index].kind) {
+            return Ok(all(Why::Unread(what)));
+        }
+        unread.entry(index).or_insert(what);
+    }
+    let (source, unwritten) = source(program, question, &properties);
+    let properties = match without(properties, &unwritten, &mut unread) {
+        Ok(properties) => properties,
+        Err(why) => return Ok(all(why)),
+    };
+    let unread = unread.into_iter().map(|(index, what)| (index, OfRuns::Unknown(Why::Unread(what))));
+    if properties.formulas.is_empty() {
+        return Ok(unread.collect());
+    }
+    let mut explored = match explore(&source, watch) {
+        Err(Trouble::Interrupted(cause)) => return Ok(all(Why::Unexplored(Some(cause.into())))),
+        explored => explored?,
+    };
     let fairness = fairness(&explored, &properties, question.agents);
     let progress = Progress {
         states: explored.states.len() as u64,
         transitions: explored.graph.edges() as u64,
         ..Progress::default()
     };
-    let mut stop = || !watch(&progress);
+    let interrupt = question.settings.interrupt.clone();
+    let mut stop = || interrupt.is_raised() || !watch(&progress);
     let mut budget = Budget::new(Limits::default(), &mut stop);
-    let verdicts = verdicts(&explored, &fairness, &properties, &mut budget);
+    let verdicts = verdicts(&explored, &fairness, &properties, question.first, &mut budget);
     let spans: Vec<Span> = properties.propositions.iter().map(|proposition| proposition.span(program)).collect();
-    Ok(verdicts.into_iter().map(|(index, verdict)| (index, told(verdict, &mut explored, &spans))).collect())
+    let decided = verdicts.into_iter().map(|(index, verdict)| (index, told(verdict, &mut explored, &spans)));
+    let mut all: Vec<(usize, OfRuns)> = decided.chain(unread).collect();
+    all.sort_by_key(|(index, _)| *index);
+    Ok(all)
 }
 
 fn verdicts(
     explored: &Explored,
     fairness: &Fairness,
     properties: &Properties,
+    first: bool,
     budget: &mut Budget<'_>,
-) -> Vec<(usize, Result<Verdict, usize>)> {
+) -> Vec<(usize, Option<Result<Verdict, usize>>)> {
     let checker = Checker::new(&explored.graph, fairness, budget);
     let assumed = properties.justice.iter().chain(properties.compassion.iter().flat_map(|(p, q)| [p, q]));
     let assumed_undecided = assumed.into_iter().find(|number| explored.undecided[**number].is_some());
     let decide = |formula: Formula| {
-        let speaks_of = match formula {
-            Formula::Ltl(formula) => propositions(&properties.ltl, formula),
-            Formula::Ctl(formula) => propositions_of_ctl(&properties.ctl, formula),
-        };
+        let speaks_of = speaks_of(properties, formula);
         let undecided =
             speaks_of.iter().map(|number| *number as usize).find(|number| explored.undecided[*number].is_some());
         if let Some(number) = assumed_undecided.copied().or(undecided) {
@@ -139,11 +163,17 @@ fn verdicts(
             Formula::Ctl(formula) => decide_ctl(checker, &properties.ctl, formula, budget),
         })
     };
-    let mut decide = decide;
-    properties.formulas.iter().map(|(index, formula)| (*index, decide(*formula))).collect()
+    let (mut decide, mut is_enough) = (decide, false);
+    let mut unless_enough = |formula: Formula| {
+        let verdict = (!is_enough).then(|| decide(formula));
+        is_enough |= first && matches!(verdict, Some(Ok(Verdict::Violated { .. })));
+        verdict
+    };
+    properties.formulas.iter().map(|(index, formula)| (*index, unless_enough(*formula))).collect()
 }
 
-fn told(verdict: Result<Verdict, usize>, explored: &mut Explored, propositions: &[Span]) -> OfRuns {
+fn told(verdict: Option<Result<Verdict, usize>>, explored: &mut Explored, propositions: &[Span]) -> OfRuns {
+    let Some(verdict) = verdict else { return OfRuns::Unknown(Why::Unexplored(Some(Stop::Found))) };
     match verdict {
         Err(number) => {
             let state = explored.undecided[number].map(|state| explored.states[state as usize].clone());
@@ -161,13 +191,46 @@ fn told(verdict: Result<Verdict, usize>, explored: &mut Explored, propositions: 
     }
 }
 
-/// The propositions as conditions behind those of the question.
-fn source(program: &Arc<Program>, question: &Question, properties: &Properties) -> Option<Source> {
+/// The properties that speak of nothing that cannot be written down; the others are added to those that are unread.
+fn without(
+    mut properties: Properties,
+    unwritten: &BTreeSet<u32>,
+    unread: &mut BTreeMap<usize, String>,
+) -> Result<Properties, Why> {
+    let what = "a value in it, of a set or a map, cannot be written down";
+    let assumed = properties.justice.iter().chain(properties.compassion.iter().flat_map(|(p, q)| [p, q]));
+    if assumed.into_iter().any(|number| unwritten.contains(&(*number as u32))) {
+        return Err(Why::Unread(format!("an assumption about runs: {what}")));
+    }
+    let formulas = std::mem::take(&mut properties.formulas);
+    for (index, formula) in formulas {
+        if speaks_of(&properties, formula).iter().any(|number| unwritten.contains(number)) {
+            unread.insert(index, what.to_string());
+        } else {
+            properties.formulas.push((index, formula));
+        }
+    }
+    Ok(properties)
+}
+
+/// The propositions of a formula.
+fn speaks_of(properties: &Properties, formula: Formula) -> Vec<u32> {
+    match formula {
+        Formula::Ltl(formula) => propositions(&properties.ltl, formula),
+        Formula::Ctl(formula) => propositions_of_ctl(&properties.ctl, formula),
+    }
+}
+
+/// The propositions as conditions behind those of the question; those that cannot be written down stand for nothing.
+fn source(program: &Arc<Program>, question: &Question, properties: &Properties) -> (Source, BTreeSet<u32>) {
     let mut extended = (**program).clone();
     let mut settings = question.settings.clone();
-    let mut places = Vec::new();
-    for proposition in &properties.propositions {
-        let expression = close::closed(&mut extended, proposition)?;
+    let (mut places, mut unwritten) = (Vec::new(), BTreeSet::new());
+    for (number, proposition) in properties.propositions.iter().enumerate() {
+        let expression = close::closed(&mut extended, proposition).unwrap_or_else(|| {
+            unwritten.insert(number as u32);
+            close::truth(&mut extended, proposition)
+        });
         if extended.reads_monitored(&expression) {
             places.push(Place::Step(settings.step_conditions.len()));
             let negated = close::negated(&mut extended, &expression);
@@ -177,7 +240,7 @@ fn source(program: &Arc<Program>, question: &Question, properties: &Properties) 
             settings.conditions.push(expression);
         }
     }
-    Some(Source {
+    let source = Source {
         scheduler: question.agents.and_then(|_| scheduler(&extended)),
         program: Arc::new(extended),
         settings,
@@ -186,7 +249,8 @@ fn source(program: &Arc<Program>, question: &Question, properties: &Properties) 
         max_states: question.max_states,
         max_depth: question.max_depth,
         max_bytes: question.max_bytes,
-    })
+    };
+    (source, unwritten)
 }
 
 fn fairness(explored: &Explored, properties: &Properties, agents: Option<AgentFairness>) -> Fairness {
@@ -235,8 +299,8 @@ impl Explored {
     fn trace(&mut self, run: &Run) -> Trace {
         let nodes = run.states(&self.graph);
         let first = self.states[self.nodes[nodes[0] as usize].0 as usize].clone();
-        let start = self.explorer.initial().iter().find(|(state, _)| *state == first);
-        let start = start.map(|(_, told)| told.clone()).unwrap_or_default();
+        let start = self.explorer.initial().iter().find(|(state, _)| *state == first).map(|(_, start)| *start);
+        let start = start.map(|start| self.explorer.told_of_start(start)).unwrap_or_default();
         let values = self.explorer.values(&first);
         let ends = nodes.windows(2).zip(&run.edges);
         let steps = ends.map(|(pair, edge)| self.step(pair[0], pair[1], *edge)).collect();
@@ -249,24 +313,23 @@ impl Explored {
         let target = self.states[self.nodes[to as usize].0 as usize].clone();
         let state = self.states[state as usize].clone();
         let label = self.graph.label(edge);
-        let mut paths: Vec<Path> = Vec::new();
+        let chosen = self.choices.get(label.0 as usize);
+        let (letters, first_step) = (&self.letters, self.first_step);
+        let mut picks = None;
         // A successor that does not fit was met before.
-        let _ = self.explorer.paths(&state, &mut |path| paths.push(path));
-        for path in paths {
+        let _ = self.explorer.paths_until(&state, &mut |path| {
             let leads = match &path.outcome {
                 Came::Next(next) => label != Label::STUTTER && *next == target,
                 Came::Fault(_) => label == Label::STUTTER,
                 Came::Unbounded(_) | Came::Excluded => false,
             };
-            if !leads || !self.has_letter(&path, letter) {
-                continue;
+            let is_chosen = chosen.is_none_or(|values| path.choices.iter().any(|choice| choice.values == *values));
+            if leads && is_chosen && has_letter(letters, first_step, &path, letter) {
+                picks = Some(path.picks);
+                return ControlFlow::Break(());
             }
-            let told = self.explorer.tell(&state, &path.picks);
-            let chosen = self.choices.get(label.0 as usize);
-            if chosen.is_none_or(|values| told.choices.iter().any(|choice| choice.values == *values)) {
-                return told;
-            }
-        }
-        Told::default()
+            ControlFlow::Continue(())
+        });
+        picks.map(|picks| self.explorer.tell(&state, &picks)).unwrap_or_default()
     }
 }

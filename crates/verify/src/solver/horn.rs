@@ -8,7 +8,7 @@ use std::fmt::Write;
 
 use rustc_hash::FxHashMap;
 use smt::session::{Session, Silence, Verdict, verdict};
-use smt::shared::{Node, Script, VariableId};
+use smt::shared::{Node, Script, Terms, VariableId};
 
 use crate::solver::relation::Relation;
 use crate::solver::unrolling::Patience;
@@ -40,7 +40,6 @@ fn clauses(relation: &mut Relation, wanted: Node) -> String {
     let typed = bounded(relation, &state);
     let inputs = relation.input_variables();
     let of_inputs = bounded(relation, &inputs);
-    // Initial states are reached.
     let mut later = Vec::new();
     for id in &state {
         let declared = relation.terms.variable_of(*id).clone();
@@ -49,28 +48,46 @@ fn clauses(relation: &mut Relation, wanted: Node) -> String {
     let by: FxHashMap<VariableId, Node> = state.iter().copied().zip(later.iter().copied()).collect();
     let mut made = FxHashMap::default();
     let admitted = relation.terms.replace(relation.admitted, &|id| by.get(&id).copied(), &mut made);
-    let mut begin = vec![admitted];
-    begin.extend(relation.start.map(|id| bounded(relation, &[id])));
-    for (index, later) in cone.iter().zip(&later) {
-        begin.push(relation.terms.equal(*later, relation.initial[*index]));
-    }
     let later_ids = relation.terms.variables_of(later.iter().copied());
-    let bound: Vec<VariableId> = later_ids.iter().chain(relation.start.as_slice()).copied().collect();
-    let begin = relation.terms.and(begin);
-    clause(relation, &bound, None, begin, Some(&later), &mut text);
-    // What a step leads to is reached.
-    let mut step = vec![typed, of_inputs, relation.typed, relation.admitted, relation.given, relation.goes, admitted];
+    let now = [typed, of_inputs, relation.typed, relation.admitted, relation.given];
+    let mut leads = vec![relation.goes, admitted];
     for (index, later) in cone.iter().zip(&later) {
-        step.push(relation.terms.equal(*later, relation.next[*index]));
+        leads.push(relation.terms.equal(*later, relation.next[*index]));
     }
-    let bound: Vec<VariableId> = state.iter().chain(&inputs).chain(&later_ids).copied().collect();
-    let step = relation.terms.and(step);
-    clause(relation, &bound, Some(&state), step, Some(&later), &mut text);
+    let step = relation.terms.and(now.iter().chain(&leads).copied());
+    let found = relation.terms.and(now.iter().copied().chain([wanted]));
+    let here: Vec<VariableId> = state.iter().chain(&inputs).copied().collect();
+    let all: Vec<VariableId> = here.iter().chain(&later_ids).copied().collect();
+    let start: Vec<VariableId> = relation.start.into_iter().collect();
+    let at_start = bounded(relation, &start);
+    if relation.first == Terms::TRUE {
+        // Initial states are reached.
+        let mut begin = vec![admitted, at_start];
+        for (index, later) in cone.iter().zip(&later) {
+            begin.push(relation.terms.equal(*later, relation.initial[*index]));
+        }
+        let begin = relation.terms.and(begin);
+        let bound: Vec<VariableId> = later_ids.iter().chain(&start).copied().collect();
+        clause(relation, &bound, None, begin, Some(&later), &mut text);
+    } else {
+        // The first step has inputs of its own: what it leads to is reached, and what is wanted is not found in it.
+        let mut begin = vec![at_start, relation.first];
+        for (index, id) in cone.iter().zip(&state) {
+            let now = relation.terms.known(*id);
+            begin.push(relation.terms.equal(now, relation.initial[*index]));
+        }
+        let begin = relation.terms.and(begin);
+        let leads = relation.terms.and([begin, step]);
+        let bound: Vec<VariableId> = all.iter().chain(&start).copied().collect();
+        clause(relation, &bound, None, leads, Some(&later), &mut text);
+        let found = relation.terms.and([begin, found]);
+        let bound: Vec<VariableId> = here.iter().chain(&start).copied().collect();
+        clause(relation, &bound, None, found, None, &mut text);
+    }
+    // What a step leads to is reached.
+    clause(relation, &all, Some(&state), step, Some(&later), &mut text);
     // What is wanted is not.
-    let bound: Vec<VariableId> = state.iter().chain(&inputs).copied().collect();
-    let wanted = [typed, of_inputs, relation.typed, relation.admitted, relation.given, wanted];
-    let wanted = relation.terms.and(wanted);
-    clause(relation, &bound, Some(&state), wanted, None, &mut text);
+    clause(relation, &here, Some(&state), found, None, &mut text);
     text.push_str("(check-sat)\n");
     text
 }

@@ -139,7 +139,8 @@ pub(crate) fn solve(
         (false, u64::MAX) => DEPTH,
         (false, depth) => depth,
     };
-    let mut go_on = |depth: u64| watch(&Progress { depth, ..Progress::default() });
+    let interrupt = &plan.settings.interrupt;
+    let mut go_on = |depth: u64| watch(&Progress { depth, ..Progress::default() }) && !interrupt.is_raised();
     let mut patience = Patience { seconds: if portfolio { SECONDS } else { u32::MAX }, go_on: &mut go_on, depth: 0 };
     let mut solved = Solved { solver: solver.clone(), ..Solved::default() };
     let mut pending = exact.targets.clone();

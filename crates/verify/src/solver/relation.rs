@@ -15,7 +15,7 @@ use smt::shared::{Kind, Node, Op, Terms, VariableId};
 use syntax::Span;
 
 use crate::search::{Plan, Target, widened};
-use crate::solver::encode::{Choice, Encoder, Input, Place};
+use crate::solver::encode::{Choice, Encoder, Input, InputKind, Place};
 use crate::solver::replay::Given;
 use crate::solver::symbol::{Codes, Open, Shape, Symbol, constant};
 
@@ -43,6 +43,8 @@ pub(crate) struct Relation {
     pub initial: Vec<Node>,
     pub start: Option<VariableId>,
     pub starts: Vec<Start>,
+    /// What is known of the inputs of the first step: those that the initial state has asked for are kept.
+    pub first: Node,
     /// Their values after a step.
     pub next: Vec<Node>,
     pub inputs: Vec<Input>,
@@ -185,6 +187,11 @@ impl Relation {
         let changed = encoder.terms.or(moves);
         let moves = encoder.terms.and([goes, changed]);
         let (initial, start) = initial(encoder, starts)?;
+        let first = first(encoder, starts, start);
+        let start = start.and_then(|node| match encoder.terms.op(node) {
+            Op::Variable(id) => Some(*id),
+            _ => None,
+        });
         let given = encoder.given.clone();
         let given = encoder.terms.and(given);
         let typed: Vec<Node> = encoder.places.iter().map(|place| place.typed).collect();
@@ -212,6 +219,7 @@ impl Relation {
             initial: Vec::new(),
             start,
             starts: Vec::new(),
+            first,
             next: Vec::new(),
             inputs: Vec::new(),
             choices: Vec::new(),
@@ -264,8 +272,8 @@ struct Built {
 
 fn starts(program: &Arc<Program>, plan: &Plan) -> Result<Vec<Start>, Unrelated> {
     let nowhere = Span { file: syntax::FileId(0), start: 0, end: 0 };
-    let settings =
-        Settings { limits: plan.settings.limits, bounds: Arc::clone(&plan.settings.bounds), ..Settings::default() };
+    // Conditions, too, read inputs that the initial state keeps.
+    let settings = Settings { observed: false, unordered: Arc::default(), ..plan.settings.clone() };
     let explore = |widening: &_| Explorer::new(program, settings.clone(), widening, &Arc::new(Interner::default()));
     let explorer = match widened(explore) {
         Ok(explorer) => explorer,
@@ -276,16 +284,21 @@ fn starts(program: &Arc<Program>, plan: &Plan) -> Result<Vec<Start>, Unrelated> 
         Err(trouble) => return Err(Unrelated::Trouble(trouble)),
     };
     let mut seen = BTreeSet::new();
-    let distinct: Vec<(Box<[u64]>, Told)> =
-        explorer.initial().iter().filter(|(state, _)| seen.insert(state.clone())).cloned().collect();
+    let distinct: Vec<_> =
+        explorer.initial().iter().filter(|(state, _)| seen.insert(state.clone())).map(|(_, start)| *start).collect();
     if distinct.len() > STARTS {
         let what = format!("more than {STARTS} initial states");
+        return Err(Unrelated::Outside(Outside { what, span: nowhere }));
+    }
+    if distinct.is_empty() {
+        let what = "assumptions that leave no initial state".to_string();
         return Err(Unrelated::Outside(Outside { what, span: nowhere }));
     }
     // A packed state leaves out values that are still the initial ones.
     let mut machine = Machine::new(Arc::clone(program), plan.settings.limits);
     let mut starts = Vec::new();
-    for (_, told) in distinct {
+    for start in distinct {
+        let told = explorer.told_of_start(start);
         if let Err(fault) = machine.start(&mut Given::new(&told)) {
             return Err(Unrelated::Trouble(Trouble::Fault(Box::new(fault))));
         }
@@ -313,7 +326,7 @@ fn lowered(encoder: &mut Encoder, symbol: &Symbol, place: &Place) -> Result<(Nod
 type Values = Vec<(Node, Node)>;
 
 /// By place, its value in an initial state; and the variable that says which.
-fn initial(encoder: &mut Encoder, starts: &[Start]) -> Result<(Values, Option<VariableId>), Outside> {
+fn initial(encoder: &mut Encoder, starts: &[Start]) -> Result<(Values, Option<Node>), Outside> {
     let several = starts.len() > 1;
     let bounds = (Some(0), Some(starts.len() as i128 - 1));
     let node = several.then(|| encoder.terms.variable("start", Kind::Integer, bounds));
@@ -351,11 +364,30 @@ fn initial(encoder: &mut Encoder, starts: &[Start]) -> Result<(Values, Option<Va
         }
         initial.extend(all);
     }
-    let variable = node.and_then(|node| match encoder.terms.op(node) {
-        Op::Variable(id) => Some(*id),
-        _ => None,
-    });
-    Ok((initial, variable))
+    Ok((initial, node))
+}
+
+/// By initial state, that the inputs of the first step are those which it has asked for.
+fn first(encoder: &mut Encoder, starts: &[Start], start: Option<Node>) -> Node {
+    let mut all = Vec::new();
+    for input in encoder.inputs.clone() {
+        let InputKind::Location(function, arguments, _) = input.kind else { continue };
+        let location = Location { function, arguments };
+        for (number, one) in starts.iter().enumerate() {
+            let Some((_, value)) = one.told.inputs.iter().find(|(asked, _)| *asked == location) else { continue };
+            let value = constant(&mut encoder.terms, &mut encoder.codes, value);
+            let same = encoder.terms.equal(input.variable, value);
+            all.push(match start {
+                Some(start) => {
+                    let number = encoder.terms.integer(number as i128);
+                    let here = encoder.terms.equal(start, number);
+                    encoder.terms.implies(here, same)
+                }
+                None => same,
+            });
+        }
+    }
+    encoder.terms.and(all)
 }
 
 fn least(encoder: &mut Encoder, place: &Place) -> Node {

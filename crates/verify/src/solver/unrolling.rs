@@ -53,6 +53,7 @@ impl<'r> Unrolling<'r> {
             for index in unrolling.cone.clone() {
                 unrolling.equate(relation.initial[index], 0, relation.state[index], 0);
             }
+            unrolling.assert(relation.first, 0);
         }
         unrolling
     }

@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use machine::explore::{Explorer, Interner, Met, Told, Trouble, Truth, Unbounded, Widening};
-use machine::{Location, Observation, Value};
+use machine::{Cause, Location, Observation, Value};
 use program::{DomainId, Program};
 
 use crate::check::{NoStart, Options, Reason, plan_of};
@@ -87,6 +87,8 @@ pub fn survey(
     reasons.extend(survey.explorer.unbounded().iter().copied().map(Reason::Unbounded));
     reasons.extend(options.bounds.keys().copied().map(Reason::Bounded));
     survey.reasons = reasons.into_iter().collect();
+    // What was seen is to be told, however long that takes.
+    survey.explorer.ignore_interrupts();
     Ok(survey)
 }
 
@@ -146,6 +148,11 @@ impl<'p> Surveyor<'p> {
             let state: Box<[u64]> = self.survey.table.state(next).into();
             successors.clear();
             let expansion = self.survey.explorer.expand(&state, &mut successors).map_err(Trouble::TooNarrow)?;
+            if expansion.interrupted {
+                let cause = self.plan.settings.interrupt.cause().unwrap_or(Cause::Memory);
+                self.survey.stop = Some(cause.into());
+                break;
+            }
             self.transitions += u64::from(expansion.moved);
             for seen in self.survey.explorer.sightings() {
                 let (observation, made) = (seen.observation, seen.made);
@@ -168,6 +175,9 @@ impl<'p> Surveyor<'p> {
         }
         if self.survey.table.len() as u64 >= self.plan.max_states {
             return Some(Stop::States);
+        }
+        if let Some(cause) = self.plan.settings.interrupt.cause() {
+            return Some(cause.into());
         }
         if !next.is_multiple_of(ROUND) {
             return None;

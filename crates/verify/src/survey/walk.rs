@@ -5,8 +5,8 @@
 
 use std::sync::Arc;
 
-use machine::Observation;
 use machine::explore::{Explorer, Interner, Outcome, Trouble, Truth, Widening};
+use machine::{Interrupt, Observation};
 use program::Program;
 
 use crate::check::{NoStart, Options};
@@ -77,6 +77,9 @@ impl Wanderer {
             used = widening.clone();
             Explorer::new(program, plan.settings.clone(), widening, &Arc::new(Interner::default()))
         })?;
+        let mut plan = plan;
+        // Whoever waits is asked between walks; where states turn out not to fit, initial states are made again.
+        plan.settings.interrupt = Interrupt::default();
         Ok(Wanderer { program: Arc::clone(program), plan, widening: used, explorer })
     }
 

@@ -15,7 +15,7 @@ use machine::explore::{
 use program::Program;
 use rustc_hash::FxHashSet;
 
-use crate::search::{Found, Plan, Progress, Stop, Target, widened};
+use crate::search::{Found, Plan, Progress, Stop, Target};
 use crate::symbolic::bdd::{Diagrams, Full, Set};
 use crate::symbolic::order::force;
 use crate::trace::{Trace, tell};
@@ -62,6 +62,8 @@ impl From<SetTrouble<Full>> for Halt {
         match trouble {
             SetTrouble::Narrow(widening) => Halt::Narrow(widening),
             SetTrouble::Crowded | SetTrouble::Failed(Full) => Halt::Stopped(Stop::Memory),
+            // Unless it was asked for, which is still to be seen.
+            SetTrouble::Interrupted => Halt::Stopped(Stop::Memory),
         }
     }
 }
@@ -79,19 +81,11 @@ struct Steps {
 }
 
 impl Reach {
-    /// Searches all states of a program.
+    /// Searches all states of a program; in a thread that has had no other diagrams ([`super::apart`]).
     ///
     /// # Errors
-    /// There is no initial state.
-    pub fn run(
-        program: &Arc<Program>,
-        plan: &Plan,
-        watch: &mut dyn FnMut(&Progress) -> bool,
-    ) -> Result<Reach, Trouble> {
-        widened(|widening| Reach::attempt(program, plan, widening, watch))
-    }
-
-    fn attempt(
+    /// There is no initial state, or the states do not fit.
+    pub fn attempt(
         program: &Arc<Program>,
         plan: &Plan,
         widening: &Widening,
@@ -120,7 +114,9 @@ impl Reach {
         match reach.search(plan, watch) {
             Ok(()) => {}
             Err(Halt::Narrow(widening)) => return Err(Trouble::TooNarrow(widening)),
-            Err(Halt::Stopped(stop)) => reach.stop = Some(stop),
+            Err(Halt::Stopped(stop)) => {
+                reach.stop = Some(plan.settings.interrupt.cause().map_or(stop, Stop::from));
+            }
         }
         reach.unbounded = reach.explorer.unbounded().clone();
         Ok(reach)
@@ -164,9 +160,10 @@ impl Reach {
         let mut frontier = initial.clone();
         while !self.diagrams.is_empty(&frontier) {
             while !self.diagrams.is_empty(&frontier) {
-                self.report(&reached, &frontier, watch)?;
+                self.report(plan, &reached, &frontier, watch)?;
                 let mut open = std::mem::replace(&mut frontier, self.diagrams.empty());
                 for part in 0..self.explorer.parts() {
+                    self.go_on(plan, &mut |_| true)?;
                     let steps = self.expand(&open, Some(part))?;
                     let new = self.diagrams.minus(&steps.next, &reached)?;
                     let new = self.admit(plan, new)?;
@@ -181,11 +178,25 @@ impl Reach {
             frontier = self.admit(plan, new)?;
             reached = self.diagrams.union(&reached, &frontier)?;
         }
-        self.report(&reached, &frontier, watch)?;
+        self.report(plan, &reached, &frontier, watch)?;
         Ok(reached)
     }
 
-    fn report(&mut self, reached: &Set, frontier: &Set, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<(), Halt> {
+    fn go_on(&self, plan: &Plan, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<(), Halt> {
+        match plan.settings.interrupt.cause() {
+            Some(cause) => Err(Halt::Stopped(cause.into())),
+            None if watch(&self.progress) => Ok(()),
+            None => Err(Halt::Stopped(Stop::Asked)),
+        }
+    }
+
+    fn report(
+        &mut self,
+        plan: &Plan,
+        reached: &Set,
+        frontier: &Set,
+        watch: &mut dyn FnMut(&Progress) -> bool,
+    ) -> Result<(), Halt> {
         self.progress = Progress {
             states: self.diagrams.count(reached) as u64,
             transitions: 0,
@@ -194,7 +205,7 @@ impl Reach {
             bytes: self.diagrams.nodes() as u64 * NODE,
             spilled: 0,
         };
-        if watch(&self.progress) { Ok(()) } else { Err(Halt::Stopped(Stop::Asked)) }
+        self.go_on(plan, watch)
     }
 
     /// The steps of a set: of one part, or all of them.
@@ -318,9 +329,7 @@ impl Reach {
             if targets.is_empty() {
                 break;
             }
-            if !watch(&self.progress) {
-                return Err(Halt::Stopped(Stop::Asked));
-            }
+            self.go_on(plan, watch)?;
             let steps = self.expand(&ring, None)?;
             let new = self.diagrams.minus(&steps.next, &reached)?;
             ring = self.admit(plan, new)?;
@@ -330,25 +339,33 @@ impl Reach {
         Ok(())
     }
 
-    /// A shortest run to each state found, in the order of `found`.
+    /// A shortest run to each state found, in the order of `found`. What there is no room to find the way to was not found.
     pub fn traces(&mut self) -> Vec<Trace> {
-        let found = self.found.clone();
-        found
-            .iter()
-            .map(|found| {
-                let mut chain = vec![found.state.clone()];
-                for level in (0..found.depth).rev() {
-                    let last = chain[chain.len() - 1].clone();
-                    match self.parent(level, &last) {
-                        Ok(parent) => chain.push(parent),
-                        // Without room for the way the state found is all there is to show.
-                        Err(_) => break,
-                    }
+        // What was found is to be told, however long that takes.
+        self.explorer.ignore_interrupts();
+        let mut traces = Vec::new();
+        for found in std::mem::take(&mut self.found) {
+            match self.chain(&found) {
+                Ok(chain) => {
+                    traces.push(tell(&mut self.explorer, &chain, &found));
+                    self.found.push(found);
                 }
-                chain.reverse();
-                tell(&mut self.explorer, &chain, found)
-            })
-            .collect()
+                Err(Halt::Stopped(stop)) => self.stop = Some(stop),
+                Err(Halt::Narrow(_)) => self.stop = Some(Stop::Memory),
+            }
+        }
+        traces
+    }
+
+    /// The states on the way to one.
+    fn chain(&mut self, found: &Found) -> Result<Vec<Box<[u64]>>, Halt> {
+        let mut chain = vec![found.state.clone()];
+        for level in (0..found.depth).rev() {
+            let last = chain[chain.len() - 1].clone();
+            chain.push(self.parent(level, &last)?);
+        }
+        chain.reverse();
+        Ok(chain)
     }
 
     /// A state of a level that leads to a state of the next one.

@@ -3,7 +3,7 @@
 use expect_test::{Expect, expect};
 use verify::temporal::read::{IDS, read};
 
-use crate::{lowered, model};
+use crate::formula::{lowered, model};
 
 #[allow(clippy::disallowed_methods, reason = "a test reads the pages it is about")]
 fn example(id: &str) -> String {

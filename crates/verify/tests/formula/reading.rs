@@ -2,8 +2,8 @@
 
 use expect_test::{Expect, expect};
 
-use crate::show::show;
-use crate::{lowered, model};
+use crate::formula::show::show;
+use crate::formula::{lowered, model};
 
 fn check(signature: &str, definitions: &str, expect: Expect) {
     let text = model(signature, definitions);

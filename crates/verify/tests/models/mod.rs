@@ -1,5 +1,7 @@
 //! Models of the repository, and models in a text, lowered: what tests of whole models begin with.
 
+#![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
+
 use std::path::Path;
 use std::sync::Arc;
 

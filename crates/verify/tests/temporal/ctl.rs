@@ -9,8 +9,8 @@ use verify::temporal::formula::{Ctl, CtlFormulas, FormulaId};
 use verify::temporal::run::Run;
 use verify::temporal::{Verdict, decide_ctl};
 
-use crate::naive::{fair_within, is_fair};
-use crate::random::{Constraint, Operators, Random, constraints, fairness, formula, sample};
+use crate::temporal::naive::{fair_within, is_fair};
+use crate::temporal::random::{Constraint, Operators, Random, constraints, fairness, formula, sample};
 
 pub fn decide(graph: &Graph, fairness: &Fairness, formulas: &CtlFormulas, root: FormulaId) -> Verdict {
     let mut go_on = || false;

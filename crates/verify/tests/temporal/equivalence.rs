@@ -4,8 +4,8 @@ use program::TemporalOperator as T;
 use verify::temporal::Verdict;
 use verify::temporal::formula::{CtlFormulas, FormulaId, Logic, LtlFormulas};
 
-use crate::random::{Operators, Random, constraints, fairness, formula, sample};
-use crate::{ctl, ltl};
+use crate::temporal::random::{Operators, Random, constraints, fairness, formula, sample};
+use crate::temporal::{ctl, ltl};
 
 type Pair = fn(&mut LtlFormulas, FormulaId, FormulaId) -> (FormulaId, FormulaId);
 

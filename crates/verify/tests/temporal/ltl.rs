@@ -9,8 +9,8 @@ use verify::temporal::ltl::meaning::holds_on_lasso;
 use verify::temporal::run::Run;
 use verify::temporal::{Verdict, decide_ltl};
 
-use crate::naive::{Evaluation, Word, each_lasso, is_fair, states};
-use crate::random::{Constraint, Operators, Random, constraints, fairness, formula, sample};
+use crate::temporal::naive::{Evaluation, Word, each_lasso, is_fair, states};
+use crate::temporal::random::{Constraint, Operators, Random, constraints, fairness, formula, sample};
 
 pub fn decide(graph: &Graph, fairness: &Fairness, formulas: &LtlFormulas, root: FormulaId) -> Verdict {
     let mut go_on = || false;

@@ -6,7 +6,7 @@ use verify::graph::{Graph, StateId};
 use verify::temporal::fairness::AgentFairness;
 use verify::temporal::formula::{FormulaId, Ltl, LtlFormulas};
 
-use crate::random::Constraint;
+use crate::temporal::random::Constraint;
 
 /// Whether a run that takes exactly these edges again and again is fair.
 pub fn is_fair(graph: &Graph, constraints: &[Constraint], again: &[usize]) -> bool {

@@ -3,8 +3,8 @@
 use verify::temporal::Verdict;
 use verify::temporal::formula::{CtlFormulas, LtlFormulas};
 
-use crate::random::{Operators, Random, constraints, fairness, formula, sample};
-use crate::{ctl, ltl};
+use crate::temporal::random::{Operators, Random, constraints, fairness, formula, sample};
+use crate::temporal::{ctl, ltl};
 
 #[test]
 fn a_violation_in_a_part_is_one_of_the_whole_and_a_part_never_holds() {
@@ -21,7 +21,8 @@ fn a_violation_in_a_part_is_one_of_the_whole_and_a_part_never_holds() {
         let line = formula(random, &mut linear, Operators::All, 3);
         let tree = formula(random, &mut branching, Operators::Ctl, 3);
         // An agent's ability to move is not known where its moves were not explored, so these constraints may differ.
-        let told = constraints.iter().all(|constraint| !matches!(constraint, crate::random::Constraint::Agent(..)));
+        let told =
+            constraints.iter().all(|constraint| !matches!(constraint, crate::temporal::random::Constraint::Agent(..)));
         let verdicts = [
             (ltl::decide(&whole, &whole_fairness, &linear, line), ltl::decide(&part, &part_fairness, &linear, line)),
             (

@@ -34,7 +34,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let fact = |label: &str, value: String| Fact { label: label.to_string(), value };
     program.facts.push(fact("Model", arguments.model.display().to_string()));
     for path in &arguments.runs {
-        let (recording, told) = find(path)?;
+        let (recording, told) = find(shell, path)?;
         let loaded = match load(shell, &arguments.model)? {
             Ok(loaded) => loaded,
             Err(exit) => return Ok(exit),
@@ -76,12 +76,14 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
 }
 
 /// The recording, and what else the file tells of the run.
-fn find(path: &Path) -> Result<(Recording, Told), Failure> {
+fn find(shell: &Shell, path: &Path) -> Result<(Recording, Told), Failure> {
     let is_json = path.extension().is_some_and(|extension| extension == "json");
+    crate::overwrite::note(path);
     if !is_json {
-        return Ok((read(path)?, Told::default()));
+        return Ok((read(shell, path)?, Told::default()));
     }
-    let run = world::read(path)?;
+    let limit = shell.global.limits.max_file_size;
+    let run = world::read(path, limit)?;
     let beside = |name: &str| -> PathBuf { path.parent().unwrap_or(Path::new("")).join(name) };
     let Some(log) = run.log.clone() else {
         return Err(Failure::usage_with_help(
@@ -89,7 +91,8 @@ fn find(path: &Path) -> Result<(Recording, Told), Failure> {
             "the program writes its events with `--log FILE`, and names them in the JSON of the same run",
         ));
     };
-    Ok((read(&beside(&log))?, run.told(&beside)?))
+    crate::overwrite::note(&beside(&log));
+    Ok((read(shell, &beside(&log))?, run.told(&beside, limit)?))
 }
 
 /// What tells a run from the others.
@@ -104,14 +107,16 @@ fn name(recording: &Recording, others: &[ProgramRun]) -> String {
 fn verdict_in_words(verdict: &Verdict, way: Way, recording: &Recording) -> Held {
     let (way, many) = (way.words(), |n: usize| ::report::count(n as u64));
     match verdict {
-        Verdict::Conforms { events, steps } => Held {
-            conforms: Some(true),
-            words: format!(
-                "conforms to the model {way}: {} events, {} steps of the model",
-                many(*events),
-                ::report::count(*steps)
-            ),
-        },
+        Verdict::Conforms { events, steps, after } => {
+            let after = match after {
+                0 => String::new(),
+                more => format!("; {} after the tasks were asked to stop are not compared", many(*more)),
+            };
+            let steps = ::report::count(*steps);
+            let words =
+                format!("conforms to the model {way}: {} events, {steps} steps of the model{after}", many(*events));
+            Held { conforms: Some(true), words }
+        }
         Verdict::Unknown { events, reason } => Held {
             conforms: None,
             words: format!(

@@ -8,6 +8,7 @@ use ::report::{ClosedLoop, Joint, Tally, View};
 use serde::Deserialize;
 
 use crate::failure::Failure;
+use crate::files::read_bytes;
 
 /// The file.
 #[derive(Debug, Default, Deserialize)]
@@ -81,8 +82,8 @@ pub struct Told {
 }
 
 /// Reads the file.
-pub fn read(path: &Path) -> Result<Run, Failure> {
-    let bytes = std::fs::read(path).map_err(|error| Failure::of_file("read", path, error))?;
+pub fn read(path: &Path, limit: u64) -> Result<Run, Failure> {
+    let bytes = read_bytes(path, limit)?;
     serde_json::from_slice(&bytes).map_err(|error| {
         Failure::usage_with_help(
             format!("{} is no run of a program: {error}", path.display()),
@@ -93,7 +94,7 @@ pub fn read(path: &Path) -> Result<Run, Failure> {
 
 impl Run {
     /// What it tells, with the pictures that it names.
-    pub fn told(self, beside: &dyn Fn(&str) -> PathBuf) -> Result<Told, Failure> {
+    pub fn told(self, beside: &dyn Fn(&str) -> PathBuf, limit: u64) -> Result<Told, Failure> {
         let Some(end) = &self.verdict else {
             return Ok(Told { title: self.title, note: self.note, closed_loop: None });
         };
@@ -112,7 +113,7 @@ impl Run {
             goals_s: self.goals.iter().map(|goal| goal.at_s).collect(),
             bound: self.converged_below,
             error: self.servoing.t_s.iter().copied().zip(self.servoing.error.iter().copied()).collect(),
-            views: self.views.iter().map(|picture| view(picture, beside)).collect::<Result<_, _>>()?,
+            views: self.views.iter().map(|picture| view(picture, beside, limit)).collect::<Result<_, _>>()?,
             joints: joints(&self.robot),
             image_ages: known.filter(|(_, tally)| !tally.is_empty()).collect(),
         };
@@ -127,9 +128,9 @@ fn tally(ages_ms: &[Option<f64>]) -> Tally {
     tally
 }
 
-fn view(picture: &Picture, beside: &dyn Fn(&str) -> PathBuf) -> Result<View, Failure> {
+fn view(picture: &Picture, beside: &dyn Fn(&str) -> PathBuf, limit: u64) -> Result<View, Failure> {
     let path = beside(&picture.file);
-    let png = std::fs::read(&path).map_err(|error| Failure::of_file("read", &path, error))?;
+    let png = read_bytes(&path, limit)?;
     if !png.starts_with(b"\x89PNG\r\n\x1a\n") {
         return Err(Failure::usage(format!("{} is no PNG", path.display())));
     }
@@ -160,7 +161,7 @@ mod tests {
             "robot":{"t_s":[0.1,0.2],"set_point_rad":[[1,2],[3,4]],"measured_rad":[[5,6],[7,8]]},
             "verdict":{"good":false,"words":"not converged"}}"#;
         let run: Run = serde_json::from_str(text).expect("a run");
-        let told = run.told(&|name| PathBuf::from(name)).expect("it is whole");
+        let told = run.told(&|name| PathBuf::from(name), u64::MAX).expect("it is whole");
         let world = told.closed_loop.expect("a closed loop");
         assert_eq!((world.reached, world.goals_s.as_slice()), (Some(false), [0.0, 5.0].as_slice()));
         assert_eq!(world.error, [(0.1, None), (0.2, Some(0.5))]);
@@ -174,7 +175,7 @@ mod tests {
     #[test]
     fn a_run_in_real_time_is_not_judged_by_where_it_came() {
         let run: Run = serde_json::from_str(r#"{"time":"real","verdict":{"good":false,"words":"w"}}"#).expect("a run");
-        let told = run.told(&|name| PathBuf::from(name)).expect("it is whole");
+        let told = run.told(&|name| PathBuf::from(name), u64::MAX).expect("it is whole");
         assert_eq!(told.closed_loop.and_then(|world| world.reached), None);
     }
 }

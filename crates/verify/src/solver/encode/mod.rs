@@ -278,7 +278,7 @@ impl Encoder {
 
     /// What the machine has met instead of a value.
     fn met(&mut self, fault: &Fault) -> Result {
-        if let FaultKind::Limit { .. } | FaultKind::Environment { .. } = fault.kind {
+        if let FaultKind::Limit { .. } | FaultKind::Interrupted(_) | FaultKind::Environment { .. } = fault.kind {
             return self.outside("a term that the machine does not evaluate by itself", fault.span);
         }
         self.fault(FaultClass::of(fault), Terms::TRUE);

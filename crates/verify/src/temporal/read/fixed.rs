@@ -42,10 +42,9 @@ fn is_fixed_domain(program: &Program, domain: DomainId) -> bool {
     while let Some(domain) = open.pop() {
         match &program.domain(domain).kind {
             DomainKind::Abstract { dynamic: true, .. } | DomainKind::Concrete { dynamic: true, .. } => return false,
-            DomainKind::Concrete { base: part, .. }
-            | DomainKind::Seq(part)
-            | DomainKind::Powerset(part)
-            | DomainKind::Bag(part) => open.push(*part),
+            // One that may not grow keeps its elements, whatever is added to the domain that it is a part of.
+            DomainKind::Concrete { .. } => {}
+            DomainKind::Seq(part) | DomainKind::Powerset(part) | DomainKind::Bag(part) => open.push(*part),
             DomainKind::Map(from, to) => open.extend([*from, *to]),
             DomainKind::Prod(parts) => open.extend(parts),
             _ => {}

@@ -52,8 +52,18 @@ pub enum Formula {
 /// # Errors
 /// Formulas that have no meaning.
 pub fn read(program: &Arc<Program>) -> Result<Properties, Vec<Diagnostic>> {
+    let (properties, faults) = read_each(program);
+    if !faults.is_empty() {
+        return Err(faults.into_iter().map(|(_, fault)| fault).collect());
+    }
+    Ok(properties)
+}
+
+/// The same, where those that have no meaning are left out: their faults, by the indices of their properties.
+pub fn read_each(program: &Arc<Program>) -> (Properties, Vec<(usize, Diagnostic)>) {
     let mut properties = Properties::default();
     let mut reader = Reader::new(program);
+    let mut faults = Vec::new();
     for (index, property) in program.properties.iter().enumerate() {
         let formula = match property.kind {
             PropertyKind::Ctl => reader.read(&mut properties.ctl, &property.formula).map(Formula::Ctl),
@@ -70,11 +80,10 @@ pub fn read(program: &Arc<Program>) -> Result<Properties, Vec<Diagnostic>> {
             }
             PropertyKind::Invariant | PropertyKind::Invar => None,
         };
-        properties.formulas.extend(formula.map(|formula| (index, formula)));
+        let found = reader.faults();
+        // A formula one of whose parts has a fault may be read in part.
+        properties.formulas.extend(formula.filter(|_| found.is_empty()).map(|formula| (index, formula)));
+        faults.extend(found.into_iter().map(|fault| (index, fault)));
     }
-    let (propositions, faults) = reader.finish();
-    if !faults.is_empty() {
-        return Err(faults);
-    }
-    Ok(Properties { propositions, ..properties })
+    (Properties { propositions: reader.finish(), ..properties }, faults)
 }

@@ -56,9 +56,14 @@ impl<'p> Reader<'p> {
         Reader { program, machine, propositions, known, temporal, faults: Vec::new(), depth: 0 }
     }
 
-    /// The propositions and the faults.
-    pub fn finish(self) -> (Vec<Proposition>, Vec<Diagnostic>) {
-        (self.propositions, self.faults)
+    /// The faults that were met since this was last asked.
+    pub fn faults(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.faults)
+    }
+
+    /// The propositions.
+    pub fn finish(self) -> Vec<Proposition> {
+        self.propositions
     }
 
     /// Reads a property; none where it has a fault.

@@ -3,8 +3,6 @@
 #![allow(clippy::disallowed_methods, reason = "a test runs a solver and reads the repository's own models")]
 #![allow(clippy::disallowed_macros, reason = "a test says that it has no solver")]
 
-#[path = "../models/mod.rs"]
-mod models;
 mod process;
 
 use std::path::PathBuf;
@@ -18,7 +16,7 @@ use syntax::{Severity, SourceFile};
 use verify::solver::{Left, Method, Proof};
 use verify::{Engine, NoStart, Options, Outcome, Reason, Report, Subject, verify, verify_with};
 
-use models::{Disk, lowered};
+use crate::models::{Disk, lowered};
 
 fn model(text: &str) -> Arc<Program> {
     lowered(SourceFile::new("example.asm", format!("asm example\nimport StandardLibrary\nsignature:\n{text}\n")))

@@ -1,0 +1,429 @@
+//! Whether a system and its model mean the same.
+//!
+//! In: a system, the text that it is built to, and its model's. Out: a fault for each difference, in the system's words, with
+//! both places. The two texts are compared as tables ([`Ground`]): for each element what each function is. What follows
+//! from a difference that is told (a budget from a phase's time, the order at a lock from a period) is not told again.
+//! INVARIANT: that nothing is told means that building would change neither an element, an initial value, the main rule, the
+//! program of the agents, nor the rule and the invariants that every system has. Elaborations are not looked at: they are
+//! written by hand.
+
+use std::collections::BTreeSet;
+
+use syntax::{Diagnostic, FileId, Span};
+
+use super::ground::{Given, Ground, plain};
+use crate::chart::Chart;
+use crate::fault;
+use crate::system::{Component, System};
+
+/// The differences of a chart's system and the model in a file.
+pub(super) fn compare(chart: &Chart, system: &System, file: FileId, text: &str) -> Vec<Diagnostic> {
+    let built = Ground::read(FileId(u32::MAX), &crate::build::fresh(chart));
+    let model = Ground::read(file, text);
+    let mut comparison = Comparison { system, built, model, faults: Vec::new(), told: BTreeSet::new() };
+    comparison.imports(chart);
+    comparison.elements();
+    comparison.values();
+    comparison.texts();
+    comparison.faults
+}
+
+struct Comparison<'c> {
+    system: &'c System,
+    built: Ground,
+    model: Ground,
+    faults: Vec<Diagnostic>,
+    /// Differences that were found: a function or a domain, and the element.
+    told: BTreeSet<(String, String)>,
+}
+
+/// Values from which others are computed come before these.
+const DERIVED: [&str; 5] = ["indexRead", "nextPhase", "scheduler_currentPhase", "sem_users", "task_timeForElaboration"];
+
+impl Comparison<'_> {
+    fn tell(&mut self, place: Span, message: String, model: Option<(Span, &str)>) {
+        self.faults.push(fault::system_differs(place, message, model));
+    }
+
+    /// Where a part of the model stands that is not there.
+    fn nowhere(&self) -> Option<(Span, &'static str)> {
+        self.model.name.map(|name| (name, "the model"))
+    }
+
+    fn imports(&mut self, chart: &Chart) {
+        for (path, place) in chart.imports.iter().zip(&chart.places) {
+            if !self.model.imports.contains(&plain(path)) {
+                let nowhere = self.nowhere();
+                self.tell(*place, format!("the model does not import {path}"), nowhere);
+            }
+        }
+    }
+
+    fn elements(&mut self) {
+        for (name, (domain, _)) in self.built.elements.clone() {
+            let (who, place) = self.who(&name);
+            match self.model.elements.get(&name).cloned() {
+                Some((other, _)) if other == domain => {}
+                Some((other, span)) => {
+                    self.told.insert(("element".to_string(), name.clone()));
+                    // The lock of a buffer comes and goes with it.
+                    if domain != "Semaphore" {
+                        let message =
+                            format!("{who} is a {} in the chart, a {} in the model", bare(&domain), bare(&other));
+                        self.tell(place, message, Some((span, "the model's")));
+                    }
+                }
+                None => {
+                    self.told.insert(("element".to_string(), name.clone()));
+                    let owner =
+                        name.strip_suffix("_task").or(name.strip_suffix("_wait")).or(name.strip_suffix("_lock"));
+                    let follows = owner.is_some_and(|owner| {
+                        self.built.elements.contains_key(owner)
+                            && !matches!(self.model.elements.get(owner), Some((other, _)) if *other == self.built.elements[owner].0)
+                    });
+                    if !follows {
+                        let nowhere = self.nowhere();
+                        self.tell(place, format!("{who} is not in the model"), nowhere);
+                    }
+                }
+            }
+        }
+        for domain in crate::build::system::OWNED {
+            let all = self.model.elements.iter().filter(|(name, (of, _))| {
+                of == domain && !self.built.elements.contains_key(*name) && !self.comes_with_another(name)
+            });
+            let all: Vec<(String, Span)> = all.map(|(name, (_, span))| (name.clone(), *span)).collect();
+            let Some((_, first)) = all.first().cloned() else { continue };
+            let names: Vec<String> = all.iter().map(|(name, _)| format!("`{name}`")).collect();
+            let (what, place) = (bare(domain), self.system.span);
+            let message = format!("the model has the {what} {}, the chart has not", names.join(", "));
+            self.tell(place, message, Some((first, "the model's")));
+        }
+    }
+
+    /// A task, a lock or a waiting of something that is told itself.
+    fn comes_with_another(&self, name: &str) -> bool {
+        let ends = ["_task", "_lock", "_wait"].iter().find_map(|end| name.strip_suffix(end));
+        ends.is_some_and(|owner| {
+            let (drawn, written) = (self.built.elements.get(owner), self.model.elements.get(owner));
+            written.is_some() && drawn.map(|(domain, _)| domain) != written.map(|(domain, _)| domain)
+        })
+    }
+
+    fn values(&mut self) {
+        let mut functions: Vec<String> = self.built.given.keys().chain(self.model.given.keys()).cloned().collect();
+        functions.sort_by_key(|name| (DERIVED.contains(&name.as_str()), name.clone()));
+        functions.dedup();
+        for function in functions {
+            self.function(&function);
+        }
+    }
+
+    fn function(&mut self, function: &str) {
+        let span = self.system.span;
+        let (drawn, written) = (self.built.given.get(function), self.model.given.get(function));
+        let domain = drawn.or(written).and_then(|given| match &given.domains[..] {
+            [one] => Some(one.clone()),
+            _ => None,
+        });
+        let owned = domain.filter(|domain| crate::build::system::OWNED.contains(&domain.as_str()));
+        match (drawn, written, owned) {
+            (None, Some(written), None) => {
+                let place = (written.span, "the model's");
+                self.tell(
+                    span,
+                    format!("the model gives `{function}` an initial value, the chart does not"),
+                    Some(place),
+                );
+            }
+            (Some(_), None, None) => {
+                let nowhere = self.nowhere();
+                self.tell(span, format!("the model gives `{function}` no initial value, the chart does"), nowhere);
+            }
+            (Some(drawn), Some(written), None) => {
+                let text = |given: &Given| given.otherwise.as_ref().map(|(text, _)| text.clone()).unwrap_or_default();
+                if text(drawn) != text(written) || drawn.domains != written.domains {
+                    let message =
+                        format!("`{function}` is {} in the chart, {} in the model", text(drawn), text(written));
+                    let place = (written.span, "the model's");
+                    self.tell(span, message, Some(place));
+                }
+            }
+            (_, Some(written), Some(_)) if !written.is_table || written.domains.len() != 1 => {
+                let place = (written.span, "this is no table of values");
+                let message = format!("the model gives `{function}` in a form that cannot be compared");
+                self.tell(span, message, Some(place));
+            }
+            (drawn, written, Some(domain)) => {
+                let elements = self.built.elements.iter().filter(|(_, (of, _))| *of == domain);
+                let mut rows = Vec::new();
+                for (element, _) in elements {
+                    let (in_chart, in_model) = (
+                        drawn.map_or("undef", |given| given.at(element).0).to_string(),
+                        written.map(|given| given.at(element)).map(|(text, span)| (text.to_string(), span)),
+                    );
+                    let (in_model, place) =
+                        in_model.map_or(("undef".to_string(), None), |(text, span)| (text, Some(span)));
+                    if in_chart != in_model && !self.told.contains(&("element".to_string(), element.clone())) {
+                        rows.push((element.clone(), in_chart, in_model, place));
+                    }
+                }
+                for (element, in_chart, in_model, place) in rows {
+                    self.row(function, &element, (&in_chart, &in_model), place);
+                }
+            }
+            (None, None, None) => {}
+        }
+    }
+
+    /// A function that has two values for one element.
+    fn row(&mut self, function: &str, element: &str, values: (&str, &str), model: Option<Span>) {
+        if self.follows(function, element) {
+            return;
+        }
+        self.told.insert((function.to_string(), element.to_string()));
+        let (who, place) = self.who(element);
+        let (in_chart, in_model) = values;
+        let shown = |value: &str| self.shown(function, value);
+        let offsets = (self.offset(&self.built, element), self.offset(&self.model, element));
+        let message = match function {
+            "task_periodStart" if offsets.0.is_some() && offsets.1.is_some() => {
+                let shown = |offset: Option<i64>| length(offset.unwrap_or_default(), self.system.tick_ns);
+                format!("{who}: the offset is {} in the chart, {} in the model", shown(offsets.0), shown(offsets.1))
+            }
+            "task_kind" => format!("{who} is {} in the chart, {} in the model", shown(in_chart), shown(in_model)),
+            _ => format!(
+                "{who}: {} is {} in the chart, {} in the model",
+                what(function),
+                shown(in_chart),
+                shown(in_model)
+            ),
+        };
+        let model = model.map(|span| (span, "the model's")).or(self.nowhere());
+        self.tell(place, message, model);
+    }
+
+    /// The difference is nothing but what follows from one that is told.
+    fn follows(&self, function: &str, element: &str) -> bool {
+        let told = |function: &str, element: &str| self.told.contains(&(function.to_string(), element.to_string()));
+        let missing = |element: &str| told("element", element);
+        let channel = |name: &str| self.system.channels.iter().find(|channel| channel.name == name);
+        let owner = self.owner(element);
+        match function {
+            "task_periodStart" => {
+                let drawn = self.offset(&self.built, element);
+                drawn.is_some() && drawn == self.offset(&self.model, element)
+            }
+            "task_timeForElaboration" => owner.is_some_and(|component| {
+                let phases = component
+                    .phases
+                    .iter()
+                    .any(|phase| told("time", &phase.name) || missing(&phase.name) || told("action", &phase.name));
+                let used =
+                    component.phases.iter().any(|phase| missing(&phase.subject) || told("sb_master", &phase.subject));
+                phases || used || told("task_kind", element)
+            }),
+            "task_period" => told("task_kind", element),
+            "nextPhase" | "scheduler_currentPhase" => owner.is_some_and(|component| {
+                component.phases.iter().any(|phase| missing(&phase.name))
+                    || function == "nextPhase" && self.model_has_more_phases()
+            }),
+            "indexRead" => told("dimension", element),
+            "sem_users" => element.strip_suffix("_lock").and_then(channel).is_some_and(|channel| {
+                [channel.from, channel.to].into_iter().map(|end| &self.system.components[end]).any(|end| {
+                    let task = format!("{}_task", end.name);
+                    missing(&task) || told("task_period", &task) || told("task_kind", &task)
+                })
+            }),
+            _ => false,
+        }
+    }
+
+    /// When the first cycle of a task begins: its first period is put a period before that.
+    fn offset(&self, ground: &Ground, task: &str) -> Option<i64> {
+        let number = |function: &str| number(ground.given.get(function)?.at(task).0);
+        Some(number("task_periodStart")? + number("task_period")?)
+    }
+
+    fn model_has_more_phases(&self) -> bool {
+        let phases = self.model.elements.iter().filter(|(_, (domain, _))| domain == "SchedulePhase");
+        phases.into_iter().any(|(name, _)| !self.built.elements.contains_key(name))
+    }
+
+    fn texts(&mut self) {
+        let elaborations: BTreeSet<&str> = self
+            .system
+            .components
+            .iter()
+            .flat_map(|component| &component.phases)
+            .filter_map(|phase| match &phase.action {
+                crate::system::Action::Elaborate(Some(link)) => Some(link.name.as_str()),
+                _ => None,
+            })
+            .collect();
+        let mut found = Vec::new();
+        for (name, (text, _)) in self.built.texts.iter().filter(|(name, _)| !elaborations.contains(name.as_str())) {
+            match self.model.texts.get(name) {
+                None => found.push((format!("the model has no `{name}`"), self.nowhere())),
+                Some((other, _)) if other == text => {}
+                Some((_, span)) => {
+                    found.push((format!("`{name}` is not what the chart is built to"), Some((*span, "the model's"))));
+                }
+            }
+        }
+        let agents = |ground: &Ground| -> BTreeSet<String> {
+            ground.texts.keys().filter(|name| name.starts_with("agent ")).cloned().collect()
+        };
+        for name in agents(&self.model).difference(&agents(&self.built)) {
+            let span = self.model.texts[name].1;
+            found.push((format!("the model has `{name}`, the chart has not"), Some((span, "the model's"))));
+        }
+        for (message, model) in found {
+            self.tell(self.system.span, message, model);
+        }
+    }
+
+    /// The component of a phase, or of an element that is made of a component's name.
+    fn owner(&self, element: &str) -> Option<&Component> {
+        let made = |component: &Component| {
+            [component.name.clone(), format!("{}_task", component.name), format!("{}_wait", component.name)]
+                .iter()
+                .any(|name| name == element)
+        };
+        self.system
+            .components
+            .iter()
+            .find(|component| made(component) || component.phases.iter().any(|phase| phase.name == element))
+    }
+
+    /// What an element is in the chart, and where.
+    fn who(&self, element: &str) -> (String, Span) {
+        if let Some(component) = self.owner(element) {
+            return match component.phases.iter().find(|phase| phase.name == element) {
+                Some(phase) => (format!("the phase `{element}` of the component `{}`", component.name), phase.span),
+                None if element.ends_with("_wait") && component.name != element => {
+                    (format!("the waiting of the component `{}`", component.name), component.span)
+                }
+                None => (format!("the component `{}`", component.name), component.span),
+            };
+        }
+        let bare = element.strip_suffix("_lock").unwrap_or(element);
+        let channels = || self.system.channels.iter();
+        match channels().find(|channel| channel.name == element).or(channels().find(|channel| channel.name == bare)) {
+            Some(channel) if channel.name == element => (format!("the channel `{element}`"), channel.span),
+            Some(channel) => (format!("the lock of the channel `{}`", channel.name), channel.span),
+            None => (format!("`{element}`"), self.system.span),
+        }
+    }
+
+    /// A value in the system's words.
+    fn shown(&self, function: &str, value: &str) -> String {
+        let ticks = ["task_period", "task_deadline", "task_timeForElaboration", "task_periodStart", "time"];
+        if value == "undef" {
+            return "none".to_string();
+        }
+        if let (true, Some(ticks)) = (ticks.contains(&function), number(value)) {
+            return length(ticks, self.system.tick_ns);
+        }
+        match function {
+            "sb_master" => match self.owner(value) {
+                Some(component) => format!("`{}`", component.name),
+                None => format!("the task of `{value}`"),
+            },
+            "task_kind" => value.to_lowercase(),
+            "action" => match value {
+                "ELABORATING" => "to elaborate",
+                "WAITING_TRIGGER" => "to wait",
+                "READING_FROM_SB" => "to read a swinging buffer",
+                "WRITING_ON_SB" => "to write a swinging buffer",
+                "SENDING" => "to send to a queue",
+                "RECEIVING" => "to take from a queue",
+                "STORING" => "to write a shared value",
+                "LOADING" => "to read a shared value",
+                other => other,
+            }
+            .to_string(),
+            "elaborationRule" => {
+                let name = value.split([' ', '(']).find(|word| word.starts_with("r_"));
+                format!("`{}`", name.unwrap_or(value))
+            }
+            _ if number(value).is_some() => value.replace(' ', ""),
+            _ => format!("`{}`", value.replace(" ( ", "(").replace(" ) ", ")")),
+        }
+    }
+}
+
+/// What a function tells, in the system's words.
+fn what(function: &str) -> String {
+    match function {
+        "task_period" => "the period",
+        "task_deadline" => "the deadline",
+        "task_timeForElaboration" => "the time of a cycle without waiting",
+        "task_periodStart" => "the beginning of its first period",
+        "time" => "its time",
+        "nextPhase" => "the phase behind it",
+        "action" => "what it does",
+        "sharedMemory" | "messageQueue" | "sharedValue" => "its channel",
+        "elaborationRule" => "its rule",
+        "dimension" => "the number of arrays",
+        "sb_master" => "the master",
+        "indexRead" => "the array that is read first",
+        "mq_capacity" => "the number of messages",
+        "sem_users" => "the order at the lock",
+        "scheduler_currentPhase" => "the phase it begins in",
+        other => return format!("`{other}`"),
+    }
+    .to_string()
+}
+
+/// An element of a domain.
+fn bare(domain: &str) -> &'static str {
+    match domain {
+        "Scheduler" => "component",
+        "Task" => "task",
+        "SwingingBuffer" => "swinging buffer",
+        "MessageQueue" => "queue",
+        "SharedValue" => "shared value",
+        "Semaphore" => "lock",
+        "SchedulePhase" => "phase",
+        _ => "element",
+    }
+}
+
+/// A whole number, its sign apart from it or not.
+fn number(text: &str) -> Option<i64> {
+    text.replace(' ', "").parse().ok()
+}
+
+/// So many ticks, in the largest unit in which they are a short number.
+pub(crate) fn length(ticks: i64, tick_ns: u64) -> String {
+    let nanoseconds = i128::from(ticks) * i128::from(tick_ns);
+    let units = [("s", 1_000_000_000_i128), ("ms", 1_000_000), ("us", 1_000), ("ns", 1)];
+    // Three places are enough for what somebody wrote; what needs more is shown in a smaller unit.
+    let unit = units.into_iter().find(|(_, size)| nanoseconds.abs() >= *size && nanoseconds * 1_000 % size == 0);
+    let (name, size) = unit.unwrap_or(("ms", 1_000_000));
+    let thousandths = nanoseconds * 1_000 / size;
+    let sign = if thousandths < 0 { "-" } else { "" };
+    let (whole, rest) = (thousandths.abs() / 1_000, thousandths.abs() % 1_000);
+    let digits = format!("{rest:03}");
+    let digits = digits.trim_end_matches('0');
+    let point = if digits.is_empty() { "" } else { "." };
+    format!("{sign}{whole}{point}{digits} {name}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::length;
+
+    #[test]
+    fn lengths_of_time() {
+        let shown = |ticks, tick_ns| length(ticks, tick_ns);
+        assert_eq!(shown(100, 100_000), "10 ms");
+        assert_eq!(shown(62, 100_000), "6.2 ms");
+        assert_eq!(shown(-50, 100_000), "-5 ms");
+        assert_eq!(shown(3, 100), "300 ns");
+        assert_eq!(shown(1_234_567, 1_000), "1234.567 ms");
+        assert_eq!(shown(0, 1_000), "0 ms");
+        assert_eq!(shown(2_500, 1_000_000), "2.5 s");
+    }
+}

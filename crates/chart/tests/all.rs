@@ -1,0 +1,12 @@
+//! The tests of `chart` as one program: each file of this folder is a module here, since linking takes longer than most of
+//! them run.
+
+mod agreement;
+mod exchange;
+mod geometry;
+mod pages;
+mod pictures;
+mod programs;
+mod regenerate;
+mod robust;
+mod systems;

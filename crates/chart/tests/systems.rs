@@ -1,0 +1,220 @@
+//! A system is held to its model: every change of a chart is told, in the words of the system, and what means the same is not.
+
+#![allow(clippy::disallowed_methods, reason = "a test reads the library of patterns")]
+
+use std::path::PathBuf;
+
+use chart::{Known, build, probed};
+use model::{Loader, check};
+use syntax::{Severity, SourceFile};
+
+/// The library of patterns, as `patterns/NAME`.
+struct Library;
+
+impl Loader for Library {
+    fn load(&mut self, _: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        let name = path.rsplit('/').next().unwrap_or(path);
+        let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../library/patterns/{name}.asm"));
+        let text = std::fs::read_to_string(&file).map_err(|error| error.to_string())?;
+        Ok(SourceFile::new(format!("patterns/{name}.asm"), text))
+    }
+}
+
+impl smt::Solver for Library {
+    fn solve(&mut self, _: &str) -> Result<String, String> {
+        Err("no solver is there".to_string())
+    }
+}
+
+const CELL: &str = "chart Cell
+import patterns/ControlTask
+system cell \"Cell\"
+	tick 0.1 ms
+	component camera \"Camera\" synchronous period 10 ms
+		elaborate scan 6 ms {r_scan[]}
+		write lines 0.2 ms
+	endcomponent
+	component classifier asynchronous awaits lines
+		read lines 0.1 ms
+		elaborate classify 12 ms
+		write classes 0.1 ms
+		write orders
+	endcomponent
+	component pusher synchronous period 5 ms offset 1 ms deadline 4 ms
+		read classes 0.1 ms
+		elaborate push 1 ms
+	endcomponent
+	component watcher synchronous period 20 ms
+		read orders
+		write lamp
+	endcomponent
+	component panel synchronous period 40 ms
+		read lamp
+	endcomponent
+	channel lines from camera to classifier swinging buffer 2
+	channel classes from classifier to pusher swinging buffer 3
+	channel orders from classifier to watcher queue 4
+	channel lamp from watcher to panel shared value
+endsystem
+";
+
+fn chart(text: &str) -> chart::Chart {
+    let loaded = chart::load(SourceFile::new("Cell.chart", text), &mut Library);
+    let errors: Vec<_> = loaded.diagnostics.iter().filter(|fault| fault.severity == Severity::Error).collect();
+    assert!(errors.is_empty(), "{errors:#?}");
+    loaded.chart
+}
+
+fn built(text: &str) -> String {
+    let mut drawn = chart(text);
+    let known = Known::completed(&mut drawn, "Imports.asm", &mut Library).expect("the library has no faults");
+    assert_eq!(chart::unbuilt(&drawn, &known), []);
+    build(&drawn, &known, None).expect("there was no file").text
+}
+
+/// What is told of a chart and a model.
+fn differences(text: &str, model: &str) -> Vec<String> {
+    let loaded = chart::load(SourceFile::new("Cell.chart", text), &mut Library);
+    let probed = probed(&loaded.chart, model).expect("the model parses");
+    let checked = check(SourceFile::new("Cell.asm", probed.text.as_str()), &mut Library);
+    let faults = chart::check(&loaded.chart, &probed, &checked, &mut Library);
+    faults.iter().map(|fault| format!("{}: {}", fault.id, fault.message)).collect()
+}
+
+/// The chart with one text for another, held to the model of the chart as it was.
+fn changed(from: &str, to: &str) -> Vec<String> {
+    assert!(CELL.contains(from), "{from}");
+    differences(&CELL.replacen(from, to, 1), &built(CELL))
+}
+
+fn check_change(from: &str, to: &str, expected: &[&str]) {
+    let told = changed(from, to);
+    let expected: Vec<String> = expected.iter().map(|message| format!("system-differs: {message}")).collect();
+    assert_eq!(told, expected, "`{from}` for `{to}`");
+}
+
+#[test]
+fn a_chart_and_what_it_is_built_to_agree() {
+    assert_eq!(differences(CELL, &built(CELL)), [""; 0]);
+}
+
+#[test]
+fn each_number() {
+    check_change(
+        "period 10 ms",
+        "period 40 ms",
+        &["the component `camera`: the period is 40 ms in the chart, 10 ms in the model"],
+    );
+    check_change(
+        "offset 1 ms",
+        "offset 2 ms",
+        &["the component `pusher`: the offset is 2 ms in the chart, 1 ms in the model"],
+    );
+    check_change(
+        "deadline 4 ms",
+        "deadline 3 ms",
+        &["the component `pusher`: the deadline is 3 ms in the chart, 4 ms in the model"],
+    );
+    check_change(
+        "scan 6 ms",
+        "scan 7 ms",
+        &["the phase `camera_scan` of the component `camera`: its time is 7 ms in the chart, 6 ms in the model"],
+    );
+    check_change(
+        "buffer 3",
+        "buffer 2",
+        &["the channel `classes`: the number of arrays is 2 in the chart, 3 in the model"],
+    );
+    check_change(
+        "queue 4",
+        "queue 5",
+        &["the channel `orders`: the number of messages is 5 in the chart, 4 in the model"],
+    );
+    assert!(!changed("tick 0.1 ms", "tick 0.05 ms").is_empty());
+}
+
+#[test]
+fn kinds_masters_and_order() {
+    check_change(
+        "swinging buffer 2",
+        "swinging buffer 2 master camera",
+        &["the channel `lines`: the master is `camera` in the chart, `classifier` in the model"],
+    );
+    check_change(
+        "elaborate push 1 ms",
+        "elaborate push 1 ms {r_push[]}",
+        &["the phase `pusher_push` of the component `pusher`: its rule is `r_push` in the chart, none in the model"],
+    );
+    for (from, to) in [
+        ("shared value", "queue 2"),
+        ("queue 4", "shared value"),
+        ("swinging buffer 3", "shared value"),
+        ("synchronous period 40 ms", "asynchronous awaits lamp"),
+        ("synchronous period 40 ms", "asynchronous"),
+        ("asynchronous awaits lines", "asynchronous"),
+        ("\t\twrite classes 0.1 ms\n\t\twrite orders\n", "\t\twrite orders\n\t\twrite classes 0.1 ms\n"),
+        ("read orders\n", "read orders as take\n"),
+    ] {
+        let told = changed(from, to);
+        assert!(!told.is_empty() && told.iter().all(|one| one.starts_with("system-differs")), "{from}: {told:#?}");
+    }
+}
+
+#[test]
+fn what_is_left_out_or_added() {
+    let panel = "\tcomponent panel synchronous period 40 ms\n\t\tread lamp\n\tendcomponent\n";
+    let lamp = "\tchannel lamp from watcher to panel shared value\n";
+    let less = CELL.replace(panel, "").replace(lamp, "").replace("\t\twrite lamp\n", "");
+    let told = differences(&less, &built(CELL));
+    assert!(told.iter().any(|one| one.contains("the model has the component `panel`")), "{told:#?}");
+    assert!(told.iter().any(|one| one.contains("the model has the shared value `lamp`")), "{told:#?}");
+    let told = differences(CELL, &built(&less));
+    assert!(told.iter().any(|one| one.contains("the component `panel` is not in the model")), "{told:#?}");
+    assert!(told.iter().any(|one| one.contains("the channel `lamp` is not in the model")), "{told:#?}");
+}
+
+#[test]
+fn what_means_the_same_is_not_told() {
+    let model = built(CELL);
+    // The cases turned round, the variable renamed, a comment, parentheses.
+    let drawn = "function task_period($t in Task) =\n\t\tswitch $t\n\t\t\tcase camera_task: 100";
+    assert!(model.contains(drawn), "{model}");
+    let same = model.replace("clock := clock + 1", "clock := /* on */ clock   + 1");
+    let same =
+        same.replace("function mq_capacity($q in MessageQueue) = 4", "function mq_capacity($x in MessageQueue) = (4)");
+    assert_ne!(same, model);
+    assert_eq!(differences(CELL, &same), [""; 0]);
+    // What is written by hand, and what the user adds.
+    let by_hand = model.replace(
+        "rule r_scan($c in Scheduler) = skip",
+        "rule r_scan($c in Scheduler) = r_more[]\n\trule r_more = skip",
+    );
+    assert_ne!(by_hand, model);
+    assert_eq!(differences(CELL, &by_hand), [""; 0]);
+}
+
+#[test]
+fn changes_of_the_model() {
+    let model = built(CELL);
+    for (from, to) in [
+        ("clock := clock + 1", "clock := clock + 2"),
+        ("rule r_controlTask = r_scheduler_execute[self]", "rule r_controlTask = skip"),
+        ("task_deadlinesMissed($t) = 0)", "task_deadlinesMissed($t) >= 0)"),
+        ("agent Scheduler: r_controlTask[]", "agent Scheduler: r_other[]"),
+        ("\tstatic lamp: SharedValue\n", "\tstatic lamp: SharedValue\n\tstatic lamp2: SharedValue\n"),
+        ("\tfunction clock = 0\n", "\tfunction clock = 1\n"),
+    ] {
+        let mutant = model.replacen(from, to, 1);
+        let mutant = mutant.replace("definitions:\n", "definitions:\n\trule r_other = skip\n");
+        assert!(model.contains(from), "{from}\n{model}");
+        let told = differences(CELL, &mutant);
+        assert_eq!(told.len(), 1, "{from}: {told:#?}");
+    }
+    for (from, to) in [
+        ("function sem_permits($s in Semaphore) = 1", "function sem_permits($s in Semaphore) = 2"),
+        ("function sb_pending($b in SwingingBuffer) = false", "function sb_pending($b in SwingingBuffer) = true"),
+    ] {
+        // Of each of the two buffers.
+        assert_eq!(differences(CELL, &model.replacen(from, to, 1)).len(), 2, "{from}");
+    }
+}

@@ -1,0 +1,28 @@
+//! A chart: its own faults, and those of the model that would be built of it. Whether it agrees with the model that is
+//! there, `groundstate chart check` tells.
+
+use std::path::Path;
+
+use groundstate::BuiltChart;
+use syntax::SourceFile;
+
+use super::{Seen, plural};
+use crate::failure::Failure;
+use crate::files::{Disk, present_text};
+
+/// Looks at a chart as `chart build` would.
+pub fn look(path: &Path, root: SourceFile, disk: &mut Disk) -> Result<Seen, Failure> {
+    let model = path.with_extension("asm");
+    let existing = present_text(&model, disk.limit)?;
+    let BuiltChart { chart, faults, .. } =
+        groundstate::build_chart(root, &model.display().to_string(), existing.as_deref(), disk);
+    let machines = chart.machines.len();
+    let size = match &chart.system {
+        None => format!(" ({})", plural(machines, "machine")),
+        Some(system) => {
+            let (components, channels) = (system.components.len(), system.channels.len());
+            format!(" ({}, {})", plural(components, "component"), plural(channels, "channel"))
+        }
+    };
+    Ok(Seen { faults, size, open: None })
+}

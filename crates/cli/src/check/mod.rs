@@ -1,0 +1,155 @@
+//! `groundstate check PATH…`: faults only, of whatever a project is made of.
+//!
+//! What a file is, its ending says: a model, a scenario, a chart, what a report shows, what is verified. INVARIANT: *no
+//! faults* is said of what was looked at as a whole; where a part could not be, that is said instead, and the command ends
+//! with *not known*.
+
+mod chart;
+mod specification;
+
+use std::collections::BTreeSet;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use groundstate::{Located, Suite};
+use model::Model;
+use syntax::{Diagnostic, Severity, SourceFile, Sources};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::files::has_ending;
+use crate::shell::Shell;
+use crate::wire::Answer;
+
+/// What is looked for in folders.
+const ENDINGS: [&str; 5] = ["asm", "avalla", "chart", "report.yaml", "verify.yaml"];
+
+/// Arguments of `check`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// Models (.asm), scenarios (.avalla), charts (.chart), what is shown of a model (.report.yaml) or verified
+    /// (.verify.yaml), or folders of them
+    #[arg(required = true, value_name = "PATH")]
+    paths: Vec<PathBuf>,
+    /// Treat warnings as errors
+    #[arg(long)]
+    strict: bool,
+}
+
+/// How many files had what.
+#[derive(Debug, Default, Clone, Copy)]
+struct Summary {
+    files: usize,
+    errors: usize,
+    warnings: usize,
+    /// Files of which not all could be looked at.
+    open: usize,
+}
+
+/// What was seen of a file.
+#[derive(Default)]
+struct Seen {
+    faults: Vec<Located>,
+    /// What it consists of, in parentheses.
+    size: String,
+    /// What could not be looked at, and why.
+    open: Option<String>,
+}
+
+impl Seen {
+    fn of(sources: Sources, diagnostics: Vec<Diagnostic>) -> Seen {
+        Seen { faults: vec![(sources, diagnostics)], ..Seen::default() }
+    }
+}
+
+/// Runs the command.
+pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    let mut summary = Summary::default();
+    let mut seen = BTreeSet::new();
+    let mut suite = Suite::new();
+    for path in crate::files::collect(&arguments.paths, &ENDINGS)? {
+        check_one(shell, &path, &mut summary, &mut seen, &mut suite)?;
+    }
+    if shell.json() {
+        let Summary { files, errors, warnings, .. } = summary;
+        shell.object(&Answer::Checked { files, errors, warnings })?;
+    }
+    let bad = summary.errors > 0 || arguments.strict && summary.warnings > 0;
+    Ok(match (bad, summary.open) {
+        (true, _) => Exit::Model,
+        (false, 0) => Exit::Good,
+        (false, _) => Exit::Unknown,
+    })
+}
+
+fn look(shell: &Shell, path: &Path, root: SourceFile, suite: &mut Suite) -> Result<Seen, Failure> {
+    let mut disk = shell.disk();
+    if has_ending(path, "avalla") {
+        let checked = suite.check(root, &mut disk);
+        return Ok(Seen::of(checked.sources, checked.diagnostics));
+    }
+    if has_ending(path, "chart") {
+        return chart::look(path, root, &mut disk);
+    }
+    if has_ending(path, "yaml") || has_ending(path, "yml") {
+        return specification::look(path, &root, &mut disk);
+    }
+    let checked = groundstate::check(root, &mut disk);
+    let size = size(&checked.model);
+    Ok(Seen { size, ..Seen::of(checked.sources, checked.diagnostics) })
+}
+
+fn check_one(
+    shell: &mut Shell,
+    path: &Path,
+    summary: &mut Summary,
+    seen: &mut BTreeSet<String>,
+    suite: &mut Suite,
+) -> Result<(), Failure> {
+    let root = shell.disk().root(path)?;
+    let Seen { faults, size, open } = look(shell, path, root, suite)?;
+    let (mut errors, mut warnings) = (0, 0);
+    for (sources, diagnostics) in faults {
+        // A module with faults that several files import is reported once.
+        let new: Vec<Diagnostic> = diagnostics.into_iter().filter(|found| seen.insert(key(&sources, found))).collect();
+        let count = |severity| new.iter().filter(|diagnostic| diagnostic.severity == severity).count();
+        errors += count(Severity::Error);
+        warnings += count(Severity::Warning);
+        shell.diagnostics(&sources, &new)?;
+    }
+    summary.files += 1;
+    summary.errors += errors;
+    summary.warnings += warnings;
+    summary.open += usize::from(open.is_some());
+    if let (Some(open), true) = (&open, shell.json()) {
+        shell.note(&format!("{}: {open}", path.display()))?;
+    }
+    if shell.talks() {
+        let verdict = match (errors, warnings, open) {
+            (0, 0, Some(open)) => open,
+            (0, 0, None) => "no faults".to_string(),
+            (0, _, _) => plural(warnings, "warning"),
+            (_, 0, _) => plural(errors, "error"),
+            _ => format!("{}, {}", plural(errors, "error"), plural(warnings, "warning")),
+        };
+        writeln!(shell.out(), "{}: {verdict}{size}", path.display())?;
+    }
+    Ok(())
+}
+
+fn key(sources: &Sources, diagnostic: &Diagnostic) -> String {
+    format!("{} {} {}", sources.position(diagnostic.primary.span), diagnostic.id, diagnostic.message)
+}
+
+fn size(model: &Model) -> String {
+    let functions = model.functions.iter().filter(|function| !function.library).count();
+    let rules = model.rules.len();
+    let invariants = model.properties.iter().filter(|p| p.kind == model::PropertyKind::Invariant).count();
+    format!(" ({}, {}, {})", plural(functions, "function"), plural(rules, "rule"), plural(invariants, "invariant"))
+}
+
+/// `1 rule`, `2 rules`.
+pub fn plural(count: usize, word: &str) -> String {
+    if count == 1 { format!("1 {word}") } else { format!("{count} {word}s") }
+}

@@ -1,0 +1,95 @@
+//! `groundstate new NAME`: a folder with a first model, its scenario and a page of commands that all work.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::files::write_text;
+use crate::shell::Shell;
+
+/// Arguments of `new`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The folder to make; its name is that of the model: letters, digits and _
+    name: PathBuf,
+    /// What to begin with
+    #[arg(long, value_enum, default_value_t = Template::Machine, value_name = "TEMPLATE")]
+    template: Template,
+}
+
+/// What a new folder begins with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Template {
+    /// A control-state machine with inputs
+    Machine,
+    /// Tasks at several rates, and channels between them
+    System,
+    /// A vision-based robot: a system with a camera, and its C++ program
+    Robot,
+}
+
+macro_rules! files {
+    ($folder:literal: $($name:literal),*) => {
+        &[$(($name, include_str!(concat!("../templates/", $folder, "/", $name)))),*]
+    };
+}
+
+impl Template {
+    /// Names and texts, in which NAME stands for the model's name.
+    fn files(self) -> &'static [(&'static str, &'static str)] {
+        match self {
+            Template::Machine => files!("machine": "NAME.asm", "NAME.avalla", "README.md"),
+            Template::System => files!("system": "NAME.chart", "NAME.avalla", "README.md"),
+            Template::Robot => files!("robot": "NAME.chart", "NAME.avalla", "README.md"),
+        }
+    }
+}
+
+/// Runs the command.
+pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    let folder = &arguments.name;
+    let name = name(folder)?;
+    match std::fs::read_dir(folder) {
+        Ok(mut entries) => {
+            if entries.next().is_some() {
+                let message = format!("{} is there already, and not empty", folder.display());
+                return Err(Failure::usage_with_help(message, "nothing was written; take another name"));
+            }
+        }
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {}
+        Err(error) => return Err(Failure::of_file("write", folder, error)),
+    }
+    std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
+    for (file, text) in arguments.template.files() {
+        write_text(&folder.join(file.replace("NAME", name)), &text.replace("NAME", name))?;
+    }
+    if shell.talks() {
+        let page = folder.join("README.md");
+        writeln!(shell.out(), "{}: `cd {}`, and go on with its commands", page.display(), folder.display())?;
+    }
+    Ok(Exit::Good)
+}
+
+/// The model's name, which the folder has too.
+fn name(folder: &Path) -> Result<&str, Failure> {
+    let name = folder.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let fits = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let said = |reason: &str| {
+        let message = format!("`{}` is no name for a model: {reason}", folder.display());
+        Failure::usage_with_help(message, "a letter first, then letters, digits and _: MyRobot")
+    };
+    if !name.starts_with(|c: char| c.is_ascii_alphabetic()) || !name.chars().all(fits) {
+        return Err(said("its last part is to have letters, digits and _ only"));
+    }
+    if name.len() > 64 {
+        return Err(said("it has more than 64 letters"));
+    }
+    // Imports of these lead to the built-in ones, whatever lies beside.
+    if name.to_ascii_lowercase().ends_with("library") {
+        return Err(said("the built-in libraries are called so"));
+    }
+    Ok(name)
+}

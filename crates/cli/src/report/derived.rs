@@ -1,0 +1,149 @@
+//! The report specification that a chart's system stands for: for a model that was built from it and has none of its own.
+//!
+//! In: the chart beside the model. Out: the text of a specification, as one written by hand: a lane for each component and
+//! channel, the deadlines, the picture of the system. `None`: there is no such chart, or it has no system.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use chart::Chart;
+use chart::system::{Channel, ChannelKind, Component, System, Timing};
+
+use crate::failure::Failure;
+use crate::shell::Shell;
+
+/// The chart that lies beside a specification that is not there.
+pub fn chart_beside(specification: &Path) -> PathBuf {
+    // MODEL.report.yaml, then MODEL.report.
+    specification.with_extension("").with_extension("chart")
+}
+
+/// The text of the specification for the model that is built from this chart.
+pub fn text(shell: &mut Shell, chart: &Path) -> Result<Option<String>, Failure> {
+    if !chart.is_file() {
+        return Ok(None);
+    }
+    let root = shell.disk().root(chart)?;
+    let loaded = ::chart::load(root, &mut shell.disk());
+    if groundstate::has_errors(&loaded.diagnostics) {
+        return Ok(None);
+    }
+    let name = chart.file_name().unwrap_or_default().to_string_lossy();
+    Ok(specification(&loaded.chart, &name))
+}
+
+fn specification(chart: &Chart, file: &str) -> Option<String> {
+    let system = chart.system.as_ref()?;
+    let mut out = String::new();
+    let title = if system.text.is_empty() { &system.name } else { &system.text };
+    let _ = writeln!(out, "title: {}", quoted(title));
+    let _ = writeln!(out, "note: {}", quoted(&format!("The components and channels of {file}.")));
+    let _ = writeln!(out, "tick: {} ns", system.tick_ns);
+    let longest = system.components.iter().filter_map(|component| component.timing.period()).max().unwrap_or(0);
+    let _ = writeln!(out, "window: {}", (2 * longest).max(400));
+    out.push_str(ACTIVITIES);
+    tasks(&mut out, system);
+    buffers(&mut out, system);
+    queues(&mut out, system);
+    values(&mut out, system);
+    let _ = writeln!(out, "charts: {{ {}: {{}} }}", quoted(file));
+    Some(out)
+}
+
+const ACTIVITIES: &str = "\
+activities:
+  IDLE: [idle, idle]
+  ELABORATION: [elaborating, work]
+  READ_ACCESS: [reading, read]
+  WRITE_ACCESS: [writing, write]
+  LOCK_HELD: [holding the lock, hold]
+  LOCK_WAIT: [waiting for the lock, wait]
+  MESSAGE_ACCESS: [passing a message, message]
+";
+
+fn tasks(out: &mut String, system: &System) {
+    out.push_str("tasks:\n  each:\n");
+    for component in &system.components {
+        let caption = match component.timing {
+            Timing::Synchronous { .. } => String::new(),
+            Timing::Asynchronous { awaits: Some(channel) } => {
+                format!("awaits {}", spoken(&system.channels[channel].name))
+            }
+            Timing::Asynchronous { awaits: None } => "again and again".to_string(),
+        };
+        let (id, name) = (&component.name, quoted(&name(component)));
+        let _ = writeln!(out, "    {id}: {{ name: {name}, caption: {} }}", quoted(&caption));
+    }
+    out.push_str(
+        "  terms:\n    activity: activity({})\n    period: task_period({}_task)\n    release: task_periodStart({}_task)\n    \
+         cycles: task_cycles({}_task)\n    met: task_deadlinesMet({}_task)\n    missed: task_deadlinesMissed({}_task)\n    \
+         skipped: task_skipped({}_task)\n",
+    );
+}
+
+/// The channels of a kind as the entries of a group.
+fn each(out: &mut String, system: &System, group: &str, of: impl Fn(&Channel) -> bool) -> bool {
+    let channels: Vec<&Channel> = system.channels.iter().filter(|channel| of(channel)).collect();
+    if channels.is_empty() {
+        return false;
+    }
+    let _ = writeln!(out, "{group}:\n  each:");
+    for channel in channels {
+        let end = |index: usize| quoted(&name(&system.components[index]));
+        let _ = writeln!(out, "    {}: {{ from: {}, to: {} }}", channel.name, end(channel.from), end(channel.to));
+    }
+    true
+}
+
+fn buffers(out: &mut String, system: &System) {
+    if each(out, system, "buffers", |channel| matches!(channel.kind, ChannelKind::Buffer { .. })) {
+        out.push_str(
+            "  terms:\n    arrays: dimension({})\n    writing: sb_writingArray({})\n    reading: sb_readingArray({})\n    \
+             write_index: indexWrite({})\n    read_index: indexRead({})\n    lock: sb_lockOwner({})\n    swaps: sb_swaps({})\n  \
+             counters:\n    written: sb_written({})\n    delivered: sb_delivered({})\n    overwritten: sb_overwritten({})\n    \
+             unread: sb_unread({})\n    dropped: sb_dropped({})\n",
+        );
+    }
+}
+
+fn queues(out: &mut String, system: &System) {
+    if each(out, system, "queues", |channel| matches!(channel.kind, ChannelKind::Queue { .. })) {
+        out.push_str(
+            "  terms:\n    length: mq_length({})\n    capacity: mq_capacity({})\n  counters:\n    written: mq_sent({})\n    \
+             delivered: mq_taken({})\n    refused: mq_refused({})\n",
+        );
+    }
+}
+
+/// Whether what was stored last in a shared value was read.
+fn values(out: &mut String, system: &System) {
+    let values: Vec<&Channel> = system.channels.iter().filter(|channel| channel.kind == ChannelKind::Shared).collect();
+    if values.is_empty() {
+        return;
+    }
+    out.push_str("series:\n");
+    for channel in values {
+        let ends = [channel.from, channel.to].map(|index| name(&system.components[index]));
+        let (title, caption) =
+            (quoted(&spoken(&channel.name)), quoted(&format!("{}: 1 until read by {}", ends[0], ends[1])));
+        let _ = writeln!(
+            out,
+            "  {title}: {{ caption: {caption}, value: \"if sv_isNew({}) then 1 else 0 endif\" }}",
+            channel.name
+        );
+    }
+}
+
+/// A component's name for people.
+fn name(component: &Component) -> String {
+    if component.text.is_empty() { spoken(&component.name) } else { component.text.clone() }
+}
+
+fn spoken(name: &str) -> String {
+    name.replace('_', " ")
+}
+
+/// A text as a scalar of YAML: quoted as in JSON.
+fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}

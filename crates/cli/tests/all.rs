@@ -1,0 +1,11 @@
+//! The tests of the command line as one program: each file of this folder is a module here, since linking takes longer than most of
+//! them run.
+
+mod bad_input;
+mod bench;
+mod documented;
+mod first_steps;
+mod fmt;
+mod input_pages;
+mod interrupts;
+mod transcripts;

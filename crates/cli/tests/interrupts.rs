@@ -1,0 +1,39 @@
+//! Signals while a search goes on: what it has found is told, and what it has not is unknown.
+#![cfg(unix)]
+#![allow(clippy::disallowed_methods, reason = "the test makes the files it gives to the command")]
+
+use std::io::{BufRead, BufReader, Read};
+use std::process::{Child, Command, Stdio};
+
+/// It goes on for ever, and an invariant is violated after some steps.
+const ENDLESS: &str = "asm Endless\nimport StandardLibrary\nsignature:\n\tcontrolled n: Integer\n\tcontrolled s: Seq(Integer)\n\
+                       definitions:\n\tinvariant inv_small over n: n < 5\n\tmain rule r_Main = choose $k in {1, 2} with true do \
+                       if $k = 1 then n := n + 1 else s := append(s, n) endif\n\
+                       default init s0:\n\tfunction n = 0\n\tfunction s = []\n";
+
+fn terminate(child: &Child) {
+    let told = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().expect("it starts");
+    assert!(told.success());
+}
+
+#[test]
+fn a_violation_is_told_at_once_and_signals_that_come_together_are_one() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    std::fs::write(folder.path().join("Endless.asm"), ENDLESS).expect("the file can be written");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_groundstate"));
+    command.args(["verify", "Endless.asm", "--solver", "none", "--max-memory", "2000"]).current_dir(folder.path());
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("it starts");
+    let mut output = BufReader::new(child.stdout.take().expect("it is piped"));
+    let mut line = String::new();
+    output.read_line(&mut line).expect("it is told while the search goes on");
+    assert_eq!(line, "violated  inv_small, after 5 steps\n");
+    // As GNU `timeout` does: to the process, and to its group.
+    terminate(&child);
+    terminate(&child);
+    let mut rest = String::new();
+    output.read_to_string(&mut rest).expect("text");
+    assert_eq!(child.wait().expect("it ends").code(), Some(1), "{rest}");
+    assert_eq!(rest.matches("violated  inv_small, after 5 steps, as shown above").count(), 1, "{rest}");
+    assert_eq!(rest.matches("interrupted").count(), 4, "{rest}");
+    assert!(rest.contains("(not all that can be reached)"), "{rest}");
+}

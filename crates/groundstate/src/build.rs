@@ -1,0 +1,92 @@
+//! A chart to the model that it stands for, checked as every model is before anybody gets it.
+//!
+//! In: a chart's text, the name and the present text of the model's file, and a [`Loader`]. Out: the new text, or the faults:
+//! of the chart, of what it imports, of the text that is there, of what would be built. INVARIANT: what is given as built has
+//! no errors. Faults of what would be built are told at the chart where they come from a link of it.
+
+use chart::{Built, Chart, Known, Loaded};
+use model::Loader;
+use syntax::{Diagnostic, SourceFile, Sources};
+
+use crate::{check, has_errors};
+
+/// Faults, and the texts that their places refer to.
+pub type Located = (Sources, Vec<Diagnostic>);
+
+/// A chart built, or why not.
+#[derive(Debug)]
+pub struct BuiltChart {
+    /// The chart, with the imports that it needs.
+    pub chart: Chart,
+    /// The model; none where a fault is an error.
+    pub built: Option<Built>,
+    /// Faults, those of each set of texts together.
+    pub faults: Vec<Located>,
+}
+
+/// Builds the model of a chart under a name, into the text that is there.
+pub fn build_chart(root: SourceFile, name: &str, existing: Option<&str>, loader: &mut dyn Loader) -> BuiltChart {
+    let Loaded { sources, mut chart, diagnostics } = chart::load(root.clone(), loader);
+    let whole = !has_errors(&diagnostics);
+    let mut faults = vec![(sources.clone(), diagnostics)];
+    let built = if whole { built(&root, &sources, &mut chart, name, existing, loader, &mut faults) } else { None };
+    faults.retain(|(_, found)| !found.is_empty());
+    BuiltChart { chart, built, faults }
+}
+
+fn built(
+    root: &SourceFile,
+    sources: &Sources,
+    chart: &mut Chart,
+    name: &str,
+    existing: Option<&str>,
+    loader: &mut dyn Loader,
+    faults: &mut Vec<Located>,
+) -> Option<Built> {
+    let folder = root.name.rfind(['/', '\\']).map_or("", |end| &root.name[..=end]);
+    let known = match Known::completed(chart, &format!("{folder}Imports.asm"), loader) {
+        Ok(known) => known,
+        Err(unknown) => {
+            faults.push((sources.clone(), unknown.imports));
+            faults.push((unknown.checked.sources, unknown.modules));
+            return None;
+        }
+    };
+    let unbuilt = chart::unbuilt(chart, &known);
+    if !unbuilt.is_empty() {
+        faults.push((sources.clone(), unbuilt));
+        return None;
+    }
+    let built = match chart::build(chart, &known, existing) {
+        Ok(built) => built,
+        Err(found) => {
+            let mut there = Sources::default();
+            there.add(SourceFile::new(name, existing.unwrap_or_default()));
+            faults.push((there, found));
+            return None;
+        }
+    };
+    let found = faults_of(root, chart, name, &built.text, loader);
+    let good = found.1.is_empty();
+    faults.push(found);
+    good.then_some(built)
+}
+
+/// The errors of a text that was built.
+fn faults_of(root: &SourceFile, chart: &Chart, name: &str, text: &str, loader: &mut dyn Loader) -> Located {
+    let mut checked = check(SourceFile::new(name, text), loader);
+    if !has_errors(&checked.diagnostics) {
+        return (checked.sources, Vec::new());
+    }
+    let Ok(probed) = chart::probed(chart, text) else {
+        return (checked.sources, checked.diagnostics);
+    };
+    checked = check(SourceFile::new(name, probed.text.as_str()), loader);
+    // The chart's own places, beside those of what is built.
+    let loaded = chart::load_beside(std::mem::take(&mut checked.sources), root.clone(), loader);
+    checked.sources = loaded.sources;
+    let mut placed = loaded.chart;
+    placed.imports.clone_from(&chart.imports);
+    let faults = chart::built_faults(&placed, &probed, &checked);
+    (checked.sources, faults)
+}

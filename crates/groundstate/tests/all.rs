@@ -1,0 +1,13 @@
+//! The tests of `groundstate` as one program: each file of this folder is a module here, since linking takes longer than most of
+//! them run.
+
+mod decision;
+mod invariants;
+mod pages;
+mod picks;
+mod review;
+mod scenarios;
+mod systems;
+mod test_generation;
+mod verification;
+mod verified_systems;

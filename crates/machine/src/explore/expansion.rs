@@ -1,0 +1,79 @@
+//! What the alternatives of a state come to, counted.
+//!
+//! In: what became of each alternative. Out: how many came to what, and the states that they lead to. INVARIANT: alternatives are
+//! counted one by one, whether they lead to one state or to many.
+
+use crate::explore::explorer::Kind;
+use crate::explore::sets::Overwrite;
+use crate::explore::successors::Successors;
+
+/// What the alternatives of a state came to, all together.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Expansion {
+    /// Alternatives that change the state.
+    pub moved: u32,
+    /// Alternatives that leave it as it is.
+    pub stayed: u32,
+    /// Alternatives that are faults, by [`crate::explore::FaultClass`].
+    pub faults: [u32; 3],
+    /// Alternatives that cannot be gone through.
+    pub unbounded: u32,
+    /// Alternatives in which a condition on the step does not hold.
+    pub failed: u32,
+    /// Which conditions these are, a bit each; the highest stands for all from [`Expansion::TOLD`] on.
+    pub failing: u64,
+    /// Alternatives that an assumption leaves out.
+    pub excluded: u32,
+    /// Whoever waits has had enough: there may be more alternatives.
+    pub interrupted: bool,
+}
+
+impl Expansion {
+    /// LIMIT: so many conditions on steps are told apart.
+    pub const TOLD: usize = 63;
+
+    /// Whether a condition on the step is one of those that do not hold of some alternative, or may be where that many are not told
+    /// apart.
+    pub fn may_fail(&self, condition: usize) -> bool {
+        self.failing >> condition.min(Expansion::TOLD) & 1 == 1
+    }
+
+    /// Counts an alternative of which these conditions do not hold.
+    #[cold]
+    pub(super) fn fail(&mut self, conditions: &[u32]) {
+        self.failed += 1;
+        self.failing |=
+            conditions.iter().fold(0, |bits, condition| bits | 1 << (*condition as usize).min(Expansion::TOLD));
+    }
+
+    /// Counts an alternative, and lists what it leads to.
+    #[inline]
+    pub(super) fn count(&mut self, kind: Kind, state: &[u64], overwrites: &[Overwrite], found: &mut Successors<'_>) {
+        match kind {
+            Kind::Next => {
+                let out = found.room(state.len());
+                let start = out.len();
+                out.extend_from_slice(state);
+                apply(overwrites, &mut out[start..]);
+                // Word by word: a call to compare memory takes longer than a state of few words.
+                if out[start..].iter().zip(state).all(|(next, word)| next == word) {
+                    out.truncate(start);
+                    self.stayed += 1;
+                } else {
+                    self.moved += 1;
+                }
+            }
+            Kind::Fault(class) => self.faults[class as usize] += 1,
+            Kind::Unbounded => self.unbounded += 1,
+            Kind::Excluded => self.excluded += 1,
+        }
+    }
+}
+
+#[inline]
+pub(super) fn apply(overwrites: &[Overwrite], words: &mut [u64]) {
+    for Overwrite { word, clear, set } in overwrites {
+        let word = &mut words[*word as usize];
+        *word = *word & !clear | set;
+    }
+}

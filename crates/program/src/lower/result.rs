@@ -1,0 +1,148 @@
+//! `l <- R(t)`: the body of R with the location l in the place of `result` (Börger & Stärk 2003, section 4.1.2).
+//!
+//! An update of `result` is then an update of l: within a `seq` a later one of l takes its place, and what reads `result` reads
+//! l. The arguments of l are evaluated once, where the rule is called, and passed to a procedure of its own for l's function.
+//! Most bodies need none: where nothing in them tells the difference, they write `result`, and the machine makes an update of l
+//! of that at the end of the call. INVARIANT: the two ways come to the same. What runs through a rule value, or as an agent's
+//! program, always writes `result`; so does a rule whose result goes to a local function.
+
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
+use model::{Basic, DomainKind, FunctionId, FunctionKind, RuleId, RuleKind, RuleNode, Target, Term, TermKind};
+use syntax::Span;
+
+use crate::ir::{self, Slot, TermList};
+use crate::lower::Lowering;
+
+/// The location in the place of `result` in the body being lowered: its function, and the slots of its arguments.
+#[derive(Debug, Clone)]
+pub(super) struct Place {
+    pub function: FunctionId,
+    pub slots: Vec<Slot>,
+}
+
+/// What stands in the place of `result` in a rule that is called.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum InPlace {
+    /// Nothing: it writes `result`.
+    Nothing,
+    /// What stands there in the rule that calls it.
+    AsAround,
+    /// A location, with the terms of its arguments.
+    Location(FunctionId, TermList),
+}
+
+/// What a rule does and reads, with all that it calls.
+#[derive(Debug, Default)]
+pub(super) struct Reach {
+    writes_result: bool,
+    reads_result: bool,
+    /// Something comes after something else.
+    has_sequence: bool,
+    /// It runs what only a run shows.
+    runs_values: bool,
+    functions: BTreeSet<FunctionId>,
+}
+
+impl<'m> Lowering<'m, '_> {
+    /// The location that is meant by a function without arguments, where that is `result` and a location stands in its place.
+    pub(super) fn in_place_of(&mut self, function: FunctionId, span: Span) -> Option<(FunctionId, TermList)> {
+        if Some(function) != self.program.result_function {
+            return None;
+        }
+        let Place { function, slots } = self.place.clone()?;
+        let domains = &self.model.function(function).parameters;
+        let terms: Vec<_> =
+            slots.iter().zip(domains).map(|(slot, domain)| self.term(ir::Term::Slot(*slot), *domain, span)).collect();
+        Some((function, self.term_list(&terms)))
+    }
+
+    /// Whether the body of a rule has to be given a location of this function.
+    pub(super) fn needs_place(&mut self, rule: RuleId, function: FunctionId) -> bool {
+        let declared = self.model.function(function);
+        // What the environment holds is not written; and the called rule knows no local function but its own, even if that is
+        // the same one.
+        if matches!(declared.kind, FunctionKind::Monitored | FunctionKind::Local) {
+            return false;
+        }
+        let restricted = matches!(
+            self.model.domains.kind(declared.codomain),
+            DomainKind::Basic(Basic::Natural) | DomainKind::Concrete { .. }
+        );
+        let reach = self.reach(rule);
+        let told_apart = restricted || reach.runs_values || reach.functions.contains(&function);
+        reach.reads_result || reach.writes_result && reach.has_sequence && told_apart
+    }
+
+    /// Whether a rule writes or reads `result`.
+    pub(super) fn uses_result(&mut self, rule: RuleId) -> bool {
+        let reach = self.reach(rule);
+        reach.writes_result || reach.reads_result
+    }
+
+    fn reach(&mut self, rule: RuleId) -> Rc<Reach> {
+        if let Some(known) = self.reaches.get(&rule) {
+            return Rc::clone(known);
+        }
+        let mut reach = Reach::default();
+        let (mut open, mut met) = (vec![rule], BTreeSet::from([rule]));
+        while let Some(next) = open.pop() {
+            self.model.rule(next).body.walk(&mut |node| {
+                reach.has_sequence |= matches!(
+                    node.kind,
+                    RuleKind::Seq(_)
+                        | RuleKind::Iterate(_)
+                        | RuleKind::While { .. }
+                        | RuleKind::RecursiveWhile { .. }
+                        | RuleKind::Local { .. }
+                );
+                reach.runs_values |= matches!(node.kind, RuleKind::RunValue { .. } | RuleKind::RunAgent { .. });
+                if let Some(called) = called(node).filter(|called| met.insert(*called)) {
+                    open.push(called);
+                }
+                if let Some(function) = written(node) {
+                    reach.writes_result |= Some(function) == self.program.result_function;
+                    reach.functions.insert(function);
+                }
+                node.terms(&mut |term| self.reach_of_term(term, &mut reach));
+            });
+        }
+        let reach = Rc::new(reach);
+        self.reaches.insert(rule, Rc::clone(&reach));
+        reach
+    }
+
+    /// Adds what a term reads, through the definitions it uses.
+    fn reach_of_term(&self, term: &'m Term, reach: &mut Reach) {
+        let mut open = vec![term];
+        while let Some(next) = open.pop() {
+            next.walk(&mut |term| {
+                let TermKind::Apply { function, .. } = &term.kind else { return };
+                reach.reads_result |= Some(*function) == self.program.result_function;
+                if reach.functions.insert(*function)
+                    && let Some(definition) = &self.model.function(*function).definition
+                {
+                    open.push(&definition.body);
+                }
+            });
+        }
+    }
+}
+
+/// The rule that a rule calls.
+fn called(node: &RuleNode) -> Option<RuleId> {
+    match &node.kind {
+        RuleKind::MacroCall(call) | RuleKind::TurboCall(call) | RuleKind::Return { call, .. } => Some(call.rule),
+        _ => None,
+    }
+}
+
+/// The function that a rule writes a location of; of a parameter's the argument of the call says it.
+fn written(node: &RuleNode) -> Option<FunctionId> {
+    match &node.kind {
+        RuleKind::Update { target: Target::Location { function, .. }, .. }
+        | RuleKind::Return { target: Target::Location { function, .. }, .. } => Some(*function),
+        _ => None,
+    }
+}

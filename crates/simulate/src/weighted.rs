@@ -1,0 +1,125 @@
+//! Random inputs by weight: `--weight 'emergency=true:1,false:99'`.
+//!
+//! In: for a function, or for one location of it, values and how often each is to come compared with the others. Values not
+//! named never come. What is drawn depends on seed, step and location alone, as of [`RandomSource`](crate::RandomSource).
+
+use machine::{LocationRef, Value};
+use program::{FunctionId, FunctionKind, Program};
+
+use crate::constants::{read_input, split};
+use crate::inputs::{Ask, Source};
+use crate::random::{SplitMix, location_key_of};
+use crate::read::read_value;
+
+/// Values and their weights.
+#[derive(Debug, Clone)]
+pub struct Weighted {
+    seed: u64,
+    rules: Vec<Rule>,
+}
+
+#[derive(Debug, Clone)]
+struct Rule {
+    function: FunctionId,
+    /// None: all locations of the function.
+    arguments: Option<Vec<Value>>,
+    values: Vec<(Value, u64)>,
+    total: u64,
+}
+
+impl Weighted {
+    /// Draws by a seed; no weights yet.
+    pub fn new(seed: u64) -> Self {
+        Weighted { seed, rules: Vec::new() }
+    }
+
+    /// Adds `location=value:weight,value:weight`; a function's name alone stands for all its locations.
+    ///
+    /// # Errors
+    /// A sentence for the user: no such input or value, no weight, or none above 0.
+    pub fn add(&mut self, program: &Program, text: &str) -> Result<(), String> {
+        let form =
+            || format!("`{text}` is not of the form location=value:weight,value:weight, such as stop=true:1,false:99");
+        let (location, values) = split(text).ok_or_else(form)?;
+        let location = location.trim();
+        let takes = |kind| matches!(kind, FunctionKind::Monitored | FunctionKind::Shared);
+        let named = program.functions.iter().position(|f| f.name == location && takes(f.kind) && !f.library);
+        let (function, arguments) = match named {
+            Some(index) => (FunctionId(index as u32), None),
+            None => {
+                let location = read_input(program, location)?;
+                (location.function, Some(location.arguments))
+            }
+        };
+        let codomain = program.function(function).codomain;
+        let mut rule = Rule { function, arguments, values: Vec::new(), total: 0 };
+        for part in parts(values) {
+            let (value, weight) = part.rsplit_once(':').ok_or_else(form)?;
+            let weight: u32 =
+                weight.trim().parse().map_err(|_| format!("`{}` is no weight: write a whole number", weight.trim()))?;
+            rule.values.push((read_value(program, codomain, value.trim())?, u64::from(weight)));
+            rule.total += u64::from(weight);
+        }
+        if rule.total == 0 {
+            return Err("one weight at least is to be above 0".to_string());
+        }
+        // One location's own weights come before those of its function.
+        let at = if rule.arguments.is_some() { 0 } else { self.rules.len() };
+        self.rules.insert(at, rule);
+        Ok(())
+    }
+
+    fn rule(&self, location: LocationRef<'_>) -> Option<&Rule> {
+        self.rules.iter().find(|rule| {
+            let all = || rule.arguments.as_deref().is_none_or(|arguments| arguments == location.arguments);
+            rule.function == location.function && all()
+        })
+    }
+}
+
+/// At the commas outside of brackets and quotes.
+fn parts(text: &str) -> Vec<&str> {
+    let (mut depth, mut quoted, mut from) = (0, false, 0);
+    let mut parts = Vec::new();
+    for (at, c) in text.char_indices() {
+        match c {
+            '"' => quoted = !quoted,
+            '(' | '[' | '{' | '<' if !quoted => depth += 1,
+            ')' | ']' | '}' | '>' if !quoted => depth -= 1,
+            ',' if !quoted && depth == 0 => {
+                parts.push(&text[from..at]);
+                from = at + 1;
+            }
+            _ => {}
+        }
+    }
+    parts.push(&text[from..]);
+    parts
+}
+
+impl Source for Weighted {
+    fn input(&mut self, ask: &Ask<'_>) -> Result<Option<Value>, String> {
+        let Some(rule) = self.rule(ask.location) else { return Ok(None) };
+        let name = &ask.program.function(ask.location.function).name;
+        let key = location_key_of(name, ask.program, ask.location.arguments);
+        let mut at = SplitMix::stream(self.seed, ask.step, key).below(rule.total);
+        for (value, weight) in &rule.values {
+            match at.checked_sub(*weight) {
+                Some(rest) => at = rest,
+                None => return Ok(Some(value.clone())),
+            }
+        }
+        Ok(None)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::parts;
+
+    #[test]
+    fn values_may_have_commas() {
+        assert_eq!(parts("true:1,false:99"), ["true:1", "false:99"]);
+        assert_eq!(parts("(1,2):1,\"a,b\":3,[4,5]:6"), ["(1,2):1", "\"a,b\":3", "[4,5]:6"]);
+    }
+}

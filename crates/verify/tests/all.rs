@@ -1,0 +1,18 @@
+//! The tests of `verify` as one program: each file of this folder is a module here, since linking takes longer than most of
+//! them run.
+
+mod checkpoint;
+mod disk;
+mod exploration;
+mod first_step;
+mod formula;
+mod interrupt;
+mod models;
+mod partial_order;
+mod reference;
+mod runs;
+mod solver;
+mod storage;
+mod symbolic;
+mod symmetry;
+mod temporal;
