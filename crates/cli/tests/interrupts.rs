@@ -11,8 +11,10 @@ const ENDLESS: &str = "asm Endless\nimport StandardLibrary\nsignature:\n\tcontro
                        if $k = 1 then n := n + 1 else s := append(s, n) endif\n\
                        default init s0:\n\tfunction n = 0\n\tfunction s = []\n";
 
+/// As GNU `timeout` does, which signals the process and its group: two at once.
 fn terminate(child: &Child) {
-    let told = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().expect("it starts");
+    let id = child.id().to_string();
+    let told = Command::new("kill").args(["-TERM", &id, &id]).status().expect("it starts");
     assert!(told.success());
 }
 
@@ -27,8 +29,6 @@ fn a_violation_is_told_at_once_and_signals_that_come_together_are_one() {
     let mut line = String::new();
     output.read_line(&mut line).expect("it is told while the search goes on");
     assert_eq!(line, "violated  inv_small, after 5 steps\n");
-    // As GNU `timeout` does: to the process, and to its group.
-    terminate(&child);
     terminate(&child);
     let mut rest = String::new();
     output.read_to_string(&mut rest).expect("text");
