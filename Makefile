@@ -33,7 +33,7 @@ timed-%:
 full: ## what is slow and rarely breaks, beside `make test`: larger samples, sanitizers, all robots, proofs, mutants
 	@$(TIMED) --begin
 	$(MAKE) --no-print-directory test
-	GROUNDSTATE_FULL=1 $(LINTED) $(CARGO) test --workspace --locked
+	GROUNDSTATE_FULL=1 $(LINTED) $(CARGO) test --workspace --locked --no-fail-fast
 	$(MAKE) --no-print-directory verify cpp-full robot-full mutants
 	@$(TIMED)
 
@@ -53,7 +53,7 @@ lint: $(TESTED)
 
 unit: $(TESTED)
 	sh cpp/install.sh z3 cvc5 clang
-	$(LINTED) $(CARGO) test --workspace --locked
+	$(LINTED) $(CARGO) test --workspace --locked --no-fail-fast
 
 scenarios: $(TESTED)
 	$(TESTED) check $(MODELS) library/verification
