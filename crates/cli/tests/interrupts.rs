@@ -14,7 +14,8 @@ const ENDLESS: &str = "asm Endless\nimport StandardLibrary\nsignature:\n\tcontro
 /// As GNU `timeout` does, which signals the process and its group: two at once.
 fn terminate(child: &Child) {
     // The shell's own `kill`: a program of that name is not on every machine.
-    let told = Command::new("sh").args(["-c", "kill -TERM $0 $0", &child.id().to_string()]).status().expect("it starts");
+    let told =
+        Command::new("sh").args(["-c", "kill -TERM $0 $0", &child.id().to_string()]).status().expect("it starts");
     assert!(told.success());
 }
 
