@@ -53,7 +53,7 @@ lint: $(TESTED)
 
 unit: $(TESTED)
 	sh cpp/install.sh z3 cvc5 clang
-	$(LINTED) $(CARGO) test --workspace --locked --no-fail-fast
+	MAKEFLAGS= $(LINTED) $(CARGO) test --workspace --locked --no-fail-fast
 
 scenarios: $(TESTED)
 	$(TESTED) check $(MODELS) library/verification
