@@ -51,9 +51,9 @@ visual_servoing() {
     punctual
     recorded converged
     [ -s "$out/run.mcap" ] || fail "no log"
-    # The same bytes each time.
+    # The same bytes each time; one of them is the log's name.
     cp "$out/run.json" "$out/first.json"
-    expect 0 visual_servoing --virtual 5s --run "$out/run.json"
+    expect 0 visual_servoing --virtual 5s --run "$out/run.json" --log "$out/run.mcap"
     cmp "$out/first.json" "$out/run.json" || fail "another run for the same seed"
     expect 1 visual_servoing --virtual 300ms
     said "not converged"
