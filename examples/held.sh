@@ -27,11 +27,33 @@ hold() {
     }
 }
 
+# exchanged EVENT LOG WRONG: writes the log with the two arrays of an event exchanged, and checksums that are right.
+exchanged() {
+    python3 -c '
+import re, struct, sys, zlib
+event, log, wrong = sys.argv[1:]
+data = bytearray(open(log, "rb").read())
+found = re.search(re.escape(event.encode()) + rb"(\d),\"next\":(\d)", data)
+assert found, "no such event"
+data[found.start(1)], data[found.start(2)] = data[found.start(2)], data[found.start(1)]
+at = 8
+while at < len(data) - 8:
+    kind, length = data[at], struct.unpack_from("<Q", data, at + 1)[0]
+    if kind == 6:
+        name = struct.unpack_from("<I", data, at + 9 + 28)[0]
+        records = at + 9 + 28 + 4 + name + 8
+        struct.pack_into("<I", data, at + 9 + 24, zlib.crc32(data[records:at + 9 + length]))
+    if kind == 15:
+        struct.pack_into("<I", data, at + 9, zlib.crc32(data[:at]))
+    at += 9 + length
+open(wrong, "wb").write(data)
+' "$@"
+}
+
 visual_servoing() {
     record visual_servoing --virtual 2s
     hold 0 visual_servoing/ControllerSystem.asm run.mcap "conforms by the order of events"
-    LC_ALL=C sed 's/\("kind":"swaps","object":"vs_to_robot","number":9,"array":\)\(.\)\(,"next":\)\(.\)/\1\4\3\2/' \
-        "$out/run.mcap" >"$out/wrong.mcap"
+    exchanged '"kind":"swaps","object":"vs_to_robot","number":9,"array":' "$out/run.mcap" "$out/wrong.mcap"
     hold 1 visual_servoing/ControllerSystem.asm wrong.mcap "visual_servoing did: swaps vs_to_robot, number 9"
     record visual_servoing --virtual 1s --dropped --slow --occlusion --noise
     hold 0 visual_servoing/ControllerSystem.asm run.mcap "conforms by the order of events"
