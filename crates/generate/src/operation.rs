@@ -3,7 +3,7 @@
 //! On scalars each is an operator or a function of `machine/numbers.hpp`; on dynamic values the function of
 //! `machine/library.hpp` that has the operation's name.
 
-use program::{Builtin, TermId, TermList};
+use program::{Builtin, Cpp, Operands, TermId, TermList};
 
 use cpp_names::{identifier, snake};
 
@@ -194,50 +194,40 @@ impl Generator<'_> {
                 let text = between(&operands[0], symbol, &operands[1]);
                 Some(truth(text, pure))
             }
-            IntNeg | IntAdd | IntSub | IntMul | IntMod | IntMin | IntMax | IntAbs | IntQuotient | IntPower
-            | IntToNat
-                if integers =>
-            {
-                let name = integer_function(builtin)?;
-                let operands = operands(Type::Integer);
-                let Some((outcome, symbol)) = arithmetic(builtin, codes) else {
-                    return called(name, operands, Type::Integer);
-                };
-                let code = match symbol {
-                    Some(symbol) if outcome.safe => {
-                        let known = |index: usize| Code { text: operands[index].clone(), ..codes[index].clone() };
-                        Code::defined(beside(&known(0), symbol, &known(1)), Type::Integer)
-                    }
-                    _ => called(name, operands, Type::Integer)?,
-                };
-                Some(Code { pure: pure && outcome.safe, ..code.within(outcome.interval) })
-            }
             NatToInt if integers => {
                 let operand = codes[0].clone();
                 let range = operand.range;
                 let text = self.convert(operand, Type::Integer, true, site);
                 Some(Code { text, ty: Type::Integer, defined: true, pure, range })
             }
-            IntDiv if integers => called("divide", operands(Type::Integer), Type::Real),
-            RealNeg | RealAdd | RealSub | RealMul | RealDiv | RealMin | RealMax | RealAbs | RealPower | Sqrt
-                if numbers =>
-            {
-                called(real_function(builtin)?, operands(Type::Real), Type::Real)
-            }
-            Floor | Round | RealToInt | RealToNat if numbers => {
-                let name = match builtin {
-                    Floor => "floor",
-                    Round => "round",
-                    RealToInt => "truncate",
-                    _ => "truncate_natural",
-                };
-                called(name, operands(Type::Real), Type::Integer)
-            }
             IntToReal | NatToReal if numbers => {
                 let operands = operands(Type::Real);
                 Some(Code { pure, ..Code::defined(operands[0].clone(), Type::Real) })
             }
-            _ => None,
+            _ => {
+                let (name, result) = match builtin.info().cpp {
+                    Cpp::Integer(name) => (name, Type::Integer),
+                    Cpp::Real(name) => (name, Type::Real),
+                    Cpp::Other => return None,
+                };
+                match builtin.info().operands {
+                    Operands::Integers(_) if integers => {}
+                    Operands::Reals(_) if numbers => return called(name, operands(Type::Real), result),
+                    _ => return None,
+                }
+                let operands = operands(Type::Integer);
+                let Some((outcome, symbol)) = arithmetic(builtin, codes) else {
+                    return called(name, operands, result);
+                };
+                let code = match symbol {
+                    Some(symbol) if outcome.safe => {
+                        let known = |index: usize| Code { text: operands[index].clone(), ..codes[index].clone() };
+                        Code::defined(beside(&known(0), symbol, &known(1)), result)
+                    }
+                    _ => called(name, operands, result)?,
+                };
+                Some(Code { pure: pure && outcome.safe, ..code.within(outcome.interval) })
+            }
         }
     }
 
@@ -364,37 +354,4 @@ pub(crate) fn within(statements: &str, code: Code) -> Code {
 
 fn boolean(code: &Code) -> bool {
     matches!(code.ty, Type::Boolean | Type::Undef | Type::Value)
-}
-
-fn integer_function(builtin: Builtin) -> Option<&'static str> {
-    Some(match builtin {
-        Builtin::IntNeg => "negate",
-        Builtin::IntAdd => "add",
-        Builtin::IntSub => "subtract",
-        Builtin::IntMul => "multiply",
-        Builtin::IntMod => "remainder",
-        Builtin::IntMin => "minimum",
-        Builtin::IntMax => "maximum",
-        Builtin::IntAbs => "absolute",
-        Builtin::IntQuotient => "quotient",
-        Builtin::IntPower => "power",
-        Builtin::IntToNat => "natural",
-        _ => return None,
-    })
-}
-
-fn real_function(builtin: Builtin) -> Option<&'static str> {
-    Some(match builtin {
-        Builtin::RealNeg => "real_negate",
-        Builtin::RealAdd => "real_add",
-        Builtin::RealSub => "real_subtract",
-        Builtin::RealMul => "real_multiply",
-        Builtin::RealDiv => "real_divide",
-        Builtin::RealMin => "real_minimum",
-        Builtin::RealMax => "real_maximum",
-        Builtin::RealAbs => "real_absolute",
-        Builtin::RealPower => "real_power",
-        Builtin::Sqrt => "square_root",
-        _ => return None,
-    })
 }

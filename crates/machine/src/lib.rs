@@ -33,7 +33,6 @@ mod value;
 mod weighed;
 mod work;
 
-pub use builtin::name::name as builtin_name;
 pub use coverage::Coverage;
 pub use environment::{Choice, Closed, Draw, Environment, TimeUnit};
 pub use fault::{ClashSide, Fault, FaultKind};

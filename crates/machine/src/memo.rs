@@ -6,7 +6,7 @@
 //! (intermediate) state; a `seq` that ends brings back the version it began with. Values of static functions
 //! that depend on static functions alone are kept for good.
 
-use program::{Builtin, DomainId, DomainKind, FunctionId, FunctionKind, Program, Term, TermId};
+use program::{DomainId, DomainKind, Effect, FunctionId, FunctionKind, Program, Term, TermId};
 
 use crate::layout::{Dimension, dimensions_of};
 use crate::value::Value;
@@ -154,15 +154,10 @@ fn size(program: &Program, term: TermId, enough: u32) -> u32 {
 fn is_repeatable(program: &Program, term: &Term) -> bool {
     match term {
         Term::Read { function, .. } => Some(*function) != program.self_function,
-        Term::Builtin { builtin, .. } => !matches!(
-            builtin,
-            Builtin::ChooseOne
-                | Builtin::Pre
-                | Builtin::Temporal(_)
-                | Builtin::TimeNanoseconds
-                | Builtin::TimeMilliseconds
-                | Builtin::TimeSeconds
-        ),
+        Term::Builtin { builtin, .. } => match builtin.info().effect {
+            Effect::Pure | Effect::ReadsAgents => true,
+            Effect::ReadsBefore | Effect::Chooses | Effect::ReadsClock | Effect::SpeaksOfRuns => false,
+        },
         _ => true,
     }
 }
@@ -178,7 +173,7 @@ fn is_fixed(program: &Program, term: &Term) -> bool {
             }
             _ => false,
         },
-        Term::Builtin { builtin, .. } => *builtin != Builtin::Program,
+        Term::Builtin { builtin, .. } => builtin.info().effect.is_none(),
         _ => true,
     }
 }

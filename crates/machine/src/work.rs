@@ -6,7 +6,7 @@
 
 use std::cmp::min;
 
-use program::Builtin;
+use program::{Builtin, LooksThrough};
 use syntax::Span;
 
 use crate::execute::{Executor, Outcome};
@@ -104,18 +104,10 @@ impl Executor<'_> {
     /// Counts what a library function looks through without making anything of that size.
     #[inline]
     pub fn work_of_applying(&mut self, builtin: Builtin, operands: &[Value], span: Span) -> Outcome<()> {
-        use Builtin::{
-            AllIn, BagContains, BagCount, BagSize, BagSum, Eq, Neq, NotAllIn, SeqContains, SeqCount, SeqIndexOf,
-            SeqSum, SetSum, StringContains, StringSize, TupleIndexOf,
-        };
-        match (builtin, operands) {
-            (Eq | Neq, [left, right]) => self.work_of_comparing(left, right, span),
-            (
-                AllIn | NotAllIn | SeqContains | SeqCount | SeqIndexOf | TupleIndexOf | BagContains | BagCount
-                | BagSize | SetSum | SeqSum | BagSum | StringSize | StringContains,
-                [first, ..],
-            ) => self.work(first.weight().leaves / MEMBERS, span),
-            _ => Ok(()),
+        match (builtin.info().looks_through, operands) {
+            (LooksThrough::Both, [left, right]) => self.work_of_comparing(left, right, span),
+            (LooksThrough::First, [first, ..]) => self.work(first.weight().leaves / MEMBERS, span),
+            (LooksThrough::Nothing | LooksThrough::First | LooksThrough::Both, _) => Ok(()),
         }
     }
 }

@@ -10,7 +10,7 @@ mod ir;
 mod lower;
 mod verify;
 
-pub use builtin::{Builtin, TemporalOperator};
+pub use builtin::{Builtin, BuiltinInfo, Cpp, Effect, Kind, LooksThrough, Operands, ShowsOrder, TemporalOperator};
 pub use dump::dump;
 pub use ir::*;
 pub use lower::{IDS, Specialisations, lower, lower_location, lower_rule, lower_term};

@@ -4,6 +4,7 @@
 //! function from the files to findings; a test of this crate runs them all over the repository, so `cargo test` keeps
 //! them too. It must not know what the code does.
 
+mod builtins;
 mod dependencies;
 mod layers;
 mod links;
@@ -80,6 +81,7 @@ const RULES: &[Rule] = &[
     layers::layers,
     dependencies::documented,
     links::links,
+    builtins::builtins,
 ];
 
 /// The command.

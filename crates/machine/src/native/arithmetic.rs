@@ -5,7 +5,7 @@
 
 use cranelift_codegen::ir::condcodes::{FloatCC, IntCC};
 use cranelift_codegen::ir::{self, InstBuilder, types};
-use program::{Builtin, Term, TermId};
+use program::{Builtin, Effect, Term, TermId};
 
 use crate::native::shape::{Kind, Operand, Scalar};
 use crate::native::translate::Translator;
@@ -13,9 +13,12 @@ use crate::native::translate::Translator;
 impl Translator<'_, '_> {
     /// Translates the application of a library function.
     pub fn builtin(&mut self, builtin: Builtin, arguments: &[TermId], id: TermId) -> Operand {
+        match builtin.info().effect {
+            Effect::ReadsBefore | Effect::Chooses | Effect::SpeaksOfRuns => return self.interpreted(id),
+            Effect::Pure | Effect::ReadsAgents | Effect::ReadsClock => {}
+        }
         match (builtin, arguments) {
             (Builtin::And | Builtin::Or | Builtin::Implies | Builtin::Not, _) => self.truth(id),
-            (Builtin::Pre | Builtin::Temporal(_) | Builtin::ChooseOne, _) => self.interpreted(id),
             (Builtin::Eq | Builtin::Neq, [left, right]) => {
                 let (left, right) = (self.term(*left), self.term(*right));
                 let equal = self.equal(left, right);

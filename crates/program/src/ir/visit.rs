@@ -5,7 +5,6 @@
 
 use std::collections::BTreeSet;
 
-use crate::builtin::Builtin;
 use crate::ir::{BinderList, Expression, Program, Rule, RuleId, Term, TermId};
 use model::{FunctionId, FunctionKind};
 
@@ -159,7 +158,7 @@ impl Program {
                         open.extend(self.function(*function).definition.as_ref().map(|definition| definition.body));
                     }
                 }
-                Term::Builtin { builtin, .. } => depends_on_more |= !depends_on_arguments(*builtin),
+                Term::Builtin { builtin, .. } => depends_on_more |= !builtin.info().effect.is_none(),
                 _ => {}
             }
             self.each_child_of_term(id, &mut |child| open.push(child));
@@ -170,18 +169,4 @@ impl Program {
     fn each_range(&self, binders: BinderList, visit: &mut dyn FnMut(TermId)) {
         self.binder_list(binders).iter().for_each(|binder| visit(binder.range));
     }
-}
-
-/// Whether the value of a library function depends on its arguments alone.
-fn depends_on_arguments(builtin: Builtin) -> bool {
-    !matches!(
-        builtin,
-        Builtin::ChooseOne
-            | Builtin::Pre
-            | Builtin::Temporal(_)
-            | Builtin::Program
-            | Builtin::TimeNanoseconds
-            | Builtin::TimeMilliseconds
-            | Builtin::TimeSeconds
-    )
 }

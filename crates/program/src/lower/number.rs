@@ -6,7 +6,7 @@
 
 use model::{Basic, DomainId, DomainKind, Term};
 
-use crate::builtin::Builtin;
+use crate::builtin::{Builtin, Operands};
 use crate::lower::Lowering;
 
 /// How the machine holds a number; wider ones later.
@@ -32,15 +32,18 @@ impl Lowering<'_, '_> {
 
     /// The form that an operation's operands are brought to: its own, or the widest of theirs.
     pub(super) fn common_form(&self, builtin: Builtin, operands: &[Term]) -> Option<Form> {
-        use Builtin::*;
-        match builtin {
-            Eq | Neq | Lt | Le | Gt | Ge => operands.iter().filter_map(|operand| self.form(operand.domain)).max(),
-            RealNeg | RealAdd | RealSub | RealMul | RealDiv | RealMin | RealMax | RealAbs | RealPower | Floor
-            | Round | Sqrt | RealToInt | RealToNat => Some(Form::Real),
-            Re | Im | ComplexNeg | ComplexAdd | ComplexSub | ComplexMul | ComplexDiv | Norm | IsZero => {
-                Some(Form::Complex)
+        match builtin.info().operands {
+            Operands::Alike | Operands::Ordered => {
+                operands.iter().filter_map(|operand| self.form(operand.domain)).max()
             }
-            _ => None,
+            Operands::Reals(_) => Some(Form::Real),
+            Operands::Complexes(_) => Some(Form::Complex),
+            Operands::Values(_)
+            | Operands::OneOrMore
+            | Operands::Integers(_)
+            | Operands::Of(_)
+            | Operands::OneOf(_)
+            | Operands::Own => None,
         }
     }
 }

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use machine::explore::Settings;
 use machine::{Closed, Location, Machine, Value};
 use program::{
-    Binder, Builtin, DomainKind, Expression, FunctionId, ProcedureId, Program, Rule, RuleId, Slot, Term, TermId,
+    Binder, DomainKind, Effect, Expression, FunctionId, ProcedureId, Program, Rule, RuleId, Slot, Term, TermId,
     TermList,
 };
 
@@ -264,7 +264,12 @@ impl Walk<'_> {
             }
             // What rule a value is cannot be told, and which agent has which program not here.
             Term::Rule(_) => self.give_up(),
-            Term::Builtin { builtin: Builtin::Pre | Builtin::Program | Builtin::Temporal(_), .. } => self.give_up(),
+            Term::Builtin { builtin, .. } => match builtin.info().effect {
+                Effect::Pure | Effect::Chooses | Effect::ReadsClock => {
+                    program.each_child_of_term(id, &mut |child| self.term(child, frame));
+                }
+                Effect::ReadsAgents | Effect::ReadsBefore | Effect::SpeaksOfRuns => self.give_up(),
+            },
             _ => program.each_child_of_term(id, &mut |child| self.term(child, frame)),
         }
     }

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use machine::Value;
 use machine::explore::Settings;
 use program::{
-    Builtin, CollectionKind, DomainId, DomainKind, FunctionId, Literal, ProcedureId, Program, Rule, RuleId, Term,
+    CollectionKind, DomainId, DomainKind, FunctionId, Literal, ProcedureId, Program, Rule, RuleId, ShowsOrder, Term,
     TermId,
 };
 use syntax::Span;
@@ -183,15 +183,12 @@ impl Walk<'_> {
                 }
             }
             Term::Builtin { builtin, arguments } => {
-                use Builtin::{AgentId, AsSequence, Ge, GetAgent, Gt, Le, Lt, ToString};
-                if matches!(builtin, ToString | AsSequence | AgentId | Lt | Le | Gt | Ge) {
-                    for operand in program.term_list(*arguments) {
-                        self.tell(program.term_domain(*operand), span);
-                    }
-                }
-                if *builtin == GetAgent {
-                    self.tell(program.term_domain(id), span);
-                }
+                let told: &[TermId] = match builtin.info().shows_order {
+                    ShowsOrder::No => &[],
+                    ShowsOrder::OfOperands => program.term_list(*arguments),
+                    ShowsOrder::OfResult => &[id],
+                };
+                told.iter().for_each(|term| self.tell(program.term_domain(*term), span));
             }
             _ => {}
         }

@@ -80,7 +80,7 @@ impl Encoder {
             }
             _ => match self.number(builtin, operands, span)? {
                 Some(symbol) => Ok(symbol),
-                None => self.outside(format!("the function `{}`", machine::builtin_name(builtin)), span),
+                None => self.outside(format!("the function `{}`", builtin.name()), span),
             },
         }
     }

@@ -1,7 +1,7 @@
 //! Which terms have the same value in every state.
 
 use machine::{Closed, Machine, Show, Value};
-use program::{Builtin, DomainId, DomainKind, FunctionKind, Program, Slot, Term, TermId};
+use program::{DomainId, DomainKind, FunctionKind, Program, Slot, Term, TermId};
 
 /// Whether a term's value depends on the values of its variables alone.
 pub fn is_fixed(program: &Program, term: TermId) -> bool {
@@ -19,16 +19,7 @@ pub fn is_fixed(program: &Program, term: TermId) -> bool {
                 }
             }
             Term::Domain(domain) if !is_fixed_domain(program, *domain) => return false,
-            Term::Builtin { builtin, .. } => {
-                use Builtin::*;
-                let outside = matches!(
-                    builtin,
-                    ChooseOne | Pre | Temporal(_) | Program | TimeNanoseconds | TimeMilliseconds | TimeSeconds
-                );
-                if outside {
-                    return false;
-                }
-            }
+            Term::Builtin { builtin, .. } if !builtin.info().effect.is_none() => return false,
             _ => {}
         }
         program.each_child_of_term(id, &mut |child| open.push(child));
