@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use program::{Expression, FunctionId, FunctionKind, ProcedureId, Program};
+use program::{Expression, FunctionId, FunctionKind, ProcedureId, Program, Runs};
 use syntax::Diagnostic;
 
 use crate::form::Form;
@@ -471,12 +471,11 @@ fn acting(program: &Program) -> bool {
     while let Some(procedure) = procedures.pop() {
         let mut rules = vec![program.procedure(procedure).body];
         while let Some(rule) = rules.pop() {
-            let called: Vec<ProcedureId> = match program.rule(rule) {
-                program::Rule::Call { procedure, .. }
-                | program::Rule::TurboCall { procedure, .. }
-                | program::Rule::Return { procedure, .. } => vec![*procedure],
-                program::Rule::RunValue { .. } => crate::writes::runnable(program).collect(),
-                _ => Vec::new(),
+            let called: Vec<ProcedureId> = match program.rule(rule).runs() {
+                Runs::Procedure(procedure) => vec![procedure],
+                Runs::Value { .. } => crate::writes::runnable(program).collect(),
+                // An agent's program is run by the agent: it has a `self`.
+                Runs::Agent | Runs::Nothing => Vec::new(),
             };
             procedures.extend(called.into_iter().filter(|called| entered.insert(*called)));
             program.each_term_of_rule(rule, &mut |term| terms.push(term));
@@ -504,16 +503,14 @@ fn is_recursive(program: &Program, id: ProcedureId) -> bool {
     while let Some(next) = open.pop() {
         let mut rules = vec![program.procedure(next).body];
         while let Some(rule) = rules.pop() {
-            let called = match program.rule(rule) {
-                program::Rule::Call { procedure, .. }
-                | program::Rule::TurboCall { procedure, .. }
-                | program::Rule::Return { procedure, .. } => vec![*procedure],
-                program::Rule::RunValue { arguments, .. } => {
+            let called = match program.rule(rule).runs() {
+                Runs::Procedure(procedure) => vec![procedure],
+                Runs::Value { arguments } => {
                     let fits = |id: &ProcedureId| program.procedure(*id).parameters.len() == arguments.len as usize;
                     crate::writes::runnable(program).filter(fits).collect()
                 }
-                program::Rule::RunAgent { .. } => program.agents.iter().map(|agent| agent.procedure).collect(),
-                _ => Vec::new(),
+                Runs::Agent => program.agents.iter().map(|agent| agent.procedure).collect(),
+                Runs::Nothing => Vec::new(),
             };
             for procedure in called {
                 if procedure == id {

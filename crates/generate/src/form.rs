@@ -76,7 +76,17 @@ fn sequenced(program: &Program, writes: &Writes) -> BTreeSet<FunctionId> {
                 let turbo = runnable(program).filter(|procedure| fits(program.procedure(*procedure)));
                 found.extend(turbo.flat_map(|procedure| writes.procedure(procedure)).copied().filter_map(function_of));
             }
-            _ => {}
+            Rule::Skip
+            | Rule::Update { .. }
+            | Rule::Call { .. }
+            | Rule::RunAgent { .. }
+            | Rule::Par(_)
+            | Rule::If { .. }
+            | Rule::Switch { .. }
+            | Rule::Let { .. }
+            | Rule::Choose { .. }
+            | Rule::Forall { .. }
+            | Rule::Extend { .. } => {}
         }
     }
     found
@@ -199,7 +209,15 @@ impl Walk<'_> {
                     .map(|(function, shape)| (function, self.for_all(function, shape, binders, free)))
                     .collect()
             }
-            _ => clashes(self.writes.of(program, id)),
+            Rule::TurboCall { .. }
+            | Rule::Return { .. }
+            | Rule::RunValue { .. }
+            | Rule::RunAgent { .. }
+            | Rule::Seq(_)
+            | Rule::Iterate(_)
+            | Rule::While { .. }
+            | Rule::RecursiveWhile { .. }
+            | Rule::Local { .. } => clashes(self.writes.of(program, id)),
         }
     }
 

@@ -54,7 +54,15 @@ fn rule(program: &Program, run: &[ProcedureId], known: &mut [Known], id: RuleId)
         }
         Rule::Seq(_) | Rule::Iterate(_) | Rule::While { .. } | Rule::RecursiveWhile { .. } => 1,
         Rule::Local { .. } => 2,
-        _ => 0,
+        Rule::Skip
+        | Rule::Update { .. }
+        | Rule::Par(_)
+        | Rule::If { .. }
+        | Rule::Switch { .. }
+        | Rule::Let { .. }
+        | Rule::Choose { .. }
+        | Rule::Forall { .. }
+        | Rule::Extend { .. } => 0,
     };
     let mut children = Vec::new();
     program.each_child_of_rule(id, &mut |child| children.push(child));

@@ -14,7 +14,24 @@ pub(crate) fn settled(program: &Program) -> Program {
         .iter()
         .filter_map(|rule| match rule {
             Rule::Extend { domain, .. } => Some(program.base_domain(*domain)),
-            _ => None,
+            Rule::Skip
+            | Rule::Update { .. }
+            | Rule::Call { .. }
+            | Rule::TurboCall { .. }
+            | Rule::Return { .. }
+            | Rule::RunValue { .. }
+            | Rule::RunAgent { .. }
+            | Rule::Par(_)
+            | Rule::Seq(_)
+            | Rule::If { .. }
+            | Rule::Switch { .. }
+            | Rule::Let { .. }
+            | Rule::Choose { .. }
+            | Rule::Forall { .. }
+            | Rule::Iterate(_)
+            | Rule::While { .. }
+            | Rule::RecursiveWhile { .. }
+            | Rule::Local { .. } => None,
         })
         .collect();
     let mut settled = program.clone();

@@ -74,7 +74,18 @@ impl Writes {
                     let base = program.base_domain(*domain);
                     found.extend([Target::Domain(*domain), Target::Domain(base)]);
                 }
-                _ => {}
+                Rule::Skip
+                | Rule::Par(_)
+                | Rule::Seq(_)
+                | Rule::If { .. }
+                | Rule::Switch { .. }
+                | Rule::Let { .. }
+                | Rule::Choose { .. }
+                | Rule::Forall { .. }
+                | Rule::Iterate(_)
+                | Rule::While { .. }
+                | Rule::RecursiveWhile { .. }
+                | Rule::Local { .. } => {}
             }
             program.each_child_of_rule(id, &mut |child| open.push(child));
         }
@@ -109,7 +120,22 @@ fn updated(program: &Program) -> BTreeSet<FunctionId> {
             Rule::Local { start, len, .. } => {
                 found.extend(&program.function_lists[*start as usize..(*start + *len) as usize]);
             }
-            _ => {}
+            Rule::Skip
+            | Rule::Call { .. }
+            | Rule::TurboCall { .. }
+            | Rule::RunValue { .. }
+            | Rule::RunAgent { .. }
+            | Rule::Par(_)
+            | Rule::Seq(_)
+            | Rule::If { .. }
+            | Rule::Switch { .. }
+            | Rule::Let { .. }
+            | Rule::Choose { .. }
+            | Rule::Forall { .. }
+            | Rule::Extend { .. }
+            | Rule::Iterate(_)
+            | Rule::While { .. }
+            | Rule::RecursiveWhile { .. } => {}
         }
     }
     found

@@ -158,7 +158,23 @@ fn is_repeatable(program: &Program, term: &Term) -> bool {
             Effect::Pure | Effect::ReadsAgents => true,
             Effect::ReadsBefore | Effect::Chooses | Effect::ReadsClock | Effect::SpeaksOfRuns => false,
         },
-        _ => true,
+        Term::Constant(_)
+        | Term::Slot(_)
+        | Term::Define { .. }
+        | Term::Domain(_)
+        | Term::Tuple(_)
+        | Term::Project { .. }
+        | Term::Collection { .. }
+        | Term::Range { .. }
+        | Term::Comprehension { .. }
+        | Term::Quantified { .. }
+        | Term::If { .. }
+        | Term::Switch { .. }
+        | Term::Let { .. }
+        | Term::Rule(_)
+        | Term::Unbound
+        | Term::Missing(_)
+        | Term::Coerce(_) => true,
     }
 }
 
@@ -174,7 +190,22 @@ fn is_fixed(program: &Program, term: &Term) -> bool {
             _ => false,
         },
         Term::Builtin { builtin, .. } => builtin.info().effect.is_none(),
-        _ => true,
+        Term::Constant(_)
+        | Term::Slot(_)
+        | Term::Define { .. }
+        | Term::Tuple(_)
+        | Term::Project { .. }
+        | Term::Collection { .. }
+        | Term::Range { .. }
+        | Term::Comprehension { .. }
+        | Term::Quantified { .. }
+        | Term::If { .. }
+        | Term::Switch { .. }
+        | Term::Let { .. }
+        | Term::Rule(_)
+        | Term::Unbound
+        | Term::Missing(_)
+        | Term::Coerce(_) => true,
     }
 }
 

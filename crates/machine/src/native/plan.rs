@@ -247,7 +247,23 @@ impl Plan {
             Rule::Update { function: updated, .. } | Rule::Return { function: updated, .. } => {
                 *updated != function || index == id.0 as usize
             }
-            _ => true,
+            Rule::Skip
+            | Rule::Call { .. }
+            | Rule::TurboCall { .. }
+            | Rule::RunValue { .. }
+            | Rule::RunAgent { .. }
+            | Rule::Par(_)
+            | Rule::Seq(_)
+            | Rule::If { .. }
+            | Rule::Switch { .. }
+            | Rule::Let { .. }
+            | Rule::Choose { .. }
+            | Rule::Forall { .. }
+            | Rule::Extend { .. }
+            | Rule::Iterate(_)
+            | Rule::While { .. }
+            | Rule::RecursiveWhile { .. }
+            | Rule::Local { .. } => true,
         });
         once && only
     }
@@ -262,7 +278,22 @@ impl Plan {
                 Term::Comprehension { binders, .. } | Term::Quantified { binders, .. } => {
                     own.extend(program.binder_list(*binders).iter().map(|binder| binder.slot.0));
                 }
-                _ => {}
+                Term::Constant(_)
+                | Term::Slot(_)
+                | Term::Read { .. }
+                | Term::Define { .. }
+                | Term::Builtin { .. }
+                | Term::Domain(_)
+                | Term::Tuple(_)
+                | Term::Project { .. }
+                | Term::Collection { .. }
+                | Term::Range { .. }
+                | Term::If { .. }
+                | Term::Switch { .. }
+                | Term::Rule(_)
+                | Term::Unbound
+                | Term::Missing(_)
+                | Term::Coerce(_) => {}
             }
             program.each_child_of_term(id, &mut |child| open.push(child));
         }

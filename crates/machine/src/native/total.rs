@@ -27,7 +27,24 @@ pub(super) fn total_functions(program: &Program, core: &Core) -> Vec<bool> {
                     refuted.push(*function);
                 }
                 Rule::Return { function, .. } => refuted.push(*function),
-                _ => {}
+                Rule::Skip
+                | Rule::Update { .. }
+                | Rule::Call { .. }
+                | Rule::TurboCall { .. }
+                | Rule::RunValue { .. }
+                | Rule::RunAgent { .. }
+                | Rule::Par(_)
+                | Rule::Seq(_)
+                | Rule::If { .. }
+                | Rule::Switch { .. }
+                | Rule::Let { .. }
+                | Rule::Choose { .. }
+                | Rule::Forall { .. }
+                | Rule::Extend { .. }
+                | Rule::Iterate(_)
+                | Rule::While { .. }
+                | Rule::RecursiveWhile { .. }
+                | Rule::Local { .. } => {}
             }
         }
         let before = total.iter().filter(|total| **total).count();

@@ -13,7 +13,7 @@ mod term;
 mod visit;
 
 pub use program::{AgentProgram, Domain, DomainKind, Expression, Function, Initial, Procedure, Program, Property};
-pub use rule::Rule;
+pub use rule::{Rule, Runs};
 pub use term::Term;
 
 /// LIMIT: how deep terms and rules nest in one procedure or expression.

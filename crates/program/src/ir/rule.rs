@@ -147,3 +147,46 @@ pub enum Rule {
         body: RuleId,
     },
 }
+
+/// What a rule runs that does not stand in it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Runs {
+    /// Nothing.
+    Nothing,
+    /// A procedure.
+    Procedure(ProcedureId),
+    /// The rule that a term's value is, with as many arguments.
+    Value {
+        /// The arguments.
+        arguments: TermList,
+    },
+    /// The program of an agent.
+    Agent,
+}
+
+impl Rule {
+    /// What it runs beside the rules that stand in it.
+    pub fn runs(&self) -> Runs {
+        match self {
+            Rule::Call { procedure, .. } | Rule::TurboCall { procedure, .. } | Rule::Return { procedure, .. } => {
+                Runs::Procedure(*procedure)
+            }
+            Rule::RunValue { arguments, .. } => Runs::Value { arguments: *arguments },
+            Rule::RunAgent { .. } => Runs::Agent,
+            Rule::Skip
+            | Rule::Update { .. }
+            | Rule::Par(_)
+            | Rule::Seq(_)
+            | Rule::If { .. }
+            | Rule::Switch { .. }
+            | Rule::Let { .. }
+            | Rule::Choose { .. }
+            | Rule::Forall { .. }
+            | Rule::Extend { .. }
+            | Rule::Iterate(_)
+            | Rule::While { .. }
+            | Rule::RecursiveWhile { .. }
+            | Rule::Local { .. } => Runs::Nothing,
+        }
+    }
+}

@@ -109,7 +109,23 @@ impl Program {
         while let Some(id) = open.pop() {
             let function: Option<FunctionId> = match self.term(id) {
                 Term::Read { function, .. } | Term::Define { function, .. } => Some(*function),
-                _ => None,
+                Term::Constant(_)
+                | Term::Slot(_)
+                | Term::Builtin { .. }
+                | Term::Domain(_)
+                | Term::Tuple(_)
+                | Term::Project { .. }
+                | Term::Collection { .. }
+                | Term::Range { .. }
+                | Term::Comprehension { .. }
+                | Term::Quantified { .. }
+                | Term::If { .. }
+                | Term::Switch { .. }
+                | Term::Let { .. }
+                | Term::Rule(_)
+                | Term::Unbound
+                | Term::Missing(_)
+                | Term::Coerce(_) => None,
             };
             if let Some(function) = function {
                 if self.function(function).kind == FunctionKind::Monitored {
@@ -159,7 +175,22 @@ impl Program {
                     }
                 }
                 Term::Builtin { builtin, .. } => depends_on_more |= !builtin.info().effect.is_none(),
-                _ => {}
+                Term::Constant(_)
+                | Term::Slot(_)
+                | Term::Domain(_)
+                | Term::Tuple(_)
+                | Term::Project { .. }
+                | Term::Collection { .. }
+                | Term::Range { .. }
+                | Term::Comprehension { .. }
+                | Term::Quantified { .. }
+                | Term::If { .. }
+                | Term::Switch { .. }
+                | Term::Let { .. }
+                | Term::Rule(_)
+                | Term::Unbound
+                | Term::Missing(_)
+                | Term::Coerce(_) => {}
             }
             self.each_child_of_term(id, &mut |child| open.push(child));
         }

@@ -181,7 +181,24 @@ impl Walk<'_> {
                 Term::Define { function, .. } if entered.insert(*function) => {
                     open.extend(self.program.function(*function).definition.as_ref().map(|definition| definition.body));
                 }
-                _ => {}
+                Term::Constant(_)
+                | Term::Slot(_)
+                | Term::Read { .. }
+                | Term::Define { .. }
+                | Term::Builtin { .. }
+                | Term::Tuple(_)
+                | Term::Project { .. }
+                | Term::Collection { .. }
+                | Term::Range { .. }
+                | Term::Comprehension { .. }
+                | Term::Quantified { .. }
+                | Term::If { .. }
+                | Term::Switch { .. }
+                | Term::Let { .. }
+                | Term::Rule(_)
+                | Term::Unbound
+                | Term::Missing(_)
+                | Term::Coerce(_) => {}
             }
             self.program.each_child_of_term(id, &mut |child| open.push(child));
         }
@@ -270,7 +287,18 @@ impl Walk<'_> {
                 }
                 Effect::ReadsAgents | Effect::ReadsBefore | Effect::SpeaksOfRuns => self.give_up(),
             },
-            _ => program.each_child_of_term(id, &mut |child| self.term(child, frame)),
+            Term::Constant(_)
+            | Term::Slot(_)
+            | Term::Domain(_)
+            | Term::Tuple(_)
+            | Term::Project { .. }
+            | Term::Collection { .. }
+            | Term::Range { .. }
+            | Term::Comprehension { .. }
+            | Term::Quantified { .. }
+            | Term::Unbound
+            | Term::Missing(_)
+            | Term::Coerce(_) => program.each_child_of_term(id, &mut |child| self.term(child, frame)),
         }
     }
 
@@ -347,7 +375,16 @@ impl Walk<'_> {
                 frame.set(*slot, value);
                 self.rule(*body, frame);
             }
-            _ => {
+            Rule::Skip
+            | Rule::Par(_)
+            | Rule::Seq(_)
+            | Rule::Choose { .. }
+            | Rule::Forall { .. }
+            | Rule::Extend { .. }
+            | Rule::Iterate(_)
+            | Rule::While { .. }
+            | Rule::RecursiveWhile { .. }
+            | Rule::Local { .. } => {
                 program.each_term_of_rule(id, &mut |term| self.term(term, frame));
                 program.each_child_of_rule(id, &mut |child| self.rule(child, frame));
             }

@@ -190,7 +190,18 @@ impl Walk<'_> {
                 };
                 told.iter().for_each(|term| self.tell(program.term_domain(*term), span));
             }
-            _ => {}
+            Term::Slot(_)
+            | Term::Domain(_)
+            | Term::Tuple(_)
+            | Term::Project { .. }
+            | Term::Collection { .. }
+            | Term::Range { .. }
+            | Term::If { .. }
+            | Term::Switch { .. }
+            | Term::Let { .. }
+            | Term::Unbound
+            | Term::Missing(_)
+            | Term::Coerce(_) => {}
         }
         program.each_child_of_term(id, &mut |child| self.open.push(Next::Term(child)));
     }
@@ -207,7 +218,19 @@ impl Walk<'_> {
             Rule::Extend { .. } => {
                 self.found.extended.get_or_insert(program.rule_span(id));
             }
-            _ => {}
+            Rule::Skip
+            | Rule::Update { .. }
+            | Rule::RunValue { .. }
+            | Rule::RunAgent { .. }
+            | Rule::Par(_)
+            | Rule::Seq(_)
+            | Rule::If { .. }
+            | Rule::Switch { .. }
+            | Rule::Let { .. }
+            | Rule::Iterate(_)
+            | Rule::While { .. }
+            | Rule::RecursiveWhile { .. }
+            | Rule::Local { .. } => {}
         }
         program.each_term_of_rule(id, &mut |term| self.open.push(Next::Term(term)));
         program.each_child_of_rule(id, &mut |rule| self.open.push(Next::Rule(rule)));

@@ -290,7 +290,21 @@ fn free(program: &program::Program, id: TermId) -> Arc<[Slot]> {
             Term::Comprehension { binders, .. } | Term::Quantified { binders, .. } => {
                 bound.extend(program.binder_list(*binders).iter().map(|binder| binder.slot));
             }
-            _ => {}
+            Term::Constant(_)
+            | Term::Read { .. }
+            | Term::Define { .. }
+            | Term::Builtin { .. }
+            | Term::Domain(_)
+            | Term::Tuple(_)
+            | Term::Project { .. }
+            | Term::Collection { .. }
+            | Term::Range { .. }
+            | Term::If { .. }
+            | Term::Switch { .. }
+            | Term::Rule(_)
+            | Term::Unbound
+            | Term::Missing(_)
+            | Term::Coerce(_) => {}
         }
         program.each_child_of_term(id, &mut |child| open.push(child));
     }

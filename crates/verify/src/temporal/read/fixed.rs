@@ -20,7 +20,23 @@ pub fn is_fixed(program: &Program, term: TermId) -> bool {
             }
             Term::Domain(domain) if !is_fixed_domain(program, *domain) => return false,
             Term::Builtin { builtin, .. } if !builtin.info().effect.is_none() => return false,
-            _ => {}
+            Term::Constant(_)
+            | Term::Slot(_)
+            | Term::Builtin { .. }
+            | Term::Domain(_)
+            | Term::Tuple(_)
+            | Term::Project { .. }
+            | Term::Collection { .. }
+            | Term::Range { .. }
+            | Term::Comprehension { .. }
+            | Term::Quantified { .. }
+            | Term::If { .. }
+            | Term::Switch { .. }
+            | Term::Let { .. }
+            | Term::Rule(_)
+            | Term::Unbound
+            | Term::Missing(_)
+            | Term::Coerce(_) => {}
         }
         program.each_child_of_term(id, &mut |child| open.push(child));
     }
@@ -33,12 +49,17 @@ fn is_fixed_domain(program: &Program, domain: DomainId) -> bool {
     while let Some(domain) = open.pop() {
         match &program.domain(domain).kind {
             DomainKind::Abstract { dynamic: true, .. } | DomainKind::Concrete { dynamic: true, .. } => return false,
-            // One that may not grow keeps its elements, whatever is added to the domain that it is a part of.
-            DomainKind::Concrete { .. } => {}
             DomainKind::Seq(part) | DomainKind::Powerset(part) | DomainKind::Bag(part) => open.push(*part),
             DomainKind::Map(from, to) => open.extend([*from, *to]),
             DomainKind::Prod(parts) => open.extend(parts),
-            _ => {}
+            // One that may not grow keeps its elements, whatever is added to the domain that it is a part of.
+            DomainKind::Concrete { dynamic: false, .. } => {}
+            DomainKind::Error
+            | DomainKind::Any
+            | DomainKind::Basic(_)
+            | DomainKind::Enum { .. }
+            | DomainKind::Abstract { dynamic: false, .. }
+            | DomainKind::Rule(_) => {}
         }
     }
     true
