@@ -7,7 +7,7 @@ use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{self, InstBuilder, StackSlotData, StackSlotKind, types};
 use program::{Binder, DomainId, DomainKind, Term, TermId};
 
-use crate::native::helper::Helper;
+use crate::native::helper;
 use crate::native::shape::{Bound, Kind, Scalar};
 use crate::native::translate::Translator;
 use crate::value::Value;
@@ -111,7 +111,7 @@ impl Translator<'_, '_> {
         let slot = self.builder.create_sized_stack_slot(StackSlotData::new(StackSlotKind::ExplicitSlot, 16, 3));
         let out = self.builder.ins().stack_addr(types::I64, slot, 0);
         self.note_kept();
-        self.call_or_bail(Helper::Range, &[self.context, collection, out]);
+        self.call_or_bail(helper::RANGE, [self.context, collection, out]);
         let (start, count) = (self.load(types::I64, out, 0), self.load(types::I64, out, 8));
         Walk::Values { start, count, kind }
     }
@@ -137,7 +137,7 @@ impl Translator<'_, '_> {
             return Walk::Values { start, count, kind };
         }
         let id = self.word(i64::from(domain.0));
-        let elements = self.call_for_value(Helper::Elements, &[self.context, id]);
+        let elements = self.call_for_value(helper::ELEMENTS, [self.context, id]);
         let kind = self.kind(domain);
         self.walk_collection(elements, kind)
     }

@@ -1,118 +1,172 @@
 //! The helpers of [`crate::native::runtime`] as compiled code knows them: their names, addresses and signatures.
+//!
+//! In: the functions of the runtime. Out: a constant for each, by which the translator calls it, and what the linker needs.
+//! INVARIANT: code that calls a helper with too few or too many words, or takes for a pointer what is none, does not
+//! compile: a helper's row is held to the function's type, and a call to the row.
 
-use cranelift_codegen::ir::{AbiParam, FuncRef, Signature, Type, types};
+use std::marker::PhantomData;
+
+use cranelift_codegen::ir::{self, AbiParam, FuncRef, Signature, Type, types};
 use cranelift_frontend::FunctionBuilder;
 use cranelift_jit::{JITBuilder, JITModule};
 use cranelift_module::{FuncId, Linkage, Module};
 
 use crate::native::runtime;
+use crate::value::Value;
 
-/// A helper.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Helper {
-    Grow,
-    Agrees,
-    Read,
-    Ask,
-    Locate,
-    Member,
-    Apply,
-    Component,
-    Equal,
-    Copy,
-    Keep,
-    Release,
-    Evaluate,
-    Perform,
-    Elements,
-    Range,
-    BeginSequence,
-    EndSequence,
-    Open,
-    ApplyUnit,
-    Join,
-    Iteration,
-    Create,
-    Choose,
-    ChooseOf,
-    MoreCandidates,
-    DropCandidates,
-    AgentProgram,
-    Fill,
-    KeepDerived,
-    Look,
+/// A helper that takes so many words and gives an `R`.
+#[derive(Debug)]
+pub(super) struct Helper<const WORDS: usize, R> {
+    index: usize,
+    result: PhantomData<fn() -> R>,
 }
 
-impl Helper {
-    const ALL: [Helper; 31] = [
-        Helper::Grow,
-        Helper::Agrees,
-        Helper::Read,
-        Helper::Ask,
-        Helper::Locate,
-        Helper::Member,
-        Helper::Apply,
-        Helper::Component,
-        Helper::Equal,
-        Helper::Copy,
-        Helper::Keep,
-        Helper::Release,
-        Helper::Evaluate,
-        Helper::Perform,
-        Helper::Elements,
-        Helper::Range,
-        Helper::BeginSequence,
-        Helper::EndSequence,
-        Helper::Open,
-        Helper::ApplyUnit,
-        Helper::Join,
-        Helper::Iteration,
-        Helper::Create,
-        Helper::Choose,
-        Helper::ChooseOf,
-        Helper::MoreCandidates,
-        Helper::DropCandidates,
-        Helper::AgentProgram,
-        Helper::Fill,
-        Helper::KeepDerived,
-        Helper::Look,
-    ];
+/// A type that is one word in a register.
+trait Word {}
 
-    /// Its name, its address, how many words it takes and whether it gives one.
-    fn describe(self) -> (&'static str, *const u8, usize, bool) {
-        match self {
-            Helper::Grow => ("grow", runtime::grow as *const u8, 1, true),
-            Helper::Agrees => ("agrees", runtime::agrees as *const u8, 3, true),
-            Helper::Read => ("read", runtime::read as *const u8, 4, true),
-            Helper::Ask => ("ask", runtime::ask as *const u8, 5, true),
-            Helper::Locate => ("locate", runtime::locate as *const u8, 4, true),
-            Helper::Member => ("member", runtime::member as *const u8, 3, true),
-            Helper::Apply => ("apply", runtime::apply as *const u8, 4, true),
-            Helper::Component => ("component", runtime::component as *const u8, 2, true),
-            Helper::Equal => ("equal", runtime::equal as *const u8, 2, true),
-            Helper::Copy => ("copy", runtime::copy as *const u8, 3, false),
-            Helper::Keep => ("keep", runtime::keep as *const u8, 2, true),
-            Helper::Release => ("release", runtime::release as *const u8, 2, false),
-            Helper::Evaluate => ("evaluate", runtime::evaluate as *const u8, 4, true),
-            Helper::Perform => ("perform", runtime::perform as *const u8, 4, true),
-            Helper::Elements => ("elements", runtime::elements as *const u8, 2, true),
-            Helper::Range => ("range", runtime::range as *const u8, 3, true),
-            Helper::BeginSequence => ("begin_sequence", runtime::begin_sequence as *const u8, 1, false),
-            Helper::EndSequence => ("end_sequence", runtime::end_sequence as *const u8, 1, true),
-            Helper::Open => ("open", runtime::open as *const u8, 1, false),
-            Helper::ApplyUnit => ("apply_unit", runtime::apply_unit as *const u8, 1, true),
-            Helper::Join => ("join", runtime::join as *const u8, 1, true),
-            Helper::Iteration => ("iteration", runtime::iteration as *const u8, 1, true),
-            Helper::Create => ("create", runtime::create as *const u8, 2, true),
-            Helper::Choose => ("choose", runtime::choose as *const u8, 3, true),
-            Helper::ChooseOf => ("choose_of", runtime::choose_of as *const u8, 5, true),
-            Helper::MoreCandidates => ("more_candidates", runtime::more_candidates as *const u8, 1, true),
-            Helper::DropCandidates => ("drop_candidates", runtime::drop_candidates as *const u8, 1, false),
-            Helper::AgentProgram => ("agent_program", runtime::agent_program as *const u8, 2, true),
-            Helper::Fill => ("fill", runtime::fill as *const u8, 4, true),
-            Helper::KeepDerived => ("keep_derived", runtime::keep_derived as *const u8, 4, false),
-            Helper::Look => ("look", runtime::look as *const u8, 1, true),
+impl Word for i64 {}
+impl Word for u64 {}
+impl<T> Word for *const T {}
+impl<T> Word for *mut T {}
+
+/// What a helper may give.
+pub(super) trait Given {
+    /// How the translator has it.
+    type Translated;
+    const TYPES: &'static [Type];
+
+    fn translated(results: &[ir::Value]) -> Self::Translated;
+}
+
+impl Given for () {
+    type Translated = ();
+    const TYPES: &'static [Type] = &[];
+
+    fn translated(_: &[ir::Value]) {}
+}
+
+impl Given for i64 {
+    type Translated = ir::Value;
+    const TYPES: &'static [Type] = &[types::I64];
+
+    fn translated(results: &[ir::Value]) -> ir::Value {
+        results[0]
+    }
+}
+
+impl Given for *const Value {
+    type Translated = ir::Value;
+    const TYPES: &'static [Type] = &[types::I64];
+
+    fn translated(results: &[ir::Value]) -> ir::Value {
+        results[0]
+    }
+}
+
+/// A function that compiled code may call.
+trait Callable<const WORDS: usize> {
+    const RESULTS: &'static [Type];
+
+    fn address(self) -> *const u8;
+}
+
+macro_rules! callable {
+    ($words:literal: $($parameter:ident)*) => {
+        impl<$($parameter: Word,)* R: Given> Callable<$words> for unsafe extern "C" fn($($parameter),*) -> R {
+            const RESULTS: &'static [Type] = R::TYPES;
+
+            fn address(self) -> *const u8 {
+                self as *const u8
+            }
         }
+    };
+}
+
+callable!(1: A);
+callable!(2: A B);
+callable!(3: A B C);
+callable!(4: A B C D);
+callable!(5: A B C D E);
+
+/// A helper as the linker knows it.
+struct Described {
+    name: &'static str,
+    address: *const u8,
+    words: usize,
+    results: &'static [Type],
+}
+
+fn described<const WORDS: usize, F: Callable<WORDS>>(name: &'static str, function: F) -> Described {
+    Described { name, address: function.address(), words: WORDS, results: F::RESULTS }
+}
+
+/// A parameter whose type is the function's business.
+macro_rules! inferred {
+    ($parameter:ident) => {
+        _
+    };
+}
+
+/// `CONSTANT = function(parameters) -> result;`
+macro_rules! helpers {
+    ($($helper:ident = $function:ident($($parameter:ident),*) -> $result:ty;)*) => {
+        /// The numbers of the helpers, in their order.
+        #[allow(non_camel_case_types, clippy::upper_case_acronyms, reason = "named as the constants are")]
+        enum Index {
+            $($helper,)*
+        }
+
+        $(pub(super) const $helper: Helper<{ [$(stringify!($parameter)),*].len() }, $result> =
+            Helper { index: Index::$helper as usize, result: PhantomData };)*
+
+        /// All of them, by their numbers.
+        fn all() -> Vec<Described> {
+            vec![$(described::<{ [$(stringify!($parameter)),*].len() }, _>(
+                stringify!($function),
+                runtime::$function as unsafe extern "C" fn($(inferred!($parameter)),*) -> $result,
+            )),*]
+        }
+    };
+}
+
+helpers! {
+    GROW = grow(context) -> i64;
+    AGREES = agrees(context, location, value) -> i64;
+    READ = read(context, function, arguments, count) -> *const Value;
+    ASK = ask(context, function, arguments, count, index) -> i64;
+    LOCATE = locate(context, function, arguments, count) -> i64;
+    MEMBER = member(context, function, value) -> i64;
+    APPLY = apply(context, term, operands, count) -> *const Value;
+    COMPONENT = component(tuple, index) -> *const Value;
+    EQUAL = equal(left, right) -> i64;
+    COPY = copy(context, value, place) -> ();
+    KEEP = keep(context, value) -> *const Value;
+    RELEASE = release(context, mark) -> ();
+    EVALUATE = evaluate(context, term, spill, values) -> *const Value;
+    PERFORM = perform(context, rule, spill, values) -> i64;
+    ELEMENTS = elements(context, domain) -> *const Value;
+    RANGE = range(context, collection, out) -> i64;
+    BEGIN_SEQUENCE = begin_sequence(context) -> ();
+    END_SEQUENCE = end_sequence(context) -> i64;
+    OPEN = open(context) -> ();
+    APPLY_UNIT = apply_unit(context) -> i64;
+    JOIN = join(context) -> i64;
+    ITERATION = iteration(context) -> i64;
+    CREATE = create(context, domain) -> i64;
+    CHOOSE = choose(context, rule, variables) -> i64;
+    CHOOSE_OF = choose_of(context, rule, values, count, variables) -> i64;
+    MORE_CANDIDATES = more_candidates(context) -> i64;
+    DROP_CANDIDATES = drop_candidates(context) -> ();
+    AGENT_PROGRAM = agent_program(context, agent) -> i64;
+    FILL = fill(context, table, entry, values) -> i64;
+    KEEP_DERIVED = keep_derived(context, place, mark, value) -> ();
+    LOOK = look(context) -> i64;
+}
+
+impl<const WORDS: usize, R> Helper<WORDS, R> {
+    /// Its number.
+    pub fn index(&self) -> usize {
+        self.index
     }
 }
 
@@ -125,27 +179,24 @@ pub(super) struct Helpers {
 impl Helpers {
     /// Tells the linker where they are.
     pub fn register(builder: &mut JITBuilder) {
-        for helper in Helper::ALL {
-            let (name, address, ..) = helper.describe();
-            builder.symbol(name, address);
+        for helper in all() {
+            builder.symbol(helper.name, helper.address);
         }
     }
 
     /// Declares them.
     pub fn declare(module: &mut JITModule) -> Option<Helpers> {
-        let declare = |helper: &Helper| {
-            let (name, _, parameters, result) = helper.describe();
-            let results: &[Type] = if result { &[types::I64] } else { &[] };
-            let signature = signature(module, &vec![types::I64; parameters], results);
-            module.declare_function(name, Linkage::Import, &signature).ok()
+        let declare = |helper: Described| {
+            let signature = signature(module, &vec![types::I64; helper.words], helper.results);
+            module.declare_function(helper.name, Linkage::Import, &signature).ok()
         };
-        let ids = Helper::ALL.iter().map(declare).collect::<Option<_>>()?;
+        let ids = all().into_iter().map(declare).collect::<Option<_>>()?;
         Some(Helpers { ids })
     }
 
-    /// A helper as the function being built can call it.
-    pub fn reference(&self, helper: Helper, module: &mut JITModule, builder: &mut FunctionBuilder<'_>) -> FuncRef {
-        module.declare_func_in_func(self.ids[helper as usize], builder.func)
+    /// The helper of a number as the function being built can call it.
+    pub fn reference(&self, index: usize, module: &mut JITModule, builder: &mut FunctionBuilder<'_>) -> FuncRef {
+        module.declare_func_in_func(self.ids[index], builder.func)
     }
 }
 

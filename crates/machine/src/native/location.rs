@@ -10,7 +10,7 @@ use program::{FunctionId, FunctionKind, RuleId, TermId};
 use crate::layout::{Dimension, DimensionKind, Layout};
 use crate::membership::Membership;
 use crate::native::context::Offset;
-use crate::native::helper::Helper;
+use crate::native::helper;
 use crate::native::shape::{Kind, Operand, Scalar};
 use crate::native::translate::{FLAGS, Translator};
 use crate::update::Update;
@@ -200,7 +200,7 @@ impl Translator<'_, '_> {
                         self.switch(ask);
                         let pointers = self.pointers(arguments);
                         let (id, count) = (self.word(i64::from(function.0)), self.word(arguments.len() as i64));
-                        self.call_or_bail(Helper::Ask, &[self.context, id, pointers, count, index]);
+                        self.call_or_bail(helper::ASK, [self.context, id, pointers, count, index]);
                         self.jump(fast);
                     } else {
                         self.branch(ready, fast, slow);
@@ -215,7 +215,7 @@ impl Translator<'_, '_> {
                 self.switch(slow);
                 let pointers = self.pointers(arguments);
                 let (id, count) = (self.word(i64::from(function.0)), self.word(arguments.len() as i64));
-                let value = self.call_for_value(Helper::Read, &[self.context, id, pointers, count]);
+                let value = self.call_for_value(helper::READ, [self.context, id, pointers, count]);
                 self.set(pointer, value);
                 self.jump(done);
                 self.switch(done);
@@ -224,7 +224,7 @@ impl Translator<'_, '_> {
                     Some(kind) => Operand::Scalar(self.stored_scalar(pointer, kind)),
                     None => {
                         // The store may grow before the value is used.
-                        let pinned = self.call_for_value(Helper::Keep, &[self.context, pointer]);
+                        let pinned = self.call_for_value(helper::KEEP, [self.context, pointer]);
                         Operand::Boxed(pinned)
                     }
                 }
@@ -243,7 +243,7 @@ impl Translator<'_, '_> {
     fn read_elsewhere(&mut self, function: FunctionId, arguments: &[Operand], kind: Option<Kind>) -> Operand {
         let pointers = self.pointers(arguments);
         let (id, count) = (self.word(i64::from(function.0)), self.word(arguments.len() as i64));
-        let value = self.call_for_value(Helper::Read, &[self.context, id, pointers, count]);
+        let value = self.call_for_value(helper::READ, [self.context, id, pointers, count]);
         match kind {
             Some(kind) => Operand::Scalar(self.unboxed(value, kind)),
             None => Operand::Boxed(value),
@@ -311,7 +311,7 @@ impl Translator<'_, '_> {
     fn locate(&mut self, function: FunctionId, arguments: &[Operand]) -> ir::Value {
         let pointers = self.pointers(arguments);
         let (id, count) = (self.word(i64::from(function.0)), self.word(arguments.len() as i64));
-        self.call_for_number(Helper::Locate, &[self.context, id, pointers, count])
+        self.call_for_number(helper::LOCATE, [self.context, id, pointers, count])
     }
 
     /// Gives the step up where a value lies outside the codomain.
@@ -346,7 +346,7 @@ impl Translator<'_, '_> {
             _ => {
                 let pointer = self.boxed(value);
                 let id = self.word(i64::from(function.0));
-                let inside = self.call(Helper::Member, &[self.context, id, pointer]);
+                let inside = self.call(helper::MEMBER, [self.context, id, pointer]);
                 self.require(inside);
             }
         }
@@ -370,7 +370,7 @@ impl Translator<'_, '_> {
             self.branch(met, conflict, fresh);
             self.switch(conflict);
             let pointer = self.boxed(value);
-            self.call_or_bail(Helper::Agrees, &[self.context, index, pointer]);
+            self.call_or_bail(helper::AGREES, [self.context, index, pointer]);
             self.jump(done);
             self.switch(fresh);
             (stamp, previous, unit)
@@ -380,7 +380,7 @@ impl Translator<'_, '_> {
         let full = self.builder.ins().icmp(IntCC::Equal, held, capacity);
         self.branch(full, room, write);
         self.switch(room);
-        self.call_or_bail(Helper::Grow, &[self.context]);
+        self.call_or_bail(helper::GROW, [self.context]);
         self.jump(write);
 
         self.switch(write);
@@ -412,7 +412,7 @@ impl Translator<'_, '_> {
             Operand::Boxed(_) | Operand::Stored(_) => {
                 let pointer = self.boxed(value);
                 let place = self.builder.ins().iadd_imm(entry, i64::from(at));
-                self.call(Helper::Copy, &[self.context, pointer, place]);
+                self.call(helper::COPY, [self.context, pointer, place]);
             }
         }
         let held = self.builder.ins().iadd_imm(held, 1);

@@ -6,7 +6,7 @@ use model::Basic;
 use program::{Binder, BinderList, DomainKind, FunctionId, ProcedureId, Rule, RuleId, Slot, Term, TermId, TermList};
 
 use crate::native::context::Offset;
-use crate::native::helper::Helper;
+use crate::native::helper;
 use crate::native::shape::{Bound, Kind, Operand, Scalar};
 use crate::native::translate::{Frame, Translator, UnitKey};
 use crate::value::Value;
@@ -30,10 +30,10 @@ impl Translator<'_, '_> {
             }),
             Rule::TurboCall { procedure, arguments } => self.statement(|this| {
                 let outer = this.foralls.take();
-                this.call(Helper::Open, &[this.context]);
+                this.call(helper::OPEN, [this.context]);
                 let operands = this.terms(*arguments);
                 this.procedure(*procedure, &operands);
-                this.call_or_bail(Helper::Join, &[this.context]);
+                this.call_or_bail(helper::JOIN, [this.context]);
                 this.foralls = outer;
             }),
             Rule::Par(rules) => {
@@ -43,11 +43,11 @@ impl Translator<'_, '_> {
             }
             Rule::Seq(rules) => {
                 let outer = self.foralls.take();
-                self.call(Helper::BeginSequence, &[self.context]);
+                self.call(helper::BEGIN_SEQUENCE, [self.context]);
                 for rule in program.rule_list(*rules) {
                     self.part(*rule);
                 }
-                self.call_or_bail(Helper::EndSequence, &[self.context]);
+                self.call_or_bail(helper::END_SEQUENCE, [self.context]);
                 self.foralls = outer;
             }
             Rule::If { guards, rules } => {
@@ -122,7 +122,7 @@ impl Translator<'_, '_> {
                 let base = program.base_domain(*domain);
                 for offset in 0..*count {
                     let domain = self.word(i64::from(domain.0));
-                    let number = self.call_for_number(Helper::Create, &[self.context, domain]);
+                    let number = self.call_for_number(helper::CREATE, [self.context, domain]);
                     let element = Scalar::defined(Kind::Element(base), number);
                     self.bind(Slot(first.0 + offset), Bound::Scalar(element));
                 }
@@ -160,14 +160,14 @@ impl Translator<'_, '_> {
 
     /// One part of a sequence; gives whether it made updates.
     fn part(&mut self, rule: RuleId) -> cranelift_codegen::ir::Value {
-        self.call(Helper::Open, &[self.context]);
+        self.call(helper::OPEN, [self.context]);
         self.rule(rule);
-        self.call(Helper::ApplyUnit, &[self.context])
+        self.call(helper::APPLY_UNIT, [self.context])
     }
 
     fn repeat(&mut self, condition: Option<TermId>, body: RuleId, while_updates: bool) {
         let outer = self.foralls.take();
-        self.call(Helper::BeginSequence, &[self.context]);
+        self.call(helper::BEGIN_SEQUENCE, [self.context]);
         let (head, inner, done) = (self.block(), self.block(), self.block());
         self.jump(head);
         self.switch(head);
@@ -182,10 +182,10 @@ impl Translator<'_, '_> {
             self.branch(any, next, done);
             self.switch(next);
         }
-        self.call_or_bail(Helper::Iteration, &[self.context]);
+        self.call_or_bail(helper::ITERATION, [self.context]);
         self.jump(head);
         self.switch(done);
-        self.call_or_bail(Helper::EndSequence, &[self.context]);
+        self.call_or_bail(helper::END_SEQUENCE, [self.context]);
         self.foralls = outer;
     }
 
@@ -207,7 +207,7 @@ impl Translator<'_, '_> {
         self.plan.slots_of_rule(program, id, &mut slots);
         let (spill, values) = self.spill(slots);
         let rule = self.word(i64::from(id.0));
-        self.call_or_bail(Helper::Perform, &[self.context, rule, spill, values]);
+        self.call_or_bail(helper::PERFORM, [self.context, rule, spill, values]);
     }
 
     /// The procedure that makes the step.
@@ -269,11 +269,11 @@ impl Translator<'_, '_> {
             this.dispatch(value.value, &candidates, &mut |this, procedure| {
                 let turbo = this.program.procedure(procedure).turbo;
                 if turbo {
-                    this.call(Helper::Open, &[this.context]);
+                    this.call(helper::OPEN, [this.context]);
                 }
                 this.procedure(procedure, &operands);
                 if turbo {
-                    this.call_or_bail(Helper::Join, &[this.context]);
+                    this.call_or_bail(helper::JOIN, [this.context]);
                 }
             });
         });
@@ -301,7 +301,7 @@ impl Translator<'_, '_> {
                 }
                 _ => {
                     let pointer = this.boxed(operand);
-                    this.call_for_number(Helper::AgentProgram, &[this.context, pointer])
+                    this.call_for_number(helper::AGENT_PROGRAM, [this.context, pointer])
                 }
             };
             let Some(index) = this.plan.self_location(program) else {
@@ -365,7 +365,7 @@ impl Translator<'_, '_> {
 
             this.switch(some);
             let (rule, width) = (this.word(i64::from(id.0)), this.word(variables));
-            let chosen = this.call_for_number(Helper::Choose, &[this.context, rule, width]);
+            let chosen = this.call_for_number(helper::CHOOSE, [this.context, rule, width]);
             let candidates = this.field(Offset::candidates);
             let mut compound = false;
             for (offset, binder) in binders.iter().enumerate() {
@@ -383,13 +383,13 @@ impl Translator<'_, '_> {
                     }
                     _ => {
                         compound = true;
-                        Bound::Boxed(this.call_for_value(Helper::Keep, &[this.context, place]))
+                        Bound::Boxed(this.call_for_value(helper::KEEP, [this.context, place]))
                     }
                 };
                 this.bind(binder.slot, bound);
             }
             if compound {
-                this.call(Helper::DropCandidates, &[this.context]);
+                this.call(helper::DROP_CANDIDATES, [this.context]);
             } else {
                 let zero = this.word(0);
                 this.set_field(Offset::candidate, zero);
@@ -440,7 +440,7 @@ impl Translator<'_, '_> {
         self.plan.pin(values);
         let (rule, width, count) =
             (self.word(i64::from(id.0)), self.word(columns.len() as i64), self.word(count as i64));
-        let chosen = self.call_for_number(Helper::ChooseOf, &[self.context, rule, start, count, width]);
+        let chosen = self.call_for_number(helper::CHOOSE_OF, [self.context, rule, start, count, width]);
         let mut rest = chosen;
         for (index, (binder, (kind, low, high))) in binders.iter().zip(&columns).enumerate().rev() {
             let size = high - low + 1;
@@ -466,7 +466,7 @@ impl Translator<'_, '_> {
         self.builder.set_cold_block(room);
         self.branch(full, room, write);
         self.switch(room);
-        self.call_or_bail(Helper::MoreCandidates, &[self.context]);
+        self.call_or_bail(helper::MORE_CANDIDATES, [self.context]);
         self.jump(write);
         self.switch(write);
         let candidates = self.field(Offset::candidates);
@@ -481,7 +481,7 @@ impl Translator<'_, '_> {
                 }
                 other => {
                     let pointer = self.boxed(other.into());
-                    self.call(Helper::Copy, &[self.context, pointer, place]);
+                    self.call(helper::COPY, [self.context, pointer, place]);
                 }
             }
         }

@@ -3,6 +3,13 @@
 //! Every helper works on the machine that the context belongs to. One that meets a fault says so (null, −1 or 1)
 //! and drops it: the step is then rolled back and interpreted, which reports it ([`crate::native`]). INVARIANT: what
 //! a helper does to the machine, rolling back the update set undoes, or doing it again does nothing.
+//!
+//! Compiled code promises every helper three things, which the SAFETY comments call by name:
+//! - *context*: it passes the context of the step that runs. Executor and tables live as long as that step, and nothing
+//!   else uses them during the call: compiled code holds pointers only, and reads those that may move anew after it.
+//! - *values*: a pointer to a value leads to one that is initialised and that nothing drops before the statement ends: a
+//!   constant, a location's, one kept for the statement, two words on the code's stack. A list has as many as it says.
+//! - *numbers*: the numbers of tables, and what is asked of them, are those that the code was compiled with.
 #![allow(unsafe_code)]
 
 use std::mem::ManuallyDrop;
@@ -53,11 +60,8 @@ fn status(outcome: Outcome<()>) -> i64 {
 }
 
 /// Room for one more update.
-///
-/// # Safety
-/// Of every helper: it is called by code compiled for the context's program, with what that code was given.
 pub unsafe extern "C" fn grow(context: Pointer) -> i64 {
-    // SAFETY: see above.
+    // SAFETY: *context*; the code reads anew where the stack is, which moves here.
     unsafe {
         Context::with(context, |executor, _| {
             let stack = &mut executor.core.updates.stack;
@@ -73,7 +77,7 @@ pub unsafe extern "C" fn grow(context: Pointer) -> i64 {
 
 /// Whether the current unit's update of a location has this value.
 pub unsafe extern "C" fn agrees(context: Pointer, location: i64, value: *const Value) -> i64 {
-    // SAFETY: see `grow`.
+    // SAFETY: *context* and *values*; looking for the update that is held moves and changes no value.
     unsafe {
         let value = &*value;
         Context::with(context, |executor, _| {
@@ -89,7 +93,7 @@ pub unsafe extern "C" fn read(
     arguments: *const *const Value,
     count: u64,
 ) -> *const Value {
-    // SAFETY: see `grow`.
+    // SAFETY: *context* and *values*; where the store grows, its values move, and the words borrowed stay good.
     unsafe {
         let arguments = borrow(arguments, count);
         Context::with(context, |executor, context| {
@@ -107,7 +111,7 @@ pub unsafe extern "C" fn ask(
     count: u64,
     index: i64,
 ) -> i64 {
-    // SAFETY: see `grow`.
+    // SAFETY: *context* and *values*; the arguments are read before the input is written.
     unsafe {
         let arguments = borrow(arguments, count);
         Context::with(context, |executor, _| {
@@ -118,7 +122,7 @@ pub unsafe extern "C" fn ask(
 
 /// The number of a location about to be updated.
 pub unsafe extern "C" fn locate(context: Pointer, function: i64, arguments: *const *const Value, count: u64) -> i64 {
-    // SAFETY: see `grow`.
+    // SAFETY: *context* and *values*; where the store grows, its values move, and the words borrowed stay good.
     unsafe {
         let arguments = borrow(arguments, count);
         let function = FunctionId(function as u32);
@@ -139,7 +143,7 @@ pub unsafe extern "C" fn locate(context: Pointer, function: i64, arguments: *con
 
 /// Whether a value may be written to a function.
 pub unsafe extern "C" fn member(context: Pointer, function: i64, value: *const Value) -> i64 {
-    // SAFETY: see `grow`.
+    // SAFETY: *context* and *values*; no location changes while the value is looked at.
     unsafe {
         let value = &*value;
         Context::with(context, |executor, _| i64::from(executor.is_member(FunctionId(function as u32), value)))
@@ -148,7 +152,7 @@ pub unsafe extern "C" fn member(context: Pointer, function: i64, value: *const V
 
 /// Applies a library function, or builds a tuple or collection.
 pub unsafe extern "C" fn apply(context: Pointer, term: i64, operands: *const *const Value, count: u64) -> *const Value {
-    // SAFETY: see `grow`.
+    // SAFETY: *context* and *values*; what the operands share is counted again where the result keeps it.
     unsafe {
         let operands = borrow(operands, count);
         Context::with(context, |executor, context| {
@@ -166,7 +170,7 @@ pub unsafe extern "C" fn apply(context: Pointer, term: i64, operands: *const *co
 
 /// A component of a tuple, where the tuple keeps it; null of anything else.
 pub unsafe extern "C" fn component(tuple: *const Value, index: i64) -> *const Value {
-    // SAFETY: see `grow`.
+    // SAFETY: *values*; the part belongs to the tuple and lives as long.
     match unsafe { &*tuple } {
         Value::Tuple(parts) => &parts[index as usize],
         _ => std::ptr::null(),
@@ -175,13 +179,13 @@ pub unsafe extern "C" fn component(tuple: *const Value, index: i64) -> *const Va
 
 /// Whether two values are equal.
 pub unsafe extern "C" fn equal(left: *const Value, right: *const Value) -> i64 {
-    // SAFETY: see `grow`.
+    // SAFETY: *values*.
     unsafe { i64::from(*left == *right) }
 }
 
 /// Writes a copy of a value to a place that holds none: an update or a candidate.
 pub unsafe extern "C" fn copy(context: Pointer, value: *const Value, place: *mut Value) {
-    // SAFETY: see `grow`.
+    // SAFETY: *context* and *values*; the code has room at the place and has not counted it yet, so no value is there.
     unsafe {
         place.write((*value).clone());
         Context::mark_compound(context);
@@ -190,20 +194,20 @@ pub unsafe extern "C" fn copy(context: Pointer, value: *const Value, place: *mut
 
 /// Keeps a copy of a value until the statement ends.
 pub unsafe extern "C" fn keep(context: Pointer, value: *const Value) -> *const Value {
-    // SAFETY: see `grow`.
+    // SAFETY: *context* and *values*; it is copied before the kept values, of which it may be one, become more.
     unsafe { (*context).keep((*value).clone()) }
 }
 
 /// Ends a statement.
 pub unsafe extern "C" fn release(context: Pointer, mark: u64) {
-    // SAFETY: see `grow`.
+    // SAFETY: *context*; the code takes the mark at the beginning of the statement that ends here.
     unsafe { (*context).release(mark) }
 }
 
 /// Opens a frame with the variables that an interpreted part reads.
 ///
 /// # Safety
-/// `values` are as many living values as the spill lists slots.
+/// *context*, *numbers* and *values* hold, and `values` are as many as the spill lists slots.
 unsafe fn in_spilled_frame<T>(
     context: Pointer,
     spill: u64,
@@ -234,7 +238,7 @@ pub unsafe extern "C" fn evaluate(
     spill: u64,
     values: *const *const Value,
 ) -> *const Value {
-    // SAFETY: see `grow`.
+    // SAFETY: *context*, *numbers* and *values*, of which the code spills as many as the table lists.
     unsafe {
         match in_spilled_frame(context, spill, values, |executor| executor.evaluate(TermId(term as u32))) {
             Some(value) => (*context).keep(value),
@@ -245,7 +249,7 @@ pub unsafe extern "C" fn evaluate(
 
 /// Runs a rule by interpretation.
 pub unsafe extern "C" fn perform(context: Pointer, rule: i64, spill: u64, values: *const *const Value) -> i64 {
-    // SAFETY: see `grow`.
+    // SAFETY: *context*, *numbers* and *values*, of which the code spills as many as the table lists.
     unsafe {
         let done = in_spilled_frame(context, spill, values, |executor| executor.perform(RuleId(rule as u32)));
         if done.is_some() { 0 } else { BAIL }
@@ -254,7 +258,7 @@ pub unsafe extern "C" fn perform(context: Pointer, rule: i64, spill: u64, values
 
 /// The elements of a domain as a sequence.
 pub unsafe extern "C" fn elements(context: Pointer, domain: i64) -> *const Value {
-    // SAFETY: see `grow`.
+    // SAFETY: *context*.
     unsafe {
         Context::with(context, |executor, context| {
             let outcome = executor.listed(DomainId(domain as u32), NOWHERE).map(Value::Seq);
@@ -265,7 +269,8 @@ pub unsafe extern "C" fn elements(context: Pointer, domain: i64) -> *const Value
 
 /// Where the elements of a collection are and how many, written to two words.
 pub unsafe extern "C" fn range(context: Pointer, collection: *const Value, out: *mut [u64; 2]) -> i64 {
-    // SAFETY: see `grow`.
+    // SAFETY: *context* and *values*; `out` is two words on the code's stack. The items live as long as their
+    // collection, and one made here is kept for the statement.
     unsafe {
         let items: &[Value] = match &*collection {
             Value::Set(items) | Value::Seq(items) => items,
@@ -288,7 +293,7 @@ pub unsafe extern "C" fn range(context: Pointer, collection: *const Value, out: 
 
 /// Begins a `seq`.
 pub unsafe extern "C" fn begin_sequence(context: Pointer) {
-    // SAFETY: see `grow`.
+    // SAFETY: *context*; the tables are no part of the executor, so both may be changed at once.
     unsafe {
         let tables = Context::tables(context);
         Context::with(context, |executor, _| {
@@ -300,7 +305,7 @@ pub unsafe extern "C" fn begin_sequence(context: Pointer) {
 
 /// Ends a `seq`, joining its net effect to the unit around it.
 pub unsafe extern "C" fn end_sequence(context: Pointer) -> i64 {
-    // SAFETY: see `grow`.
+    // SAFETY: *context*; the tables are no part of the executor, so both may be changed at once.
     unsafe {
         let tables = Context::tables(context);
         Context::with(context, |executor, _| {
@@ -315,7 +320,7 @@ pub unsafe extern "C" fn end_sequence(context: Pointer) -> i64 {
 
 /// Opens a unit.
 pub unsafe extern "C" fn open(context: Pointer) {
-    // SAFETY: see `grow`.
+    // SAFETY: *context*; the tables are no part of the executor, so both may be changed at once.
     unsafe {
         let tables = Context::tables(context);
         Context::with(context, |executor, _| tables.units.push(executor.core.updates.open()));
@@ -324,7 +329,7 @@ pub unsafe extern "C" fn open(context: Pointer) {
 
 /// Ends a part of a `seq`; tells whether it made updates.
 pub unsafe extern "C" fn apply_unit(context: Pointer) -> i64 {
-    // SAFETY: see `grow`.
+    // SAFETY: *context*; the tables are no part of the executor, so both may be changed at once.
     unsafe {
         let tables = Context::tables(context);
         Context::with(context, |executor, _| {
@@ -342,7 +347,7 @@ pub unsafe extern "C" fn apply_unit(context: Pointer) -> i64 {
 
 /// Ends a turbo call's unit.
 pub unsafe extern "C" fn join(context: Pointer) -> i64 {
-    // SAFETY: see `grow`.
+    // SAFETY: *context*; the tables are no part of the executor, so both may be changed at once.
     unsafe {
         let tables = Context::tables(context);
         Context::with(context, |executor, _| match tables.units.pop() {
@@ -354,13 +359,13 @@ pub unsafe extern "C" fn join(context: Pointer) -> i64 {
 
 /// Counts a round of a loop.
 pub unsafe extern "C" fn iteration(context: Pointer) -> i64 {
-    // SAFETY: see `grow`.
+    // SAFETY: *context*.
     unsafe { Context::with(context, |executor, _| status(executor.count_iteration(NOWHERE))) }
 }
 
 /// Makes a fresh element; its number.
 pub unsafe extern "C" fn create(context: Pointer, domain: i64) -> i64 {
-    // SAFETY: see `grow`.
+    // SAFETY: *context*.
     unsafe {
         Context::with(context, |executor, _| match executor.create(DomainId(domain as u32), NOWHERE) {
             Ok(Value::Element(_, number)) => i64::from(number),
@@ -371,7 +376,7 @@ pub unsafe extern "C" fn create(context: Pointer, domain: i64) -> i64 {
 
 /// Lets the environment choose among the candidates written; its index.
 pub unsafe extern "C" fn choose(context: Pointer, rule: i64, variables: u64) -> i64 {
-    // SAFETY: see `grow`.
+    // SAFETY: *context*; the candidates counted have been written.
     unsafe {
         Context::with(context, |executor, context| {
             let values = context.candidate_slice();
@@ -397,7 +402,8 @@ pub unsafe extern "C" fn choose_of(
     count: u64,
     variables: u64,
 ) -> i64 {
-    // SAFETY: see `grow`; the values belong to the code and live as long as it.
+    // SAFETY: *context*, and a choice touches neither store nor update set; the values belong to the code, are `count`
+    // times `variables`, and live as long as it.
     unsafe {
         let values = std::slice::from_raw_parts(values, (count * variables) as usize);
         let executor = Context::executor(context);
@@ -412,7 +418,7 @@ pub unsafe extern "C" fn choose_of(
 
 /// Makes room for more candidates.
 pub unsafe extern "C" fn more_candidates(context: Pointer) -> i64 {
-    // SAFETY: see `grow`.
+    // SAFETY: *context*; the tables are no part of the context, so both may be changed at once.
     unsafe {
         let tables = Context::tables(context);
         if (*context).more_candidates(&mut tables.memory) { 0 } else { BAIL }
@@ -421,13 +427,13 @@ pub unsafe extern "C" fn more_candidates(context: Pointer) -> i64 {
 
 /// Forgets the candidates.
 pub unsafe extern "C" fn drop_candidates(context: Pointer) {
-    // SAFETY: see `grow`.
+    // SAFETY: *context*; the candidates counted have been written, and are counted no more.
     unsafe { (*context).drop_candidates() }
 }
 
 /// The program of an agent.
 pub unsafe extern "C" fn agent_program(context: Pointer, agent: *const Value) -> i64 {
-    // SAFETY: see `grow`.
+    // SAFETY: *context* and *values*; no location changes while the agent is looked at.
     unsafe {
         let agent = &*agent;
         Context::with(context, |executor, _| executor.agent_program(agent).map_or(-1, |id| i64::from(id.0)))
@@ -436,7 +442,8 @@ pub unsafe extern "C" fn agent_program(context: Pointer, agent: *const Value) ->
 
 /// Evaluates an entry of a table of fixed terms.
 pub unsafe extern "C" fn fill(context: Pointer, table: u64, entry: i64, values: *const *const Value) -> i64 {
-    // SAFETY: see `grow`.
+    // SAFETY: *context*, *numbers* and *values*, of which the code spills as many as the table lists. The interpreter
+    // does not know the tables, so the entry is still there.
     unsafe {
         let (term, spill) = {
             let table = &Context::tables(context).fixed[table as usize];
@@ -457,7 +464,7 @@ pub unsafe extern "C" fn fill(context: Pointer, table: u64, entry: i64, values: 
 
 /// Keeps the value of a derived function at a place for the state as it is.
 pub unsafe extern "C" fn keep_derived(context: Pointer, place: i64, mark: i64, value: *const Value) {
-    // SAFETY: see `grow`.
+    // SAFETY: *context* and *values*; it is copied before the kept value, which it may be, changes.
     unsafe {
         let value = (*value).clone();
         Context::with(context, |executor, _| executor.core.memo.keep((place as u32, mark as u64), value));
@@ -466,7 +473,7 @@ pub unsafe extern "C" fn keep_derived(context: Pointer, place: i64, mark: i64, v
 
 /// Looks whether the step is to end, when its budget is spent.
 pub unsafe extern "C" fn look(context: Pointer) -> i64 {
-    // SAFETY: see `grow`.
+    // SAFETY: *context*.
     unsafe {
         Context::with(context, |executor, context| {
             let spent = INTERVAL as i64 - std::mem::replace(&mut context.budget, INTERVAL as i64);

@@ -6,7 +6,7 @@ use cranelift_frontend::Variable;
 use program::{Builtin, CollectionKind, FunctionId, Quantifier, Term, TermId, TermList};
 
 use crate::native::context::Offset;
-use crate::native::helper::Helper;
+use crate::native::helper;
 use crate::native::shape::{Bound, Kind, Operand, Scalar};
 use crate::native::translate::{Frame, Translator, UnitKey};
 use crate::value::Value;
@@ -76,7 +76,7 @@ impl Translator<'_, '_> {
                 let tuple = self.term(*tuple);
                 let tuple = self.pinned(tuple);
                 let index = self.word(i64::from(*index));
-                let component = self.call(Helper::Component, &[tuple, index]);
+                let component = self.call(helper::COMPONENT, [tuple, index]);
                 self.require(component);
                 Operand::Boxed(component)
             }
@@ -130,7 +130,7 @@ impl Translator<'_, '_> {
         self.plan.slots_of_term(program, id, &mut slots);
         let (spill, values) = self.spill(slots);
         let term = self.word(i64::from(id.0));
-        Operand::Boxed(self.call_for_value(Helper::Evaluate, &[self.context, term, spill, values]))
+        Operand::Boxed(self.call_for_value(helper::EVALUATE, [self.context, term, spill, values]))
     }
 
     /// Hands variables over to the interpreter: the number of the list of slots, and where their values are.
@@ -146,7 +146,7 @@ impl Translator<'_, '_> {
     pub fn apply(&mut self, id: TermId, operands: &[Operand]) -> Operand {
         let pointers = self.pointers(operands);
         let (term, count) = (self.word(i64::from(id.0)), self.word(operands.len() as i64));
-        Operand::Boxed(self.call_for_value(Helper::Apply, &[self.context, term, pointers, count]))
+        Operand::Boxed(self.call_for_value(helper::APPLY, [self.context, term, pointers, count]))
     }
 
     // ---- branches
@@ -351,7 +351,7 @@ impl Translator<'_, '_> {
             }
             (left, right) => {
                 let (left, right) = (self.boxed(left), self.boxed(right));
-                let equal = self.call(Helper::Equal, &[left, right]);
+                let equal = self.call(helper::EQUAL, [left, right]);
                 self.builder.ins().ireduce(types::I8, equal)
             }
         }

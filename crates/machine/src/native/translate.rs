@@ -14,9 +14,10 @@ use cranelift_jit::JITModule;
 use program::{DomainId, FunctionId, ProcedureId, Program, TermId};
 
 use crate::native::context::Offset;
-use crate::native::helper::Helper;
+use crate::native::helper::{self, Given, Helper};
 use crate::native::plan::Plan;
 use crate::native::shape::{Bound, Kind, Operand, Scalar};
+use crate::value::Value;
 
 /// Memory that compiled code may read and write without a check: values, updates, stamps.
 pub(super) const FLAGS: MemFlags = MemFlags::trusted().with_alias_region(Some(AliasRegion::Heap));
@@ -64,7 +65,7 @@ pub(super) struct Translator<'t, 'f> {
     pub weight: usize,
     /// How often the loops around that do not count their rounds run what is being translated.
     pub rounds: i64,
-    references: Vec<(Helper, FuncRef)>,
+    references: Vec<(usize, FuncRef)>,
 }
 
 impl<'t, 'f> Translator<'t, 'f> {
@@ -207,30 +208,39 @@ impl<'t, 'f> Translator<'t, 'f> {
         self.builder.set_cold_block(look);
         self.branch(spent, look, next);
         self.switch(look);
-        self.call_or_bail(Helper::Look, &[self.context]);
+        self.call_or_bail(helper::LOOK, [self.context]);
         self.jump(next);
         self.switch(next);
     }
 
     // ---- helpers
 
-    /// Calls a helper; gives its result, or the context where it has none.
-    pub fn call(&mut self, helper: Helper, arguments: &[ir::Value]) -> ir::Value {
-        let reference = match self.references.iter().find(|(known, _)| *known == helper) {
+    /// Calls a helper; gives its result.
+    pub fn call<const WORDS: usize, R: Given>(
+        &mut self,
+        helper: Helper<WORDS, R>,
+        arguments: [ir::Value; WORDS],
+    ) -> R::Translated {
+        let index = helper.index();
+        let reference = match self.references.iter().find(|(known, _)| *known == index) {
             Some((_, reference)) => *reference,
             None => {
-                let reference = self.plan.helpers.reference(helper, self.module, &mut self.builder);
-                self.references.push((helper, reference));
+                let reference = self.plan.helpers.reference(index, self.module, &mut self.builder);
+                self.references.push((index, reference));
                 reference
             }
         };
-        let call = self.builder.ins().call(reference, arguments);
-        self.builder.inst_results(call).first().copied().unwrap_or(self.context)
+        let call = self.builder.ins().call(reference, &arguments);
+        R::translated(self.builder.inst_results(call))
     }
 
     /// Calls a helper that gives a pointer, null where the step cannot go on. The value lives as long as the
     /// statement.
-    pub fn call_for_value(&mut self, helper: Helper, arguments: &[ir::Value]) -> ir::Value {
+    pub fn call_for_value<const WORDS: usize>(
+        &mut self,
+        helper: Helper<WORDS, *const Value>,
+        arguments: [ir::Value; WORDS],
+    ) -> ir::Value {
         self.note_kept();
         let pointer = self.call(helper, arguments);
         self.require(pointer);
@@ -244,13 +254,17 @@ impl<'t, 'f> Translator<'t, 'f> {
     }
 
     /// Calls a helper that gives a status, not zero where the step cannot go on.
-    pub fn call_or_bail(&mut self, helper: Helper, arguments: &[ir::Value]) {
+    pub fn call_or_bail<const WORDS: usize>(&mut self, helper: Helper<WORDS, i64>, arguments: [ir::Value; WORDS]) {
         let status = self.call(helper, arguments);
         self.refuse(status);
     }
 
     /// Calls a helper that gives a number, negative where the step cannot go on.
-    pub fn call_for_number(&mut self, helper: Helper, arguments: &[ir::Value]) -> ir::Value {
+    pub fn call_for_number<const WORDS: usize>(
+        &mut self,
+        helper: Helper<WORDS, i64>,
+        arguments: [ir::Value; WORDS],
+    ) -> ir::Value {
         let number = self.call(helper, arguments);
         let negative = self.builder.ins().icmp_imm(IntCC::SignedLessThan, number, 0);
         self.refuse(negative);
@@ -275,7 +289,7 @@ impl<'t, 'f> Translator<'t, 'f> {
         let (some, next) = (self.block(), self.block());
         self.branch(any, some, next);
         self.switch(some);
-        self.call(Helper::Release, &[self.context, mark]);
+        self.call(helper::RELEASE, [self.context, mark]);
         self.jump(next);
         self.switch(next);
     }
@@ -327,7 +341,7 @@ impl<'t, 'f> Translator<'t, 'f> {
         match operand {
             Operand::Stored(index) => {
                 let place = self.stored(index);
-                self.call_for_value(Helper::Keep, &[self.context, place])
+                self.call_for_value(helper::KEEP, [self.context, place])
             }
             other => self.boxed(other),
         }

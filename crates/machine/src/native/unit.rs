@@ -11,7 +11,7 @@ use cranelift_module::{Linkage, Module};
 use program::{DomainId, FunctionId, ProcedureId, Program, Slot, TermId};
 
 use crate::native::context::Offset;
-use crate::native::helper::{Helper, signature};
+use crate::native::helper::{self, signature};
 use crate::native::shape::{Bound, Kind, Operand, Scalar};
 use crate::native::translate::{Frame, Translator, UnitKey};
 
@@ -116,7 +116,7 @@ impl Translator<'_, '_> {
                         let pointer = self.pinned(operand);
                         // A scalar's box lies in this function's own frame.
                         let pointer = match operand {
-                            Operand::Scalar(_) => self.call_for_value(Helper::Keep, &[self.context, pointer]),
+                            Operand::Scalar(_) => self.call_for_value(helper::KEEP, [self.context, pointer]),
                             _ => pointer,
                         };
                         self.builder.ins().return_(&[pointer]);
@@ -227,11 +227,11 @@ impl Translator<'_, '_> {
                 let keep = self.block();
                 self.branch(inside, keep, done);
                 self.switch(keep);
-                self.call(Helper::KeepDerived, &[self.context, place, mark, value]);
+                self.call(helper::KEEP_DERIVED, [self.context, place, mark, value]);
                 self.jump(done);
             }
             None => {
-                self.call(Helper::KeepDerived, &[self.context, place, mark, value]);
+                self.call(helper::KEEP_DERIVED, [self.context, place, mark, value]);
                 self.jump(done);
             }
         }
@@ -240,7 +240,7 @@ impl Translator<'_, '_> {
         match kind {
             Some(kind) => Operand::Scalar(self.unboxed(pointer, kind)),
             // A kept value may be replaced before this one is used.
-            None => Operand::Boxed(self.call_for_value(Helper::Keep, &[self.context, pointer])),
+            None => Operand::Boxed(self.call_for_value(helper::KEEP, [self.context, pointer])),
         }
     }
 
@@ -319,7 +319,7 @@ impl Translator<'_, '_> {
         let operands: Vec<Operand> = slots.iter().map(|slot| self.slot(Slot(*slot)).into()).collect();
         let pointers = self.pointers(&operands);
         let table = self.word(table as i64);
-        self.call_or_bail(Helper::Fill, &[self.context, table, index, pointers]);
+        self.call_or_bail(helper::FILL, [self.context, table, index, pointers]);
         self.jump(ready);
         self.switch(ready);
         let values = self.address(values);
