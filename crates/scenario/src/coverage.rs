@@ -1,7 +1,8 @@
-//! What scenarios covered of a model: rules, branches, updates, forall with no, one and many elements.
+//! What there is to cover of a model, and what scenarios covered: rules, branches, updates, forall with no, one and many
+//! elements.
 //!
-//! In: counts of several runs, by the place of the rule in the text, so that a macro rule lowered several times
-//! counts as one. Out: [`Items`], everything there is to cover in the model's own files, each covered or not.
+//! In: a model. Out: all that is [`wanted`] of tests; and with the counts of several runs, by the place of the rule in the
+//! text, so that a macro rule lowered several times counts as one, [`Items`]: each covered or not.
 
 use std::collections::BTreeMap;
 
@@ -41,8 +42,12 @@ impl Counts {
         other.rules.iter().for_each(|(span, count)| self.add(*span, *count));
     }
 
-    fn at(&self, node: &RuleNode) -> Count {
-        self.rules.get(&node.span).copied().unwrap_or_default()
+    fn show(&self, evidence: Evidence) -> bool {
+        let at = |span: Span| self.rules.get(&span).copied().unwrap_or_default();
+        match evidence {
+            Evidence::Ran(span) => at(span).executed > 0,
+            Evidence::Went(span, outcome) => at(span).outcomes[usize::from(outcome)] > 0,
+        }
     }
 }
 
@@ -95,50 +100,121 @@ pub struct Coverage {
     pub total: usize,
 }
 
+/// What kind of thing is to be covered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WantedKind {
+    /// A declared rule runs.
+    Rule,
+    /// A branch of an if, switch or choose is taken, or none.
+    Branch(&'static str),
+    /// An update changes something.
+    Update,
+    /// A forall runs with no, one or many elements: 0, 1, 2.
+    Forall(u8),
+}
+
+/// What shows that it is covered, by the place of a rule in the text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Evidence {
+    /// The rule ran.
+    Ran(Span),
+    /// The rule went so (see [`machine::Coverage`]).
+    Went(Span, u8),
+}
+
+/// One thing that there is to cover.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Wanted<'m> {
+    /// The declared rule it is in.
+    pub rule: &'m str,
+    /// What it is.
+    pub kind: WantedKind,
+    /// Where.
+    pub span: Span,
+    /// What shows that it is covered.
+    pub evidence: Evidence,
+}
+
+/// Everything there is to cover in the rules of files that `own` accepts, in the order of the text: what scenarios are
+/// counted by, and what tests are made for.
+pub fn wanted<'m>(model: &'m Model, own: &dyn Fn(FileId) -> bool) -> Vec<Wanted<'m>> {
+    let mut all = Vec::new();
+    for rule in model.rules.iter().filter(|rule| own(rule.span.file)) {
+        let evidence = Evidence::Ran(rule.body.span);
+        all.push(Wanted { rule: &rule.name, kind: WantedKind::Rule, span: rule.span, evidence });
+        rule.body.walk(&mut |node| {
+            of_node(node, &mut |kind, span, evidence| all.push(Wanted { rule: &rule.name, kind, span, evidence }));
+        });
+    }
+    all
+}
+
+fn of_node(node: &RuleNode, add: &mut dyn FnMut(WantedKind, Span, Evidence)) {
+    let mut branch = |what, span, evidence| add(WantedKind::Branch(what), span, evidence);
+    let went = |outcome| Evidence::Went(node.span, outcome);
+    match &node.kind {
+        RuleKind::Update { .. } => add(WantedKind::Update, node.span, went(1)),
+        RuleKind::If { branches, otherwise } => {
+            branches.iter().for_each(|(_, child)| branch("then", child.span, Evidence::Ran(child.span)));
+            match otherwise {
+                Some(child) => branch("else", child.span, Evidence::Ran(child.span)),
+                None => branch("no branch", node.span, went(0)),
+            }
+        }
+        RuleKind::Switch { cases, otherwise, .. } => {
+            cases.iter().for_each(|(_, child)| branch("case", child.span, Evidence::Ran(child.span)));
+            match otherwise {
+                Some(child) => branch("otherwise", child.span, Evidence::Ran(child.span)),
+                None => branch("no case", node.span, went(0)),
+            }
+        }
+        RuleKind::Choose { body, .. } => {
+            branch("chosen", body.span, Evidence::Ran(body.span));
+            branch("nothing to choose", node.span, went(0));
+        }
+        RuleKind::Forall { .. } => {
+            (0..3).for_each(|outcome| add(WantedKind::Forall(outcome), node.span, went(outcome)));
+        }
+        RuleKind::Skip
+        | RuleKind::MacroCall(_)
+        | RuleKind::TurboCall(_)
+        | RuleKind::Return { .. }
+        | RuleKind::RunValue { .. }
+        | RuleKind::RunAgent { .. }
+        | RuleKind::Par(_)
+        | RuleKind::Seq(_)
+        | RuleKind::Let { .. }
+        | RuleKind::Extend { .. }
+        | RuleKind::Iterate(_)
+        | RuleKind::While { .. }
+        | RuleKind::RecursiveWhile { .. }
+        | RuleKind::Local { .. }
+        | RuleKind::Error => {}
+    }
+}
+
 impl Items {
     /// What there is to cover in the rules of files that `own` accepts.
     pub fn of(model: &Model, own: &dyn Fn(FileId) -> bool, counts: &Counts) -> Items {
         let mut items = Items::default();
-        for rule in model.rules.iter().filter(|rule| own(rule.span.file)) {
-            let covered = counts.at(&rule.body).executed > 0;
-            items.rules.push(Item { rule: rule.name.clone(), what: "rule", span: rule.span, covered });
-            rule.body.walk(&mut |node| items.node(&rule.name, node, counts));
+        for Wanted { rule, kind, span, evidence } in wanted(model, own) {
+            let covered = counts.show(evidence);
+            let item = |what| Item { rule: rule.to_string(), what, span, covered };
+            match kind {
+                WantedKind::Rule => items.rules.push(item("rule")),
+                WantedKind::Branch(what) => items.branches.push(item(what)),
+                WantedKind::Update => items.updates.push(item("update")),
+                WantedKind::Forall(0) => {
+                    items.foralls.push(Forall { rule: rule.to_string(), span, seen: [covered, false, false] });
+                }
+                WantedKind::Forall(outcome) => {
+                    if let Some(forall) = items.foralls.last_mut() {
+                        forall.seen[usize::from(outcome)] = covered;
+                    }
+                }
+            }
         }
         items
-    }
-
-    fn node(&mut self, rule: &str, node: &RuleNode, counts: &Counts) {
-        let count = counts.at(node);
-        let item = |what, span, covered| Item { rule: rule.to_string(), what, span, covered };
-        let ran = |child: &RuleNode| counts.at(child).executed > 0;
-        match &node.kind {
-            RuleKind::Update { .. } => self.updates.push(item("update", node.span, count.outcomes[1] > 0)),
-            RuleKind::If { branches, otherwise } => {
-                let taken = branches.iter().map(|(_, child)| item("then", child.span, ran(child)));
-                self.branches.extend(taken);
-                self.branches.push(match otherwise {
-                    Some(child) => item("else", child.span, ran(child)),
-                    None => item("no branch", node.span, count.outcomes[0] > 0),
-                });
-            }
-            RuleKind::Switch { cases, otherwise, .. } => {
-                let taken = cases.iter().map(|(_, child)| item("case", child.span, ran(child)));
-                self.branches.extend(taken);
-                self.branches.push(match otherwise {
-                    Some(child) => item("otherwise", child.span, ran(child)),
-                    None => item("no case", node.span, count.outcomes[0] > 0),
-                });
-            }
-            RuleKind::Choose { body, .. } => {
-                self.branches.push(item("chosen", body.span, ran(body)));
-                self.branches.push(item("nothing to choose", node.span, count.outcomes[0] > 0));
-            }
-            RuleKind::Forall { .. } => {
-                let seen = count.outcomes.map(|count| count > 0);
-                self.foralls.push(Forall { rule: rule.to_string(), span: node.span, seen });
-            }
-            _ => {}
-        }
     }
 
     /// How much of each kind was covered: rules, branches, updates, foralls (each counting three times).

@@ -15,7 +15,7 @@ mod script;
 mod story;
 mod verdict;
 
-pub use coverage::{Branch, Counts, Coverage, Forall, Item, Items};
+pub use coverage::{Branch, Counts, Coverage, Evidence, Forall, Item, Items, Wanted, WantedKind, wanted};
 pub use environment::{Choices, FirstCandidate, Made};
 pub use expand::Blocks;
 pub use explain::{Reading, explain};

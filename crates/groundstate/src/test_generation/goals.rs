@@ -1,13 +1,15 @@
 //! What tests are to reach: everything that the coverage of scenarios counts, conditions that decide, transitions.
 //!
-//! In: a model, what was seen to happen. Out: [`Goal`]s. A goal has [`Need`]s: a condition that is to decide needs two
-//! decisions, everything else one event. A rule is one, by its place in the text, however often it stands in the program.
+//! In: a model, of which [`scenario::wanted`] says what there is to cover; what was seen to happen. Out: [`Goal`]s. A goal
+//! has [`Need`]s: a condition that is to decide needs two decisions, everything else one event. A rule is one, by its place
+//! in the text, however often it stands in the program.
 
 use std::collections::BTreeSet;
 
 use machine::{Observation, Truths};
-use model::{Model, RuleKind, RuleNode};
+use model::Model;
 use program::{DomainId, Program};
+use scenario::{Evidence, Wanted, WantedKind, wanted};
 use syntax::{FileId, Span};
 use verify::survey::{Sighting, guards};
 
@@ -86,11 +88,7 @@ pub(super) fn goals(
     own: &dyn Fn(FileId) -> bool,
     sightings: &[Sighting],
 ) -> Vec<Goal> {
-    let mut goals = Vec::new();
-    for rule in model.rules.iter().filter(|rule| own(rule.span.file)) {
-        goals.push(goal(GoalKind::Rule, &rule.name, rule.span, vec![Need::Ran(rule.body.span)]));
-        rule.body.walk(&mut |node| of_node(&mut goals, &rule.name, node));
-    }
+    let mut goals: Vec<Goal> = wanted(model, own).iter().map(goal).collect();
     let seen: BTreeSet<Need> = sightings
         .iter()
         .filter(|sighting| sighting.made)
@@ -123,39 +121,19 @@ fn covers(outer: Span, inner: Span) -> bool {
     outer.file == inner.file && outer.start <= inner.start && inner.end <= outer.end
 }
 
-fn goal(kind: GoalKind, rule: &str, span: Span, needs: Vec<Need>) -> Goal {
-    Goal { kind, rule: rule.to_string(), span, needs, reached: false }
-}
-
-fn of_node(goals: &mut Vec<Goal>, rule: &str, node: &RuleNode) {
-    let mut branch = |what, span, need| goals.push(goal(GoalKind::Branch(what), rule, span, vec![need]));
-    let none = Need::Went(node.span, 0);
-    match &node.kind {
-        RuleKind::Update { .. } => goals.push(goal(GoalKind::Update, rule, node.span, vec![Need::Went(node.span, 1)])),
-        RuleKind::If { branches, otherwise } => {
-            branches.iter().for_each(|(_, child)| branch("then", child.span, Need::Ran(child.span)));
-            match otherwise {
-                Some(child) => branch("else", child.span, Need::Ran(child.span)),
-                None => branch("no branch", node.span, none),
-            }
-        }
-        RuleKind::Switch { cases, otherwise, .. } => {
-            cases.iter().for_each(|(_, child)| branch("case", child.span, Need::Ran(child.span)));
-            match otherwise {
-                Some(child) => branch("otherwise", child.span, Need::Ran(child.span)),
-                None => branch("no case", node.span, none),
-            }
-        }
-        RuleKind::Choose { body, .. } => {
-            branch("chosen", body.span, Need::Ran(body.span));
-            branch("nothing to choose", node.span, none);
-        }
-        RuleKind::Forall { .. } => {
-            for (outcome, what) in ["no element", "one element", "many elements"].into_iter().enumerate() {
-                let needs = vec![Need::Went(node.span, outcome as u8)];
-                goals.push(goal(GoalKind::Forall(what), rule, node.span, needs));
-            }
-        }
-        _ => {}
-    }
+/// What scenarios are counted by, as a goal.
+fn goal(wanted: &Wanted<'_>) -> Goal {
+    let kind = match wanted.kind {
+        WantedKind::Rule => GoalKind::Rule,
+        WantedKind::Branch(what) => GoalKind::Branch(what),
+        WantedKind::Update => GoalKind::Update,
+        WantedKind::Forall(0) => GoalKind::Forall("no element"),
+        WantedKind::Forall(1) => GoalKind::Forall("one element"),
+        WantedKind::Forall(_) => GoalKind::Forall("many elements"),
+    };
+    let need = match wanted.evidence {
+        Evidence::Ran(span) => Need::Ran(span),
+        Evidence::Went(span, outcome) => Need::Went(span, outcome),
+    };
+    Goal { kind, rule: wanted.rule.to_string(), span: wanted.span, needs: vec![need], reached: false }
 }
