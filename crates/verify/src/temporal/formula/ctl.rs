@@ -5,7 +5,7 @@
 
 use program::TemporalOperator;
 
-use super::{Arena, FormulaId, Logic};
+use super::{Arena, Connective, FormulaId, Logic, Node};
 
 /// A formula over formulas of the same table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -26,6 +26,29 @@ pub enum Ctl {
     ExistsGlobally(FormulaId),
 }
 
+impl From<Connective> for Ctl {
+    fn from(connective: Connective) -> Ctl {
+        match connective {
+            Connective::Constant(truth) => Ctl::Constant(truth),
+            Connective::Proposition(number) => Ctl::Proposition(number),
+            Connective::Not(p) => Ctl::Not(p),
+            Connective::And(p, q) => Ctl::And(p, q),
+        }
+    }
+}
+
+impl Node for Ctl {
+    fn connective(self) -> Option<Connective> {
+        Some(match self {
+            Ctl::Constant(truth) => Connective::Constant(truth),
+            Ctl::Proposition(number) => Connective::Proposition(number),
+            Ctl::Not(p) => Connective::Not(p),
+            Ctl::And(p, q) => Connective::And(p, q),
+            Ctl::ExistsNext(_) | Ctl::ExistsUntil(..) | Ctl::ExistsGlobally(_) => return None,
+        })
+    }
+}
+
 /// A table of formulas of computation tree logic.
 #[derive(Debug, Clone, Default)]
 pub struct CtlFormulas {
@@ -41,13 +64,6 @@ impl CtlFormulas {
     /// All formulas, parts before wholes.
     pub fn nodes(&self) -> &[Ctl] {
         self.arena.nodes()
-    }
-
-    fn constant_of(&self, id: FormulaId) -> Option<bool> {
-        match self.node(id) {
-            Ctl::Constant(truth) => Some(truth),
-            _ => None,
-        }
     }
 
     /// On some path in the next state. A constant is one because every state has a successor; under fairness a state may
@@ -139,33 +155,15 @@ impl CtlFormulas {
 }
 
 impl Logic for CtlFormulas {
+    type Node = Ctl;
     const BRANCHING: bool = true;
 
-    fn constant(&mut self, truth: bool) -> FormulaId {
-        self.arena.add(Ctl::Constant(truth))
+    fn arena(&self) -> &Arena<Ctl> {
+        &self.arena
     }
 
-    fn proposition(&mut self, number: u32) -> FormulaId {
-        self.arena.add(Ctl::Proposition(number))
-    }
-
-    fn not(&mut self, formula: FormulaId) -> FormulaId {
-        match self.node(formula) {
-            Ctl::Constant(truth) => self.constant(!truth),
-            Ctl::Not(inner) => inner,
-            _ => self.arena.add(Ctl::Not(formula)),
-        }
-    }
-
-    fn and(&mut self, left: FormulaId, right: FormulaId) -> FormulaId {
-        match (self.constant_of(left), self.constant_of(right)) {
-            (Some(true), _) => right,
-            (_, Some(true)) => left,
-            (Some(false), _) => left,
-            (_, Some(false)) => right,
-            _ if left == right => left,
-            _ => self.arena.add(Ctl::And(left.min(right), left.max(right))),
-        }
+    fn arena_mut(&mut self) -> &mut Arena<Ctl> {
+        &mut self.arena
     }
 
     fn operator(&mut self, operator: TemporalOperator, formulas: &[FormulaId]) -> Option<FormulaId> {
@@ -217,7 +215,17 @@ impl Logic for CtlFormulas {
                 let end = self.or(*s, *r);
                 self.all_weak_until(excused, end)
             }
-            _ => return None,
+            // Of the other logic, and those that count steps.
+            (
+                ExN | AxN | Next | Globally | Finally | Until | Releases | Previous | WeakPrevious | Historically
+                | Once | Since | Triggered,
+                _,
+            ) => return None,
+            (
+                Eg | Ex | Ef | Ag | Ax | Af | Eu | Au | Ew | Aw | AbsenceGlobally | AbsenceBefore | AbsenceAfter
+                | AbsenceBetween | AbsenceAfterUntil | Precedence | PrecedenceBefore,
+                _,
+            ) => unreachable!("the verifier of programs counts arguments"),
         })
     }
 
@@ -235,9 +243,5 @@ impl Logic for CtlFormulas {
             formula = after;
         }
         matches!(operator, TemporalOperator::ExN | TemporalOperator::AxN).then_some(formula)
-    }
-
-    fn size(&self) -> usize {
-        self.arena.nodes().len()
     }
 }

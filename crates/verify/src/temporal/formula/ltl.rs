@@ -2,7 +2,7 @@
 
 use program::TemporalOperator;
 
-use super::{Arena, FormulaId, Logic};
+use super::{Arena, Connective, FormulaId, Logic, Node};
 
 /// A formula over formulas of the same table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -37,6 +37,29 @@ impl Ltl {
     }
 }
 
+impl From<Connective> for Ltl {
+    fn from(connective: Connective) -> Ltl {
+        match connective {
+            Connective::Constant(truth) => Ltl::Constant(truth),
+            Connective::Proposition(number) => Ltl::Proposition(number),
+            Connective::Not(p) => Ltl::Not(p),
+            Connective::And(p, q) => Ltl::And(p, q),
+        }
+    }
+}
+
+impl Node for Ltl {
+    fn connective(self) -> Option<Connective> {
+        Some(match self {
+            Ltl::Constant(truth) => Connective::Constant(truth),
+            Ltl::Proposition(number) => Connective::Proposition(number),
+            Ltl::Not(p) => Connective::Not(p),
+            Ltl::And(p, q) => Connective::And(p, q),
+            Ltl::Next(_) | Ltl::Until(..) | Ltl::Previous(_) | Ltl::Since(..) => return None,
+        })
+    }
+}
+
 /// A table of formulas of linear temporal logic.
 #[derive(Debug, Clone, Default)]
 pub struct LtlFormulas {
@@ -52,13 +75,6 @@ impl LtlFormulas {
     /// All formulas, parts before wholes.
     pub fn nodes(&self) -> &[Ltl] {
         self.arena.nodes()
-    }
-
-    fn constant_of(&self, id: FormulaId) -> Option<bool> {
-        match self.node(id) {
-            Ltl::Constant(truth) => Some(truth),
-            _ => None,
-        }
     }
 
     /// In the next state.
@@ -142,33 +158,15 @@ impl LtlFormulas {
 }
 
 impl Logic for LtlFormulas {
+    type Node = Ltl;
     const BRANCHING: bool = false;
 
-    fn constant(&mut self, truth: bool) -> FormulaId {
-        self.arena.add(Ltl::Constant(truth))
+    fn arena(&self) -> &Arena<Ltl> {
+        &self.arena
     }
 
-    fn proposition(&mut self, number: u32) -> FormulaId {
-        self.arena.add(Ltl::Proposition(number))
-    }
-
-    fn not(&mut self, formula: FormulaId) -> FormulaId {
-        match self.node(formula) {
-            Ltl::Constant(truth) => self.constant(!truth),
-            Ltl::Not(inner) => inner,
-            _ => self.arena.add(Ltl::Not(formula)),
-        }
-    }
-
-    fn and(&mut self, left: FormulaId, right: FormulaId) -> FormulaId {
-        match (self.constant_of(left), self.constant_of(right)) {
-            (Some(true), _) => right,
-            (_, Some(true)) => left,
-            (Some(false), _) => left,
-            (_, Some(false)) => right,
-            _ if left == right => left,
-            _ => self.arena.add(Ltl::And(left.min(right), left.max(right))),
-        }
+    fn arena_mut(&mut self) -> &mut Arena<Ltl> {
+        &mut self.arena
     }
 
     fn operator(&mut self, operator: TemporalOperator, formulas: &[FormulaId]) -> Option<FormulaId> {
@@ -185,15 +183,21 @@ impl Logic for LtlFormulas {
             (Once, [p]) => self.once(*p),
             (Since, [p, q]) => self.since(*p, *q),
             (Triggered, [p, q]) => self.triggered(*p, *q),
-            _ => return None,
+            // Of the other logic.
+            (
+                Eg | Ex | Ef | Ag | Ax | Af | Eu | Au | Ew | Aw | ExN | AxN | AbsenceGlobally | AbsenceBefore
+                | AbsenceAfter | AbsenceBetween | AbsenceAfterUntil | Precedence | PrecedenceBefore,
+                _,
+            ) => return None,
+            (
+                Next | Globally | Finally | Until | Releases | Previous | WeakPrevious | Historically | Once | Since
+                | Triggered,
+                _,
+            ) => unreachable!("the verifier of programs counts arguments"),
         })
     }
 
     fn after_steps(&mut self, _: TemporalOperator, _: FormulaId, _: u64) -> Option<FormulaId> {
         None
-    }
-
-    fn size(&self) -> usize {
-        self.arena.nodes().len()
     }
 }
