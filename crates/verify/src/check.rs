@@ -11,7 +11,7 @@ use machine::explore::{Bounds, Settings, Trouble, Unbounded};
 use machine::{Fault, Interrupt, Limits};
 use program::{Expression, FunctionId, Program, PropertyKind};
 use smt::Outside;
-use smt::session::{Session, Silence, Solvers};
+use smt::session::Solvers;
 use syntax::Span;
 
 use crate::again::made_again;
@@ -19,7 +19,7 @@ use crate::assumed::assumed_bounds;
 use crate::checkpoint::{Keeper, Refusal};
 use crate::coverage::unreachable_rules;
 use crate::engine::{Ended, run_engine};
-use crate::heed::{Deaf, Heed, Listener};
+use crate::heed::{Heed, Listener};
 use crate::partial_order::Unreduced;
 use crate::runs::{OfRuns, Question, Why, decide};
 use crate::search::{Plan, Progress, Stop, Target};
@@ -234,65 +234,11 @@ impl From<Trouble> for NoStart {
     }
 }
 
-/// Checks a program; `watch` is told how far the search is and says whether it goes on.
-///
-/// # Errors
-/// There is no initial state.
-pub fn verify(
-    program: &Arc<Program>,
-    options: &Options,
-    watch: &mut dyn FnMut(&Progress) -> bool,
-) -> Result<Report, NoStart> {
-    verify_fair(program, options, None, watch)
-}
-
-/// The same, where the main rule's choice of who moves is taken to be fair in temporal properties.
-///
-/// # Errors
-/// There is no initial state.
-pub fn verify_fair(
-    program: &Arc<Program>,
-    options: &Options,
-    agents: Option<AgentFairness>,
-    watch: &mut dyn FnMut(&Progress) -> bool,
-) -> Result<Report, NoStart> {
-    verify_with(program, options, agents, &mut NoSolvers, watch)
-}
-
-/// The same, where SMT solvers may be asked.
-///
-/// # Errors
-/// There is no initial state, or a solver cannot be asked.
-pub fn verify_with(
-    program: &Arc<Program>,
-    options: &Options,
-    agents: Option<AgentFairness>,
-    solvers: &mut dyn Solvers,
-    watch: &mut dyn FnMut(&Progress) -> bool,
-) -> Result<Report, NoStart> {
-    verify_kept(program, options, agents, solvers, None, watch)
-}
-
-/// The same, where a search that a limit ends is kept, and gone on with if it was. States are gone through one by one then.
+/// Carries out a request. The listener hears of progress, and of violations while the search goes on.
 ///
 /// # Errors
 /// There is no initial state, a solver cannot be asked, or what was kept does not fit.
-pub fn verify_kept(
-    program: &Arc<Program>,
-    options: &Options,
-    agents: Option<AgentFairness>,
-    solvers: &mut dyn Solvers,
-    keeper: Option<&mut dyn Keeper>,
-    watch: &mut dyn FnMut(&Progress) -> bool,
-) -> Result<Report, NoStart> {
-    verify_heard(program, options, agents, solvers, keeper, &mut Deaf(watch))
-}
-
-/// The same, where whoever waits is told of what is violated while the search goes on.
-///
-/// # Errors
-/// There is no initial state, a solver cannot be asked, or what was kept does not fit.
-pub fn verify_heard(
+pub(crate) fn verify_request(
     program: &Arc<Program>,
     options: &Options,
     agents: Option<AgentFairness>,
@@ -374,19 +320,6 @@ pub fn verify_heard(
         left,
         solver,
     })
-}
-
-/// No solver at all.
-struct NoSolvers;
-
-impl Solvers for NoSolvers {
-    fn name(&self) -> Result<String, String> {
-        Err("no solver is to be asked".to_string())
-    }
-
-    fn start(&mut self) -> Result<Box<dyn Session>, Silence> {
-        Err(Silence::Broken("no solver is to be asked".to_string()))
-    }
 }
 
 /// The outcomes of temporal properties, and why those are unknown that are. A limit that ended the search is none for them

@@ -26,12 +26,10 @@ pub trait Listener {
     }
 }
 
-/// One who hears of the end alone.
-pub(crate) struct Deaf<'w>(pub &'w mut dyn FnMut(&Progress) -> bool);
-
-impl Listener for Deaf<'_> {
+/// A function hears of progress alone.
+impl<F: FnMut(&Progress) -> bool> Listener for F {
     fn at(&mut self, progress: &Progress) -> bool {
-        (self.0)(progress)
+        self(progress)
     }
 }
 

@@ -13,6 +13,7 @@ pub mod graph;
 mod heed;
 mod lineage;
 mod partial_order;
+mod request;
 pub mod review;
 pub mod runs;
 mod search;
@@ -26,13 +27,11 @@ mod table;
 pub mod temporal;
 mod trace;
 
-pub use check::{
-    Engine, Expected, NoStart, Options, Outcome, Reason, Report, Subject, Verdict, verify, verify_fair, verify_heard,
-    verify_kept, verify_with,
-};
+pub use check::{Engine, Expected, NoStart, Options, Outcome, Reason, Report, Subject, Verdict};
 pub use checkpoint::{Keeper, Refusal};
 pub use heed::Listener;
 pub use partial_order::Unreduced;
+pub use request::{Conflict, NoSolvers, Part, Request, RequestBuilder, verify};
 pub use search::{Progress, Stop};
 pub use storage::Storage;
 pub use storage::disk::{Disk, Tape};

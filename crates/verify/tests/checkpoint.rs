@@ -6,9 +6,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use program::Program;
-use smt::session::{Session, Silence, Solvers};
 use syntax::SourceFile;
-use verify::{Keeper, NoStart, Options, Outcome, Refusal, Report, Stop, verify_kept};
+use verify::{Keeper, NoSolvers, NoStart, Options, Outcome, Progress, Refusal, Report, Request, Stop};
 
 use crate::models::{Disk, lowered};
 
@@ -28,18 +27,6 @@ fn growing(most: u32) -> Arc<Program> {
          default init s0:\n function sum = 0\n function square = 0\n function last = false\n"
     );
     lowered(SourceFile::new("Grow.asm", text))
-}
-
-struct NoSolvers;
-
-impl Solvers for NoSolvers {
-    fn name(&self) -> Result<String, String> {
-        Err(String::new())
-    }
-
-    fn start(&mut self) -> Result<Box<dyn Session>, Silence> {
-        Err(Silence::Broken(String::new()))
-    }
 }
 
 /// Keeps words in memory.
@@ -93,7 +80,8 @@ impl Keeper for Memory {
 }
 
 fn check(program: &Arc<Program>, options: &Options, keeper: &mut Memory) -> Result<Report, NoStart> {
-    verify_kept(program, options, None, &mut NoSolvers, Some(keeper), &mut |_| true)
+    let request = Request::of(program, options.clone()).kept(true).build().expect("nothing is in conflict");
+    request.verify_kept(&mut NoSolvers, keeper, &mut |_: &Progress| true)
 }
 
 fn straight(program: &Arc<Program>, options: &Options) -> Report {

@@ -9,11 +9,10 @@ use std::sync::Arc;
 use machine::explore::{Explorer, Interner, Settings, Trouble, Widening};
 use machine::{Cause, Interrupt};
 use program::Program;
-use smt::session::{Session, Silence, Solvers};
 use syntax::SourceFile;
 use verify::{
-    Engine, Listener, NoStart, Options, Outcome, Progress, Reason, Report, Stop, Storage, Subject, Trace, verify,
-    verify_heard,
+    Engine, Listener, NoSolvers, NoStart, Options, Outcome, Progress, Reason, Report, Request, Stop, Storage, Subject,
+    Trace, verify,
 };
 
 use crate::models::lowered;
@@ -187,18 +186,6 @@ fn the_first_violation_is_enough() {
     assert_eq!(temporal.outcome, Outcome::Unknown(vec![Reason::Stopped(Stop::Found)]), "its graph has no end");
 }
 
-struct NoSolvers;
-
-impl Solvers for NoSolvers {
-    fn name(&self) -> Result<String, String> {
-        Err(String::new())
-    }
-
-    fn start(&mut self) -> Result<Box<dyn Session>, Silence> {
-        Err(Silence::Broken(String::new()))
-    }
-}
-
 /// Has had enough once something was told.
 #[derive(Default)]
 struct Ear(BTreeMap<Subject, Trace>);
@@ -225,7 +212,8 @@ fn what_is_violated_is_told_while_the_search_goes_on() {
     for workers in [1, 2] {
         let (options, mut ear) = (Options { workers, ..Options::default() }, Ear::default());
         // It would not end.
-        let report = verify_heard(&program, &options, None, &mut NoSolvers, None, &mut ear);
+        let request = Request::of(&program, options).build().expect("nothing is in conflict");
+        let report = request.verify(&mut NoSolvers, &mut ear);
         let report = report.expect("there is an initial state");
         assert_eq!(report.stop, Some(Stop::Asked));
         let told: Vec<Outcome> = ear.0.into_values().map(|trace| Outcome::Violated(Box::new(trace))).collect();

@@ -245,10 +245,11 @@ fn a_step_that_cannot_be_made_is_the_end_of_a_run() {
 
 #[test]
 fn temporal_properties_are_checked_with_all_others() {
-    use verify::{Outcome, Reason, Subject, verify, verify_fair};
+    use verify::{NoSolvers, Outcome, Reason, Request, Subject, verify};
     let plain = swing("");
     let options = verify::Options::default();
-    let report = verify_fair(&plain, &options, Some(AgentFairness::Strong), &mut |_| true).unwrap();
+    let request = Request::of(&plain, options.clone()).fair(Some(AgentFairness::Strong)).build().unwrap();
+    let report = request.verify(&mut NoSolvers, &mut |_: &verify::Progress| true).unwrap();
     assert!(report.verdicts.iter().all(|verdict| verdict.outcome == Outcome::Holds), "{:#?}", report.verdicts);
     assert_eq!(report.verdicts.len(), 4 + plain.properties.len());
     let bounded = model(

@@ -6,6 +6,7 @@ pub mod beside;
 mod bound;
 mod bounded;
 mod checkpoint;
+mod conflict;
 mod counterexample;
 mod disk;
 mod hint;
@@ -22,7 +23,7 @@ use clap::Args;
 use groundstate::own_files;
 use groundstate::verify::solver::Method;
 use groundstate::verify::temporal::fairness::AgentFairness;
-use groundstate::verify::{Disk, Keeper, NoStart, Options, Outcome, Reason, Report, verify_heard};
+use groundstate::verify::{Disk, NoStart, Options, Outcome, Reason, Report, Request};
 
 use program::PropertyKind;
 
@@ -188,58 +189,6 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     // Of the model's texts alone, before those of options are added.
     let fingerprint = groundstate::fingerprint(&loaded.sources);
     let bounded = &arguments.bounded;
-    if arguments.engine == Engine::Bdd && (arguments.first || bounded.max_states.is_some() || bounded.depth.is_some()) {
-        return Err(Failure::usage_with_help(
-            "sets of states know no --first, --max-states or --depth",
-            "bound them by --max-memory and --time, or leave out --engine bdd",
-        ));
-    }
-    if arguments.partial_order == Switch::On && !matches!(arguments.engine, Engine::Auto | Engine::Explicit) {
-        let help = "leave out --engine, or --partial-order";
-        return Err(Failure::usage_with_help("--partial-order is of states that are gone through one by one", help));
-    }
-    if arguments.symmetry == Switch::On {
-        if !matches!(arguments.engine, Engine::Auto | Engine::Explicit) {
-            let help = "leave out --engine, or --symmetry";
-            return Err(Failure::usage_with_help("--symmetry is of states that are gone through one by one", help));
-        }
-        if arguments.partial_order == Switch::On {
-            let help = "leave out the one or the other";
-            return Err(Failure::usage_with_help("--symmetry and --partial-order do not go together", help));
-        }
-        if arguments.checkpoint.is_some() {
-            let help = "leave out --checkpoint, or --symmetry";
-            return Err(Failure::usage_with_help("a search up to symmetry has no checkpoint", help));
-        }
-    }
-    if arguments.storage != Storage::Exact && !matches!(arguments.engine, Engine::Auto | Engine::Explicit) {
-        let help = "leave out --engine, or --storage";
-        return Err(Failure::usage_with_help("--storage is of states that are gone through one by one", help));
-    }
-    if arguments.checkpoint.is_some() {
-        if !matches!(arguments.engine, Engine::Auto | Engine::Explicit) {
-            let help = "leave out --engine, or --checkpoint";
-            return Err(Failure::usage_with_help("--checkpoint is of states that are gone through one by one", help));
-        }
-        if arguments.storage != Storage::Exact {
-            let help = "leave out --storage, or --checkpoint";
-            return Err(Failure::usage_with_help("a search that keeps less than the states has no checkpoint", help));
-        }
-    }
-    if arguments.disk.is_some() {
-        if !matches!(arguments.engine, Engine::Auto | Engine::Explicit) {
-            let help = "leave out --engine, or --disk";
-            return Err(Failure::usage_with_help("--disk is of states that are gone through one by one", help));
-        }
-        if arguments.storage != Storage::Exact {
-            let help = "leave out --storage, or --disk";
-            return Err(Failure::usage_with_help("--disk takes states of which all is kept", help));
-        }
-        if arguments.checkpoint.is_some() {
-            let help = "leave out --checkpoint, or --disk";
-            return Err(Failure::usage_with_help("a search with states on disk has no checkpoint", help));
-        }
-    }
     if arguments.counterexample.is_some() && arguments.model.as_os_str() == "-" {
         return Err(Failure::usage("no scenario can load standard input: write the model to a file"));
     }
@@ -319,16 +268,20 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Fair::Weak => AgentFairness::Weak,
         Fair::Strong => AgentFairness::Strong,
     });
+    let request = Request::of(&program, options).fair(agents).kept(arguments.checkpoint.is_some()).build();
+    let request = request.map_err(conflict::conflict)?;
     let mut solver = Process::find(arguments.solver.as_deref());
     let mut checkpoint = match &arguments.checkpoint {
         Some(path) => Some(Checkpoint::new(path, &fingerprint)?),
         None => None,
     };
-    let keeper = checkpoint.as_mut().map(|checkpoint| checkpoint as &mut dyn Keeper);
     let mut teller = Teller::new(&program, &sources, false);
     teller.assumed(shell, assumed)?;
     let mut live = Live::new(shell, &teller, watch);
-    let outcome = verify_heard(&program, &options, agents, &mut solver, keeper, &mut live);
+    let outcome = match &mut checkpoint {
+        Some(checkpoint) => request.verify_kept(&mut solver, checkpoint, &mut live),
+        None => request.verify(&mut solver, &mut live),
+    };
     let (timed_out, told) = live.done()?;
     teller.timed_out = timed_out;
     let mut report = match outcome {

@@ -14,7 +14,7 @@ use model::Basic;
 use program::{DomainKind, FunctionId, FunctionKind, Program};
 use syntax::{Severity, SourceFile};
 use verify::solver::{Left, Method, Proof};
-use verify::{Engine, NoStart, Options, Outcome, Reason, Report, Subject, verify, verify_with};
+use verify::{Engine, NoStart, Options, Outcome, Progress, Reason, Report, Request, Subject, verify};
 
 use crate::models::{Disk, lowered};
 
@@ -27,7 +27,8 @@ fn ask(program: &Arc<Program>, method: Method, depth: u64) -> Vec<Result<Report,
     let options = Options { engine: Engine::Solver(method), max_depth: depth, ..Options::default() };
     let horn = matches!(method, Method::Reachability | Method::Portfolio);
     let mut solvers = process::solvers(horn);
-    solvers.iter_mut().map(|solver| verify_with(program, &options, None, solver, &mut |_| true)).collect()
+    let request = Request::of(program, options).build().expect("nothing is in conflict");
+    solvers.iter_mut().map(|solver| request.verify(solver, &mut |_: &Progress| true)).collect()
 }
 
 /// Each verdict in a word.
@@ -211,7 +212,8 @@ fn random_models() {
         let Some(solver) = solvers.get_mut(turn) else { return };
         let engine = Engine::Solver(Method::Induction);
         let options = Options { engine, max_states: u64::MAX, max_depth: DEPTH, ..few };
-        match verify_with(&program, &options, None, solver, &mut |_| true) {
+        let request = Request::of(&program, options).build().expect("nothing is in conflict");
+        match request.verify(solver, &mut |_: &Progress| true) {
             Ok(solved) => {
                 let context = format!("seed {seed}\n{text}");
                 fits(&program, &explicit, &solved, DEPTH as usize, &context);

@@ -1,0 +1,38 @@
+//! Options of `verify` that do not go together, in the words of the command line.
+
+use groundstate::verify::{Conflict, Engine, Part};
+
+use crate::failure::Failure;
+
+/// The option that asks for a part of a request.
+fn option(part: Part) -> &'static str {
+    match part {
+        Part::First => "--first",
+        Part::MaxStates => "--max-states",
+        Part::MaxDepth => "--depth",
+        Part::PartialOrder => "--partial-order",
+        Part::Symmetry => "--symmetry",
+        Part::Storage => "--storage",
+        Part::Checkpoint => "--checkpoint",
+        Part::Disk => "--disk",
+    }
+}
+
+/// Says why a request cannot be carried out.
+pub fn conflict(conflict: Conflict) -> Failure {
+    let (message, help) = match conflict {
+        Conflict::Engine(part @ (Part::First | Part::MaxStates | Part::MaxDepth), Engine::Symbolic) => (
+            format!("{} does not work with --engine bdd", option(part)),
+            "bound sets of states by --max-memory and --time, or leave out --engine bdd".to_string(),
+        ),
+        Conflict::Engine(part, _) => (
+            format!("{} works only with the explicit engine", option(part)),
+            format!("leave out --engine, or {}", option(part)),
+        ),
+        Conflict::Parts(one, other) => (
+            format!("{} and {} do not go together", option(one), option(other)),
+            format!("leave out {} or {}", option(one), option(other)),
+        ),
+    };
+    Failure::usage_with_help(message, help)
+}

@@ -1,0 +1,241 @@
+//! A verification as it is asked for.
+//!
+//! In: a program and [`Options`], and what else is wanted of the search. Out: a [`Request`] that can be carried out, or the
+//! [`Conflict`] between two things that do not go together. INVARIANT: a request that was built has no conflict, so that a shell
+//! has nothing to check and cannot forget to.
+
+use std::fmt;
+use std::sync::Arc;
+
+use program::Program;
+use smt::session::{Session, Silence, Solvers};
+
+use crate::check::{Engine, NoStart, Options, Report, verify_request};
+use crate::checkpoint::Keeper;
+use crate::heed::Listener;
+use crate::search::Progress;
+use crate::storage::Storage;
+use crate::temporal::fairness::AgentFairness;
+
+/// A part of a request that not every engine has, or that does not go with every other part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Part {
+    /// [`Options::first`].
+    First,
+    /// [`Options::max_states`].
+    MaxStates,
+    /// [`Options::max_depth`].
+    MaxDepth,
+    /// [`Options::partial_order`].
+    PartialOrder,
+    /// [`Options::symmetry`].
+    Symmetry,
+    /// [`Options::storage`] that keeps less than the states.
+    Storage,
+    /// A [`Keeper`].
+    Checkpoint,
+    /// [`Options::disk`].
+    Disk,
+}
+
+/// All parts, in the order in which their conflicts are looked for.
+const PARTS: [Part; 8] = [
+    Part::First,
+    Part::MaxStates,
+    Part::MaxDepth,
+    Part::PartialOrder,
+    Part::Symmetry,
+    Part::Storage,
+    Part::Checkpoint,
+    Part::Disk,
+];
+
+/// Parts that do not go together.
+const APART: [(Part, Part); 5] = [
+    (Part::Symmetry, Part::PartialOrder),
+    (Part::Checkpoint, Part::Symmetry),
+    (Part::Checkpoint, Part::Storage),
+    (Part::Disk, Part::Storage),
+    (Part::Disk, Part::Checkpoint),
+];
+
+/// Why a request cannot be carried out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Conflict {
+    /// The engine that was chosen has no such part.
+    Engine(Part, Engine),
+    /// The two do not go together.
+    Parts(Part, Part),
+}
+
+impl fmt::Display for Conflict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Conflict::Engine(part, engine) => write!(f, "{part:?} does not work with the engine {engine:?}"),
+            Conflict::Parts(one, other) => write!(f, "{one:?} and {other:?} do not go together"),
+        }
+    }
+}
+
+impl std::error::Error for Conflict {}
+
+/// A request that is being put together.
+#[derive(Debug, Clone)]
+pub struct RequestBuilder(Request);
+
+/// See the module.
+#[derive(Debug, Clone)]
+pub struct Request {
+    program: Arc<Program>,
+    options: Options,
+    agents: Option<AgentFairness>,
+    kept: bool,
+}
+
+impl RequestBuilder {
+    /// Takes the main rule's choice of who moves to be fair in temporal properties.
+    pub fn fair(mut self, agents: Option<AgentFairness>) -> RequestBuilder {
+        self.0.agents = agents;
+        self
+    }
+
+    /// Whether a search that a limit ends is kept, and resumed if it was; [`Request::verify_kept`] carries it out.
+    pub fn kept(mut self, kept: bool) -> RequestBuilder {
+        self.0.kept = kept;
+        self
+    }
+
+    /// The request.
+    ///
+    /// # Errors
+    /// Two parts of it do not go together.
+    pub fn build(self) -> Result<Request, Conflict> {
+        let RequestBuilder(request) = self;
+        let engine = request.options.engine;
+        if let Some(part) = PARTS.into_iter().find(|part| request.asks(*part) && !has(engine, *part)) {
+            return Err(Conflict::Engine(part, engine));
+        }
+        match APART.into_iter().find(|(one, other)| request.asks(*one) && request.asks(*other)) {
+            Some((one, other)) => Err(Conflict::Parts(one, other)),
+            None => Ok(request),
+        }
+    }
+}
+
+/// Whether an engine has a part.
+fn has(engine: Engine, part: Part) -> bool {
+    match part {
+        // Sets of states are not made level by level, and have no size that a user could bound.
+        Part::First | Part::MaxStates | Part::MaxDepth => engine != Engine::Symbolic,
+        Part::PartialOrder | Part::Symmetry | Part::Storage | Part::Checkpoint | Part::Disk => {
+            matches!(engine, Engine::Automatic | Engine::Explicit)
+        }
+    }
+}
+
+impl Request {
+    /// Begins a request.
+    pub fn of(program: &Arc<Program>, options: Options) -> RequestBuilder {
+        RequestBuilder(Request { program: Arc::clone(program), options, agents: None, kept: false })
+    }
+
+    fn asks(&self, part: Part) -> bool {
+        let Options { first, max_states, max_depth, partial_order, symmetry, storage, disk, .. } = &self.options;
+        match part {
+            Part::First => *first,
+            Part::MaxStates => *max_states < u64::MAX,
+            Part::MaxDepth => *max_depth < u64::MAX,
+            Part::PartialOrder => *partial_order,
+            Part::Symmetry => *symmetry,
+            Part::Storage => *storage != Storage::Exact,
+            Part::Checkpoint => self.kept,
+            Part::Disk => disk.is_some(),
+        }
+    }
+
+    /// Carries the request out. The listener hears of progress and of violations, and may end it; SMT solvers are asked where
+    /// the engine wants one.
+    ///
+    /// # Errors
+    /// There is no initial state, or a solver cannot be asked.
+    ///
+    /// # Panics
+    /// The search is to be kept.
+    pub fn verify(&self, solvers: &mut dyn Solvers, listener: &mut dyn Listener) -> Result<Report, NoStart> {
+        assert!(!self.kept, "a search that is to be kept needs who keeps it");
+        verify_request(&self.program, &self.options, self.agents, solvers, None, listener)
+    }
+
+    /// Carries the request out with a search that is kept where a limit ends it, and resumed if it was.
+    ///
+    /// # Errors
+    /// There is no initial state, a solver cannot be asked, or what was kept does not fit.
+    ///
+    /// # Panics
+    /// The search is not to be kept.
+    pub fn verify_kept(
+        &self,
+        solvers: &mut dyn Solvers,
+        keeper: &mut dyn Keeper,
+        listener: &mut dyn Listener,
+    ) -> Result<Report, NoStart> {
+        assert!(self.kept, "the request was built without a keeper");
+        verify_request(&self.program, &self.options, self.agents, solvers, Some(keeper), listener)
+    }
+}
+
+/// Verifies a program by states alone, without a solver; `watch` hears how far the search is and says whether it goes on.
+///
+/// # Errors
+/// There is no initial state.
+pub fn verify(
+    program: &Arc<Program>,
+    options: &Options,
+    mut watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Report, NoStart> {
+    verify_request(program, options, None, &mut NoSolvers, None, &mut watch)
+}
+
+/// No solver at all.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoSolvers;
+
+impl Solvers for NoSolvers {
+    fn name(&self) -> Result<String, String> {
+        Err("no solver is to be asked".to_string())
+    }
+
+    fn start(&mut self) -> Result<Box<dyn Session>, Silence> {
+        Err(Silence::Broken("no solver is to be asked".to_string()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::solver::Method;
+
+    fn check(options: Options, kept: bool, expect: Result<(), Conflict>) {
+        let program = Arc::new(Program::default());
+        assert_eq!(Request::of(&program, options).kept(kept).build().map(|_| ()), expect);
+    }
+
+    #[test]
+    fn what_does_not_go_together_is_refused() {
+        let with = |engine| Options { engine, ..Options::default() };
+        check(with(Engine::Automatic), true, Ok(()));
+        check(Options { first: true, max_states: 7, ..with(Engine::Explicit) }, false, Ok(()));
+        check(Options { max_depth: 7, ..with(Engine::Solver(Method::Bounded)) }, false, Ok(()));
+        let sets = Engine::Symbolic;
+        check(Options { first: true, ..with(sets) }, false, Err(Conflict::Engine(Part::First, sets)));
+        check(Options { max_depth: 7, ..with(sets) }, false, Err(Conflict::Engine(Part::MaxDepth, sets)));
+        let solver = Engine::Solver(Method::Induction);
+        check(Options { symmetry: true, ..with(solver) }, false, Err(Conflict::Engine(Part::Symmetry, solver)));
+        check(with(solver), true, Err(Conflict::Engine(Part::Checkpoint, solver)));
+        let both = Options { symmetry: true, partial_order: true, ..Options::default() };
+        check(both, false, Err(Conflict::Parts(Part::Symmetry, Part::PartialOrder)));
+        let less = Options { storage: Storage::Compact, ..Options::default() };
+        check(less.clone(), false, Ok(()));
+        check(less, true, Err(Conflict::Parts(Part::Checkpoint, Part::Storage)));
+    }
+}
