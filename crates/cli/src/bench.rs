@@ -91,7 +91,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         if !std::mem::replace(&mut headed, true) {
             head(shell)?;
         }
-        let measured = measure(shell, arguments, path, Arc::new(loaded.program), load_ms)?;
+        let measured = measure(shell, arguments, path, loaded.program, load_ms)?;
         show(shell, &measured)?;
         shell.flush()?;
     }

@@ -73,27 +73,28 @@ struct GeneratedLine {
 
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
-    let mut loaded = match load(shell, &arguments.model)? {
+    let loaded = match load(shell, &arguments.model)? {
         Ok(loaded) => loaded,
         Err(exit) => return Ok(exit),
     };
     if loaded.program.main.is_none() {
         return crate::run::no_main(shell, &loaded);
     }
-    let Some(beside) = arguments.bounded.beside(shell, &mut loaded.sources, &arguments.model)? else {
+    let mut sources = loaded.sources.clone();
+    let Some(beside) = arguments.bounded.beside(shell, &mut sources, &arguments.model)? else {
         return Ok(Exit::World);
     };
     let folder = &arguments.output;
     std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
     let turns = turns(&loaded);
-    let program = Arc::new(loaded.program.clone());
+    let program = Arc::clone(&loaded.program);
     let (bounded, by_default) = match arguments.random {
         // Walks come to an end by themselves.
         Some(_) => (arguments.bounded.clone(), false),
         None => arguments.bounded.with_end(),
     };
     let (options, mut watch) = bounded.options(shell, &program, &beside)?;
-    let (root, users) = (loaded.model.root, own_files(&loaded.sources));
+    let (root, users) = (loaded.model.root, own_files(&sources));
     let own = |file: FileId| file == root || (arguments.imports && users(file));
     let path = relative(&arguments.model, folder);
     let subject = Subject { model: &loaded.model, program: &program, turns: &turns, path: &path };
@@ -103,7 +104,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     };
     let generated = generate_tests(subject, &options, method, &own, &mut |progress| watch.at(progress));
     let timed_out = watch.done();
-    let teller = Teller::new(&program, &loaded.sources, timed_out);
+    let teller = Teller::new(&program, &sources, timed_out);
     let tests = match generated {
         Ok(tests) => tests,
         Err(trouble) => return no_start(shell, &teller, trouble),

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
+use groundstate::Overlay;
 use groundstate::simulate::{Header, Options, Parted, Record, Recorded, StepRecord};
 use machine::Show;
 use program::Program;
@@ -40,27 +41,28 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let first = lines.next()?.ok_or_else(|| lines.wrong("it is empty"))?;
     let header = Reader::header(&first).map_err(|message| lines.wrong(&message))?;
     let path = arguments.model.clone().unwrap_or_else(|| PathBuf::from(&header.path));
-    let mut loaded = match load(shell, &path)? {
+    let loaded = match load(shell, &path)? {
         Ok(loaded) => loaded,
         Err(exit) => return Ok(exit),
     };
     if groundstate::fingerprint(&loaded.sources) != header.source {
         shell.note("note: the model has changed since the trace was made")?;
     }
+    let mut asked = loaded.overlay();
     let until = match &header.until {
         None => None,
-        Some(text) => match loaded.condition("--until", text) {
+        Some(text) => match asked.ask("--until", text) {
             Ok(term) => Some(term),
             Err(faults) => {
-                shell.diagnostics(&loaded.sources, &faults)?;
+                shell.diagnostics(&asked.sources, &faults)?;
                 return Ok(Exit::Model);
             }
         },
     };
-    let program = Arc::new(loaded.program);
+    let Overlay { sources, program, .. } = asked;
     let options = Options { until, ..options(&header) };
     let recorded = Recorded::new(Arc::clone(&program), shell.global.limits.machine(), options);
-    let teller = Teller::new(shell, &program, &loaded.sources, arguments.show, header.until.clone());
+    let teller = Teller::new(shell, &program, &sources, arguments.show, header.until.clone());
     follow(shell, &header, lines, recorded, &teller, &program)
 }
 

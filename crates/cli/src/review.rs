@@ -68,26 +68,27 @@ struct MetaLine {
 
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
-    let mut loaded = match load(shell, &arguments.model)? {
+    let loaded = match load(shell, &arguments.model)? {
         Ok(loaded) => loaded,
         Err(exit) => return Ok(exit),
     };
     if loaded.program.main.is_none() {
         return crate::run::no_main(shell, &loaded);
     }
-    let Some(beside) = arguments.bounded.beside(shell, &mut loaded.sources, &arguments.model)? else {
+    let mut sources = loaded.sources.clone();
+    let Some(beside) = arguments.bounded.beside(shell, &mut sources, &arguments.model)? else {
         return Ok(Exit::World);
     };
-    let program = Arc::new(loaded.program);
+    let program = Arc::clone(&loaded.program);
     let (bounded, by_default) = arguments.bounded.with_end();
     let (options, mut watch) = bounded.options(shell, &program, &beside)?;
     let root = loaded.model.root;
-    let users = own_files(&loaded.sources);
+    let users = own_files(&sources);
     let own = |file: FileId| file == root || (arguments.imports && users(file));
     let metas = if arguments.only.is_empty() { Meta::ALL.to_vec() } else { arguments.only.clone() };
     let outcome = review(&loaded.model, &program, &options, &metas, &own, &mut |progress| watch.at(progress));
     let timed_out = watch.done();
-    let teller = Teller::new(&program, &loaded.sources, timed_out);
+    let teller = Teller::new(&program, &sources, timed_out);
     let review = match outcome {
         Ok(review) => review,
         Err(trouble) => return no_start(shell, &teller, trouble),

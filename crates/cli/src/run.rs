@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
-use groundstate::Loaded;
 use groundstate::simulate::{End, Header, Invariants, Options, Record, Run, Violation};
+use groundstate::{Loaded, Overlay};
 use machine::{FaultKind, Location};
 use program::{FunctionKind, Program};
 use syntax::Sources;
@@ -61,29 +61,30 @@ pub struct Arguments {
 
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
-    let mut loaded = match load(shell, &arguments.model)? {
+    let loaded = match load(shell, &arguments.model)? {
         Ok(loaded) => loaded,
         Err(exit) => return Ok(exit),
     };
     if loaded.program.main.is_none() {
         return no_main(shell, &loaded);
     }
+    let mut asked = loaded.overlay();
     let until = match &arguments.until {
         None => None,
-        Some(text) => match loaded.condition("--until", text) {
+        Some(text) => match asked.ask("--until", text) {
             Ok(term) => Some(term),
             Err(faults) => {
-                shell.diagnostics(&loaded.sources, &faults)?;
+                shell.diagnostics(&asked.sources, &faults)?;
                 return Ok(Exit::World);
             }
         },
     };
-    let program = Arc::new(loaded.program);
-    let assembled = inputs::assemble(shell, &arguments.inputs, &mut loaded.sources, &program)?;
+    let Overlay { mut sources, program, .. } = asked;
+    let assembled = inputs::assemble(shell, &arguments.inputs, &mut sources, &program)?;
     let Assembled { inputs, interactive, told: look } = match assembled {
         Ok(assembled) => assembled,
         Err(faults) => {
-            shell.diagnostics(&loaded.sources, &faults)?;
+            shell.diagnostics(&sources, &faults)?;
             return Ok(Exit::World);
         }
     };
@@ -101,7 +102,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         ..options(&header)
     };
     let mut run = Run::new(Arc::clone(&program), shell.global.limits.machine(), inputs, options);
-    let teller = Teller::new(shell, &program, &loaded.sources, arguments.show, header.until.clone());
+    let teller = Teller::new(shell, &program, &sources, arguments.show, header.until.clone());
     teller.begin(shell, &header)?;
     if let Some(trace) = &mut trace {
         trace.write(&Wire::header(&header))?;

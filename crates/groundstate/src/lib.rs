@@ -11,6 +11,7 @@ mod decide;
 mod diagnose;
 mod diagnose_review;
 mod fingerprint;
+mod overlay;
 pub mod patterns;
 mod test;
 pub mod test_generation;
@@ -18,9 +19,9 @@ pub mod test_generation;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use model::{Checked, Loader, Model, PropertyKind};
-use program::{Expression, Program, Property, Rule, RuleId};
-use syntax::ast::{AstNode, TermFile};
+use model::{Checked, Loader, Model};
+use program::{Program, Rule, RuleId};
+use syntax::ast::AstNode;
 use syntax::{Diagnostic, Severity, SourceFile, Sources, Span};
 
 pub use build::{BuiltChart, Located, build_chart};
@@ -29,18 +30,19 @@ pub use decide::diagnose_no_main;
 pub use diagnose::{diagnose_failure, diagnose_fault, diagnose_outside, diagnose_violation};
 pub use diagnose_review::{REVIEW_IDS, diagnose_finding};
 pub use fingerprint::fingerprint;
+pub use overlay::Overlay;
 pub use test::{SeededChoices, Suite, Tested, own_files};
 pub use {scenario, simulate, verify};
 
-/// A model that is ready to run.
+/// A model that is ready to run. It does not change: what is asked of it beside its text goes into an [`Overlay`].
 #[derive(Debug, Clone)]
 pub struct Loaded {
     /// All texts read.
     pub sources: Sources,
     /// The checked model.
-    pub model: Model,
+    pub model: Arc<Model>,
     /// What the machine runs.
-    pub program: Program,
+    pub program: Arc<Program>,
     /// Warnings and notes.
     pub diagnostics: Vec<Diagnostic>,
 }
@@ -72,7 +74,7 @@ pub fn load(root: SourceFile, loader: &mut dyn Loader) -> Result<Loaded, Box<Fau
     let decide::Decision { checked, program } = decide::decide(root, loader);
     let Checked { sources, model, diagnostics } = checked;
     match program {
-        Some(program) => Ok(Loaded { sources, model, program, diagnostics }),
+        Some(program) => Ok(Loaded { sources, model: Arc::new(model), program: Arc::new(program), diagnostics }),
         None => Err(Box::new(Faulty { sources, diagnostics })),
     }
 }
@@ -92,48 +94,6 @@ pub fn with_libraries(loaded: &Loaded, libraries: &[&str], loader: &mut dyn Load
     let (before, after) = root.text.split_at(end);
     let imports: String = missing.iter().map(|library| format!(" import {library}")).collect();
     load(SourceFile::new(root.name.clone(), format!("{before}{imports}{after}")), loader).ok()
-}
-
-impl Loaded {
-    /// Adds a property as if it stood in the model; `name` is what its text is shown under.
-    ///
-    /// # Errors
-    /// The faults of the text.
-    pub fn property(&mut self, kind: PropertyKind, name: &str, text: &str) -> Result<(), Vec<Diagnostic>> {
-        let formula = self.condition(name, text).map_err(|mut faults| {
-            faults.iter_mut().for_each(|fault| model::missing_operator(fault, kind));
-            faults
-        })?;
-        let span = self.program.term_span(formula.body);
-        let reads_monitored = self.program.reads_monitored(&formula);
-        let name = text.trim().to_string();
-        self.program.properties.push(Property { kind, name, formula, conclusion: None, reads_monitored, span });
-        if matches!(kind, PropertyKind::Ctl | PropertyKind::Ltl) {
-            verify::temporal::read::read(&Arc::new(self.program.clone()))?;
-        }
-        Ok(())
-    }
-
-    /// Adds a condition over the model, such as that of `--until`; `name` is what its text is shown under.
-    ///
-    /// # Errors
-    /// The faults of the text.
-    pub fn condition(&mut self, name: &str, text: &str) -> Result<Expression, Vec<Diagnostic>> {
-        let file = self.sources.add(SourceFile::new(name, text));
-        let parsed = syntax::parse_term(file, text);
-        if has_errors(&parsed.diagnostics) {
-            return Err(parsed.diagnostics);
-        }
-        let Some(term) = TermFile::cast(parsed.syntax()).and_then(|file| file.term()) else {
-            let span = Span { file, start: 0, end: 0 };
-            return Err(vec![Diagnostic::error("expected-term", span, "a term is expected")]);
-        };
-        let fragment = self.model.check_condition(file, &term, name);
-        if has_errors(&fragment.diagnostics) {
-            return Err(fragment.diagnostics);
-        }
-        program::lower_term(&mut self.program, &self.model, &fragment.item, &fragment.variables)
-    }
 }
 
 /// The variables that each choose rule binds, by the rule's place.

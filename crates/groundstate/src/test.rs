@@ -74,7 +74,7 @@ pub fn own_files(sources: &Sources) -> impl Fn(FileId) -> bool + '_ {
 struct Ready {
     sources: Sources,
     name: String,
-    script: Option<(scenario::Script, Program)>,
+    script: Option<(scenario::Script, Arc<Program>)>,
     diagnostics: Vec<Diagnostic>,
     /// The name of the model's root file.
     model: Option<String>,
@@ -104,7 +104,6 @@ impl Suite {
         let Some((script, program)) = script else {
             return Tested { sources, name, verdict: None, diagnostics, program: None };
         };
-        let program = Arc::new(program);
         let (verdict, counts) = scenario::run(&script, Arc::clone(&program), options, choices);
         if let (true, Some(model)) = (options.coverage, model) {
             self.counts.entry(model).or_default().merge(&counts);
@@ -154,9 +153,10 @@ impl Suite {
         let mut sources = loaded.sources.clone();
         let file = sources.add(source);
         let parsed = scenario::parse(&sources, file);
-        let (mut model, mut program) = (loaded.model.clone(), loaded.program.clone());
+        let (mut model, mut program) = (Arc::clone(&loaded.model), Arc::clone(&loaded.program));
         let mut blocks = BlockLoader(loader);
-        match scenario::resolve(&parsed, &mut model, &mut program, &mut sources, &mut blocks) {
+        let (asked, extended) = (Arc::make_mut(&mut model), Arc::make_mut(&mut program));
+        match scenario::resolve(&parsed, asked, extended, &mut sources, &mut blocks) {
             Ok((script, diagnostics)) => {
                 debug_assert!(!has_errors(&diagnostics));
                 let name = if script.name.is_empty() { name } else { script.name.clone() };

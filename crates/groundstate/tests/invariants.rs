@@ -34,7 +34,7 @@ fn models(folder: &Path, found: &mut Vec<PathBuf>) {
 
 fn load(source: SourceFile) -> Arc<Program> {
     let name = source.name.clone();
-    Arc::new(groundstate::load(source, &mut Files).unwrap_or_else(|faulty| panic!("{name}: {faulty:#?}")).program)
+    groundstate::load(source, &mut Files).unwrap_or_else(|faulty| panic!("{name}: {faulty:#?}")).program
 }
 
 /// The records of a run; `all` lets every invariant be evaluated in every state.

@@ -34,7 +34,7 @@ fn findings(text: &str) -> String {
     let name = text.split_whitespace().nth(1).expect("it begins with `asm` and its name");
     let loaded = groundstate::load(SourceFile::new(format!("{name}.asm"), text), &mut NoFiles);
     let loaded = loaded.unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics));
-    let (root, program) = (loaded.model.root, Arc::new(loaded.program));
+    let (root, program) = (loaded.model.root, Arc::clone(&loaded.program));
     let review = review(&loaded.model, &program, &Options::default(), &Meta::ALL, &|file| file == root, &mut |_| true);
     let review = review.unwrap_or_else(|trouble| panic!("{trouble:?}"));
     let mut told = String::new();

@@ -36,7 +36,7 @@ fn machine(name: &str, elaboration: u32) -> Machine {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../examples/visual_servoing/{name}.asm"));
     let root = disk.read(&path).expect("the example is there");
     let loaded = groundstate::load(root, &mut disk).unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics));
-    let mut machine = Machine::new(Arc::new(loaded.program), Limits::default());
+    let mut machine = Machine::new(loaded.program, Limits::default());
     machine.start(&mut Closed).unwrap_or_else(|fault| panic!("{fault:?}"));
     machine
 }

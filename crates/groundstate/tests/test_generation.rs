@@ -37,7 +37,7 @@ fn load(path: &Path) -> Loaded {
 
 fn generate(path: &Path, method: Method, options: &Options) -> Tests {
     let loaded = load(path);
-    let (root, program) = (loaded.model.root, Arc::new(loaded.program));
+    let (root, program) = (loaded.model.root, Arc::clone(&loaded.program));
     let name = path.file_name().expect("a file").to_string_lossy().into_owned();
     let subject = Subject { model: &loaded.model, program: &program, turns: &[], path: &name };
     generate_tests(subject, options, method, &|file| file == root, &mut |_| true).expect("there is an initial state")

@@ -44,7 +44,7 @@ fn blocks<'p>(page: &'p str, info: &str) -> Vec<&'p str> {
 fn check(text: &str, workers: usize) -> (Arc<Program>, Report) {
     let mut loader = OneModel(text.to_string());
     let loaded = groundstate::load(SourceFile::new(file(text), text), &mut loader);
-    let program = Arc::new(loaded.unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics)).program);
+    let program = loaded.unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics)).program;
     let report = verify(&program, &Options { workers, ..Options::default() }, &mut |_| true);
     (program, report.unwrap_or_else(|trouble| panic!("{trouble:?}")))
 }
@@ -120,7 +120,7 @@ fn the_pages_of_faults_show_them() {
     let outside = page("faults/outside-solver");
     let text = blocks(&outside, "asmetal solver")[0];
     let loaded = groundstate::load(SourceFile::new(file(text), text), &mut OneModel(text.to_string()));
-    let program = Arc::new(loaded.unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics)).program);
+    let program = loaded.unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics)).program;
     let options = Options { engine: Engine::Solver(Method::Bounded), ..Options::default() };
     let trouble = verify(&program, &options, &mut |_| true);
     let Err(NoStart::Outside(outside)) = trouble else { panic!("{trouble:?}") };

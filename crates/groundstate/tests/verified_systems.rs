@@ -74,7 +74,7 @@ impl Run {
         let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../examples/{name}.asm"));
         let root = disk.read(&path).expect("the example is there");
         let loaded = groundstate::load(root, &mut disk).unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics));
-        let mut machine = Machine::new(Arc::new(loaded.program), Limits::default());
+        let mut machine = Machine::new(loaded.program, Limits::default());
         let mut environment = Nominal::default();
         machine.start(&mut environment).unwrap_or_else(|fault| panic!("{fault:?}"));
         Self { machine, environment }

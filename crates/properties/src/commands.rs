@@ -80,7 +80,7 @@ fn of_model(bytes: &[u8]) -> usize {
     let mut stages = 2;
     program::dump(&loaded.program);
     charts_of(&loaded);
-    let program = Arc::new(loaded.program.clone());
+    let program = Arc::clone(&loaded.program);
     let mut started = Machine::new(Arc::clone(&program), world::limits());
     let _ = started.start(&mut Closed);
     match generate::generate(&program, &loaded.sources, &mut started, &generate::Options::default()) {
@@ -97,7 +97,7 @@ fn of_model(bytes: &[u8]) -> usize {
 fn runs(loaded: &Loaded, seed: u64) {
     let inputs = Inputs::new().with(RandomSource::new(seed, Bounds::default())).choosing(Choices::random(seed));
     let options = simulate::Options { steps: Some(10), ..Default::default() };
-    let program = Arc::new(loaded.program.clone());
+    let program = Arc::clone(&loaded.program);
     let mut run = Run::new(Arc::clone(&program), world::limits(), inputs, options);
     while let Some(record) = run.advance() {
         if let simulate::Record::End(simulate::End::Fault(fault)) = record {

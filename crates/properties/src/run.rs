@@ -23,7 +23,7 @@ pub(crate) fn step_never_panics(bytes: &[u8]) -> bool {
     let seed = bytes.len() as u64;
     let inputs = Inputs::new().with(RandomSource::new(seed, Bounds::default())).choosing(Choices::random(seed));
     let options = simulate::Options { steps: Some(10), ..Default::default() };
-    let mut run = Run::new(Arc::new(loaded.program), world::limits(), inputs, options);
+    let mut run = Run::new(loaded.program, world::limits(), inputs, options);
     while run.advance().is_some() {}
     true
 }

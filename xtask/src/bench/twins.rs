@@ -203,7 +203,7 @@ fn load(pair: &Pair) -> Result<Arc<Program>, Failure> {
     let model = pair.model;
     let loaded = groundstate::load(read(&pair.path())?, &mut Files);
     match loaded {
-        Ok(loaded) => Ok(Arc::new(loaded.program)),
+        Ok(loaded) => Ok(loaded.program),
         Err(faulty) => {
             Err(format!("{model}.asm: {}", faulty.diagnostics.first().map_or("faulty", |fault| fault.message.as_str())))
         }

@@ -52,7 +52,6 @@ fn model(checkout: &Checkout, path: &str) -> Answer {
     if program.main.is_none() {
         return explored("accepted, without a main rule", String::new());
     }
-    let program = Arc::new(program);
     let mut outcome = None;
     for choices in [Choices::First, Choices::random(SEED)] {
         let interpreted = run(&program, choices.clone(), EngineChoice::Interpreted);

@@ -11,6 +11,7 @@ mod systems;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use ::chart::system::System;
 use conform::{Session, Verdict};
@@ -125,6 +126,7 @@ impl<'a> Bench<'a> {
     /// Looks at the untouched log first: it conforms, and the judge agrees.
     fn new(subject: &Subject, system: &'a System, untouched: &'a Recording) -> Result<Bench<'a>, Failure> {
         let groundstate::Loaded { sources, model, program, .. } = subject.model()?;
+        let (model, program) = (Arc::unwrap_or_clone(model), Arc::unwrap_or_clone(program));
         let session = Session::new(sources, model, program, Limits::default(), untouched, false)
             .map_err(|refusal| format!("{refusal:?}"))?;
         let mut bench = Bench { session, plan: judge::Plan::new(system, untouched), untouched };

@@ -28,13 +28,13 @@ pub fn look(path: &Path, root: &SourceFile, disk: &mut Disk) -> Result<Seen, Fai
         }
         Err(failure) => return Err(failure),
     };
-    let mut loaded = match groundstate::load(source, disk) {
-        Ok(loaded) => loaded,
+    let mut asked = match groundstate::load(source, disk) {
+        Ok(loaded) => loaded.overlay(),
         Err(faulty) => return Ok(Seen::of(faulty.sources, faulty.diagnostics)),
     };
     let faults = match report {
-        true => crate::report::checked(disk, &mut loaded, root.clone(), path)?.faults,
-        false => crate::verify::beside::check(&mut loaded, path, &root.text),
+        true => crate::report::checked(disk, &mut asked, root.clone(), path)?.faults,
+        false => crate::verify::beside::check(&mut asked, path, &root.text),
     };
-    Ok(Seen::of(loaded.sources, faults))
+    Ok(Seen::of(asked.sources, faults))
 }

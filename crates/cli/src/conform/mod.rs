@@ -6,6 +6,7 @@ mod follow;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use ::conform::{Malformed, Parted, Reader, Recording, Refusal, Session, Verdict, Way};
 use clap::Args;
@@ -95,6 +96,7 @@ fn session(
     untimed: bool,
 ) -> Result<Result<Session, Exit>, Failure> {
     let Loaded { sources, model, program, .. } = loaded;
+    let (model, program) = (Arc::unwrap_or_clone(model), Arc::unwrap_or_clone(program));
     match Session::new(sources, model, program, shell.global.limits.uninterrupted(), head, untimed) {
         Ok(session) => Ok(Ok(session)),
         Err(refusal) => refused(shell, path, refusal).map(Err),

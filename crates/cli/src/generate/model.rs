@@ -23,7 +23,7 @@ pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
         Ok(loaded) => loaded,
         Err(exit) => return Ok(exit),
     };
-    let program = Arc::new(loaded.program);
+    let program = Arc::clone(&loaded.program);
     let mut started = Machine::new(Arc::clone(&program), Limits::default());
     // An initial value that asks the environment, or is at fault, does so again when the program starts.
     let _ = started.start(&mut Closed);

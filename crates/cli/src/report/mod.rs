@@ -19,7 +19,7 @@ use std::sync::Arc;
 
 use ::report::{Fact, Invariant, Report, ReportBuilder, SummaryOptions, SvgOptions};
 use clap::Args;
-use groundstate::Loaded;
+use groundstate::Overlay;
 use groundstate::simulate::{End, Invariants, Options, Record, Run, Violation};
 use program::{Program, PropertyKind};
 use syntax::{Diagnostic, SourceFile, Sources};
@@ -118,7 +118,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     if !arguments.runs.is_empty() {
         return recorded::run(shell, arguments);
     }
-    let mut loaded = match load(shell, &arguments.model)? {
+    let loaded = match load(shell, &arguments.model)? {
         Ok(loaded) => loaded,
         Err(exit) => return Ok(exit),
     };
@@ -128,9 +128,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         None => return Err(nothing_wanted(&path, false)),
     };
     let origin = wanted.name.clone();
-    let Some((mut builder, mut watch)) = prepare(shell, &mut loaded, wanted, &path)? else { return Ok(Exit::World) };
-    let Loaded { mut sources, program, .. } = loaded;
-    let program = Arc::new(program);
+    let mut asked = loaded.overlay();
+    let Some((mut builder, mut watch)) = prepare(shell, &mut asked, wanted, &path)? else { return Ok(Exit::World) };
+    let Overlay { mut sources, program, .. } = asked;
     let Assembled { inputs, .. } = match inputs::assemble(shell, &arguments.inputs, &mut sources, &program)? {
         Ok(assembled) => assembled,
         Err(faults) => {
@@ -164,20 +164,15 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
 }
 
 /// The page of a run that is told beside, as the specification beside the model says; none where there is none.
-pub fn page_of(
-    shell: &mut Shell,
-    loaded: &mut Loaded,
-    model: &Path,
-    run: RunOf<'_>,
-) -> Result<Option<String>, Failure> {
+pub fn page_of(shell: &mut Shell, mut asked: Overlay, model: &Path, run: RunOf<'_>) -> Result<Option<String>, Failure> {
     let path = model.with_extension("report.yaml");
     let Some(wanted) = wanted(shell, &path, false)? else { return Ok(None) };
-    let Some((mut builder, mut watch)) = prepare(shell, loaded, wanted, &path)? else { return Ok(None) };
-    let program = Arc::new(loaded.program.clone());
+    let Some((mut builder, mut watch)) = prepare(shell, &mut asked, wanted, &path)? else { return Ok(None) };
+    let Overlay { sources, program, .. } = asked;
     let mut run = run(&program);
-    let mut story = Story { invariants: invariants(&program, &loaded.sources), stopped: None, exit: Exit::Good };
+    let mut story = Story { invariants: invariants(&program, &sources), stopped: None, exit: Exit::Good };
     while let Some(record) = run.advance() {
-        story.note(&record, &run, &program, &loaded.sources);
+        story.note(&record, &run, &program, &sources);
         look(&record, &mut run, &mut watch, &mut builder);
     }
     let mut report = builder.finish(&program.name);
@@ -187,7 +182,7 @@ pub fn page_of(
     report.facts = vec![
         fact("Model", model.display().to_string()),
         fact("Run", "a counterexample of `groundstate verify`".to_string()),
-        fact("Fingerprint of all texts", groundstate::fingerprint(&loaded.sources)),
+        fact("Fingerprint of all texts", groundstate::fingerprint(&sources)),
         fact("Groundstate", env!("CARGO_PKG_VERSION").to_string()),
     ];
     Ok(Some(::report::render_html(&report)))
@@ -239,12 +234,12 @@ fn nothing_wanted(path: &Path, given: bool) -> Failure {
 /// The specification read, its terms checked; none where it has faults, which are then shown.
 fn prepare(
     shell: &mut Shell,
-    loaded: &mut Loaded,
+    asked: &mut Overlay,
     source: SourceFile,
     path: &Path,
 ) -> Result<Option<(ReportBuilder, Watch)>, Failure> {
-    let Checked { ready, faults } = checked(&mut shell.disk(), loaded, source, path)?;
-    shell.diagnostics(&loaded.sources, &faults)?;
+    let Checked { ready, faults } = checked(&mut shell.disk(), asked, source, path)?;
+    shell.diagnostics(&asked.sources, &faults)?;
     Ok(ready)
 }
 
@@ -255,20 +250,20 @@ pub struct Checked {
 }
 
 /// Reads a specification and checks it against its model. What it names lies relative to `path`.
-pub fn checked(disk: &mut Disk, loaded: &mut Loaded, source: SourceFile, path: &Path) -> Result<Checked, Failure> {
+pub fn checked(disk: &mut Disk, asked: &mut Overlay, source: SourceFile, path: &Path) -> Result<Checked, Failure> {
     let text = source.text.clone();
-    let file = loaded.sources.add(source);
+    let file = asked.add(source);
     let mut wanted = match specification(file, &text) {
         Ok(wanted) => wanted,
         Err(faults) => return Ok(Checked { ready: None, faults }),
     };
-    let mut faults = charts::add(disk, &mut loaded.sources, &mut wanted, path)?;
+    let mut faults = charts::add(disk, &mut asked.sources, &mut wanted, path)?;
     if groundstate::has_errors(&faults) {
         return Ok(Checked { ready: None, faults });
     }
     let Specification { spec, places, .. } = wanted;
     let builder = ReportBuilder::new(spec);
-    match Watch::new(loaded, builder.terms(), &places) {
+    match Watch::new(asked, builder.terms(), &places) {
         Ok(watch) => Ok(Checked { ready: Some((builder, watch)), faults }),
         Err(found) => {
             faults.extend(found);

@@ -1,9 +1,10 @@
 //! Evaluates the terms of a specification in each state, and hands on those whose values changed.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use ::report::ReportBuilder;
-use groundstate::Loaded;
+use groundstate::Overlay;
 use machine::{Closed, Machine, Show, Value};
 use program::Expression;
 use syntax::ast::{AstNode, TermFile};
@@ -19,14 +20,14 @@ pub struct Watch {
 impl Watch {
     /// Checks the terms against the model and adds them to its program. Their text stands at `places`.
     pub fn new(
-        loaded: &mut Loaded,
+        asked: &mut Overlay,
         terms: &[String],
         places: &BTreeMap<String, Span>,
     ) -> Result<Watch, Vec<Diagnostic>> {
         let mut lowered = Vec::new();
         let mut faults = Vec::new();
         for text in terms {
-            match lower(loaded, text, places[text]) {
+            match lower(asked, text, places[text]) {
                 Ok(term) => lowered.push(term),
                 // A term with `{}` stands for many; what is wrong with it is told once.
                 Err(found) => found.into_iter().for_each(|fault| {
@@ -55,7 +56,7 @@ impl Watch {
     }
 }
 
-fn lower(loaded: &mut Loaded, text: &str, place: Span) -> Result<Expression, Vec<Diagnostic>> {
+fn lower(asked: &mut Overlay, text: &str, place: Span) -> Result<Expression, Vec<Diagnostic>> {
     // As many blanks before the term as the file has bytes: places in the term are places in the file.
     let padded = " ".repeat(place.start as usize) + text;
     let parsed = syntax::parse_term(place.file, &padded);
@@ -66,11 +67,12 @@ fn lower(loaded: &mut Loaded, text: &str, place: Span) -> Result<Expression, Vec
     let Some(term) = TermFile::cast(parsed.syntax()).and_then(|file| file.term()) else {
         return Err(vec![super::node::fault(place, "a term is expected")]);
     };
-    let fragment = loaded.model.check_term(place.file, &term);
+    let fragment = Arc::make_mut(&mut asked.model).check_term(place.file, &term);
     if errors(&fragment.diagnostics) {
         return Err(within(fragment.diagnostics, place));
     }
-    let lowered = program::lower_term(&mut loaded.program, &loaded.model, &fragment.item, &fragment.variables);
+    let program = Arc::make_mut(&mut asked.program);
+    let lowered = program::lower_term(program, &asked.model, &fragment.item, &fragment.variables);
     lowered.map_err(|faults| within(faults, place))
 }
 

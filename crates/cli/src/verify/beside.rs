@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use groundstate::Loaded;
+use groundstate::Overlay;
 use program::PropertyKind;
 use syntax::{Diagnostic, SourceFile, Sources, Span};
 
@@ -63,34 +63,34 @@ fn parsed(sources: &mut Sources, path: &Path, text: &str) -> Result<Beside, Box<
 }
 
 /// The faults of a text against its model: its own, and those of its terms.
-pub fn check(loaded: &mut Loaded, path: &Path, text: &str) -> Vec<Diagnostic> {
-    let beside = match parsed(&mut loaded.sources, path, text) {
+pub fn check(asked: &mut Overlay, path: &Path, text: &str) -> Vec<Diagnostic> {
+    let beside = match parsed(&mut asked.sources, path, text) {
         Ok(beside) => beside,
         Err(fault) => return vec![*fault],
     };
     let name = path.display().to_string();
     let mut faults = Vec::new();
-    if let Err(failure) = super::bound::read(&loaded.program, &beside.bounds) {
-        faults.push(whole(loaded, &failure.to_string()));
+    if let Err(failure) = super::bound::read(&asked.program, &beside.bounds) {
+        faults.push(whole(asked, &failure.to_string()));
     }
     if beside.fair.as_deref().is_some_and(|fair| !["weak", "strong"].contains(&fair)) {
-        faults.push(whole(loaded, "`fair` is neither weak nor strong"));
+        faults.push(whole(asked, "`fair` is neither weak nor strong"));
     }
     let kinds = [PropertyKind::Invariant, PropertyKind::Ctl, PropertyKind::Ltl];
     let properties =
         kinds.iter().zip(&beside.properties).flat_map(|(kind, texts)| texts.iter().map(|text| (*kind, text)));
     for (kind, text) in beside.assumptions.iter().map(|text| (PropertyKind::Invar, text)).chain(properties) {
-        faults.extend(loaded.property(kind, &name, text).err().into_iter().flatten());
+        faults.extend(asked.property(kind, &name, text).err().into_iter().flatten());
     }
     if let Some(text) = &beside.terminal {
-        faults.extend(loaded.condition(&name, text).err().into_iter().flatten());
+        faults.extend(asked.ask(&name, text).err().into_iter().flatten());
     }
     faults
 }
 
 /// A fault whose line is not known.
-fn whole(loaded: &Loaded, message: &str) -> Diagnostic {
-    let file = loaded.sources.iter().map(|(file, _)| file).last().unwrap_or(loaded.model.root);
+fn whole(asked: &Overlay, message: &str) -> Diagnostic {
+    let file = asked.sources.iter().map(|(file, _)| file).last().unwrap_or(asked.model.root);
     *fault(Span { file, start: 0, end: 0 }, message)
 }
 

@@ -5,7 +5,7 @@ use std::io::Write;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-use groundstate::Loaded;
+use groundstate::Overlay;
 use groundstate::simulate::{End, Header, Invariants};
 use groundstate::verify::{Outcome, Report, Subject, Trace};
 use program::{Program, PropertyKind};
@@ -24,16 +24,15 @@ pub fn write(
     shell: &mut Shell,
     path: &Path,
     (model, fingerprint): (&Path, &str),
-    program: &Arc<Program>,
-    loaded: &mut Loaded,
+    asked: &Overlay,
     report: &Report,
 ) -> Result<(), Failure> {
     let violated = report.verdicts.iter().filter_map(|verdict| match &verdict.outcome {
         Outcome::Violated(trace) => Some((verdict.subject, trace.as_ref())),
         _ => None,
     });
-    let sources = loaded.sources.clone();
-    let writer = Writer { model, fingerprint, program, sources: &sources, properties: loaded.model.properties.len() };
+    let Overlay { sources, program, model: checked } = asked;
+    let writer = Writer { model, fingerprint, program, sources, properties: checked.properties.len() };
     let mut written: Vec<PathBuf> = Vec::new();
     let mut names: Vec<String> = Vec::new();
     let kind = path.extension().and_then(|extension| extension.to_str());
@@ -63,7 +62,7 @@ pub fn write(
                 let limits = shell.global.limits.uninterrupted();
                 let header = writer.header(trace, subject);
                 let run = |program: &Arc<Program>| groundstate::counterexample_run(program, limits, trace, &header);
-                if let Some(page) = page_of(shell, loaded, model, &run)? {
+                if let Some(page) = page_of(shell, asked.clone(), model, &run)? {
                     let file = path.join(format!("{name}.html"));
                     write_text(&file, &page)?;
                     written.push(file);

@@ -198,12 +198,13 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let asked = |said: &[String], beside: &[String]| !said.is_empty() || !beside.is_empty();
     let (ctl, ltl) = (asked(&arguments.ctl, &beside.properties[1]), asked(&arguments.ltl, &beside.properties[2]));
     loaded = operators::import(shell, loaded, ctl, ltl);
-    let Some(beside) = bounded.beside(shell, &mut loaded.sources, &arguments.model)? else { return Ok(Exit::World) };
+    let mut asked = loaded.overlay();
+    let Some(beside) = bounded.beside(shell, &mut asked.sources, &arguments.model)? else { return Ok(Exit::World) };
     // What the command line assumes counts instead of what the file does.
     let assumed = if arguments.assumptions.is_empty() { &beside.assumptions } else { &arguments.assumptions };
     for text in assumed {
-        if let Err(faults) = loaded.property(PropertyKind::Invar, "--assume", text) {
-            shell.diagnostics(&loaded.sources, &faults)?;
+        if let Err(faults) = asked.property(PropertyKind::Invar, "--assume", text) {
+            shell.diagnostics(&asked.sources, &faults)?;
             return Ok(Exit::World);
         }
     }
@@ -211,24 +212,23 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let kinds = [PropertyKind::Invariant, PropertyKind::Ctl, PropertyKind::Ltl];
     for (((kind, option), said), beside) in kinds.into_iter().zip(OPTIONS).zip(said).zip(&beside.properties) {
         for text in beside.iter().chain(said) {
-            if let Err(faults) = loaded.property(kind, option, text) {
-                shell.diagnostics(&loaded.sources, &faults)?;
+            if let Err(faults) = asked.property(kind, option, text) {
+                shell.diagnostics(&asked.sources, &faults)?;
                 return Ok(Exit::World);
             }
         }
     }
     let terminal = match arguments.terminal.as_ref().or(beside.terminal.as_ref()) {
         None => None,
-        Some(text) => match loaded.condition("--terminal", text) {
+        Some(text) => match asked.ask("--terminal", text) {
             Ok(term) => Some(term),
             Err(faults) => {
-                shell.diagnostics(&loaded.sources, &faults)?;
+                shell.diagnostics(&asked.sources, &faults)?;
                 return Ok(Exit::World);
             }
         },
     };
-    let program = Arc::new(loaded.program.clone());
-    let sources = loaded.sources.clone();
+    let (program, sources) = (Arc::clone(&asked.program), asked.sources.clone());
     let (root, users) = (loaded.model.root, own_files(&sources));
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
     let (options, watch) = bounded.options(shell, &program, &beside)?;
@@ -295,7 +295,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     teller.report(shell, &report, &told)?;
     if let Some(path) = &arguments.counterexample {
         let model = (arguments.model.as_path(), fingerprint.as_str());
-        counterexample::write(shell, path, model, &program, &mut loaded, &report)?;
+        counterexample::write(shell, path, model, &asked, &report)?;
     }
     checkpoint.map_or(Ok(()), Checkpoint::done)?;
     folder.map_or(Ok(()), |folder| folder.done())?;

@@ -127,7 +127,7 @@ mod tests {
              default init s: {initial}"
         );
         let loaded = groundstate::load(syntax::SourceFile::new("a.asm", text), &mut NoFiles).expect("a model");
-        let (program, sources) = (Arc::new(loaded.program), loaded.sources);
+        let (program, sources) = (loaded.program, loaded.sources);
         let trace = trace::read(&format!("# a.asm\nSTATE 0\nSTEP 1\n{record}\n")).expect("a trace");
         let replayed = replay(&program, &sources, &trace);
         assert!(replayed.difference.is_some() || !replayed.reasons.is_empty(), "they part");
