@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
-use groundstate::patterns;
+use groundstate::workspace::{Absent, Files, imported};
 use syntax::{NotText, SourceFile};
 
 use crate::failure::Failure;
@@ -120,46 +120,20 @@ impl Disk {
     }
 }
 
-impl model::Loader for Disk {
-    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        let written = path.replace('\\', "/");
-        if patterns::is_pattern(&importer.name) {
-            // The library's modules import each other, whatever lies in the working folder.
-            return patterns::pattern(&importer.name, &written).ok_or_else(|| format!("{path} is not in the library"));
-        }
-        let complete = [".asm", ".avalla", ".chart"].iter().any(|ending| written.ends_with(ending));
-        let written = if complete { written } else { written + ".asm" };
-        let folder = Path::new(&importer.name).parent().unwrap_or(Path::new(""));
-        let beside = tidy(&folder.join(&written));
-        let found = if beside.exists() { beside } else { PathBuf::from(&written) };
-        match read_source(&found, self.limit) {
+impl Files for Disk {
+    fn read(&mut self, path: &str) -> Result<SourceFile, Absent> {
+        match read_source(Path::new(path), self.limit) {
             Ok(source) => Ok(source),
-            Err(Failure::Missing(_)) => patterns::pattern(&importer.name, &written).ok_or_else(|| {
-                let missing = format!("there is no file {}", tidy(&folder.join(&written)).display());
-                match patterns::meant(&written) {
-                    Some(import) => format!("{missing}; `import {import}` takes the library that is built in"),
-                    None => missing,
-                }
-            }),
-            Err(failure) => Err(failure.to_string()),
+            Err(Failure::Missing(_)) => Err(Absent::Missing),
+            Err(failure) => Err(Absent::Unreadable(failure.to_string())),
         }
     }
 }
 
-/// `a/b/../c` as `a/c`, so that one file has one name however it is reached.
-fn tidy(path: &Path) -> PathBuf {
-    use std::path::Component;
-    let mut tidied = PathBuf::new();
-    for component in path.components() {
-        match component {
-            Component::CurDir => {}
-            Component::ParentDir if matches!(tidied.components().next_back(), Some(Component::Normal(_))) => {
-                tidied.pop();
-            }
-            other => tidied.push(other),
-        }
+impl model::Loader for Disk {
+    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        imported(self, importer, path)
     }
-    tidied
 }
 
 /// A file being written: it takes its name when it is complete and does not exist before. What is no ordinary file

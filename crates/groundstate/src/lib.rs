@@ -11,10 +11,12 @@ mod decide;
 mod diagnose;
 mod diagnose_review;
 mod fingerprint;
+pub mod job;
 mod overlay;
 pub mod patterns;
 mod test;
 pub mod test_generation;
+pub mod workspace;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -32,7 +34,8 @@ pub use diagnose_review::{REVIEW_IDS, diagnose_finding};
 pub use fingerprint::fingerprint;
 pub use overlay::Overlay;
 pub use test::{SeededChoices, Suite, Tested, own_files};
-pub use {scenario, simulate, verify};
+pub use workspace::Workspace;
+pub use {machine, model, program, scenario, simulate, smt, syntax, verify};
 
 /// A model that is ready to run. It does not change: what is asked of it beside its text goes into an [`Overlay`].
 #[derive(Debug, Clone)]

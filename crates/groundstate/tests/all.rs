@@ -3,6 +3,7 @@
 
 mod decision;
 mod invariants;
+mod jobs;
 mod pages;
 mod picks;
 mod review;
@@ -11,3 +12,4 @@ mod systems;
 mod test_generation;
 mod verification;
 mod verified_systems;
+mod workspace;

@@ -5,7 +5,6 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use groundstate::simulate::read_value;
 use machine::{Choice, Environment, Limits, LocationRef, Machine, Show, TimeUnit, Value};

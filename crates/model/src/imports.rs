@@ -59,7 +59,7 @@ impl Reader<'_> {
         self.seen.insert(identity.clone(), None);
         self.open.push((identity.clone(), source.name.clone()));
         let file = self.sources.add(source.clone());
-        let parse = syntax::parse_asmetal(file, &source.text);
+        let parse = self.loader.parse(file, &source);
         let tree = ast::SourceFile::cast(parse.syntax());
         let header_end = tree.as_ref().and_then(|tree| tree.definitions()).map(|node| node.range().start());
         let broken = parse.diagnostics.iter().any(|fault| {

@@ -3,7 +3,7 @@
 //! INVARIANT: ids index the tables of the model they come from. Tables are in the order of declaration, imported
 //! files first, so that output made by walking them is the same every time.
 
-use syntax::{Diagnostic, FileId, SourceFile, Sources, Span};
+use syntax::{Diagnostic, FileId, Parse, SourceFile, Sources, Span};
 
 use crate::domain::{DomainId, Domains};
 use crate::names::Names;
@@ -27,6 +27,11 @@ pub trait Loader {
     /// The text that `path`, as written in an import of `importer`, leads to; `.asm` is still to be added where
     /// it is missing and either slash is a separator. The error is a sentence for the user.
     fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String>;
+
+    /// The tree of a text, under the name that its file has among the texts read; whoever keeps trees gives one of the same text.
+    fn parse(&mut self, file: FileId, source: &SourceFile) -> Parse {
+        syntax::parse_asmetal(file, &source.text)
+    }
 }
 
 /// The result of checking: always as much as could be understood.

@@ -10,6 +10,7 @@ use program::Program;
 use syntax::Span;
 
 use crate::draw::{Bounds, draw_basic};
+use crate::inputs::Signal;
 use crate::random::{SplitMix, StableHash};
 
 /// A choice as it was made.
@@ -39,6 +40,30 @@ pub struct PlayedChoice {
     pub values: Vec<Value>,
 }
 
+/// Somebody who is asked for each choice.
+pub trait Chooser {
+    /// Which candidate is taken, from 0. An error is a sentence for the user and ends the run.
+    ///
+    /// # Errors
+    /// None is.
+    fn choose(&mut self, program: &Program, choice: &Choice<'_>) -> Result<usize, String>;
+
+    /// After an error: what the user wanted instead of choosing.
+    fn signal(&mut self) -> Option<Signal> {
+        None
+    }
+}
+
+/// A [`Chooser`] that several hold.
+#[derive(Clone)]
+pub struct Asked(Rc<RefCell<dyn Chooser>>);
+
+impl std::fmt::Debug for Asked {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Asked")
+    }
+}
+
 /// How choices are made.
 #[derive(Debug, Clone)]
 pub enum Choices {
@@ -64,6 +89,8 @@ pub enum Choices {
         /// How many choices the step has made so far.
         made: usize,
     },
+    /// As somebody answers who is asked each time.
+    Asked(Asked),
     /// As a trace has it: how many candidates there were and which was taken, in the order of the step.
     Recorded(Played),
 }
@@ -77,6 +104,19 @@ impl Choices {
     /// Choices by the values of their variables, by step from 0.
     pub fn decided(steps: Vec<Vec<Vec<Value>>>) -> Self {
         Choices::Decided { steps, step: 0, made: 0 }
+    }
+
+    /// Choices by somebody who is asked.
+    pub fn asked(chooser: impl Chooser + 'static) -> Self {
+        Choices::Asked(Asked(Rc::new(RefCell::new(chooser))))
+    }
+
+    /// After an error: what the user wanted instead of choosing.
+    pub(crate) fn signal(&self) -> Option<Signal> {
+        match self {
+            Choices::Asked(Asked(chooser)) => chooser.borrow_mut().signal(),
+            Choices::First | Choices::Random { .. } | Choices::Decided { .. } | Choices::Recorded(_) => None,
+        }
     }
 
     pub(crate) fn begin(&mut self, now: u64) {
@@ -96,7 +136,7 @@ impl Choices {
                 key.write(&draw.variable.to_le_bytes());
                 draw_basic(draw.basic, bounds, &mut SplitMix::stream(*seed, *step, key.finish()))
             }
-            Choices::Decided { .. } => Ok(draw.number(0)),
+            Choices::Decided { .. } | Choices::Asked(_) => Ok(draw.number(0)),
             Choices::Recorded(recorded) => {
                 let recorded = recorded.borrow();
                 let value = recorded.front().and_then(|choice| choice.values.get(draw.variable));
@@ -106,9 +146,18 @@ impl Choices {
     }
 
     /// Makes a choice. An error is a sentence for the user.
-    pub(crate) fn choose(&mut self, _program: &Program, choice: &Choice<'_>) -> Result<usize, String> {
+    pub(crate) fn choose(&mut self, program: &Program, choice: &Choice<'_>) -> Result<usize, String> {
         match self {
             Choices::First => Ok(0),
+            Choices::Asked(Asked(chooser)) => {
+                let index = chooser.borrow_mut().choose(program, choice)?;
+                let of = choice.candidates();
+                if index < of {
+                    Ok(index)
+                } else {
+                    Err(format!("there are {of} candidates, no candidate {}", index + 1))
+                }
+            }
             Choices::Random { seed, step, made, keys } => {
                 let key = keys.get(*made).copied().unwrap_or_else(|| one_more(keys));
                 let mut stream = SplitMix::stream(*seed, *step, key);

@@ -206,7 +206,7 @@ impl Environment for Inputs {
     }
 
     fn choose(&mut self, program: &Program, choice: &Choice<'_>) -> Result<usize, String> {
-        let index = self.choices.choose(program, choice)?;
+        let index = self.choices.choose(program, choice).inspect_err(|_| self.signal = self.choices.signal())?;
         if self.keep {
             self.chosen.push(ChoiceMade {
                 span: choice.span,

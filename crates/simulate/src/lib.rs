@@ -21,7 +21,7 @@ mod run;
 mod trace;
 mod weighted;
 
-pub use choose::{ChoiceMade, Choices};
+pub use choose::{Asked, ChoiceMade, Choices, Chooser};
 pub use clock::{Clock, StepClock};
 pub use constants::Constants;
 pub use decided::Decided;

@@ -137,6 +137,15 @@ impl Run {
         }
     }
 
+    /// Takes the last step back; none where none is kept that could be.
+    pub fn take_back(&mut self) -> Option<Record> {
+        let can = !self.history.is_empty() && !matches!(self.phase, Phase::New);
+        can.then(|| {
+            self.phase = Phase::Running;
+            self.back(None)
+        })
+    }
+
     /// The next record; none after the end.
     pub fn advance(&mut self) -> Option<Record> {
         match std::mem::replace(&mut self.phase, Phase::Running) {

@@ -55,6 +55,16 @@ impl Parse {
     pub fn syntax(&self) -> SyntaxNode {
         SyntaxNode::new_root(self.green.clone())
     }
+
+    /// The same of another file with the same text.
+    #[must_use]
+    pub fn in_file(mut self, file: FileId) -> Parse {
+        for fault in &mut self.diagnostics {
+            fault.primary.span.file = file;
+            fault.secondary.iter_mut().for_each(|label| label.span.file = file);
+        }
+        self
+    }
 }
 
 /// Parses a file of AsmetaL (`.asm`).

@@ -7,6 +7,7 @@
 use std::fmt;
 use std::sync::Arc;
 
+use machine::Interrupt;
 use program::Program;
 use smt::session::{Session, Silence, Solvers};
 
@@ -137,6 +138,13 @@ impl Request {
     /// Begins a request.
     pub fn of(program: &Arc<Program>, options: Options) -> RequestBuilder {
         RequestBuilder(Request { program: Arc::clone(program), options, agents: None, kept: false })
+    }
+
+    /// The same, looking at another request to stop.
+    #[must_use]
+    pub fn interrupted_by(mut self, interrupt: Interrupt) -> Request {
+        self.options.interrupt = interrupt;
+        self
     }
 
     fn asks(&self, part: Part) -> bool {

@@ -1,0 +1,160 @@
+//! Work on a thread of its own: it tells how it goes, can be cancelled, and gives its result at the end.
+//!
+//! In: what is to be done, with a [`Port`] to the one who waits. Out: a [`Job`]. Events go through a bounded channel: work that
+//! tells more than is read waits, so that nothing grows. INVARIANT: a job whose owner is gone ends as if it had been
+//! cancelled.
+
+mod run;
+mod test;
+mod verify;
+
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TryRecvError, sync_channel};
+use std::thread::{Builder, JoinHandle};
+use std::time::Duration;
+
+use machine::{Cause, Interrupt};
+
+pub use run::{Command, Remote, RunEvent, RunJob, RunRequest, run};
+pub use test::{TestEvent, test};
+pub use verify::{NO_KEEPER, VerifyEvent, VerifyJob, verify};
+
+/// Events that wait to be read.
+const WAITING: usize = 1 << 10;
+
+/// Work that is being done. `E` is what it tells while it goes on, `T` its result.
+#[derive(Debug)]
+pub struct Job<E, T> {
+    events: Receiver<E>,
+    thread: JoinHandle<T>,
+    cancel: Cancel,
+}
+
+/// The work ended by a panic, which is a bug of this program; what it said.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Crashed(pub String);
+
+/// Ends a job from anywhere.
+#[derive(Debug, Clone, Copy)]
+pub struct Cancel(&'static Interrupt);
+
+impl Cancel {
+    /// For one job. LIMIT: a few bytes of each are never given back, since every machine that looks at them may outlive the job.
+    pub fn new() -> Cancel {
+        Cancel(Box::leak(Box::new(Interrupt::new())))
+    }
+
+    /// Asks the job to end. It looks at this between steps and within them.
+    pub fn cancel(&self) {
+        self.0.raise(Cause::Asked);
+    }
+
+    /// Whether the job was asked to end.
+    pub fn is_cancelled(&self) -> bool {
+        self.0.cause() == Some(Cause::Asked)
+    }
+
+    /// What a machine and a search look at.
+    pub fn interrupt(&self) -> &'static Interrupt {
+        self.0
+    }
+}
+
+impl Default for Cancel {
+    fn default() -> Cancel {
+        Cancel::new()
+    }
+}
+
+/// By what a shell asks all of its work to end, a signal for one.
+impl From<&'static Interrupt> for Cancel {
+    fn from(interrupt: &'static Interrupt) -> Cancel {
+        Cancel(interrupt)
+    }
+}
+
+/// The job's side: where it tells its events, and learns that it is to end.
+#[derive(Debug)]
+pub struct Port<E> {
+    events: SyncSender<E>,
+    cancel: Cancel,
+}
+
+impl<E> Port<E> {
+    /// Tells an event; waits where too many are not read yet.
+    pub fn tell(&self, event: E) {
+        if self.events.send(event).is_err() {
+            self.cancel.cancel();
+        }
+    }
+
+    /// Tells an event, unless too many are not read yet: for those that are out of date by the next.
+    pub fn mention(&self, event: E) {
+        let _ = self.events.try_send(event);
+    }
+
+    /// Whether to end.
+    pub fn is_cancelled(&self) -> bool {
+        self.cancel.is_cancelled()
+    }
+}
+
+impl<E: Send + 'static, T: Send + 'static> Job<E, T> {
+    /// Starts work. `name` is that of its thread.
+    ///
+    /// # Errors
+    /// The system gives no thread.
+    pub fn start(
+        name: &str,
+        cancel: Cancel,
+        work: impl FnOnce(Port<E>) -> T + Send + 'static,
+    ) -> Result<Job<E, T>, std::io::Error> {
+        let (sender, events) = sync_channel(WAITING);
+        let port = Port { events: sender, cancel };
+        let thread = Builder::new().name(name.to_string()).spawn(move || work(port))?;
+        Ok(Job { events, thread, cancel })
+    }
+}
+
+impl<E, T> Job<E, T> {
+    /// The next event, when it comes; none when the work has ended.
+    pub fn next_event(&self) -> Option<E> {
+        self.events.recv().ok()
+    }
+
+    /// The next event if it comes within this time. The work has ended where that is [`RecvTimeoutError::Disconnected`].
+    ///
+    /// # Errors
+    /// None came.
+    pub fn next_event_within(&self, time: Duration) -> Result<E, RecvTimeoutError> {
+        self.events.recv_timeout(time)
+    }
+
+    /// The next event if it is there.
+    ///
+    /// # Errors
+    /// None is.
+    pub fn poll(&self) -> Result<E, TryRecvError> {
+        self.events.try_recv()
+    }
+
+    /// By what the job is cancelled, also from another thread.
+    pub fn cancel(&self) -> &Cancel {
+        &self.cancel
+    }
+
+    /// Waits for the end; events that were not read are dropped.
+    ///
+    /// # Errors
+    /// The work panicked.
+    pub fn finish(self) -> Result<T, Crashed> {
+        let Job { events, thread, .. } = self;
+        events.iter().for_each(drop);
+        thread.join().map_err(|panic| Crashed(said(&*panic)))
+    }
+}
+
+/// What a panic said.
+fn said(panic: &(dyn std::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_string());
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default()
+}

@@ -1,0 +1,47 @@
+//! Scenarios as a job.
+//!
+//! In: their texts and a loader. Out: each scenario's verdict as it is there; at the end the suite, which knows what they
+//! covered.
+
+use std::io;
+
+use model::Loader;
+use scenario::{FirstCandidate, Options};
+use syntax::SourceFile;
+
+use crate::job::{Cancel, Job};
+use crate::{SeededChoices, Suite, Tested};
+
+/// What scenarios tell.
+#[derive(Debug)]
+pub struct TestEvent(pub Box<Tested>);
+
+/// Starts scenarios, one after the other. Choices that no `pick` makes take the first candidate, or are drawn from a seed. One
+/// that is cancelled is not told of, nor are those after it.
+///
+/// # Errors
+/// The system gives no thread.
+pub fn test(
+    scenarios: Vec<SourceFile>,
+    mut loader: impl Loader + Send + 'static,
+    options: Options,
+    seed: Option<u64>,
+    cancel: Cancel,
+) -> io::Result<Job<TestEvent, Suite>> {
+    let mut options = options;
+    options.limits.interrupt = Some(cancel.interrupt());
+    Job::start("test", cancel, move |port| {
+        let mut suite = Suite::new();
+        for scenario in scenarios {
+            let tested = match seed {
+                None => suite.test(scenario, &mut loader, options, &mut FirstCandidate),
+                Some(seed) => suite.test(scenario, &mut loader, options, &mut SeededChoices::new(seed)),
+            };
+            if port.is_cancelled() {
+                break;
+            }
+            port.tell(TestEvent(Box::new(tested)));
+        }
+        suite
+    })
+}

@@ -1,0 +1,101 @@
+//! A verification as a job.
+//!
+//! In: a [`Request`], SMT solvers, a keeper where the search is kept. Out: progress, and violations while the search goes on;
+//! at the end the report, and the keeper again.
+
+use std::io;
+
+use verify::{Keeper, Listener, NoStart, Progress, Report, Request, Subject, Trace};
+
+use smt::session::Solvers;
+
+use crate::job::{Cancel, Job, Port};
+
+/// What a verification tells.
+#[derive(Debug, Clone, PartialEq)]
+pub enum VerifyEvent {
+    /// The search is so far.
+    Progress(Progress),
+    /// A check is violated, at the end of this run; the report tells of it again.
+    Violated(Subject, Box<Trace>),
+}
+
+/// A verification: its result is the report, or why there is none, and the keeper that was handed in.
+pub type VerifyJob<K> = Job<VerifyEvent, (Result<Report, NoStart>, Option<K>)>;
+
+/// For a search that is not kept.
+pub const NO_KEEPER: Option<NoKeeper> = None;
+
+/// Nobody who keeps a search: it cannot be made.
+#[derive(Debug, Clone, Copy)]
+pub enum NoKeeper {}
+
+impl Keeper for NoKeeper {
+    fn model(&self) -> u64 {
+        match *self {}
+    }
+
+    fn is_due(&mut self) -> bool {
+        match *self {}
+    }
+
+    fn open(&mut self) -> bool {
+        match *self {}
+    }
+
+    fn read(&mut self, _words: &mut [u64]) -> bool {
+        match *self {}
+    }
+
+    fn write(&mut self, _words: &[u64]) {
+        match *self {}
+    }
+
+    fn end(&mut self) {
+        match *self {}
+    }
+
+    fn remove(&mut self) {
+        match *self {}
+    }
+}
+
+struct Told<'p>(&'p Port<VerifyEvent>);
+
+impl Listener for Told<'_> {
+    fn at(&mut self, progress: &Progress) -> bool {
+        self.0.mention(VerifyEvent::Progress(*progress));
+        !self.0.is_cancelled()
+    }
+
+    fn wants(&mut self) -> bool {
+        true
+    }
+
+    fn violated(&mut self, subject: Subject, trace: &Trace) {
+        self.0.tell(VerifyEvent::Violated(subject, Box::new(trace.clone())));
+    }
+}
+
+/// Starts a verification. When it is cancelled it stops where it is, and its report has what it found until then.
+///
+/// # Errors
+/// The system gives no thread.
+///
+/// # Panics
+/// There is a keeper although the request was built without one, or none although it was built with one.
+pub fn verify<S, K>(request: Request, cancel: Cancel, mut solvers: S, keeper: Option<K>) -> io::Result<VerifyJob<K>>
+where
+    S: Solvers + Send + 'static,
+    K: Keeper + Send + 'static,
+{
+    let request = request.interrupted_by(cancel.interrupt().clone());
+    Job::start("verify", cancel, move |port| {
+        let mut keeper = keeper;
+        let report = match &mut keeper {
+            Some(keeper) => request.verify_kept(&mut solvers, keeper, &mut Told(&port)),
+            None => request.verify(&mut solvers, &mut Told(&port)),
+        };
+        (report, keeper)
+    })
+}

@@ -1,0 +1,249 @@
+//! The texts of a project, those that are being edited over those on the disk, and what is wrong with each.
+//!
+//! In: texts as an editor sends them, and [`Files`] for the rest. Out: faults of models, scenarios and charts, and models that are
+//! ready to run. A file is parsed again only when its text is another one; all else is checked anew, which takes milliseconds.
+//! INVARIANT: what [`Workspace::check`] says depends on the texts alone, not on the edits that led to them.
+
+use std::collections::BTreeMap;
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+
+use model::Loader;
+use syntax::{Diagnostic, FileId, Parse, SourceFile};
+
+use crate::{BuiltChart, Faulty, Loaded, Located, Suite, build_chart, check, load, patterns};
+
+/// Finds texts by their path.
+pub trait Files {
+    /// The text at a path, under that name.
+    ///
+    /// # Errors
+    /// There is none, or it cannot be read.
+    fn read(&mut self, path: &str) -> Result<SourceFile, Absent>;
+}
+
+/// Why there is no text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Absent {
+    /// There is no file.
+    Missing,
+    /// It cannot be read; a sentence for the user.
+    Unreadable(String),
+}
+
+/// A text that was sent is older than the one that is there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Outdated {
+    /// The version that is there.
+    pub present: i64,
+}
+
+/// LIMIT: so many texts are kept parsed.
+const PARSED: usize = 512;
+
+/// See the module.
+#[derive(Debug)]
+pub struct Workspace<F> {
+    files: F,
+    /// Texts that are being edited, by their path.
+    open: BTreeMap<String, (i64, SourceFile)>,
+    parsed: Parsed,
+}
+
+/// What a path was seen to be, and what is wrong with it.
+#[derive(Debug, Clone, Default)]
+pub struct Findings {
+    /// Faults, those of each set of texts together.
+    pub faults: Vec<Located>,
+    /// What could not be looked at, as a clause; *no faults* is not said then.
+    pub open: Option<String>,
+}
+
+impl Findings {
+    /// All faults.
+    pub fn diagnostics(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.faults.iter().flat_map(|(_, faults)| faults)
+    }
+
+    /// Whether everything was looked at and nothing, not even a warning, found.
+    pub fn is_clean(&self) -> bool {
+        self.open.is_none() && self.diagnostics().next().is_none()
+    }
+}
+
+impl<F: Files> Workspace<F> {
+    /// Nothing is being edited.
+    pub fn new(files: F) -> Workspace<F> {
+        Workspace { files, open: BTreeMap::new(), parsed: Parsed::default() }
+    }
+
+    /// From now on this is the text at a path, whatever the disk has.
+    ///
+    /// # Errors
+    /// A text of a later version is there.
+    pub fn set_text(&mut self, path: &str, version: i64, text: impl Into<Arc<str>>) -> Result<(), Outdated> {
+        let path = tidy(path);
+        match self.open.get(&path) {
+            Some((present, _)) if *present > version => Err(Outdated { present: *present }),
+            _ => {
+                self.open.insert(path.clone(), (version, SourceFile::new(path, text)));
+                Ok(())
+            }
+        }
+    }
+
+    /// From now on the text at a path is that of the disk again.
+    pub fn close(&mut self, path: &str) {
+        self.open.remove(&tidy(path));
+    }
+
+    /// The text at a path, as it is being edited or as the disk has it.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn text(&mut self, path: &str) -> Result<SourceFile, Absent> {
+        self.texts().read(&tidy(path))
+    }
+
+    /// What is wrong with the file at a path: a model (`.asm`), a scenario (`.avalla`) or a chart (`.chart`).
+    ///
+    /// # Errors
+    /// There is no such file.
+    pub fn check(&mut self, path: &str) -> Result<Findings, Absent> {
+        let root = self.text(path)?;
+        let loader = &mut self.texts();
+        let ending = path.rsplit('.').next().unwrap_or_default();
+        Ok(match ending {
+            "avalla" => {
+                let tested = Suite::new().check(root, loader);
+                Findings { faults: vec![(tested.sources, tested.diagnostics)], open: None }
+            }
+            "chart" => {
+                let model = Path::new(&root.name).with_extension("asm").to_string_lossy().into_owned();
+                let present = loader.read(&model).ok().map(|source| source.text);
+                let BuiltChart { faults, .. } = build_chart(root, &model, present.as_deref(), loader);
+                Findings { faults, open: None }
+            }
+            "asm" => {
+                let checked = check(root, loader);
+                Findings { faults: vec![(checked.sources, checked.diagnostics)], open: None }
+            }
+            other => {
+                Findings { faults: Vec::new(), open: Some(format!("not checked: what ends in .{other} is not known")) }
+            }
+        })
+    }
+
+    /// The model at a path, ready to run.
+    ///
+    /// # Errors
+    /// There is no such file, or it has errors.
+    pub fn load(&mut self, path: &str) -> Result<Arc<Loaded>, NotLoaded> {
+        let root = self.text(path).map_err(NotLoaded::Absent)?;
+        load(root, &mut self.texts()).map(Arc::new).map_err(NotLoaded::Faulty)
+    }
+
+    /// Finds texts and what they import; the workspace cannot be edited meanwhile.
+    pub fn texts(&mut self) -> Texts<'_, F> {
+        Texts { files: &mut self.files, open: &self.open, parsed: &mut self.parsed }
+    }
+}
+
+/// Why a model is not there to be run.
+#[derive(Debug)]
+pub enum NotLoaded {
+    /// There is no file.
+    Absent(Absent),
+    /// It has errors.
+    Faulty(Box<Faulty>),
+}
+
+/// The texts of a workspace as a [`Loader`].
+#[derive(Debug)]
+pub struct Texts<'w, F> {
+    files: &'w mut F,
+    open: &'w BTreeMap<String, (i64, SourceFile)>,
+    parsed: &'w mut Parsed,
+}
+
+impl<F: Files> Files for Texts<'_, F> {
+    fn read(&mut self, path: &str) -> Result<SourceFile, Absent> {
+        match self.open.get(path) {
+            Some((_, source)) => Ok(source.clone()),
+            None => self.files.read(path),
+        }
+    }
+}
+
+impl<F: Files> Loader for Texts<'_, F> {
+    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        imported(self, importer, path)
+    }
+
+    fn parse(&mut self, file: FileId, source: &SourceFile) -> Parse {
+        self.parsed.of(file, &source.text)
+    }
+}
+
+/// The text that an import leads to: beside the importing file, then from the working folder, then in the library that is built
+/// in. The library's own modules import each other, whatever lies in the working folder.
+///
+/// # Errors
+/// It leads to none; a sentence for the user.
+pub fn imported(files: &mut impl Files, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+    let written = path.replace('\\', "/");
+    if patterns::is_pattern(&importer.name) {
+        return patterns::pattern(&importer.name, &written).ok_or_else(|| format!("{path} is not in the library"));
+    }
+    let complete = [".asm", ".avalla", ".chart"].iter().any(|ending| written.ends_with(ending));
+    let written = if complete { written } else { written + ".asm" };
+    let folder = Path::new(&importer.name).parent().unwrap_or(Path::new(""));
+    let beside = tidy(&folder.join(&written).to_string_lossy());
+    for place in [&beside, &written] {
+        match files.read(place) {
+            Ok(source) => return Ok(source),
+            Err(Absent::Missing) => {}
+            Err(Absent::Unreadable(reason)) => return Err(reason),
+        }
+    }
+    patterns::pattern(&importer.name, &written).ok_or_else(|| {
+        let missing = format!("there is no file {beside}");
+        match patterns::meant(&written) {
+            Some(import) => format!("{missing}; `import {import}` takes the library that is built in"),
+            None => missing,
+        }
+    })
+}
+
+/// `a/b/../c` as `a/c`, so that one file has one name however it is reached.
+pub fn tidy(path: &str) -> String {
+    let mut tidied = PathBuf::new();
+    for component in Path::new(path).components() {
+        match component {
+            Component::CurDir => {}
+            Component::ParentDir if matches!(tidied.components().next_back(), Some(Component::Normal(_))) => {
+                tidied.pop();
+            }
+            other => tidied.push(other),
+        }
+    }
+    tidied.to_string_lossy().into_owned()
+}
+
+/// Texts that were parsed, by their content.
+#[derive(Debug, Default)]
+struct Parsed(BTreeMap<Arc<str>, Parse>);
+
+impl Parsed {
+    fn of(&mut self, file: FileId, text: &Arc<str>) -> Parse {
+        if let Some(parse) = self.0.get(text) {
+            return parse.clone().in_file(file);
+        }
+        if self.0.len() >= PARSED {
+            self.0.clear();
+        }
+        let parse = syntax::parse_asmetal(file, text);
+        self.0.insert(Arc::clone(text), parse.clone());
+        parse
+    }
+}

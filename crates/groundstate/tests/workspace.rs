@@ -1,0 +1,121 @@
+//! A workspace says of edited texts what a fresh look at the same texts says.
+
+#![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use groundstate::Workspace;
+use groundstate::workspace::{Absent, Files, Findings, NotLoaded, Outdated, tidy};
+use simulate::SplitMix;
+use syntax::SourceFile;
+
+/// Texts in memory.
+#[derive(Debug, Clone, Default)]
+struct Memory(BTreeMap<String, String>);
+
+impl Files for Memory {
+    fn read(&mut self, path: &str) -> Result<SourceFile, Absent> {
+        self.0.get(path).map(|text| SourceFile::new(path, text.as_str())).ok_or(Absent::Missing)
+    }
+}
+
+impl Memory {
+    fn of(files: &[(&str, &str)]) -> Memory {
+        Memory(files.iter().map(|(path, text)| ((*path).to_string(), (*text).to_string())).collect())
+    }
+
+    fn folder(folder: &str) -> Memory {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
+        let mut files = BTreeMap::new();
+        for entry in std::fs::read_dir(root).expect("the folder") {
+            let path = entry.expect("an entry").path();
+            if let (Ok(text), Some(name)) = (std::fs::read_to_string(&path), path.file_name()) {
+                files.insert(name.to_string_lossy().into_owned(), text);
+            }
+        }
+        Memory(files)
+    }
+}
+
+/// Each fault in a line.
+fn lines(findings: &Findings) -> Vec<String> {
+    let mut lines: Vec<String> = findings.open.iter().cloned().collect();
+    for (sources, faults) in &findings.faults {
+        lines.extend(faults.iter().map(|fault| {
+            let places = fault.secondary.iter().map(|label| sources.position(label.span));
+            let places: Vec<String> = places.collect();
+            format!("{} {} {} {places:?}", sources.position(fault.primary.span), fault.id, fault.message)
+        }));
+    }
+    lines
+}
+
+const LAMP: &str = "asm Lamp\nimport Parts\nsignature:\n\tcontrolled on: Boolean\ndefinitions:\n\
+                    \tmain rule r_Main = r_flip[]\ndefault init s0:\n\tfunction on = false\n";
+const PARTS: &str = "module Parts\nimport StandardLibrary\nexport *\nsignature:\ndefinitions:\n\trule r_flip = skip\n";
+
+#[test]
+fn an_edit_is_seen_in_the_file_and_in_those_that_import_it() {
+    let mut workspace = Workspace::new(Memory::of(&[("Lamp.asm", LAMP), ("Parts.asm", PARTS)]));
+    let check = |workspace: &mut Workspace<Memory>, path| lines(&workspace.check(path).expect("it is there"));
+    assert_eq!(check(&mut workspace, "Lamp.asm"), [""; 0]);
+    workspace.set_text("./Parts.asm", 1, PARTS.replace("r_flip", "r_flop")).expect("the first");
+    let faults = check(&mut workspace, "Lamp.asm");
+    assert!(faults.len() == 1 && faults[0].starts_with("Lamp.asm:6:21 "), "{faults:?}");
+    // What came earlier does not come back.
+    assert_eq!(workspace.set_text("Parts.asm", 0, PARTS), Err(Outdated { present: 1 }));
+    assert_eq!(check(&mut workspace, "Lamp.asm"), faults);
+    assert!(matches!(workspace.load("Lamp.asm"), Err(NotLoaded::Faulty(_))));
+    workspace.close("Parts.asm");
+    assert_eq!(check(&mut workspace, "Lamp.asm"), [""; 0]);
+    assert!(workspace.load("Lamp.asm").is_ok());
+}
+
+#[test]
+fn scenarios_charts_and_what_is_not_known_are_looked_at() {
+    let mut workspace = Workspace::new(Memory::of(&[("Lamp.asm", LAMP), ("Parts.asm", PARTS)]));
+    assert!(matches!(workspace.check("Lamp.avalla"), Err(Absent::Missing)));
+    workspace.set_text("Lamp.avalla", 1, "scenario lamp\nload Lamp.asm\ncheck of;\n").expect("the first");
+    let faults = lines(&workspace.check("Lamp.avalla").expect("it is open"));
+    assert!(faults.iter().any(|fault| fault.starts_with("Lamp.avalla:3:7 ")), "{faults:?}");
+    workspace.set_text("Empty.chart", 1, "chart Empty\n").expect("the first");
+    assert!(!lines(&workspace.check("Empty.chart").expect("it is open")).is_empty());
+    workspace.set_text("notes.txt", 1, "anything").expect("the first");
+    assert!(!workspace.check("notes.txt").expect("it is open").is_clean(), "nothing was looked at");
+}
+
+#[test]
+fn after_any_edits_it_says_what_a_fresh_one_says() {
+    let mut files = Memory::folder("library/patterns");
+    let mut edited = Workspace::new(files.clone());
+    let mut random = SplitMix::new(7);
+    let names: Vec<String> = files.0.keys().filter(|name| !name.ends_with(".md")).cloned().collect();
+    let rounds = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 2_000 } else { 40 };
+    for version in 0..rounds {
+        let name = &names[random.below(names.len() as u64) as usize];
+        let text = files.0.get_mut(name).expect("it is there");
+        let chars: Vec<char> = text.chars().collect();
+        let at = random.below(chars.len() as u64) as usize;
+        let length = random.below(30.min(chars.len() as u64 - at as u64)) as usize;
+        // A piece is taken out, put in again elsewhere, or doubled.
+        let (before, piece, after) = (&chars[..at], &chars[at..at + length], &chars[at + length..]);
+        *text = match random.below(3) {
+            0 => [before, after].concat().into_iter().collect(),
+            1 => [before, piece, piece, after].concat().into_iter().collect(),
+            _ => [piece, before, after].concat().into_iter().collect(),
+        };
+        edited.set_text(name, version, text.as_str()).expect("the next version");
+        let checked = if random.below(2) == 0 { "ControlTask.asm" } else { name };
+        let mut fresh = Workspace::new(files.clone());
+        let expected = lines(&fresh.check(checked).expect("it is there"));
+        assert_eq!(lines(&edited.check(checked).expect("it is there")), expected, "round {version}, {checked}");
+    }
+}
+
+#[test]
+fn one_file_has_one_name() {
+    for (path, expect) in [("a/b/../c.asm", "a/c.asm"), ("./c.asm", "c.asm"), ("../c.asm", "../c.asm")] {
+        assert_eq!(tidy(path), expect);
+    }
+}
