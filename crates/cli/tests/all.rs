@@ -8,4 +8,5 @@ mod first_steps;
 mod fmt;
 mod input_pages;
 mod interrupts;
+mod start;
 mod transcripts;

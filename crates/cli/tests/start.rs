@@ -1,0 +1,169 @@
+//! Pages that show files, commands and answers are transcripts: docs/start.md, and the model on README.md.
+//!
+//! In: a page. A block of code below a line that ends with "`NAME`:" is the file NAME, and a block of `diff` there a change of
+//! that file. The page is cut before each of them; each piece is a transcript for trycmd, run in one folder that all pieces share.
+//! A picture that the page shows from its own folder is the one that the commands drew. `TRYCMD=overwrite` rewrites answers and
+//! pictures.
+
+#![allow(clippy::disallowed_methods, reason = "a test reads a page and makes the files on it")]
+
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().expect("the repository")
+}
+
+/// What happens to a file before the commands of a piece.
+#[derive(Debug, PartialEq, Eq)]
+enum Edit {
+    Write(String),
+    /// Lines that stand in the file once, and what takes their place.
+    Change {
+        from: String,
+        to: String,
+    },
+}
+
+/// A page from one file to the next: its lines as they are, the number of the first, and the file with what happens to it.
+#[derive(Debug)]
+struct Piece {
+    line: usize,
+    text: String,
+    edit: Option<(String, Edit)>,
+}
+
+/// NAME, of a line that ends with "`NAME`:".
+fn file_named(line: &str) -> Option<&str> {
+    line.strip_suffix("`:")?.rsplit('`').next()
+}
+
+fn edit(info: &str, body: &[&str]) -> Edit {
+    let joined = |lines: &mut dyn Iterator<Item = &str>| lines.flat_map(|line| [line, "\n"]).collect::<String>();
+    if info != "diff" {
+        return Edit::Write(joined(&mut body.iter().copied()));
+    }
+    let with = |mark: char| joined(&mut body.iter().filter_map(|line| line.strip_prefix([' ', mark])));
+    Edit::Change { from: with('-'), to: with('+') }
+}
+
+fn pieces(page: &str) -> Vec<Piece> {
+    let lines: Vec<&str> = page.lines().collect();
+    let mut pieces = vec![Piece { line: 1, text: String::new(), edit: None }];
+    let mut above = "";
+    let mut at = 0;
+    while at < lines.len() {
+        let Some(info) = lines[at].strip_prefix("```") else {
+            above = if lines[at].is_empty() { above } else { lines[at] };
+            pieces.last_mut().expect("a piece").text += &format!("{}\n", lines[at]);
+            at += 1;
+            continue;
+        };
+        let length = lines[at + 1..].iter().position(|line| line.starts_with("```")).expect("the block ends");
+        let block = &lines[at..=at + 1 + length];
+        if let Some(name) = file_named(above).filter(|_| info != "console") {
+            let edit = edit(info, &block[1..block.len() - 1]);
+            pieces.push(Piece { line: at + 1, text: String::new(), edit: Some((name.to_string(), edit)) });
+        }
+        pieces.last_mut().expect("a piece").text += &format!("{}\n", block.join("\n"));
+        above = "";
+        at += block.len();
+    }
+    pieces
+}
+
+fn apply(folder: &Path, name: &str, edit: &Edit) {
+    let path = folder.join(name);
+    match edit {
+        Edit::Write(text) => fs::write(&path, text).expect("a file"),
+        Edit::Change { from, to } => {
+            let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{name}: {error}"));
+            assert_eq!(text.matches(from.as_str()).count(), 1, "these lines do not stand in {name} once:\n{from}");
+            fs::write(&path, text.replace(from.as_str(), to)).expect("a file");
+        }
+    }
+}
+
+/// Where a program lies that the page calls by its name.
+fn on_the_path(name: &str) -> PathBuf {
+    let folders = env::var_os("PATH").expect("a search path");
+    let mut found = env::split_paths(&folders).map(|folder| folder.join(name));
+    found.find(|path| path.is_file()).unwrap_or_else(|| panic!("{name} is not installed"))
+}
+
+/// Runs a page; what it reads then, and the folder of its files.
+fn run(page: &str) -> (String, tempfile::TempDir) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let files = folder.path().join("files");
+    fs::create_dir(&files).expect("a folder");
+    let mut said = String::new();
+    for piece in pieces(page) {
+        if let Some((name, edit)) = &piece.edit {
+            apply(&files, name, edit);
+        }
+        // By its name trycmd finds the folder, and whoever reads its answer the place on the page.
+        let transcript = folder.path().join(format!("from-line-{}.md", piece.line));
+        let beside = transcript.with_extension("in");
+        fs::write(&transcript, &piece.text).expect("a transcript");
+        fs::rename(&files, &beside).expect("a folder");
+        let cases = trycmd::TestCases::new();
+        for line in piece.text.lines().filter_map(|line| line.strip_prefix("$ ")) {
+            // A program that trycmd does not know it would pass over.
+            let name = line.split(' ').next().expect("a word");
+            if name != "groundstate" {
+                let path = name.strip_prefix("./").map_or_else(|| on_the_path(name), |made| beside.join(made));
+                cases.register_bin(name, path.as_path());
+            }
+        }
+        cases.case(&transcript).run();
+        fs::rename(&beside, &files).expect("a folder");
+        said += &fs::read_to_string(&transcript).expect("the transcript");
+    }
+    fs::rename(files, folder.path().join("at-the-end")).expect("a folder");
+    (said, folder)
+}
+
+fn check(page: &str) {
+    let path = root().join(page);
+    let text = fs::read_to_string(&path).expect("a page");
+    let (said, folder) = run(&text);
+    let overwrite = env::var_os("TRYCMD").is_some_and(|mode| mode == "overwrite");
+    if overwrite {
+        fs::write(&path, &said).expect("a page");
+    } else {
+        assert_eq!(said, text, "{page} is not what the commands say");
+    }
+    for picture in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+        let drawn = folder.path().join("at-the-end").join(picture);
+        if drawn.is_file() {
+            let shown = path.with_file_name(picture);
+            if overwrite {
+                fs::copy(&drawn, &shown).expect("a picture");
+            }
+            let same = fs::read(&drawn).expect("the picture") == fs::read(&shown).unwrap_or_default();
+            assert!(same, "{page} shows another {picture} than is drawn: `TRYCMD=overwrite cargo test -p cli start`");
+        }
+    }
+}
+
+#[test]
+fn the_first_ten_minutes_go_as_their_page_says() {
+    check("docs/start.md");
+}
+
+#[test]
+fn the_model_on_the_readme_is_answered_so() {
+    check("README.md");
+}
+
+#[test]
+fn a_page_is_cut_before_each_file() {
+    let page = "Write `a.txt`:\n\n```text\none\ntwo\n```\n\nRun.\n\n```console\n$ x\n```\n\nIn `a.txt`:\n\n```diff\n one\n-two\n+2\n```\n";
+    let pieces = pieces(page);
+    let edits: Vec<_> = pieces.iter().map(|piece| (piece.line, piece.edit.as_ref())).collect();
+    let written = ("a.txt".to_string(), Edit::Write("one\ntwo\n".to_string()));
+    let changed = Edit::Change { from: "one\ntwo\n".to_string(), to: "one\n2\n".to_string() };
+    assert_eq!(edits, [(1, None), (3, Some(&written)), (16, Some(&("a.txt".to_string(), changed)))]);
+    assert_eq!(pieces.iter().map(|piece| piece.text.as_str()).collect::<String>(), page);
+}
