@@ -39,12 +39,15 @@ fn file_named(line: &str) -> Option<&str> {
     line.strip_suffix("`:")?.rsplit('`').next()
 }
 
+fn joined<'t>(lines: impl Iterator<Item = &'t str>) -> String {
+    lines.flat_map(|line| [line, "\n"]).collect()
+}
+
 fn edit(info: &str, body: &[&str]) -> Edit {
-    let joined = |lines: &mut dyn Iterator<Item = &str>| lines.flat_map(|line| [line, "\n"]).collect::<String>();
     if info != "diff" {
-        return Edit::Write(joined(&mut body.iter().copied()));
+        return Edit::Write(joined(body.iter().copied()));
     }
-    let with = |mark: char| joined(&mut body.iter().filter_map(|line| line.strip_prefix([' ', mark])));
+    let with = |mark: char| joined(body.iter().filter_map(|line| line.strip_prefix([' ', mark])));
     Edit::Change { from: with('-'), to: with('+') }
 }
 
