@@ -195,7 +195,7 @@ fn a_verification_tells_of_violations_and_of_its_end() {
     let loaded = loaded(&counter());
     let bounded = Options { max_depth: 6, ..Options::default() };
     let request = || Request::of(&loaded.program, bounded.clone()).build().expect("nothing is in conflict");
-    let job = job::verify(request(), Cancel::new(), NoSolvers, NO_KEEPER).expect("a thread");
+    let job = job::verify(request(), Cancel::new(), NoSolvers, NO_KEEPER, || true).expect("a thread");
     let mut violated = Vec::new();
     while let Some(event) = job.next_event() {
         if let VerifyEvent::Violated(subject, trace) = event {
@@ -209,7 +209,7 @@ fn a_verification_tells_of_violations_and_of_its_end() {
     assert_eq!(violated, [(Subject::Property(0), 3)]);
     let cancel = Cancel::new();
     cancel.cancel();
-    let job = job::verify(request(), cancel, NoSolvers, NO_KEEPER).expect("a thread");
+    let job = job::verify(request(), cancel, NoSolvers, NO_KEEPER, || true).expect("a thread");
     assert_eq!(job.finish().expect("no panic").0, Err(NoStart::Stopped(Stop::Asked)));
 }
 

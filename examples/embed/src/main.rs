@@ -101,10 +101,11 @@ fn step(loaded: &Loaded, steps: u64) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Verifies the model; or has had enough as soon as the search tells of itself.
+/// Verifies the model, as far as its first states; or has had enough as soon as the search tells of itself.
 fn verify(loaded: &Loaded, cancels: bool) -> Result<(), Box<dyn Error>> {
-    let request = Request::of(&loaded.program, Options::default()).build()?;
-    let job = job::verify(request, Cancel::new(), NoSolvers, job::NO_KEEPER)?;
+    let options = Options { max_states: 10_000, ..Options::default() };
+    let request = Request::of(&loaded.program, options).build()?;
+    let job = job::verify(request, Cancel::new(), NoSolvers, job::NO_KEEPER, || true)?;
     if cancels {
         job.cancel().cancel();
     }

@@ -4,9 +4,10 @@
 //! are told at its end, in their order. INVARIANT: each violation is shown once.
 
 use std::collections::BTreeSet;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-use groundstate::verify::{Listener, Progress, Subject, Trace};
+use groundstate::job::VerifyEvent;
+use groundstate::verify::{Subject, Trace};
 
 use crate::failure::Failure;
 use crate::shell::Shell;
@@ -15,6 +16,12 @@ use crate::verify::watch::Watch;
 
 /// Of shorter searches everything is told at the end.
 const PATIENCE: Duration = Duration::from_secs(1);
+
+/// Says from when on a search that begins now is to tell of violations.
+pub fn impatience() -> impl FnMut() -> bool + Send + 'static {
+    let began = Instant::now();
+    move || began.elapsed() > PATIENCE
+}
 
 /// See the module.
 pub struct Live<'a> {
@@ -30,21 +37,14 @@ impl<'a> Live<'a> {
         Live { shell, teller, watch, told: BTreeSet::new(), failure: None }
     }
 
-    /// The search has ended: whether the time was up, and what was told.
-    pub fn done(self) -> Result<(bool, BTreeSet<Subject>), Failure> {
-        let timed_out = self.watch.done();
-        self.failure.map_or(Ok((timed_out, self.told)), Err)
-    }
-}
-
-impl Listener for Live<'_> {
-    fn at(&mut self, progress: &Progress) -> bool {
+    /// Tells of an event; `false` where the search is to end.
+    pub fn hear(&mut self, event: &VerifyEvent) -> bool {
+        match event {
+            VerifyEvent::Progress(progress) => return self.watch.at(progress),
+            VerifyEvent::Violated(subject, trace) => self.violated(*subject, trace),
+        }
         // Where nobody reads what is told there is nothing to search for.
-        self.watch.at(progress) && self.failure.is_none()
-    }
-
-    fn wants(&mut self) -> bool {
-        self.watch.elapsed() > PATIENCE
+        self.failure.is_none()
     }
 
     fn violated(&mut self, subject: Subject, trace: &Trace) {
@@ -52,5 +52,11 @@ impl Listener for Live<'_> {
         let told = self.teller.violated(self.shell, subject, trace).and_then(|()| self.shell.flush());
         self.told.insert(subject);
         self.failure = self.failure.take().or(told.err());
+    }
+
+    /// The search has ended: whether the time was up, and what was told.
+    pub fn done(self) -> Result<(bool, BTreeSet<Subject>), Failure> {
+        let timed_out = self.watch.done();
+        self.failure.map_or(Ok((timed_out, self.told)), Err)
     }
 }

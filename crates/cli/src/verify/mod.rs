@@ -20,6 +20,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
+use groundstate::job::{self, Cancel};
 use groundstate::own_files;
 use groundstate::verify::solver::Method;
 use groundstate::verify::temporal::fairness::AgentFairness;
@@ -29,6 +30,7 @@ use program::PropertyKind;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::interrupt;
 use crate::load::load;
 use crate::shell::Shell;
 use crate::solver::Process;
@@ -234,7 +236,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let (options, watch) = bounded.options(shell, &program, &beside)?;
     if arguments.disk.is_some() {
         // The limit is that of the states in memory; what is more goes to files.
-        crate::interrupt::bound_memory(u64::MAX);
+        interrupt::bound_memory(u64::MAX);
     }
     let folder = match &arguments.disk {
         Some(path) => Some(Folder::new(path)?),
@@ -270,18 +272,22 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     });
     let request = Request::of(&program, options).fair(agents).kept(arguments.checkpoint.is_some()).build();
     let request = request.map_err(conflict::conflict)?;
-    let mut solver = Process::find(arguments.solver.as_deref());
-    let mut checkpoint = match &arguments.checkpoint {
+    let solver = Process::find(arguments.solver.as_deref());
+    let checkpoint = match &arguments.checkpoint {
         Some(path) => Some(Checkpoint::new(path, &fingerprint)?),
         None => None,
     };
     let mut teller = Teller::new(&program, &sources, false);
     teller.assumed(shell, assumed)?;
     let mut live = Live::new(shell, &teller, watch);
-    let outcome = match &mut checkpoint {
-        Some(checkpoint) => request.verify_kept(&mut solver, checkpoint, &mut live),
-        None => request.verify(&mut solver, &mut live),
-    };
+    let job = job::verify(request, Cancel::from(interrupt::request()), solver, checkpoint, live::impatience());
+    let job = job.map_err(|error| Failure::usage(format!("the search cannot be started: {error}")))?;
+    while let Some(event) = job.next_event() {
+        if !live.hear(&event) {
+            job.cancel().cancel();
+        }
+    }
+    let (outcome, checkpoint) = job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0));
     let (timed_out, told) = live.done()?;
     teller.timed_out = timed_out;
     let mut report = match outcome {

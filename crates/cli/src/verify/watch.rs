@@ -40,11 +40,6 @@ impl Watch {
         }
     }
 
-    /// How long the search has been going on.
-    pub fn elapsed(&self) -> Duration {
-        self.began.elapsed()
-    }
-
     /// Shows how far the search is and says whether it goes on.
     pub fn at(&mut self, progress: &Progress) -> bool {
         let elapsed = self.began.elapsed();

@@ -21,6 +21,9 @@ pub use verify::{NO_KEEPER, VerifyEvent, VerifyJob, verify};
 /// Events that wait to be read.
 const WAITING: usize = 1 << 10;
 
+/// As much as a main thread has, and more: deep terms are evaluated by recursion.
+const STACK: usize = 16 << 20;
+
 /// Work that is being done. `E` is what it tells while it goes on, `T` its result.
 #[derive(Debug)]
 pub struct Job<E, T> {
@@ -110,7 +113,7 @@ impl<E: Send + 'static, T: Send + 'static> Job<E, T> {
     ) -> Result<Job<E, T>, std::io::Error> {
         let (sender, events) = sync_channel(WAITING);
         let port = Port { events: sender, cancel };
-        let thread = Builder::new().name(name.to_string()).spawn(move || work(port))?;
+        let thread = Builder::new().name(name.to_string()).stack_size(STACK).spawn(move || work(port))?;
         Ok(Job { events, thread, cancel })
     }
 }

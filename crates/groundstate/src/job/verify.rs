@@ -60,41 +60,51 @@ impl Keeper for NoKeeper {
     }
 }
 
-struct Told<'p>(&'p Port<VerifyEvent>);
+struct Told<'p, W> {
+    port: &'p Port<VerifyEvent>,
+    wants: W,
+}
 
-impl Listener for Told<'_> {
+impl<W: FnMut() -> bool> Listener for Told<'_, W> {
     fn at(&mut self, progress: &Progress) -> bool {
-        self.0.mention(VerifyEvent::Progress(*progress));
-        !self.0.is_cancelled()
+        self.port.mention(VerifyEvent::Progress(*progress));
+        !self.port.is_cancelled()
     }
 
     fn wants(&mut self) -> bool {
-        true
+        (self.wants)()
     }
 
     fn violated(&mut self, subject: Subject, trace: &Trace) {
-        self.0.tell(VerifyEvent::Violated(subject, Box::new(trace.clone())));
+        self.port.tell(VerifyEvent::Violated(subject, Box::new(trace.clone())));
     }
 }
 
-/// Starts a verification. When it is cancelled it stops where it is, and its report has what it found until then.
+/// Starts a verification. When it is cancelled it stops where it is, and its report has what it found until then. `wants` says
+/// whether it is time to be told of violations before the end, which takes a search for the run to each.
 ///
 /// # Errors
 /// The system gives no thread.
 ///
 /// # Panics
 /// There is a keeper although the request was built without one, or none although it was built with one.
-pub fn verify<S, K>(request: Request, cancel: Cancel, mut solvers: S, keeper: Option<K>) -> io::Result<VerifyJob<K>>
+pub fn verify<S, K>(
+    request: Request,
+    cancel: Cancel,
+    mut solvers: S,
+    keeper: Option<K>,
+    wants: impl FnMut() -> bool + Send + 'static,
+) -> io::Result<VerifyJob<K>>
 where
     S: Solvers + Send + 'static,
     K: Keeper + Send + 'static,
 {
     let request = request.interrupted_by(cancel.interrupt().clone());
     Job::start("verify", cancel, move |port| {
-        let mut keeper = keeper;
+        let (mut keeper, mut told) = (keeper, Told { port: &port, wants });
         let report = match &mut keeper {
-            Some(keeper) => request.verify_kept(&mut solvers, keeper, &mut Told(&port)),
-            None => request.verify(&mut solvers, &mut Told(&port)),
+            Some(keeper) => request.verify_kept(&mut solvers, keeper, &mut told),
+            None => request.verify(&mut solvers, &mut told),
         };
         (report, keeper)
     })
