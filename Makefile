@@ -98,7 +98,7 @@ corpus: ## make corpus CORPUS=path: compare with recorded results of the public 
 	    --scripts out/corpus/scripts --log out/corpus/generated.log $(if $(EVERY),--every $(EVERY))
 
 update: ## rewrite all golden expectations
-	UPDATE_EXPECT=1 SNAPSHOTS=overwrite $(CARGO) test --workspace
+	UPDATE_EXPECT=1 SNAPSHOTS=overwrite TRYCMD=overwrite $(LINTED) $(CARGO) test --workspace --locked --no-fail-fast
 
 clean: ## remove what was built
 	$(CARGO) clean
