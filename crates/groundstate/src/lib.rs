@@ -6,6 +6,7 @@
 
 mod avalla;
 mod build;
+mod check_verification;
 mod counterexample;
 mod decide;
 mod diagnose;
@@ -27,6 +28,7 @@ use syntax::ast::AstNode;
 use syntax::{Diagnostic, Severity, SourceFile, Sources, Span};
 
 pub use build::{BuiltChart, Located, build_chart};
+pub use check_verification::check_verification;
 pub use counterexample::{counterexample_run, counterexample_scenario};
 pub use decide::diagnose_no_main;
 pub use diagnose::{diagnose_failure, diagnose_fault, diagnose_outside, diagnose_violation};
@@ -35,7 +37,7 @@ pub use fingerprint::fingerprint;
 pub use overlay::Overlay;
 pub use test::{SeededChoices, Suite, Tested, own_files};
 pub use workspace::Workspace;
-pub use {machine, model, program, scenario, simulate, smt, syntax, verify};
+pub use {inputs, machine, model, program, scenario, simulate, smt, syntax, verify};
 
 /// A model that is ready to run. It does not change: what is asked of it beside its text goes into an [`Overlay`].
 #[derive(Debug, Clone)]

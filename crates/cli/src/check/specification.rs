@@ -34,7 +34,7 @@ pub fn look(path: &Path, root: &SourceFile, disk: &mut Disk) -> Result<Seen, Fai
     };
     let faults = match report {
         true => crate::report::checked(disk, &mut asked, root.clone(), path)?.faults,
-        false => crate::verify::beside::check(&mut asked, path, &root.text),
+        false => groundstate::check_verification(&mut asked, &root.name, &root.text),
     };
     Ok(Seen::of(asked.sources, faults))
 }

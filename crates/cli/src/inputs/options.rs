@@ -5,14 +5,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
-use groundstate::simulate::{
-    Bounds, Choices, Clock, Constants, Inputs, Named, Positional, RandomSource, StepClock, Weighted,
-};
+use groundstate::inputs::{self, Form};
+use groundstate::simulate::{Bounds, Choices, Clock, Inputs, Named, Positional, RandomSource, StepClock};
 use machine::TimeUnit;
-use program::{FunctionKind, Program, Term};
+use program::Program;
 use syntax::{Diagnostic, SourceFile, Sources};
 
-use super::{prompt, table, yaml};
+use super::prompt;
 use crate::failure::Failure;
 use crate::files::read_text;
 use crate::shell::Shell;
@@ -73,10 +72,10 @@ impl Chosen {
 #[derive(Debug, Args)]
 pub struct Random {
     /// Bounds of random Integers and Naturals
-    #[arg(long, value_name = "LOW..HIGH", default_value = "-10..10", allow_hyphen_values = true, value_parser = integers)]
+    #[arg(long, value_name = "LOW..HIGH", default_value = "-10..10", allow_hyphen_values = true, value_parser = inputs::integers)]
     integers: (i64, i64),
     /// Bounds of random Reals, which have two decimals
-    #[arg(long, value_name = "LOW..HIGH", default_value = "-10..10", allow_hyphen_values = true, value_parser = reals)]
+    #[arg(long, value_name = "LOW..HIGH", default_value = "-10..10", allow_hyphen_values = true, value_parser = inputs::reals)]
     reals: (f64, f64),
     /// Random Strings, separated by commas
     #[arg(long, value_name = "TEXTS", value_delimiter = ',')]
@@ -100,21 +99,6 @@ impl Random {
     }
 }
 
-fn range<T: std::str::FromStr + PartialOrd + Copy>(text: &str) -> Option<(T, T)> {
-    let (low, high) = text.split_once("..")?;
-    let (low, high) = (low.trim().parse().ok()?, high.trim().parse().ok()?);
-    (low <= high).then_some((low, high))
-}
-
-fn integers(text: &str) -> Result<(i64, i64), String> {
-    range(text).ok_or_else(|| "write the lowest and the highest whole number, such as -10..10".to_string())
-}
-
-fn reals(text: &str) -> Result<(f64, f64), String> {
-    let finite = |(low, high): &(f64, f64)| low.abs() < 1e15 && high.abs() < 1e15;
-    range(text).filter(finite).ok_or_else(|| "write the lowest and the highest number, such as -1.5..1.5".to_string())
-}
-
 /// How time passes.
 #[derive(Debug, Clone, Copy)]
 enum Ticking {
@@ -129,17 +113,7 @@ impl std::str::FromStr for Ticking {
         if text == "system" {
             return Ok(Ticking::System);
         }
-        let digits = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
-        let (number, unit) = text.split_at(digits);
-        let unit_ns: u64 = match unit {
-            "ns" => 1,
-            "us" => 1_000,
-            "ms" => 1_000_000,
-            "s" => 1_000_000_000,
-            _ => return Err("write a time such as 100us, 10ms or 1s, or `system`".to_string()),
-        };
-        let number: u64 = number.parse().map_err(|_| "the time starts with a whole number".to_string())?;
-        number.checked_mul(unit_ns).map(Ticking::Steps).ok_or_else(|| "the time is too long".to_string())
+        inputs::step_ns(text).map(Ticking::Steps)
     }
 }
 
@@ -177,7 +151,8 @@ pub fn assemble(
     program: &Program,
 ) -> Result<Result<Assembled, Vec<Diagnostic>>, Failure> {
     let mut inputs = Inputs::new();
-    inputs = inputs.with(constants(program, &arguments.set)?);
+    let constants = inputs::constants(program, &arguments.set);
+    inputs = inputs.with(constants.map_err(|refused| Failure::usage(format!("--set {refused}")))?);
     if let Some(path) = &arguments.input {
         match named(shell, path, sources, program)? {
             Ok(named) => inputs = inputs.with(named),
@@ -191,17 +166,19 @@ pub fn assemble(
     let mut interactive = false;
     let told = prompt::Told::default();
     if arguments.random {
-        let mut weighted = Weighted::new(arguments.seed);
-        for text in &arguments.weight {
-            weighted.add(program, text).map_err(|message| Failure::usage(format!("--weight {text}: {message}")))?;
-        }
+        let weighted = inputs::weighted(program, arguments.seed, &arguments.weight);
+        let weighted = weighted.map_err(|refused| Failure::usage(format!("--weight {refused}")))?;
         inputs = inputs.with(weighted);
         inputs = inputs.with(RandomSource::new(arguments.seed, arguments.bounds.bounds()));
     } else if std::io::stdin().is_terminal() {
-        interactive = !asked(program).is_empty();
+        interactive = !inputs::asked(program).is_empty();
         inputs = inputs.with(prompt::Prompt::new(Arc::clone(&told)));
-    } else if arguments.input.is_none() && arguments.env.is_none() && arguments.set.is_empty() {
-        refuse_without_source(program)?;
+    } else if arguments.input.is_none()
+        && arguments.env.is_none()
+        && arguments.set.is_empty()
+        && let Some(lack) = inputs::without_source(program)
+    {
+        return Err(Failure::usage_with_help(format!("{lack}, and there is no terminal to ask at"), HELP));
     }
     inputs = inputs.choosing(arguments.choose.choices(arguments.seed));
     inputs = match arguments.clock {
@@ -215,44 +192,6 @@ pub fn assemble(
 pub const HELP: &str =
     "pass --random for random ones, --input FILE or --env FILE to read them, or --set LOCATION=VALUE for a fixed one";
 
-fn refuse_without_source(program: &Program) -> Result<(), Failure> {
-    let asked = asked(program);
-    let (Some(first), more) = (asked.first(), asked.len().saturating_sub(1)) else { return Ok(()) };
-    let names = match more {
-        0 => first.clone(),
-        1 | 2 => asked.join(", "),
-        _ => format!("{}, {} and {} more", asked[0], asked[1], asked.len() - 2),
-    };
-    Err(Failure::usage_with_help(
-        format!("the model takes inputs ({names}), but nothing says where from, and there is no terminal to ask at"),
-        HELP,
-    ))
-}
-
-/// The monitored functions that the program reads.
-fn asked(program: &Program) -> Vec<String> {
-    let mut read = vec![false; program.functions.len()];
-    for term in &program.terms {
-        if let Term::Read { function, .. } = term {
-            read[function.0 as usize] = true;
-        }
-    }
-    let functions = program.functions.iter().zip(read);
-    functions
-        .filter(|(function, read)| *read && function.kind == FunctionKind::Monitored && !function.library)
-        .map(|(function, _)| function.name.clone())
-        .collect()
-}
-
-/// The `--set` options.
-pub fn constants(program: &Program, texts: &[String]) -> Result<Constants, Failure> {
-    let mut constants = Constants::default();
-    for text in texts {
-        constants.set(program, text).map_err(|message| Failure::usage(format!("--set {text}: {message}")))?;
-    }
-    Ok(constants)
-}
-
 fn named(
     shell: &Shell,
     path: &Path,
@@ -261,26 +200,11 @@ fn named(
 ) -> Result<Result<Named, Vec<Diagnostic>>, Failure> {
     let text = read_text(path, shell.global.limits.max_file_size)?;
     let file = sources.add(SourceFile::new(path.display().to_string(), text.as_str()));
-    let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-    let read = match extension {
-        "yaml" | "yml" => yaml::read(file, &text),
-        "csv" => table::read(file, &text),
-        _ => {
-            return Err(Failure::usage_with_help(
-                format!("{} is neither .yaml nor .csv", path.display()),
-                "--input takes values by step and location; --env takes the values alone, one a line",
-            ));
-        }
+    let Some(form) = Form::of(path) else {
+        return Err(Failure::usage_with_help(
+            format!("{} is neither .yaml nor .csv", path.display()),
+            "--input takes values by step and location; --env takes the values alone, one a line",
+        ));
     };
-    let given = match read {
-        Ok(given) => given,
-        Err(fault) => return Ok(Err(vec![*fault])),
-    };
-    Ok(Named::new(program, &given).map_err(|problems| {
-        let diagnostic = |problem: groundstate::simulate::Problem| {
-            let id = if problem.value { "bad-input-value" } else { "unknown-input" };
-            Diagnostic::error(id, problem.span, problem.message)
-        };
-        problems.into_iter().map(diagnostic).collect()
-    }))
+    Ok(inputs::named(program, form, file, &text))
 }

@@ -9,7 +9,7 @@ use ::report::{ChartSpec, LightsSpec, PartSpec};
 use chart::draw::{Drawing, Lights};
 use syntax::{Diagnostic, Sources};
 
-use super::node::fault;
+use super::fault;
 use super::specification::{Specification, Wanted};
 use crate::failure::Failure;
 use crate::files::Disk;

@@ -8,7 +8,6 @@
 mod charts;
 mod derived;
 mod evidence;
-pub mod node;
 mod recorded;
 mod specification;
 mod watch;
@@ -22,7 +21,7 @@ use clap::Args;
 use groundstate::Overlay;
 use groundstate::simulate::{End, Invariants, Options, Record, Run, Violation};
 use program::{Program, PropertyKind};
-use syntax::{Diagnostic, SourceFile, Sources};
+use syntax::{Diagnostic, SourceFile, Sources, Span};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -34,6 +33,13 @@ use crate::progress::Progress;
 use crate::shell::Shell;
 use specification::{Specification, specification};
 use watch::Watch;
+
+/// The id of what is wrong with a specification.
+const ID: &str = "bad-report-specification";
+
+fn fault(span: Span, message: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(ID, span, message)
+}
 
 /// What a specification looks like.
 const FORMAT: &str = "\

@@ -6,9 +6,10 @@
 use std::collections::BTreeMap;
 
 use ::report::{ActivitySpec, BufferSpec, CounterSpec, FlowSpec, HopSpec, QueueSpec, SeriesSpec, Spec, TaskSpec, Tone};
+use groundstate::inputs::node::{Key, Node, Shape, read};
 use syntax::{Diagnostic, FileId, Span};
 
-use super::node::{Key, Node, Shape, fault, read};
+use super::{ID, fault};
 
 /// A specification, where its terms stand, and the charts it wants.
 #[derive(Debug)]
@@ -44,7 +45,7 @@ pub struct WantedMachine {
 
 /// Reads a specification.
 pub fn specification(file: FileId, source: &str) -> Result<Specification, Vec<Diagnostic>> {
-    let root = read(file, source).map_err(|fault| vec![*fault])?;
+    let root = read(file, source, ID).map_err(|fault| vec![*fault])?;
     let mut reader = Reader { faults: Vec::new(), places: BTreeMap::new() };
     let spec = reader.spec(&root);
     let charts = reader.charts(&root);

@@ -65,7 +65,7 @@ fn lower(asked: &mut Overlay, text: &str, place: Span) -> Result<Expression, Vec
         return Err(within(parsed.diagnostics, place));
     }
     let Some(term) = TermFile::cast(parsed.syntax()).and_then(|file| file.term()) else {
-        return Err(vec![super::node::fault(place, "a term is expected")]);
+        return Err(vec![super::fault(place, "a term is expected")]);
     };
     let fragment = Arc::make_mut(&mut asked.model).check_term(place.file, &term);
     if errors(&fragment.diagnostics) {

@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use groundstate::inputs::bound;
+use groundstate::inputs::verification::Verification;
 use groundstate::verify::Options;
 use program::Program;
 use syntax::Sources;
@@ -10,8 +12,7 @@ use syntax::Sources;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::shell::Shell;
-use crate::verify::beside::{Beside, beside};
-use crate::verify::bound;
+use crate::verify::beside::beside;
 use crate::verify::watch::Watch;
 
 /// See the module.
@@ -57,7 +58,12 @@ impl Bounded {
     }
 
     /// What stands in the file beside a model; none after a fault.
-    pub fn beside(&self, shell: &mut Shell, sources: &mut Sources, model: &Path) -> Result<Option<Beside>, Failure> {
+    pub fn beside(
+        &self,
+        shell: &mut Shell,
+        sources: &mut Sources,
+        model: &Path,
+    ) -> Result<Option<Verification>, Failure> {
         beside(shell, sources, self.spec.as_deref(), model)
     }
 
@@ -69,9 +75,18 @@ impl Bounded {
     }
 
     /// The options of a search, and who watches it.
-    pub fn options(&self, shell: &Shell, program: &Program, beside: &Beside) -> Result<(Options, Watch), Failure> {
-        let mut bounds = bound::read(program, &beside.bounds)?;
-        bounds.extend(bound::read(program, &self.bounds)?);
+    pub fn options(
+        &self,
+        shell: &Shell,
+        program: &Program,
+        beside: &Verification,
+    ) -> Result<(Options, Watch), Failure> {
+        let read = |bounds: &[String]| {
+            let wrong = |refused| Failure::usage_with_help(format!("--bound {refused}"), bound::HELP);
+            bound::read(program, bounds).map_err(wrong)
+        };
+        let mut bounds = read(&beside.bounds)?;
+        bounds.extend(read(&self.bounds)?);
         let options = Options {
             limits: shell.global.limits.uninterrupted(),
             max_states: self.max_states.unwrap_or(u64::MAX),

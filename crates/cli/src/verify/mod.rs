@@ -3,7 +3,6 @@
 //! Exit codes: 0 all hold, 1 something is violated, 3 nothing is violated but something is not known.
 
 pub mod beside;
-mod bound;
 mod bounded;
 mod checkpoint;
 mod conflict;

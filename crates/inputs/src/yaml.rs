@@ -9,11 +9,11 @@
 //! Scalars are taken as they are written, whatever YAML would make of them: the domain of the location says how they
 //! are read. Sequences are sequences, sets, bags or tuples; mappings are maps.
 
-use groundstate::simulate::{Given, Written};
 use saphyr_parser::{Event, Parser, ScanError, Span as Mark};
+use simulate::{Given, Steps, Written};
 use syntax::{Diagnostic, FileId, Span};
 
-use super::{Read, fault, steps, whole};
+use crate::{Read, fault, steps, whole};
 
 /// Reads a document.
 pub fn read(file: FileId, source: &str) -> Read {
@@ -73,7 +73,7 @@ impl<'a> Yaml<'a> {
         }
     }
 
-    fn step(&mut self, steps: groundstate::simulate::Steps, given: &mut Vec<Given>) -> Result<(), Box<Diagnostic>> {
+    fn step(&mut self, steps: Steps, given: &mut Vec<Given>) -> Result<(), Box<Diagnostic>> {
         let (event, mark) = self.next()?;
         match event {
             Event::MappingStart(..) => {}

@@ -1,22 +1,28 @@
-//! `--bound`: which values an input is tried with.
+//! Bounds of a search: which values an input is tried with, as `--bound` and the file beside a model say.
+//!
+//! In: `NAME=LOW..HIGH` or `NAME=VALUE,VALUE`, and the program. Out: the values of each function of that name.
 
-use groundstate::simulate::read_value;
 use machine::Value;
 use machine::explore::Bounds;
 use program::{FunctionId, FunctionKind, Program};
+use simulate::read_value;
 
-use crate::failure::Failure;
+use crate::Refused;
+
+/// What to write instead of a bound that was refused.
+pub const HELP: &str = "write it as level=0..10 or colour=RED,GREEN";
 
 /// LIMIT: values of one bound.
 const VALUES: i64 = 1 << 20;
 
 /// Reads bounds.
-pub fn read(program: &Program, texts: &[String]) -> Result<Bounds, Failure> {
+///
+/// # Errors
+/// The first that cannot be read, or does not fit the program.
+pub fn read(program: &Program, texts: &[String]) -> Result<Bounds, Refused> {
     let mut bounds = Bounds::new();
     for text in texts {
-        let wrong = |reason: String| {
-            Failure::usage_with_help(format!("--bound {text}: {reason}"), "write it as level=0..10 or colour=RED,GREEN")
-        };
+        let wrong = |reason: String| Refused::new(text, reason);
         let (name, values) = text.split_once('=').ok_or_else(|| wrong("there is no `=`".to_string()))?;
         let inputs = inputs(program, name.trim());
         if inputs.is_empty() {

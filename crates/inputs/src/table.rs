@@ -4,10 +4,10 @@
 //! nothing, so the value before it holds on.
 
 use csv::{ReaderBuilder, StringRecord};
-use groundstate::simulate::{Given, Steps};
+use simulate::{Given, Steps};
 use syntax::{FileId, Span};
 
-use super::{Read, fault, steps, text, whole};
+use crate::{Read, fault, steps, text, whole};
 
 /// Reads a table.
 pub fn read(file: FileId, source: &str) -> Read {
