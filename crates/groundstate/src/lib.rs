@@ -15,6 +15,7 @@ mod fingerprint;
 pub mod job;
 mod overlay;
 pub mod patterns;
+pub mod reporting;
 mod test;
 pub mod test_generation;
 pub mod workspace;

@@ -31,6 +31,16 @@ pub enum Absent {
     Unreadable(String),
 }
 
+impl Absent {
+    /// The same as a sentence.
+    pub fn told(self, path: &str) -> String {
+        match self {
+            Absent::Missing => format!("there is no file {path}"),
+            Absent::Unreadable(reason) => reason,
+        }
+    }
+}
+
 /// A text that was sent is older than the one that is there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Outdated {
@@ -168,7 +178,7 @@ pub struct Texts<'w, F> {
 
 impl<F: Files> Files for Texts<'_, F> {
     fn read(&mut self, path: &str) -> Result<SourceFile, Absent> {
-        match self.open.get(path) {
+        match self.open.get(&tidy(path)) {
             Some((_, source)) => Ok(source.clone()),
             None => self.files.read(path),
         }

@@ -1,6 +1,6 @@
 //! A validated run as one page: timeline, deadlines, waiting, age of data, scenarios, coverage.
 //!
-//! In: a [`Spec`] that says which terms of a model make which lane, their values state by state ([`ReportBuilder`]), and
+//! In: a [`Spec`] that says which terms of a model make which lane ([`read_specification`] reads one), their values state by state ([`ReportBuilder`]), and
 //! what a shell adds from elsewhere; or the recorded events of a program ([`ProgramRun`]). Out: [`render_html`] and
 //! [`render_program`], a page in a single file that needs nothing else; [`render_svg`], a still picture; [`summarise`] and
 //! [`summarise_program`], the same in short for a terminal.
@@ -17,6 +17,7 @@ mod markup;
 mod program;
 mod report;
 mod spec;
+mod specification;
 mod svg;
 mod tally;
 mod text;
@@ -36,6 +37,7 @@ pub use spec::{
     ActivitySpec, BufferSpec, ChartSpec, CounterSpec, FlowSpec, HopSpec, LightsSpec, PartSpec, QueueSpec, SeriesSpec,
     Spec, TaskSpec, TermText,
 };
+pub use specification::{Specification, Wanted, WantedMachine, read_specification, specification_fault};
 pub use svg::{SvgOptions, render_svg};
 pub use tally::Tally;
 pub use text::{RunSummary, SummaryOptions, summarise, summarise_program};

@@ -1,6 +1,6 @@
 //! The report specification: which terms of a model make which lane.
 //!
-//! Nothing here knows a robot, a task library or a file format: a shell reads the specification from a file, evaluates
+//! Nothing here knows a robot, a task library or a file format: somebody reads the specification from a file, evaluates
 //! its [`Spec::terms`] in each state, and hands their values to a [`ReportBuilder`](crate::ReportBuilder) as text.
 //! Every field that is optional may stay away; what it would show is then left out.
 

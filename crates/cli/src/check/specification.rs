@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use groundstate::reporting::prepare_report;
 use syntax::SourceFile;
 
 use super::Seen;
@@ -33,7 +34,10 @@ pub fn look(path: &Path, root: &SourceFile, disk: &mut Disk) -> Result<Seen, Fai
         Err(faulty) => return Ok(Seen::of(faulty.sources, faulty.diagnostics)),
     };
     let faults = match report {
-        true => crate::report::checked(disk, &mut asked, root.clone(), path)?.faults,
+        true => {
+            let prepared = prepare_report(&mut asked, root.clone(), &root.name, disk);
+            prepared.map_err(|fault| Failure::usage(fault.to_string()))?.faults
+        }
         false => groundstate::check_verification(&mut asked, &root.name, &root.text),
     };
     Ok(Seen::of(asked.sources, faults))

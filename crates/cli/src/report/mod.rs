@@ -5,41 +5,29 @@
 //! beside it give verdicts and coverage. The page holds no date and no path of this machine but those given, so the
 //! same model, options and version give the same bytes.
 
-mod charts;
-mod derived;
 mod evidence;
 mod recorded;
-mod specification;
-mod watch;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use ::report::{Fact, Invariant, Report, ReportBuilder, SummaryOptions, SvgOptions};
+use ::report::{Fact, Report, SummaryOptions, SvgOptions};
 use clap::Args;
 use groundstate::Overlay;
-use groundstate::simulate::{End, Invariants, Options, Record, Run, Violation};
-use program::{Program, PropertyKind};
-use syntax::{Diagnostic, SourceFile, Sources, Span};
+use groundstate::reporting::{Prepared, Reporter, derived_specification, prepare_report};
+use groundstate::simulate::{End, Invariants, Options, Run};
+use program::Program;
+use syntax::{SourceFile, Sources};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::{Disk, read_text, write_text};
+use crate::files::{read_text, write_text};
 use crate::inputs::{self, Assembled};
 use crate::interrupt;
 use crate::load::load;
 use crate::progress::Progress;
 use crate::shell::Shell;
-use specification::{Specification, specification};
-use watch::Watch;
-
-/// The id of what is wrong with a specification.
-const ID: &str = "bad-report-specification";
-
-fn fault(span: Span, message: impl Into<String>) -> Diagnostic {
-    Diagnostic::error(ID, span, message)
-}
 
 /// What a specification looks like.
 const FORMAT: &str = "\
@@ -135,7 +123,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     };
     let origin = wanted.name.clone();
     let mut asked = loaded.overlay();
-    let Some((mut builder, mut watch)) = prepare(shell, &mut asked, wanted, &path)? else { return Ok(Exit::World) };
+    let Some(mut reporter) = prepare(shell, &mut asked, wanted, &path)? else { return Ok(Exit::World) };
     let Overlay { mut sources, program, .. } = asked;
     let Assembled { inputs, .. } = match inputs::assemble(shell, &arguments.inputs, &mut sources, &program)? {
         Ok(assembled) => assembled,
@@ -148,42 +136,39 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Options { steps: Some(arguments.steps), invariants: Invariants::Report, keep: false, ..Options::default() };
     let mut run = Run::new(Arc::clone(&program), shell.global.limits.machine(), inputs, options);
     interrupt::listen();
-    let mut story = Story { invariants: invariants(&program, &sources), stopped: None, exit: Exit::Good };
     let mut progress = Progress::new(Some(arguments.steps), shell.global.quiet);
     while let Some(record) = run.advance() {
-        story.note(&record, &run, &program, &sources);
-        look(&record, &mut run, &mut watch, &mut builder);
+        reporter.note(&record, &mut run, &sources);
         progress.at(run.steps());
         if interrupt::asked() {
             run.stop(End::Interrupted);
         }
     }
     progress.done();
-    let mut report = builder.finish(&program.name);
-    report.invariants = story.invariants;
-    report.stopped = story.stopped;
+    let exit = match (reporter.was_interrupted(), reporter.is_at_fault()) {
+        (true, _) => Exit::Unknown,
+        (false, true) => Exit::Model,
+        (false, false) => Exit::Good,
+    };
+    let mut report = reporter.finish();
     report.facts = facts(arguments, &origin, &sources);
     let scenarios = evidence::add(shell, &mut report, &arguments.model, &arguments.scenarios, arguments.inputs.seed)?;
     write(shell, arguments, &report)?;
     let troubled = if report.troubles().is_empty() { Exit::Good } else { Exit::Model };
-    Ok(story.exit.max(scenarios).max(troubled))
+    Ok(exit.max(scenarios).max(troubled))
 }
 
 /// The page of a run that is told beside, as the specification beside the model says; none where there is none.
 pub fn page_of(shell: &mut Shell, mut asked: Overlay, model: &Path, run: RunOf<'_>) -> Result<Option<String>, Failure> {
     let path = model.with_extension("report.yaml");
     let Some(wanted) = wanted(shell, &path, false)? else { return Ok(None) };
-    let Some((mut builder, mut watch)) = prepare(shell, &mut asked, wanted, &path)? else { return Ok(None) };
+    let Some(mut reporter) = prepare(shell, &mut asked, wanted, &path)? else { return Ok(None) };
     let Overlay { sources, program, .. } = asked;
     let mut run = run(&program);
-    let mut story = Story { invariants: invariants(&program, &sources), stopped: None, exit: Exit::Good };
     while let Some(record) = run.advance() {
-        story.note(&record, &run, &program, &sources);
-        look(&record, &mut run, &mut watch, &mut builder);
+        reporter.note(&record, &mut run, &sources);
     }
-    let mut report = builder.finish(&program.name);
-    report.invariants = story.invariants;
-    report.stopped = story.stopped;
+    let mut report = reporter.finish();
     let fact = |label: &str, value: String| Fact { label: label.to_string(), value };
     report.facts = vec![
         fact("Model", model.display().to_string()),
@@ -192,21 +177,6 @@ pub fn page_of(shell: &mut Shell, mut asked: Overlay, model: &Path, run: RunOf<'
         fact("Groundstate", env!("CARGO_PKG_VERSION").to_string()),
     ];
     Ok(Some(::report::render_html(&report)))
-}
-
-/// Shows a record of a run.
-fn look(record: &Record, run: &mut Run, watch: &mut Watch, builder: &mut ReportBuilder) {
-    match record {
-        Record::Initial { .. } => {
-            watch.look(run.machine_mut(), builder);
-            builder.begin();
-        }
-        Record::Step(_) => {
-            watch.look(run.machine_mut(), builder);
-            builder.step();
-        }
-        _ => {}
-    }
 }
 
 /// Makes a run of a program.
@@ -219,19 +189,29 @@ fn wanted(shell: &mut Shell, path: &Path, given: bool) -> Result<Option<SourceFi
         Ok(text) => Ok(Some(SourceFile::new(path.display().to_string(), text))),
         Err(Failure::Missing(_)) if given => Err(nothing_wanted(path, true)),
         Err(Failure::Missing(_)) => {
-            let chart = derived::chart_beside(path);
-            let text = derived::text(shell, &chart)?;
+            let chart = chart_beside(path);
+            if !chart.is_file() {
+                return Ok(None);
+            }
+            let mut disk = shell.disk();
+            let text = derived_specification(disk.root(&chart)?, &mut disk);
             Ok(text.map(|text| SourceFile::new(format!("<what {} says>", chart.display()), text)))
         }
         Err(failure) => Err(failure),
     }
 }
 
+/// The chart that lies beside a specification that is not there.
+fn chart_beside(specification: &Path) -> PathBuf {
+    // MODEL.report.yaml, then MODEL.report.
+    specification.with_extension("").with_extension("chart")
+}
+
 fn nothing_wanted(path: &Path, given: bool) -> Failure {
     let message = format!("there is no file {}, so nothing says what to show of the model", path.display());
     let mut help = "name a report specification with --spec FILE".to_string();
     if !given {
-        let chart = derived::chart_beside(path);
+        let chart = chart_beside(path);
         help += &format!(", or build the model from a chart with a system ({})", chart.display());
     }
     Failure::usage_with_help(message, help)
@@ -243,85 +223,11 @@ fn prepare(
     asked: &mut Overlay,
     source: SourceFile,
     path: &Path,
-) -> Result<Option<(ReportBuilder, Watch)>, Failure> {
-    let Checked { ready, faults } = checked(&mut shell.disk(), asked, source, path)?;
+) -> Result<Option<Reporter>, Failure> {
+    let prepared = prepare_report(asked, source, &path.display().to_string(), &mut shell.disk());
+    let Prepared { reporter, faults } = prepared.map_err(|fault| Failure::usage(fault.to_string()))?;
     shell.diagnostics(&asked.sources, &faults)?;
-    Ok(ready)
-}
-
-/// What reading a specification came to; without faults it is ready, with warnings alone too.
-pub struct Checked {
-    ready: Option<(ReportBuilder, Watch)>,
-    pub faults: Vec<Diagnostic>,
-}
-
-/// Reads a specification and checks it against its model. What it names lies relative to `path`.
-pub fn checked(disk: &mut Disk, asked: &mut Overlay, source: SourceFile, path: &Path) -> Result<Checked, Failure> {
-    let text = source.text.clone();
-    let file = asked.add(source);
-    let mut wanted = match specification(file, &text) {
-        Ok(wanted) => wanted,
-        Err(faults) => return Ok(Checked { ready: None, faults }),
-    };
-    let mut faults = charts::add(disk, &mut asked.sources, &mut wanted, path)?;
-    if groundstate::has_errors(&faults) {
-        return Ok(Checked { ready: None, faults });
-    }
-    let Specification { spec, places, .. } = wanted;
-    let builder = ReportBuilder::new(spec);
-    match Watch::new(asked, builder.terms(), &places) {
-        Ok(watch) => Ok(Checked { ready: Some((builder, watch)), faults }),
-        Err(found) => {
-            faults.extend(found);
-            Ok(Checked { ready: None, faults })
-        }
-    }
-}
-
-fn invariants(program: &Program, sources: &Sources) -> Vec<Invariant> {
-    let invariants = program.properties.iter().filter(|property| property.kind == PropertyKind::Invariant);
-    let invariant = |name: &str, position: String| Invariant { name: name.to_string(), position, violated: None };
-    invariants.map(|property| invariant(&property.name, sources.position(property.span).to_string())).collect()
-}
-
-/// What is noted of the run beside its lanes.
-struct Story {
-    invariants: Vec<Invariant>,
-    stopped: Option<String>,
-    exit: Exit,
-}
-
-impl Story {
-    fn note(&mut self, record: &Record, run: &Run, program: &Program, sources: &Sources) {
-        match record {
-            Record::Initial { violations, .. } => self.violated(violations, "in the initial state", sources),
-            Record::Step(step) | Record::Attempt(step) => {
-                self.violated(&step.violations, &format!("first in step {}", step.step), sources);
-            }
-            Record::End(End::Fault(fault)) => {
-                let found = groundstate::diagnose_fault(fault, program);
-                let place = sources.position(found.primary.span);
-                self.stopped = Some(format!("step {} could not be made: {} ({place})", run.steps() + 1, found.message));
-                self.exit = self.exit.max(Exit::Model);
-            }
-            Record::End(End::Interrupted) => {
-                self.stopped = Some(format!("the run was interrupted after step {}", run.steps()));
-                self.exit = self.exit.max(Exit::Unknown);
-            }
-            Record::Back { .. } | Record::End(_) => {}
-        }
-    }
-
-    fn violated(&mut self, violations: &[Violation], when: &str, sources: &Sources) {
-        for violation in violations {
-            let position = sources.position(violation.span).to_string();
-            let known = self.invariants.iter_mut().find(|known| known.position == position);
-            if let Some(invariant) = known.filter(|known| known.violated.is_none()) {
-                invariant.violated = Some(when.to_string());
-            }
-            self.exit = self.exit.max(Exit::Model);
-        }
-    }
+    Ok(reporter)
 }
 
 fn facts(arguments: &Arguments, spec: &str, sources: &Sources) -> Vec<Fact> {

@@ -1,14 +1,17 @@
-//! Evaluates the terms of a specification in each state, and hands on those whose values changed.
+//! The terms of a report specification: checked against a model, evaluated in each state.
+//!
+//! In: terms with their places. Out: to the [`ReportBuilder`], the values that changed.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use ::report::ReportBuilder;
-use groundstate::Overlay;
 use machine::{Closed, Machine, Show, Value};
 use program::Expression;
+use report::{ReportBuilder, specification_fault};
 use syntax::ast::{AstNode, TermFile};
 use syntax::{Diagnostic, Span};
+
+use crate::{Overlay, has_errors};
 
 /// The terms, lowered, and their last values.
 #[derive(Debug)]
@@ -60,15 +63,14 @@ fn lower(asked: &mut Overlay, text: &str, place: Span) -> Result<Expression, Vec
     // As many blanks before the term as the file has bytes: places in the term are places in the file.
     let padded = " ".repeat(place.start as usize) + text;
     let parsed = syntax::parse_term(place.file, &padded);
-    let errors = groundstate::has_errors;
-    if errors(&parsed.diagnostics) {
+    if has_errors(&parsed.diagnostics) {
         return Err(within(parsed.diagnostics, place));
     }
     let Some(term) = TermFile::cast(parsed.syntax()).and_then(|file| file.term()) else {
-        return Err(vec![super::fault(place, "a term is expected")]);
+        return Err(vec![specification_fault(place, "a term is expected")]);
     };
     let fragment = Arc::make_mut(&mut asked.model).check_term(place.file, &term);
-    if errors(&fragment.diagnostics) {
+    if has_errors(&fragment.diagnostics) {
         return Err(within(fragment.diagnostics, place));
     }
     let program = Arc::make_mut(&mut asked.program);

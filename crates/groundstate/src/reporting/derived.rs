@@ -1,35 +1,26 @@
 //! The report specification that a chart's system stands for: for a model that was built from it and has none of its own.
 //!
-//! In: the chart beside the model. Out: the text of a specification, as one written by hand: a lane for each component and
-//! channel, the deadlines, the picture of the system. `None`: there is no such chart, or it has no system.
+//! In: the chart that lies beside the model. Out: the text of a specification, as one written by hand: a lane for each component and
+//! channel, the deadlines, the picture of the system.
 
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use chart::Chart;
 use chart::system::{Channel, ChannelKind, Component, System, Timing};
+use model::Loader;
+use syntax::SourceFile;
 
-use crate::failure::Failure;
-use crate::shell::Shell;
+use crate::has_errors;
 
-/// The chart that lies beside a specification that is not there.
-pub fn chart_beside(specification: &Path) -> PathBuf {
-    // MODEL.report.yaml, then MODEL.report.
-    specification.with_extension("").with_extension("chart")
-}
-
-/// The text of the specification for the model that is built from this chart.
-pub fn text(shell: &mut Shell, chart: &Path) -> Result<Option<String>, Failure> {
-    if !chart.is_file() {
-        return Ok(None);
+/// The text of the specification for the model that is built from this chart; none if the chart has errors, or no system.
+pub fn derived_specification(root: SourceFile, loader: &mut dyn Loader) -> Option<String> {
+    let name = Path::new(&root.name).file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let loaded = chart::load(root, loader);
+    if has_errors(&loaded.diagnostics) {
+        return None;
     }
-    let root = shell.disk().root(chart)?;
-    let loaded = ::chart::load(root, &mut shell.disk());
-    if groundstate::has_errors(&loaded.diagnostics) {
-        return Ok(None);
-    }
-    let name = chart.file_name().unwrap_or_default().to_string_lossy();
-    Ok(specification(&loaded.chart, &name))
+    specification(&loaded.chart, &name)
 }
 
 fn specification(chart: &Chart, file: &str) -> Option<String> {

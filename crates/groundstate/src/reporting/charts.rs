@@ -5,39 +5,39 @@
 
 use std::path::Path;
 
-use ::report::{ChartSpec, LightsSpec, PartSpec};
-use chart::draw::{Drawing, Lights};
+use chart::draw::{Drawing, LayoutFault, Lights};
+use model::Loader;
+use report::{ChartSpec, LightsSpec, PartSpec, Specification, Wanted, specification_fault};
 use syntax::{Diagnostic, Sources};
 
-use super::fault;
-use super::specification::{Specification, Wanted};
-use crate::failure::Failure;
-use crate::files::Disk;
+use crate::has_errors;
+use crate::workspace::Files;
 
 /// The class of the pictures in the page.
 const CLASS: &str = "chart";
 
-/// Adds the charts that are wanted to the specification, and gives their faults.
-pub fn add(
-    disk: &mut Disk,
+/// Adds the charts that are wanted to the specification, which lies at `path`, and gives their faults.
+pub fn add<F: Files + Loader>(
+    files: &mut F,
     sources: &mut Sources,
     specification: &mut Specification,
-    path: &Path,
-) -> Result<Vec<Diagnostic>, Failure> {
+    path: &str,
+) -> Result<Vec<Diagnostic>, LayoutFault> {
     let mut faults = Vec::new();
     for wanted in std::mem::take(&mut specification.charts) {
-        let file = path.parent().unwrap_or(Path::new("")).join(&wanted.file);
-        let source = match disk.root(&file) {
+        let file = Path::new(path).parent().unwrap_or(Path::new("")).join(&wanted.file);
+        let file = file.to_string_lossy();
+        let source = match files.read(&file) {
             Ok(source) => source,
-            Err(failure) => {
-                faults.push(fault(wanted.span, failure.to_string()));
+            Err(absent) => {
+                faults.push(specification_fault(wanted.span, absent.told(&file)));
                 continue;
             }
         };
-        let loaded = chart::load_beside(std::mem::take(sources), source, disk);
+        let loaded = chart::load_beside(std::mem::take(sources), source, files);
         *sources = loaded.sources;
         let chart = loaded.chart;
-        let whole = !groundstate::has_errors(&loaded.diagnostics);
+        let whole = !has_errors(&loaded.diagnostics);
         faults.extend(loaded.diagnostics);
         if whole {
             show(specification, &chart, &wanted, &mut faults)?;
@@ -52,11 +52,11 @@ fn show(
     chart: &chart::Chart,
     wanted: &Wanted,
     faults: &mut Vec<Diagnostic>,
-) -> Result<(), Failure> {
+) -> Result<(), LayoutFault> {
     let drawings = chart::drawings(chart);
     let names: Vec<&str> = drawings.iter().map(Drawing::name).collect();
     for machine in wanted.machines.iter().filter(|machine| !names.contains(&machine.name.as_str())) {
-        let unknown = fault(machine.span, format!("{} has no machine `{}`", wanted.file, machine.name));
+        let unknown = specification_fault(machine.span, format!("{} has no machine `{}`", wanted.file, machine.name));
         faults.push(unknown.with_help(format!("it has: {}", names.join(", "))));
     }
     let elements: Vec<String> = wanted.each.iter().map(|(id, _)| id.clone()).collect();
@@ -66,7 +66,7 @@ fn show(
             continue;
         }
         let prefix = format!("chart-{}-", specification.spec.charts.len());
-        let picture = drawing.part(&prefix, CLASS).map_err(|fault| Failure::usage(fault.to_string()))?;
+        let picture = drawing.part(&prefix, CLASS)?;
         let parametric = drawing.machine().is_some_and(|machine| !machine.parameters.is_empty());
         let lights = drawing.lights(&elements);
         let lights = lights.into_iter().enumerate().map(|(index, lights)| {

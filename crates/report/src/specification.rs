@@ -1,21 +1,34 @@
 //! The file format of report specifications: YAML → [`Spec`], each term with its place.
 //!
+//! Whether the terms fit a model is not known here, nor what the charts hold.
+//!
 //! Tasks, buffers and queues are given as `each`, a mapping of names in the model to what is told of them, and
 //! `terms`, in which `{}` stands for that name; an entry of `each` may give a term of its own, or `~` for none.
 
 use std::collections::BTreeMap;
 
-use ::report::{ActivitySpec, BufferSpec, CounterSpec, FlowSpec, HopSpec, QueueSpec, SeriesSpec, Spec, TaskSpec, Tone};
-use groundstate::inputs::node::{Key, Node, Shape, read};
+use inputs::node::{Key, Node, Shape, read};
 use syntax::{Diagnostic, FileId, Span};
 
-use super::{ID, fault};
+use crate::spec::{ActivitySpec, BufferSpec, CounterSpec, FlowSpec, HopSpec, QueueSpec, SeriesSpec, Spec, TaskSpec};
+use crate::tone::Tone;
+
+/// The id of what is wrong with a specification.
+const ID: &str = "bad-report-specification";
+
+/// Something wrong with a specification.
+pub fn specification_fault(span: Span, message: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(ID, span, message)
+}
 
 /// A specification, where its terms stand, and the charts it wants.
 #[derive(Debug)]
 pub struct Specification {
+    /// What it shows, without the charts.
     pub spec: Spec,
+    /// Where each term stands; one that comes several times stands where it comes first.
     pub places: BTreeMap<String, Span>,
+    /// The charts that are to be read and drawn.
     pub charts: Vec<Wanted>,
 }
 
@@ -44,14 +57,17 @@ pub struct WantedMachine {
 }
 
 /// Reads a specification.
-pub fn specification(file: FileId, source: &str) -> Result<Specification, Vec<Diagnostic>> {
+///
+/// # Errors
+/// All faults of its form.
+pub fn read_specification(file: FileId, source: &str) -> Result<Specification, Vec<Diagnostic>> {
     let root = read(file, source, ID).map_err(|fault| vec![*fault])?;
     let mut reader = Reader { faults: Vec::new(), places: BTreeMap::new() };
     let spec = reader.spec(&root);
     let charts = reader.charts(&root);
     let whole = Span { file, start: 0, end: 0 };
     if reader.faults.is_empty() {
-        reader.faults.extend(spec.faults().into_iter().map(|message| fault(whole, message)));
+        reader.faults.extend(spec.faults().into_iter().map(|message| specification_fault(whole, message)));
     }
     if reader.faults.is_empty() {
         Ok(Specification { spec, places: reader.places, charts })
@@ -85,7 +101,7 @@ struct Lane<'a> {
 
 impl Reader {
     fn refuse(&mut self, span: Span, message: impl Into<String>) {
-        self.faults.push(fault(span, message));
+        self.faults.push(specification_fault(span, message));
     }
 
     /// A mapping with keys of these names only; none: of any name.
@@ -96,7 +112,7 @@ impl Reader {
                 for (key, _) in
                     entries.iter().filter(|(key, _)| !known.is_empty() && !known.contains(&key.text.as_str()))
                 {
-                    let unknown = fault(key.span, format!("nothing here is called `{}`", key.text));
+                    let unknown = specification_fault(key.span, format!("nothing here is called `{}`", key.text));
                     self.faults.push(unknown.with_help(format!("known are: {}", known.join(", "))));
                 }
                 Fields(entries)
@@ -240,8 +256,10 @@ impl Reader {
             let (label, name) = (self.text(Some(label)), self.text(Some(tone)).unwrap_or_default());
             let Some(found) = Tone::named(&name) else {
                 let tones = Tone::ALL.map(Tone::name).join(", ");
-                self.faults
-                    .push(fault(tone.span, format!("`{name}` is no tone")).with_help(format!("tones are: {tones}")));
+                self.faults.push(
+                    specification_fault(tone.span, format!("`{name}` is no tone"))
+                        .with_help(format!("tones are: {tones}")),
+                );
                 continue;
             };
             activities.push(ActivitySpec { value: key.text.clone(), label: label.unwrap_or_default(), tone: found });
