@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
+use groundstate::has_ending;
 use groundstate::workspace::{Absent, Files, imported};
 use syntax::{NotText, SourceFile};
 
@@ -284,10 +285,4 @@ fn collect_folder(folder: &Path, extensions: &[&str], files: &mut Vec<PathBuf>) 
         }
     }
     Ok(())
-}
-
-/// Whether a file is called `….ENDING`.
-pub fn has_ending(path: &Path, ending: &str) -> bool {
-    let name = path.file_name().and_then(|name| name.to_str()).and_then(|name| name.strip_suffix(ending));
-    name.is_some_and(|rest| rest.len() > 1 && rest.ends_with('.'))
 }

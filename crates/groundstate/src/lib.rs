@@ -6,6 +6,7 @@
 
 mod avalla;
 mod build;
+mod check_specification;
 mod check_verification;
 mod counterexample;
 mod decide;
@@ -13,6 +14,7 @@ mod diagnose;
 mod diagnose_review;
 mod fingerprint;
 pub mod job;
+mod kind;
 mod overlay;
 pub mod patterns;
 pub mod reporting;
@@ -29,12 +31,14 @@ use syntax::ast::AstNode;
 use syntax::{Diagnostic, Severity, SourceFile, Sources, Span};
 
 pub use build::{BuiltChart, Located, build_chart};
+pub use check_specification::check_specification;
 pub use check_verification::check_verification;
 pub use counterexample::{counterexample_run, counterexample_scenario};
 pub use decide::diagnose_no_main;
 pub use diagnose::{diagnose_failure, diagnose_fault, diagnose_outside, diagnose_violation};
 pub use diagnose_review::{REVIEW_IDS, diagnose_finding};
 pub use fingerprint::fingerprint;
+pub use kind::{Kind, has_ending, model_of};
 pub use overlay::Overlay;
 pub use test::{SeededChoices, Suite, Tested, own_files};
 pub use workspace::Workspace;

@@ -1,17 +1,20 @@
 //! The texts of a project, those that are being edited over those on the disk, and what is wrong with each.
 //!
-//! In: texts as an editor sends them, and [`Files`] for the rest. Out: faults of models, scenarios and charts, and models that are
-//! ready to run. A file is parsed again only when its text is another one; all else is checked anew, which takes milliseconds.
+//! In: texts as an editor sends them, and [`Files`] for the rest. Out: faults of models, scenarios, charts and
+//! specifications, and models that are ready to run. A file is parsed again only when its text is another one; all else is checked anew, which takes milliseconds.
 //! INVARIANT: what [`Workspace::check`] says depends on the texts alone, not on the edits that led to them.
 
 use std::collections::BTreeMap;
+use std::fmt::Display;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use model::Loader;
 use syntax::{Diagnostic, FileId, Parse, SourceFile};
 
-use crate::{BuiltChart, Faulty, Loaded, Located, Suite, build_chart, check, load, patterns};
+use crate::{
+    BuiltChart, Faulty, Kind, Loaded, Located, Suite, build_chart, check, check_specification, load, model_of, patterns,
+};
 
 /// Finds texts by their path.
 pub trait Files {
@@ -70,6 +73,11 @@ pub struct Findings {
 }
 
 impl Findings {
+    /// Nothing was looked at, and why.
+    pub fn not_checked(reason: impl Display) -> Findings {
+        Findings { faults: Vec::new(), open: Some(format!("not checked: {reason}")) }
+    }
+
     /// All faults.
     pub fn diagnostics(&self) -> impl Iterator<Item = &Diagnostic> {
         self.faults.iter().flat_map(|(_, faults)| faults)
@@ -115,31 +123,33 @@ impl<F: Files> Workspace<F> {
         self.texts().read(&tidy(path))
     }
 
-    /// What is wrong with the file at a path: a model (`.asm`), a scenario (`.avalla`) or a chart (`.chart`).
+    /// What is wrong with the file at a path: a model (`.asm`), a scenario (`.avalla`), a chart (`.chart`), what is shown of a
+    /// model (`.report.yaml`) or verified (`.verify.yaml`).
     ///
     /// # Errors
     /// There is no such file.
     pub fn check(&mut self, path: &str) -> Result<Findings, Absent> {
         let root = self.text(path)?;
         let loader = &mut self.texts();
-        let ending = path.rsplit('.').next().unwrap_or_default();
-        Ok(match ending {
-            "avalla" => {
+        Ok(match Kind::of(Path::new(path)) {
+            Some(Kind::Scenario) => {
                 let tested = Suite::new().check(root, loader);
                 Findings { faults: vec![(tested.sources, tested.diagnostics)], open: None }
             }
-            "chart" => {
+            Some(Kind::Chart) => {
                 let model = Path::new(&root.name).with_extension("asm").to_string_lossy().into_owned();
                 let present = loader.read(&model).ok().map(|source| source.text);
                 let BuiltChart { faults, .. } = build_chart(root, &model, present.as_deref(), loader);
                 Findings { faults, open: None }
             }
-            "asm" => {
+            Some(Kind::Model) => {
                 let checked = check(root, loader);
                 Findings { faults: vec![(checked.sources, checked.diagnostics)], open: None }
             }
-            other => {
-                Findings { faults: Vec::new(), open: Some(format!("not checked: what ends in .{other} is not known")) }
+            Some(Kind::Report | Kind::Verification) => specification(&root, loader),
+            None => {
+                let ending = path.rsplit('.').next().unwrap_or_default();
+                Findings::not_checked(format!("what ends in .{ending} is not known"))
             }
         })
     }
@@ -157,6 +167,16 @@ impl<F: Files> Workspace<F> {
     pub fn texts(&mut self) -> Texts<'_, F> {
         Texts { files: &mut self.files, open: &self.open, parsed: &mut self.parsed }
     }
+}
+
+fn specification<F: Files>(root: &SourceFile, texts: &mut Texts<'_, F>) -> Findings {
+    let name = model_of(Path::new(&root.name)).to_string_lossy().into_owned();
+    let model = match texts.read(&name) {
+        Ok(model) => Some(model),
+        Err(Absent::Missing) => None,
+        Err(Absent::Unreadable(reason)) => return Findings::not_checked(reason),
+    };
+    check_specification(root, model, texts).unwrap_or_else(Findings::not_checked)
 }
 
 /// Why a model is not there to be run.

@@ -85,6 +85,53 @@ fn scenarios_charts_and_what_is_not_known_are_looked_at() {
     assert!(!workspace.check("notes.txt").expect("it is open").is_clean(), "nothing was looked at");
 }
 
+/// What is wrong with a file of this name and text beside the lamp.
+fn beside_the_lamp(name: &str, text: &str) -> Vec<String> {
+    let mut workspace = Workspace::new(Memory::of(&[("Lamp.asm", LAMP), ("Parts.asm", PARTS)]));
+    workspace.set_text(name, 1, text).expect("the first");
+    lines(&workspace.check(name).expect("it is open"))
+}
+
+#[test]
+fn what_a_report_shows_is_looked_at() {
+    let check = |text, expected: &[&str]| assert_eq!(beside_the_lamp("Lamp.report.yaml", text), expected, "{text}");
+    check("series: { Light: { value: if on then 1 else 0 endif } }\n", &[]);
+    check(
+        "series:\n  Light: { value: of }\n",
+        &["Lamp.report.yaml:2:19 unknown-function there is no function `of` []"],
+    );
+    check("serie: {}\n", &["Lamp.report.yaml:1:1 bad-report-specification nothing here is called `serie` []"]);
+    check(
+        "charts: { Lamp.chart: {} }\n",
+        &["Lamp.report.yaml:1:11 bad-report-specification there is no file Lamp.chart []"],
+    );
+    assert_eq!(beside_the_lamp("Lump.report.yaml", "serie: {}\n"), ["not checked: there is no model Lump.asm"]);
+}
+
+#[test]
+fn what_is_to_be_verified_is_looked_at() {
+    let check = |text, expected: &[&str]| assert_eq!(beside_the_lamp("Lamp.verify.yaml", text), expected, "{text}");
+    check("invariants: [on or not on]\nfair: weak\n", &[]);
+    // A term is a text of its own: its place is that within the term.
+    check(
+        "ctl: [on]\ninvariants: [on or of]\n",
+        &["Lamp.verify.yaml:1:7 unknown-function there is no function `of` []"],
+    );
+    check("limit: 10\n", &["Lamp.verify.yaml:1:1 bad-verification-file `limit` says nothing here []"]);
+    assert_eq!(beside_the_lamp("a/Lump.verify.yaml", "limit: 10\n"), ["not checked: there is no model a/Lump.asm"]);
+}
+
+#[test]
+fn a_chart_that_is_being_edited_counts_for_the_report_that_shows_it() {
+    let mut workspace = Workspace::new(Memory::of(&[("Lamp.asm", LAMP), ("Parts.asm", PARTS)]));
+    workspace.set_text("a/Lamp.report.yaml", 1, "charts: { ../Lamp.chart: {} }\n").expect("the first");
+    workspace.set_text("a/Lamp.asm", 1, LAMP.replace("Parts", "../Parts")).expect("the first");
+    let check = |workspace: &mut Workspace<Memory>| lines(&workspace.check("a/Lamp.report.yaml").expect("it is open"));
+    assert!(check(&mut workspace)[0].contains("there is no file a/../Lamp.chart"));
+    workspace.set_text("Lamp.chart", 1, "chart Lamp\n").expect("the first");
+    assert!(check(&mut workspace).iter().all(|fault| fault.starts_with("Lamp.chart:")));
+}
+
 #[test]
 fn after_any_edits_it_says_what_a_fresh_one_says() {
     let mut files = Memory::folder("library/patterns");

@@ -12,18 +12,14 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use groundstate::{Located, Suite};
+use groundstate::{Kind, Located, Suite, has_ending};
 use model::Model;
 use syntax::{Diagnostic, Severity, SourceFile, Sources};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::has_ending;
 use crate::shell::Shell;
 use crate::wire::Answer;
-
-/// What is looked for in folders.
-const ENDINGS: [&str; 5] = ["asm", "avalla", "chart", "report.yaml", "verify.yaml"];
 
 /// Arguments of `check`.
 #[derive(Debug, Args)]
@@ -68,7 +64,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let mut summary = Summary::default();
     let mut seen = BTreeSet::new();
     let mut suite = Suite::new();
-    for path in crate::files::collect(&arguments.paths, &ENDINGS)? {
+    for path in crate::files::collect(&arguments.paths, &Kind::ENDINGS)? {
         check_one(shell, &path, &mut summary, &mut seen, &mut suite)?;
     }
     if shell.json() {
@@ -85,15 +81,15 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
 
 fn look(shell: &Shell, path: &Path, root: SourceFile, suite: &mut Suite) -> Result<Seen, Failure> {
     let mut disk = shell.disk();
-    if has_ending(path, "avalla") {
-        let checked = suite.check(root, &mut disk);
-        return Ok(Seen::of(checked.sources, checked.diagnostics));
-    }
-    if has_ending(path, "chart") {
-        return chart::look(path, root, &mut disk);
-    }
-    if has_ending(path, "yaml") || has_ending(path, "yml") {
-        return specification::look(path, &root, &mut disk);
+    match Kind::of(path) {
+        Some(Kind::Scenario) => {
+            let checked = suite.check(root, &mut disk);
+            return Ok(Seen::of(checked.sources, checked.diagnostics));
+        }
+        Some(Kind::Chart) => return chart::look(path, root, &mut disk),
+        Some(Kind::Report | Kind::Verification) => return specification::look(path, &root, &mut disk),
+        None if has_ending(path, "yaml") || has_ending(path, "yml") => return Err(specification::unnamed(path)),
+        Some(Kind::Model) | None => {}
     }
     let checked = groundstate::check(root, &mut disk);
     let size = size(&checked.model);

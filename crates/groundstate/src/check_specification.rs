@@ -1,0 +1,40 @@
+//! A specification against its model, as `check` and an editor ask for it.
+//!
+//! In: the text of `MODEL.report.yaml` or `MODEL.verify.yaml`, that of the model, [`Files`] for what both name. Out:
+//! [`Findings`]: the model's faults if it has errors, else those of the specification.
+
+use std::path::Path;
+
+use chart::draw::LayoutFault;
+use model::Loader;
+use syntax::SourceFile;
+
+use crate::kind::{Kind, model_of};
+use crate::reporting::prepare_report;
+use crate::workspace::{Files, Findings};
+use crate::{check_verification, load};
+
+/// What is wrong with a specification; without a model, none of it is looked at. A file that is not named as a report
+/// specification is taken for what is to be verified.
+///
+/// # Errors
+/// A chart that it names cannot be laid out.
+pub fn check_specification<F: Files + Loader>(
+    root: &SourceFile,
+    model: Option<SourceFile>,
+    files: &mut F,
+) -> Result<Findings, LayoutFault> {
+    let path = Path::new(&root.name);
+    let Some(model) = model else {
+        return Ok(Findings::not_checked(format!("there is no model {}", model_of(path).display())));
+    };
+    let mut asked = match load(model, files) {
+        Ok(loaded) => loaded.overlay(),
+        Err(faulty) => return Ok(Findings { faults: vec![(faulty.sources, faulty.diagnostics)], open: None }),
+    };
+    let faults = match Kind::of(path) {
+        Some(Kind::Report) => prepare_report(&mut asked, root.clone(), &root.name, files)?.faults,
+        _ => check_verification(&mut asked, &root.name, &root.text),
+    };
+    Ok(Findings { faults: vec![(asked.sources, faults)], open: None })
+}

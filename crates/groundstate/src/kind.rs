@@ -1,0 +1,60 @@
+//! What a file of a project is: its name says so.
+//!
+//! In: a path. Out: its [`Kind`], and for a specification the model that it is of. No file is looked at.
+
+use std::path::{Path, PathBuf};
+
+/// See the module.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// `.asm`: a model or a module.
+    Model,
+    /// `.avalla`.
+    Scenario,
+    /// `.chart`.
+    Chart,
+    /// `.report.yaml`: what a report shows of a model.
+    Report,
+    /// `.verify.yaml`: what is to be verified of a model.
+    Verification,
+}
+
+impl Kind {
+    /// The endings, without their dot.
+    pub const ENDINGS: [&str; 5] = ["asm", "avalla", "chart", "report.yaml", "verify.yaml"];
+
+    /// The kind of a file by its name; none for a name that says nothing.
+    pub fn of(path: &Path) -> Option<Kind> {
+        let kinds = [Kind::Model, Kind::Scenario, Kind::Chart, Kind::Report, Kind::Verification];
+        let found = Kind::ENDINGS.iter().position(|ending| has_ending(path, ending))?;
+        Some(kinds[found])
+    }
+}
+
+/// Whether a file is called `….ENDING`.
+pub fn has_ending(path: &Path, ending: &str) -> bool {
+    let name = path.file_name().and_then(|name| name.to_str()).and_then(|name| name.strip_suffix(ending));
+    name.is_some_and(|rest| rest.len() > 1 && rest.ends_with('.'))
+}
+
+/// The model that a specification is of: that of `Model.report.yaml` and of `Model.verify.yaml` is `Model.asm`.
+pub fn model_of(specification: &Path) -> PathBuf {
+    specification.with_extension("").with_extension("asm")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_name_says_the_kind() {
+        let check = |path: &str, expected: Option<Kind>| assert_eq!(Kind::of(Path::new(path)), expected, "{path}");
+        check("a.b/Lamp.asm", Some(Kind::Model));
+        check("Lamp.report.yaml", Some(Kind::Report));
+        check("Lamp.verify.yaml", Some(Kind::Verification));
+        for path in ["Lamp.yaml", "report.yaml", ".asm", "asm", "Lamp.asm.txt", "Lamp.report.yml"] {
+            check(path, None);
+        }
+        assert_eq!(model_of(Path::new("a/Lamp.report.yaml")), Path::new("a/Lamp.asm"));
+    }
+}
