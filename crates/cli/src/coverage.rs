@@ -5,10 +5,10 @@ use std::io::Write;
 use groundstate::scenario::{Forall, Item, Items};
 use serde::Serialize;
 use syntax::{Sources, Span};
+use wire::Place;
 
 use crate::failure::Failure;
 use crate::shell::Shell;
-use crate::wire::Place;
 
 /// Writes the coverage of one model.
 pub fn report(shell: &mut Shell, model: &str, sources: &Sources, items: &Items) -> Result<(), Failure> {

@@ -3,11 +3,11 @@
 use std::io::Write;
 
 use clap::Args;
+use wire::Answer;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::shell::Shell;
-use crate::wire::Answer;
 
 /// Arguments of `explain`.
 #[derive(Debug, Args)]

@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use syntax::{FileId, Parse, Severity, SourceFile, Sources};
+use wire::Answer;
 
 use crate::check::plural;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::{collect, decode, read_source, rewrite_text};
 use crate::shell::Shell;
-use crate::wire::Answer;
 
 /// Arguments of `fmt`.
 #[derive(Debug, Args)]

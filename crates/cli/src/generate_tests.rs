@@ -17,6 +17,7 @@ use groundstate::{Loaded, SeededChoices, Suite, own_files};
 use model::DomainKind;
 use serde::Serialize;
 use syntax::FileId;
+use wire::Place;
 
 use crate::check::plural;
 use crate::coverage;
@@ -26,7 +27,6 @@ use crate::files::{Disk, read_source, write_text};
 use crate::load::load;
 use crate::shell::Shell;
 use crate::verify::{Bounded, Teller, no_start, relative};
-use crate::wire::Place;
 
 /// Arguments of `generate-tests`.
 #[derive(Debug, Args)]

@@ -47,7 +47,6 @@ mod story;
 mod test;
 mod tracefile;
 mod verify;
-mod wire;
 
 use std::process::ExitCode;
 

@@ -13,6 +13,7 @@ use groundstate::Overlay;
 use groundstate::simulate::{Header, Options, Parted, Record, Recorded, StepRecord};
 use machine::Show;
 use program::Program;
+use wire::{Answer, Line, Reader};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -20,7 +21,6 @@ use crate::load::load;
 use crate::narrate::Detail;
 use crate::run::{Teller, options};
 use crate::shell::Shell;
-use crate::wire::{Answer, Line, Reader};
 
 /// Arguments of `replay`.
 #[derive(Debug, Args)]

@@ -12,6 +12,7 @@ use groundstate::verify::review::{Finding, Meta, Outcome, Review, review};
 use groundstate::verify::{Reason, Stop};
 use serde::Serialize;
 use syntax::FileId;
+use wire::Fault;
 
 use crate::check::plural;
 use crate::exit::Exit;
@@ -19,7 +20,6 @@ use crate::failure::Failure;
 use crate::load::load;
 use crate::shell::Shell;
 use crate::verify::{Bounded, StepLine, Teller, no_start};
-use crate::wire::Fault;
 
 /// Arguments of `review`.
 #[derive(Debug, Args)]

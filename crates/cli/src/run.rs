@@ -10,6 +10,7 @@ use groundstate::{Loaded, Overlay};
 use machine::{FaultKind, Location};
 use program::{FunctionKind, Program};
 use syntax::Sources;
+use wire::Wire;
 
 use crate::engine::Engine;
 use crate::exit::Exit;
@@ -21,7 +22,6 @@ use crate::narrate::{Detail, Narrator};
 use crate::progress::Progress;
 use crate::shell::Shell;
 use crate::tracefile::TraceFile;
-use crate::wire::Wire;
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]

@@ -119,7 +119,7 @@ impl Shell {
         if diagnostics.len() > SHOWN {
             let more = diagnostics.len() - SHOWN;
             if self.json() {
-                self.object(&crate::wire::Answer::More { faults: more })?;
+                self.object(&wire::Answer::More { faults: more })?;
             } else {
                 self.note(&format!("and {more} more"))?;
             }
@@ -142,7 +142,7 @@ impl Shell {
     /// Writes one fault.
     pub fn diagnostic(&mut self, sources: &Sources, diagnostic: &Diagnostic) -> Result<(), Failure> {
         if self.json() {
-            return self.object(&crate::wire::Fault::new(sources, diagnostic));
+            return self.object(&wire::Fault::new(sources, diagnostic));
         }
         // Results written before the fault come before it on a terminal, too.
         self.out.flush()?;
@@ -161,7 +161,7 @@ impl Shell {
     /// Writes a failure; there is nobody left to tell if that fails.
     pub fn report_failure(&mut self, failure: &Failure) {
         if self.json() {
-            let object = crate::wire::WorldFailure::new(failure);
+            let object = wire::WorldFailure::new(failure.id(), failure.to_string(), failure.help());
             let _ = write_object(&mut self.out, &object);
             let _ = self.out.flush();
             return;

@@ -9,6 +9,7 @@ use groundstate::scenario::{FirstCandidate, Judgement, Options, Story};
 use groundstate::{SeededChoices, Suite, Tested};
 use program::Program;
 use syntax::{Diagnostic, Severity};
+use wire::{Answer, Fault, ScenarioResult};
 
 use crate::check::plural;
 use crate::coverage;
@@ -19,7 +20,6 @@ use crate::inputs::Chosen;
 use crate::interrupt;
 use crate::junit::Junit;
 use crate::shell::Shell;
-use crate::wire::{Answer, Fault, ScenarioResult};
 
 /// Arguments of `test`.
 #[derive(Debug, Args)]
@@ -128,7 +128,7 @@ fn report(
     if shell.json() {
         let faults = failures.iter().map(|failure| Fault::new(sources, failure)).collect();
         let told = story(tested).map(|(program, story)| crate::story::object(program, story));
-        return shell.object(&ScenarioResult::new(path, tested, faults, told));
+        return shell.object(&ScenarioResult::new(path.display().to_string(), tested, faults, told));
     }
     let passed = passed(tested);
     if shell.talks() {

@@ -1,11 +1,11 @@
 //! A trace file being written. It has its name only when the run has ended; a step taken back leaves no line.
 
 use std::path::{Path, PathBuf};
+use wire::Line;
 
 use crate::failure::Failure;
 use crate::files::Unfinished;
 use crate::shell::write_object;
-use crate::wire::Line;
 
 /// See the module.
 pub struct TraceFile {

@@ -17,7 +17,7 @@ const LAYERS: &[&[&str]] = &[
     &["inputs"],
     &["report"],
     &["groundstate"],
-    &["properties"],
+    &["properties", "wire"],
     &["cli", "studio", "lsp", "python", "xtask"],
 ];
 

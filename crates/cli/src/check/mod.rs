@@ -15,11 +15,11 @@ use clap::Args;
 use groundstate::{Kind, Located, Suite, has_ending};
 use model::Model;
 use syntax::{Diagnostic, Severity, SourceFile, Sources};
+use wire::Answer;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::shell::Shell;
-use crate::wire::Answer;
 
 /// Arguments of `check`.
 #[derive(Debug, Args)]

@@ -18,7 +18,6 @@ use crate::failure::Failure;
 use crate::files::Bounded;
 use crate::load::load;
 use crate::shell::Shell;
-use crate::wire;
 
 /// Arguments of `conform`.
 #[derive(Debug, Args)]

@@ -10,6 +10,7 @@ use groundstate::simulate::{End, Header, Invariants};
 use groundstate::verify::{Outcome, Report, Subject, Trace};
 use program::{Program, PropertyKind};
 use syntax::Sources;
+use wire::Wire;
 
 use crate::failure::Failure;
 use crate::files::{Unfinished, write_text};
@@ -17,7 +18,6 @@ use crate::report::page_of;
 use crate::shell::Shell;
 use crate::tracefile::TraceFile;
 use crate::verify::tell::id;
-use crate::wire::Wire;
 
 /// Writes the first counterexample to a file, or all of them into a folder.
 pub fn write(

@@ -6,11 +6,11 @@ use groundstate::verify::{Distinct, Symmetry};
 use machine::{Show, Value};
 use program::DomainKind;
 use serde::Serialize;
+use wire::Place;
 
 use crate::failure::Failure;
 use crate::shell::Shell;
 use crate::verify::tell::Teller;
-use crate::wire::Place;
 
 /// A domain, and those of its elements that are interchangeable with each other, or why none are.
 #[derive(Debug, Serialize)]

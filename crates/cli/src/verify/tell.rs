@@ -14,13 +14,13 @@ use machine::{Location, Show, Value};
 use program::{Program, PropertyKind};
 use serde::Serialize;
 use syntax::{Diagnostic, Sources, Span};
+use wire::Place;
 
 use crate::check::plural;
 use crate::failure::Failure;
 use crate::shell::Shell;
 use crate::verify::hint::hint;
 use crate::verify::symmetry::DomainLine;
-use crate::wire::Place;
 
 /// Tells what verification came to.
 pub struct Teller<'a> {

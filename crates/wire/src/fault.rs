@@ -1,9 +1,9 @@
 //! Faults and failures as JSON objects.
+//!
+//! In: diagnostics with their texts; of a failure of the world what the shell says of it. Out: [`Fault`], [`WorldFailure`].
 
 use serde::Serialize;
 use syntax::{Diagnostic, Severity, Sources, Span};
-
-use crate::failure::Failure;
 
 /// A range of a source text; lines and columns count from 1, columns in characters, the end is the first
 /// character behind the range.
@@ -17,6 +17,7 @@ pub struct Place {
 }
 
 impl Place {
+    /// The range as lines and columns.
     pub fn new(sources: &Sources, span: Span) -> Place {
         let file = sources.file(span.file);
         let (start, end) = (file.line_column(span.start), file.line_column(span.end));
@@ -52,6 +53,7 @@ pub struct Fault<'a> {
 }
 
 impl<'a> Fault<'a> {
+    /// The fault.
     pub fn new(sources: &Sources, diagnostic: &'a Diagnostic) -> Fault<'a> {
         let label = |label: &'a syntax::Label| Label { place: Place::new(sources, label.span), text: &label.text };
         Fault {
@@ -81,7 +83,8 @@ pub struct WorldFailure {
 }
 
 impl WorldFailure {
-    pub fn new(failure: &Failure) -> Self {
-        WorldFailure { r#type: "failure", id: failure.id(), message: failure.to_string(), help: failure.help() }
+    /// The failure: its kebab-case name, a sentence, what to do.
+    pub fn new(id: &'static str, message: String, help: Option<String>) -> Self {
+        WorldFailure { r#type: "failure", id, message, help }
     }
 }

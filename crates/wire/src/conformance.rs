@@ -1,4 +1,6 @@
 //! The verdict of `conform` as JSON.
+//!
+//! In: a [`Verdict`], and the texts that its claims stand in. Out: [`Conformance`].
 
 use ::conform::{Event, Parted, Verdict};
 use serde::Serialize;
@@ -42,6 +44,7 @@ struct Told {
 }
 
 impl Conformance {
+    /// The verdict of a run that was followed in this way.
     pub fn new(sources: &Sources, verdict: &Verdict, way: &str) -> Conformance {
         let (word, events, reason, parts) = match verdict {
             Verdict::Conforms { events, .. } => ("conforms", *events, None, None),

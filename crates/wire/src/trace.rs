@@ -1,19 +1,18 @@
 //! Traces as JSON lines: spec/trace.md.
 //!
+//! In: the header and records of a run. Out: lines; and back, by a program of the same model.
 //! Values and locations are written as AsmetaL writes them and read back by the domain of the location. INVARIANT:
 //! writing what was read gives the same bytes.
 
 use std::fmt;
 use std::marker::PhantomData;
 
-use groundstate::simulate::{
-    ChoiceMade, End, Header, Invariants, Record, StepRecord, Violation, read_location, read_value,
-};
 use machine::{Change, Location, Show, TimeUnit, Value};
 use program::Program;
 use serde::de::{MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use simulate::{ChoiceMade, End, Header, Invariants, Record, StepRecord, Violation, read_location, read_value};
 use syntax::{FileId, Sources, Span};
 
 /// The version of the format that is written.
@@ -23,13 +22,20 @@ pub const VERSION: u32 = 1;
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(tag = "type", rename_all = "lowercase")]
 pub enum Line {
+    /// The first line: what was run, and how.
     Trace(Head),
+    /// The initial state.
     State(State),
+    /// A step.
     Step(Step),
+    /// A step begun and not made: what it took from outside before a fault or a violation ended the run.
     Attempt(Step),
+    /// The last step is undone; this one is the next to be made.
     Back {
+        /// The next step.
         step: u64,
     },
+    /// The last line: why the run ended.
     End(Ending),
     /// An object of the command's output that is no part of the trace; never written.
     #[serde(other, skip_serializing)]
@@ -78,6 +84,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Pairs<T> {
     }
 }
 
+/// What was run, and how.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Head {
     version: u32,
@@ -105,6 +112,7 @@ enum Mode {
     Ignore,
 }
 
+/// The initial state, and what it was made of.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct State {
     #[serde(skip_serializing_if = "Pairs::is_empty", default = "none")]
@@ -122,6 +130,7 @@ fn none<T>() -> Pairs<T> {
     Pairs(Vec::new())
 }
 
+/// A step: what it read and what it changed.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Step {
     step: u64,
@@ -171,6 +180,7 @@ struct Broken {
     before: bool,
 }
 
+/// Why a run ended.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Ending {
     reason: String,
@@ -189,11 +199,14 @@ struct FaultLine {
 /// Turns records into lines.
 #[derive(Debug, Clone, Copy)]
 pub struct Wire<'a> {
+    /// The program that runs.
     pub program: &'a Program,
+    /// The texts that places refer to.
     pub sources: &'a Sources,
 }
 
 impl Wire<'_> {
+    /// The first line.
     pub fn header(header: &Header) -> Line {
         Line::Trace(Head {
             version: VERSION,
@@ -317,6 +330,7 @@ fn times_in(times: &[(String, i64)]) -> Result<Vec<(TimeUnit, i64)>, String> {
 /// Reads lines back. Places are not read: they belong to the text the trace was made of.
 #[derive(Debug, Clone, Copy)]
 pub struct Reader<'a> {
+    /// A program of the model that the trace is of.
     pub program: &'a Program,
 }
 
@@ -329,6 +343,9 @@ const NOWHERE: Span = Span { file: FileId(0), start: 0, end: 0 };
 
 impl Reader<'_> {
     /// The header.
+    ///
+    /// # Errors
+    /// The line is no header, or one of another version.
     pub fn header(line: &Line) -> Result<Header, String> {
         let Line::Trace(head) = line else { return Err("the first line is not the header of a trace".to_string()) };
         if head.version != VERSION {
@@ -352,6 +369,9 @@ impl Reader<'_> {
     }
 
     /// A record. Of a fault only that there was one is known.
+    ///
+    /// # Errors
+    /// The line does not fit the program, or is a header.
     pub fn record(&self, line: &Line) -> Result<Record, String> {
         Ok(match line {
             Line::Trace(_) | Line::Other => return Err("a second header".to_string()),

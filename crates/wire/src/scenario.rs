@@ -1,9 +1,9 @@
 //! Results of scenarios as JSON objects.
+//!
+//! In: a scenario that was tested, its faults, the run of one that failed. Out: [`ScenarioResult`].
 
-use std::path::Path;
-
+use ::scenario::Judgement;
 use groundstate::Tested;
-use groundstate::scenario::Judgement;
 use serde::Serialize;
 
 use super::{Fault, Place};
@@ -34,7 +34,8 @@ struct Remark<'a> {
 }
 
 impl<'a> ScenarioResult<'a> {
-    pub fn new(path: &Path, tested: &'a Tested, faults: Vec<Fault<'a>>, run: Option<serde_json::Value>) -> Self {
+    /// The result of the scenario in this file.
+    pub fn new(file: String, tested: &'a Tested, faults: Vec<Fault<'a>>, run: Option<serde_json::Value>) -> Self {
         let verdict = tested.verdict.as_ref();
         let (held, broken) = verdict.map_or((0, 0), |verdict| verdict.checks);
         let remarks = verdict
@@ -44,7 +45,7 @@ impl<'a> ScenarioResult<'a> {
         ScenarioResult {
             r#type: "scenario",
             name: &tested.name,
-            file: path.display().to_string(),
+            file,
             result: match verdict.map(|verdict| &verdict.judgement) {
                 None => "faulty",
                 Some(Judgement::Passed) => "passed",
