@@ -2,18 +2,18 @@
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
-use std::path::PathBuf;
 use std::sync::atomic::{AtomicI64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
 use program::{Program, PropertyKind};
 use syntax::SourceFile;
+use testkit::repository;
 use verify::{Engine, Options, Outcome, Reason, Report, Stop, Subject, Tape, verify};
 
 use crate::models::lowered;
 
 fn program(name: &str) -> Arc<Program> {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../bench/models/verify/{name}.asm"));
+    let path = repository::root().join(format!("bench/models/verify/{name}.asm"));
     lowered(crate::models::Disk::read(&path).expect("the model is there"))
 }
 

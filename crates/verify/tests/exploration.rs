@@ -16,19 +16,12 @@ use machine::{
 };
 use program::{DomainId, DomainKind, FunctionId, FunctionKind, Program};
 use syntax::{Severity, SourceFile};
+use testkit::NoFiles;
 
 /// States of one model that are compared.
 const STATES: usize = 60;
 /// Alternatives of one state that are compared.
 const PATHS: usize = 3_000;
-
-struct NoFiles;
-
-impl model::Loader for NoFiles {
-    fn load(&mut self, _importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        Err(format!("no file {path}"))
-    }
-}
 
 /// An odometer over what a machine asks for.
 #[derive(Default)]

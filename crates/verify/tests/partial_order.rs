@@ -6,18 +6,18 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use machine::{Location, Value};
 use program::Program;
 use syntax::SourceFile;
+use testkit::repository;
 use verify::{Engine, Options, Outcome, Report, Subject, Trace, Unreduced, verify};
 
 use crate::models::{Disk, lowered};
 
 fn program(path: &str) -> Arc<Program> {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..").join(path);
+    let path = repository::root().join(path);
     lowered(Disk::read(&path).expect("the model is there"))
 }
 

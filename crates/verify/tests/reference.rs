@@ -3,17 +3,17 @@
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use machine::Show;
 use program::Program;
+use testkit::repository;
 use verify::{Options, Outcome, Report, Subject, verify};
 
 use crate::models::{Disk, lowered};
 
 fn program(name: &str) -> Arc<Program> {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../bench/models/verify/{name}.asm"));
+    let path = repository::root().join(format!("bench/models/verify/{name}.asm"));
     lowered(Disk::read(&path).expect("the model is there"))
 }
 

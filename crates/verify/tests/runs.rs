@@ -2,12 +2,12 @@
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use machine::{Machine, Value};
 use program::Program;
 use syntax::SourceFile;
+use testkit::repository;
 use verify::Trace;
 use verify::runs::{OfRuns, Question, Why, decide};
 use verify::temporal::fairness::AgentFairness;
@@ -16,7 +16,7 @@ use crate::models::{Disk, lowered};
 
 /// The swinging buffer, with more assumptions before its properties.
 fn swing(assumptions: &str) -> Arc<Program> {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../bench/models/verify/SwingLive.asm");
+    let path = repository::root().join("bench/models/verify/SwingLive.asm");
     let file = Disk::read(&path).expect("the model is there");
     let text = file.text.replace("\tinvariant inv_whole", &format!("\t{assumptions}\n\tinvariant inv_whole"));
     lowered(SourceFile::new(file.name.clone(), text))
@@ -78,7 +78,7 @@ fn the_consumer_of_the_swinging_buffer_needs_strong_fairness() {
 
 #[test]
 fn who_asks_for_the_critical_section_gets_in_if_both_go_on() {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../examples/mutual_exclusion/Peterson.asm");
+    let path = repository::root().join("examples/mutual_exclusion/Peterson.asm");
     let program = lowered(Disk::read(&path).expect("the model is there"));
     let free = words(&program, &unlimited());
     assert!(free[..3].iter().all(|answer| answer.ends_with(" holds")), "{free:?}");

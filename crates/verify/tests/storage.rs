@@ -3,18 +3,18 @@
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use machine::{Location, Value};
 use program::{Program, PropertyKind};
 use syntax::SourceFile;
+use testkit::repository;
 use verify::{Engine, Options, Outcome, Reason, Report, Storage, Subject, Trace, verify};
 
 use crate::models::{Disk, lowered};
 
 fn program(name: &str) -> Arc<Program> {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../bench/models/verify/{name}.asm"));
+    let path = repository::root().join(format!("bench/models/verify/{name}.asm"));
     lowered(Disk::read(&path).expect("the model is there"))
 }
 

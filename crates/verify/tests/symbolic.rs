@@ -2,7 +2,6 @@
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use machine::explore::Bounds;
@@ -10,12 +9,13 @@ use machine::{Limits, Value};
 use model::Basic;
 use program::{DomainKind, FunctionId, FunctionKind, Program};
 use syntax::{Severity, SourceFile};
+use testkit::repository;
 use verify::{Engine, Options, Outcome, Report, Subject, verify};
 
 use crate::models::{Disk, lowered};
 
 fn reference(name: &str, change: impl Fn(&str) -> String) -> Arc<Program> {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../bench/models/verify").join(name);
+    let path = repository::root().join("bench/models/verify").join(name);
     let file = Disk::read(&path).expect("the model is there");
     lowered(SourceFile::new(file.name.clone(), change(&file.text)))
 }

@@ -6,12 +6,12 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use machine::{Location, Show, Value};
 use program::Program;
 use syntax::SourceFile;
+use testkit::repository;
 use verify::{Distinct, Engine, Options, Outcome, Report, Storage, Subject, Symmetry, Trace, verify};
 
 use crate::models::{Disk, lowered};
@@ -326,7 +326,7 @@ fn agents_of_one_subset_and_literals_are_interchangeable_too() {
 
 #[test]
 fn the_repositorys_models_have_the_same_verdicts() {
-    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let root = repository::root();
     for (path, expected) in [
         ("bench/models/verify/Swing.asm", None),
         ("bench/models/verify/SwingUnlocked.asm", None),

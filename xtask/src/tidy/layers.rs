@@ -11,8 +11,8 @@ const LAYERS: &[&[&str]] = &[
     &["syntax"],
     &["model"],
     &["program"],
-    &["machine"],
-    &["recording", "cpp_names", "smt"],
+    &["machine", "smt"],
+    &["recording", "cpp_names", "testkit"],
     &["simulate", "scenario", "verify", "refine", "chart", "generate", "conform", "ide"],
     &["inputs"],
     &["report"],
@@ -22,7 +22,7 @@ const LAYERS: &[&[&str]] = &[
 ];
 
 /// Crates that only tests may use.
-const FOR_TESTS: &[&str] = &["oracle"];
+const FOR_TESTS: &[&str] = &["oracle", "testkit"];
 
 fn layer(name: &str) -> Option<usize> {
     LAYERS.iter().position(|layer| layer.contains(&name))

@@ -1,23 +1,15 @@
 //! Each fault of a formula has a page in spec/faults/ whose example yields it.
 
 use expect_test::{Expect, expect};
+use testkit::Page;
 use verify::temporal::read::{IDS, read};
 
 use crate::formula::{lowered, model};
 
-#[allow(clippy::disallowed_methods, reason = "a test reads the pages it is about")]
-fn example(id: &str) -> String {
-    let path = format!("{}/../../spec/faults/{id}.md", env!("CARGO_MANIFEST_DIR"));
-    let page = std::fs::read_to_string(&path).unwrap_or_else(|_| panic!("{id} has no page"));
-    assert!(page.starts_with(&format!("# {id}\n")), "the page of {id} has another title");
-    let (_, rest) = page.split_once("```asmetal fault\n").expect("an example");
-    rest.split_once("```").expect("the end of the example").0.to_string()
-}
-
 #[test]
 fn each_id_has_a_page_whose_example_yields_it() {
     for id in IDS {
-        let faults = read(&lowered(&example(id))).expect_err("a fault");
+        let faults = read(&lowered(Page::fault(id).example("asmetal fault"))).expect_err("a fault");
         assert_eq!(faults.iter().map(|fault| fault.id).collect::<Vec<_>>(), [*id]);
         assert!(faults[0].help.is_some());
     }

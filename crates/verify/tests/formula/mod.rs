@@ -6,18 +6,9 @@ mod show;
 
 use std::sync::Arc;
 
-use model::Loader;
 use program::Program;
 use syntax::SourceFile;
-
-/// Finds nothing: the standard libraries are built in.
-struct NoFiles;
-
-impl Loader for NoFiles {
-    fn load(&mut self, _importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        Err(format!("there is no file {path}"))
-    }
-}
+use testkit::NoFiles;
 
 fn lowered(text: &str) -> Arc<Program> {
     let checked = model::check(SourceFile::new("example.asm", text), &mut NoFiles);

@@ -1,9 +1,6 @@
 //! Solvers against the explicit search: what one proves the other does not find, and the runs have the same length.
 
-#![allow(clippy::disallowed_methods, reason = "a test runs a solver and reads the repository's own models")]
-#![allow(clippy::disallowed_macros, reason = "a test says that it has no solver")]
-
-mod process;
+#![allow(clippy::disallowed_methods, reason = "a test reads the environment")]
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -13,6 +10,8 @@ use machine::{Limits, Value};
 use model::Basic;
 use program::{DomainKind, FunctionId, FunctionKind, Program};
 use syntax::{Severity, SourceFile};
+use testkit::repository;
+use testkit::solver::solvers;
 use verify::solver::{Left, Method, Proof};
 use verify::{Engine, NoStart, Options, Outcome, Progress, Reason, Report, Request, Subject, verify};
 
@@ -26,7 +25,7 @@ fn model(text: &str) -> Arc<Program> {
 fn ask(program: &Arc<Program>, method: Method, depth: u64) -> Vec<Result<Report, NoStart>> {
     let options = Options { engine: Engine::Solver(method), max_depth: depth, ..Options::default() };
     let horn = matches!(method, Method::Reachability | Method::Portfolio);
-    let mut solvers = process::solvers(horn);
+    let mut solvers = solvers(horn);
     let request = Request::of(program, options).build().expect("nothing is in conflict");
     solvers.iter_mut().map(|solver| request.verify(solver, &mut |_: &Progress| true)).collect()
 }
@@ -120,7 +119,7 @@ fn fits(program: &Arc<Program>, explicit: &Report, solved: &Report, depth: usize
 #[test]
 fn reference_models() {
     for (name, method, depth) in [("Swing", Method::Induction, 3), ("SwingUnlocked", Method::Bounded, 12)] {
-        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../bench/models/verify/{name}.asm"));
+        let path = repository::root().join(format!("bench/models/verify/{name}.asm"));
         let program = lowered(Disk::read(&path).expect("the model is there"));
         let explicit = verify(&program, &Options::default(), &mut |_| true).expect("it starts");
         for outcome in ask(&program, method, depth) {
@@ -134,7 +133,7 @@ fn reference_models() {
 /// The models of the repository that are small enough to be gone through.
 #[test]
 fn examples() {
-    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let root = repository::root();
     let (mut inside, mut outside) = (0, Vec::new());
     let folders = std::fs::read_dir(root.join("examples")).expect("there are examples");
     let mut folders: Vec<PathBuf> = folders.flatten().map(|entry| entry.path()).filter(|path| path.is_dir()).collect();
@@ -169,10 +168,7 @@ fn examples() {
             }
         }
     }
-    assert!(
-        process::solvers(true).is_empty() || inside >= 5,
-        "{inside} models are told to the solver; not: {outside:#?}"
-    );
+    assert!(solvers(true).is_empty() || inside >= 5, "{inside} models are told to the solver; not: {outside:#?}");
 }
 
 /// The values that inputs over infinite domains are given.
@@ -207,7 +203,7 @@ fn random_models() {
         if explicit.stop.is_some() {
             continue;
         }
-        let mut solvers = process::solvers(false);
+        let mut solvers = solvers(false);
         let turn = seed as usize % solvers.len().max(1);
         let Some(solver) = solvers.get_mut(turn) else { return };
         let engine = Engine::Solver(Method::Induction);

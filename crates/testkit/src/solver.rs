@@ -1,12 +1,25 @@
-//! z3 and cvc5 as processes, for tests: found on the path, or there is none and the tests say so. `make unit` installs
-//! them.
+//! z3 and cvc5 as processes, and a solver that is not there.
+//!
+//! In: nothing but the path that programs are found on. Out: sessions. A solver that is not installed is left out, which is
+//! said on stderr; the test then has nothing to ask. `make unit` installs both.
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 use smt::session::{Session, Silence, Solvers, is_answer};
 
+/// A solver that answers nothing: what is decided must be decided without one.
+#[derive(Debug, Clone, Copy)]
+pub struct NoSolver;
+
+impl smt::Solver for NoSolver {
+    fn solve(&mut self, _script: &str) -> Result<String, String> {
+        Err("there is no solver".to_string())
+    }
+}
+
 /// A solver by its name on the path.
+#[derive(Debug, Clone)]
 pub struct Installed {
     name: &'static str,
     version: String,
@@ -20,7 +33,7 @@ fn installed(name: &'static str) -> Option<Installed> {
     Some(Installed { name, version: version.to_string() })
 }
 
-/// z3, and where no Horn clauses are to be solved cvc5: those of them that are there. That one is not is said on stderr.
+/// Those solvers that are installed: z3, and cvc5 unless Horn clauses are to be solved. Says on stderr which one is missing.
 pub fn solvers(horn: bool) -> Vec<Installed> {
     let names: &[&'static str] = if horn { &["z3"] } else { &["z3", "cvc5"] };
     let mut found = Vec::new();

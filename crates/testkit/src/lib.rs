@@ -1,0 +1,20 @@
+//! What tests of several crates need: loaders, the blocks of Markdown pages, solver processes, the repository's files.
+//!
+//! It does I/O, which the crates under test must not, so it is a dev-dependency and nothing else. It knows `syntax`, `model`
+//! and `smt` for their traits. The unit tests of those three see another copy of these types: only their integration
+//! tests can use it. All other tests can.
+
+#![allow(
+    clippy::disallowed_methods,
+    clippy::disallowed_macros,
+    reason = "tests read the repository, run solvers, and say when there is none"
+)]
+
+pub mod loader;
+pub mod page;
+pub mod repository;
+pub mod solver;
+
+pub use loader::{Disk, EditedDisk, NoFiles, Patterns, Texts};
+pub use page::Page;
+pub use solver::NoSolver;
