@@ -1,7 +1,8 @@
 //! The texts of a project, those that are being edited over those on the disk, and what is wrong with each.
 //!
-//! In: texts as an editor sends them, and [`Files`] for the rest. Out: faults of models, scenarios, charts and
-//! specifications, and models that are ready to run. A file is parsed again only when its text is another one; all else is checked anew, which takes milliseconds.
+//! In: texts as an editor sends them, and [`Files`] for the rest. Out: faults of models, scenarios, charts and specifications,
+//! and models that are ready to run. A file is parsed again only when its text is another one; all else is checked anew, which
+//! takes milliseconds.
 //! INVARIANT: what [`Workspace::check`] says depends on the texts alone, not on the edits that led to them.
 
 use std::collections::BTreeMap;

@@ -1,9 +1,8 @@
 //! The file format of report specifications: YAML → [`Spec`], each term with its place.
 //!
-//! Whether the terms fit a model is not known here, nor what the charts hold.
-//!
-//! Tasks, buffers and queues are given as `each`, a mapping of names in the model to what is told of them, and
-//! `terms`, in which `{}` stands for that name; an entry of `each` may give a term of its own, or `~` for none.
+//! Whether the terms fit a model is not known here, nor what the charts hold. Tasks, buffers and queues are given as `each`, a
+//! mapping of names in the model to what is told of them, and `terms`, in which `{}` stands for that name; an entry of `each`
+//! may give a term of its own, or `~` for none.
 
 use std::collections::BTreeMap;
 

@@ -1,7 +1,7 @@
 //! The report specification that a chart's system stands for: for a model that was built from it and has none of its own.
 //!
-//! In: the chart that lies beside the model. Out: the text of a specification, as one written by hand: a lane for each component and
-//! channel, the deadlines, the picture of the system.
+//! In: the chart that lies beside the model. Out: the text of a specification, as one written by hand: a lane for each
+//! component and channel, the deadlines, the picture of the system.
 
 use std::fmt::Write;
 use std::path::Path;

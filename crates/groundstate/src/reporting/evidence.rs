@@ -3,9 +3,10 @@
 //! A thing is covered when any scenario, of whatever model, executed it at the same place of the same file: the
 //! tests of a module count for every model that imports it.
 
+use std::collections::BTreeMap;
+
 use report::{Coverage, Measure, Scenario, Verdict};
 use scenario::{Items, Judgement};
-use std::collections::BTreeMap;
 use syntax::{Severity, Sources, Span};
 
 use crate::{Suite, Tested, diagnose_failure};
