@@ -1,41 +1,14 @@
 //! Charts, what is built from them and what is extracted from that say the same; so do the library and its charts.
 
-#![allow(clippy::disallowed_methods, reason = "a test reads the repository's own charts")]
-
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
 
 use chart::{Chart, Known, Origin, Target, build, extract, probed, read, transitions, write};
-use model::{Checked, Loader, check};
+use model::{Checked, check};
 use syntax::{FileId, Severity, SourceFile, parse_chart};
-
-/// The repository's folder of patterns.
-struct Library;
-
-/// No solver: what is checked here needs none.
-struct Without;
-
-impl smt::Solver for Without {
-    fn solve(&mut self, _: &str) -> Result<String, String> {
-        Err("no solver is there".to_string())
-    }
-}
-
-fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../library/patterns")
-}
-
-impl Loader for Library {
-    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        let base = if importer.name.contains("std/") { folder().join("../std") } else { folder() };
-        let file = base.join(format!("{path}.asm"));
-        let text = std::fs::read_to_string(&file).map_err(|error| error.to_string())?;
-        Ok(SourceFile::new(format!("{path}.asm"), text))
-    }
-}
+use testkit::{NoSolver, Patterns, repository};
 
 fn text(name: &str) -> String {
-    std::fs::read_to_string(folder().join(name)).expect("the library is there")
+    repository::text(format!("library/patterns/{name}"))
 }
 
 fn chart(text: &str) -> Chart {
@@ -45,7 +18,7 @@ fn chart(text: &str) -> Chart {
 }
 
 fn checked(name: &str, text: &str) -> Checked {
-    let checked = check(SourceFile::new(name, text), &mut Library);
+    let checked = check(SourceFile::new(name, text), &mut Patterns);
     let errors: Vec<_> = checked.diagnostics.iter().filter(|fault| fault.severity == Severity::Error).collect();
     assert!(errors.is_empty(), "{errors:#?}\n{text}");
     checked
@@ -80,7 +53,7 @@ fn the_library_does_what_its_charts_say() {
     let specification = text("PatternMachines.asm");
     let probed = probed(&chart, &specification).expect("the library parses");
     let checked = checked("PatternMachines.asm", &probed.text);
-    assert_eq!(chart::check(&chart, &probed, &checked, &mut Without), []);
+    assert_eq!(chart::check(&chart, &probed, &checked, &mut NoSolver), []);
 }
 
 #[test]
@@ -101,7 +74,7 @@ fn a_change_of_the_library_is_found() {
     ] {
         assert!(specification.contains(from), "the library has no {from:?}");
         let probed = probed(&chart, &specification.replacen(from, to, 1)).expect("the library parses");
-        let faults = chart::check(&chart, &probed, &checked("PatternMachines.asm", &probed.text), &mut Without);
+        let faults = chart::check(&chart, &probed, &checked("PatternMachines.asm", &probed.text), &mut NoSolver);
         assert!(!faults.is_empty(), "{to} went unseen");
         assert!(faults.iter().all(|fault| fault.id == "chart-differs"), "{faults:#?}");
     }

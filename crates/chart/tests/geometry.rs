@@ -3,14 +3,11 @@
 //! repository, for charts made at random, for one of 500 shapes, and, where the chart says where shapes lie, for random
 //! places; and these are kept. The SVG is well-formed and says in words what it shows.
 
-#![allow(clippy::disallowed_methods, reason = "a test reads the repository's own charts")]
-
-use std::path::{Path, PathBuf};
-
 use chart::draw::{Figure, Picture, Theme};
 use chart::export::{Notation, export};
 use chart::{Chart, drawings, read};
 use syntax::{FileId, parse_chart};
+use testkit::{Page, repository};
 
 fn read_chart(text: &str) -> Chart {
     let (chart, faults) = read(FileId(0), &parse_chart(FileId(0), text));
@@ -19,27 +16,10 @@ fn read_chart(text: &str) -> Chart {
     chart
 }
 
-fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
-    for path in std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()) {
-        if path.is_dir() {
-            collect(&path, files);
-        } else if path.extension().is_some_and(|extension| extension == "chart") {
-            files.push(path);
-        }
-    }
-}
-
 fn texts() -> Vec<String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let mut files = Vec::new();
-    for folder in ["library", "examples"] {
-        collect(&root.join(folder), &mut files);
-    }
-    files.sort();
-    let page = std::fs::read_to_string(root.join("spec/charts.md")).expect("the page is there");
-    let blocks = page.split("```chart\n").skip(1).filter_map(|rest| rest.split("```").next().map(str::to_string));
-    let of_files = files.iter().map(|path| std::fs::read_to_string(path).expect("a chart is UTF-8"));
-    of_files.chain(blocks.collect::<Vec<_>>()).collect()
+    let files = ["examples", "library"].map(|folder| repository::files(folder, &["chart"])).concat();
+    let page = Page::spec("charts");
+    files.iter().map(repository::text).chain(page.texts("chart").into_iter().map(str::to_string)).collect()
 }
 
 /// Left, upper, right and lower end.

@@ -1,69 +1,20 @@
 //! The pages in spec/ say the truth: the charts of `charts.md` have no faults, what they are built to is what the page
 //! shows, passes `check`, and each fault has a page whose example shows it.
 
-#![allow(clippy::disallowed_methods, reason = "a test reads the pages it is about")]
-
-use std::path::PathBuf;
-
 use chart::{Chart, Known, build, probed, read};
-use model::{Loader, check};
+use model::check;
 use syntax::{Diagnostic, FileId, SourceFile, parse_chart};
-
-fn page(name: &str) -> String {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../spec/{name}.md"));
-    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
-/// The blocks of a page: what they are, and their code.
-fn blocks(page: &str) -> Vec<(String, String)> {
-    let mut blocks = Vec::new();
-    let mut open: Option<(String, String)> = None;
-    for line in page.lines() {
-        match (line.strip_prefix("```"), &mut open) {
-            (Some(info), None) => open = Some((info.to_string(), String::new())),
-            (Some(_), Some(_)) => blocks.extend(open.take()),
-            (None, Some((_, code))) => *code += &format!("{line}\n"),
-            (None, None) => {}
-        }
-    }
-    blocks
-}
+use testkit::page::Block;
+use testkit::{NoFiles, NoSolver, Page, Patterns};
 
 fn chart(text: &str) -> (Chart, Vec<Diagnostic>) {
     read(FileId(0), &parse_chart(FileId(0), text))
 }
 
-/// There is nothing but the built-in libraries.
-struct Nothing;
-
-impl smt::Solver for Nothing {
-    fn solve(&mut self, _: &str) -> Result<String, String> {
-        Err("no solver is there".to_string())
-    }
-}
-
-impl Loader for Nothing {
-    fn load(&mut self, _: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        Err(format!("there is no file {path}"))
-    }
-}
-
-/// The library of patterns, as `patterns/NAME`.
-struct Library;
-
-impl Loader for Library {
-    fn load(&mut self, _: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        let name = path.rsplit('/').next().unwrap_or(path);
-        let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../library/patterns/{name}.asm"));
-        let text = std::fs::read_to_string(&file).map_err(|error| error.to_string())?;
-        Ok(SourceFile::new(format!("patterns/{name}.asm"), text))
-    }
-}
-
 /// What the library of patterns declares.
 fn patterns() -> Known {
     let (importing, _) = chart("chart C import patterns/ControlTask");
-    Known::imported(&importing, "Imports.asm", &mut Library).expect("the library has no faults")
+    Known::imported(&importing, "Imports.asm", &mut Patterns).expect("the library has no faults")
 }
 
 fn built(text: &str) -> String {
@@ -74,16 +25,18 @@ fn built(text: &str) -> String {
 
 #[test]
 fn the_charts_of_the_page() {
-    let blocks = blocks(&page("charts"));
-    for (index, (info, code)) in blocks.iter().enumerate().filter(|(_, (info, _))| info == "chart") {
+    let page = Page::spec("charts");
+    let blocks = page.blocks();
+    for (index, Block { info, text: code, .. }) in blocks.iter().enumerate().filter(|(_, block)| block.info == "chart")
+    {
         if chart(code).0.system.is_some() {
             continue; // it is built over the library, as the examples are
         }
         let text = built(code);
-        if let Some((_, shown)) = blocks.get(index + 1).filter(|(info, _)| info == "asmetal built") {
-            assert_eq!(&text, shown, "{info}");
+        if let Some(shown) = blocks.get(index + 1).filter(|block| block.info == "asmetal built") {
+            assert_eq!(text, shown.text, "{info}");
         }
-        let checked = check(SourceFile::new(format!("{}.asm", chart(code).0.name), text.as_str()), &mut Nothing);
+        let checked = check(SourceFile::new(format!("{}.asm", chart(code).0.name), text.as_str()), &mut NoFiles);
         assert_eq!(checked.diagnostics, [], "{text}");
     }
 }
@@ -92,10 +45,8 @@ fn the_charts_of_the_page() {
 fn each_fault_has_a_page_whose_example_shows_it() {
     assert!(chart::FAULT_IDS.is_sorted());
     for id in chart::FAULT_IDS {
-        let page = page(&format!("faults/{id}"));
-        assert!(page.starts_with(&format!("# {id}\n")), "the page of {id} has another title");
-        let blocks = blocks(&page);
-        let block = |wanted: &str| blocks.iter().find(|(info, _)| info == wanted).map(|(_, code)| code.as_str());
+        let page = Page::fault(id);
+        let block = |wanted: &str| page.texts(wanted).first().copied();
         if let Some(document) = block("xml fault") {
             let faults = chart::import::scxml(FileId(0), document, "Example").diagnostics;
             assert_eq!(faults.iter().map(|fault| fault.id).collect::<Vec<_>>(), [*id]);
@@ -114,8 +65,8 @@ fn each_fault_has_a_page_whose_example_shows_it() {
         });
         if let Some(specification) = block("asmetal").or(before.as_deref()) {
             let probed = probed(&drawn, specification).expect("the specification parses");
-            let checked = check(SourceFile::new(format!("{}.asm", drawn.name), probed.text.as_str()), &mut Library);
-            faults.extend(chart::check(&drawn, &probed, &checked, &mut Nothing));
+            let checked = check(SourceFile::new(format!("{}.asm", drawn.name), probed.text.as_str()), &mut Patterns);
+            faults.extend(chart::check(&drawn, &probed, &checked, &mut NoSolver));
         }
         let ids: Vec<_> = faults.iter().map(|fault| fault.id).collect();
         assert_eq!(ids, [*id], "{faults:#?}");
@@ -124,9 +75,10 @@ fn each_fault_has_a_page_whose_example_shows_it() {
 
 #[test]
 fn what_is_written_by_hand_stays() {
-    let before = page("charts");
-    let (_, code) = blocks(&before).into_iter().find(|(_, code)| code.contains("chart Fetch")).expect("the chart");
-    let text = built(&code);
+    let before = Page::spec("charts");
+    let blocks = before.blocks();
+    let code = blocks.iter().find(|block| block.text.contains("chart Fetch")).expect("the chart").text;
+    let text = built(code);
     let by_hand = text
         .replace("rule r_reach($c in Crane) = skip", "rule r_reach($c in Crane) =\n\t\tspeed($c) := 3 // slowly")
         .replace("monitored isThere", "controlled speed: Crane -> Integer\n\tmonitored isThere");
@@ -141,6 +93,6 @@ fn what_is_written_by_hand_stays() {
     assert!(rebuilt.contains("arm($c) := WAITING"), "{rebuilt}");
     assert_eq!(build(&changed, &Known::default(), Some(&rebuilt)).expect("no faults").text, rebuilt);
     // An unchanged chart changes nothing.
-    changed = chart(&code).0;
+    changed = chart(code).0;
     assert_eq!(build(&changed, &Known::default(), Some(&text)).expect("no faults").text, text);
 }

@@ -1,30 +1,9 @@
 //! A system is held to its model: every change of a chart is told, in the words of the system, and what means the same is not.
 
-#![allow(clippy::disallowed_methods, reason = "a test reads the library of patterns")]
-
-use std::path::PathBuf;
-
 use chart::{Known, build, probed};
-use model::{Loader, check};
+use model::check;
 use syntax::{Severity, SourceFile};
-
-/// The library of patterns, as `patterns/NAME`.
-struct Library;
-
-impl Loader for Library {
-    fn load(&mut self, _: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        let name = path.rsplit('/').next().unwrap_or(path);
-        let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../library/patterns/{name}.asm"));
-        let text = std::fs::read_to_string(&file).map_err(|error| error.to_string())?;
-        Ok(SourceFile::new(format!("patterns/{name}.asm"), text))
-    }
-}
-
-impl smt::Solver for Library {
-    fn solve(&mut self, _: &str) -> Result<String, String> {
-        Err("no solver is there".to_string())
-    }
-}
+use testkit::{NoSolver, Patterns};
 
 const CELL: &str = "chart Cell
 import patterns/ControlTask
@@ -59,7 +38,7 @@ endsystem
 ";
 
 fn chart(text: &str) -> chart::Chart {
-    let loaded = chart::load(SourceFile::new("Cell.chart", text), &mut Library);
+    let loaded = chart::load(SourceFile::new("Cell.chart", text), &mut Patterns);
     let errors: Vec<_> = loaded.diagnostics.iter().filter(|fault| fault.severity == Severity::Error).collect();
     assert!(errors.is_empty(), "{errors:#?}");
     loaded.chart
@@ -67,17 +46,17 @@ fn chart(text: &str) -> chart::Chart {
 
 fn built(text: &str) -> String {
     let mut drawn = chart(text);
-    let known = Known::completed(&mut drawn, "Imports.asm", &mut Library).expect("the library has no faults");
+    let known = Known::completed(&mut drawn, "Imports.asm", &mut Patterns).expect("the library has no faults");
     assert_eq!(chart::unbuilt(&drawn, &known), []);
     build(&drawn, &known, None).expect("there was no file").text
 }
 
 /// What is told of a chart and a model.
 fn differences(text: &str, model: &str) -> Vec<String> {
-    let loaded = chart::load(SourceFile::new("Cell.chart", text), &mut Library);
+    let loaded = chart::load(SourceFile::new("Cell.chart", text), &mut Patterns);
     let probed = probed(&loaded.chart, model).expect("the model parses");
-    let checked = check(SourceFile::new("Cell.asm", probed.text.as_str()), &mut Library);
-    let faults = chart::check(&loaded.chart, &probed, &checked, &mut Library);
+    let checked = check(SourceFile::new("Cell.asm", probed.text.as_str()), &mut Patterns);
+    let faults = chart::check(&loaded.chart, &probed, &checked, &mut NoSolver);
     faults.iter().map(|fault| format!("{}: {}", fault.id, fault.message)).collect()
 }
 

@@ -1,22 +1,11 @@
 //! What `check` tells no error of, every command takes, and the other way round: over the models of the repository, the
 //! examples of the pages of faults, and mutants of all of them.
 
-#![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
-
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use syntax::{Severity, SourceFile};
-
-struct Disk;
-
-impl model::Loader for Disk {
-    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        let folder = Path::new(&importer.name).parent().unwrap_or(Path::new(""));
-        let path = folder.join(if path.ends_with(".asm") { path.to_string() } else { format!("{path}.asm") });
-        let text = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
-        Ok(SourceFile::new(path.display().to_string(), text))
-    }
-}
+use testkit::page::blocks;
+use testkit::{Disk, repository};
 
 /// The ids of the errors that `check` tells; what `load` does must fit.
 fn errors(name: &str, text: &str) -> Vec<&'static str> {
@@ -36,39 +25,20 @@ fn errors(name: &str, text: &str) -> Vec<&'static str> {
     errors
 }
 
-fn collect(folder: &Path, ending: &str, files: &mut Vec<PathBuf>) {
-    let entries = std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
-    paths.sort();
-    for path in paths {
-        if path.is_dir() {
-            collect(&path, ending, files);
-        } else if path.extension().is_some_and(|found| found == ending) {
-            files.push(path);
-        }
-    }
-}
-
 fn models() -> Vec<(String, String)> {
-    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let mut files = Vec::new();
-    for folder in ["library", "examples", "bench/models"] {
-        collect(&root.join(folder), "asm", &mut files);
-    }
+    let read = |path: &Path| (path.display().to_string(), repository::text(path));
+    let files = ["library", "examples", "bench/models"].map(|folder| repository::files(folder, &["asm"])).concat();
+    let mut models: Vec<(String, String)> = files.iter().map(|path| read(path)).collect();
     // Models over all of the patterns take long to read; a fair sample of them is enough.
-    let over_patterns = |path: &PathBuf| std::fs::read_to_string(path).is_ok_and(|text| text.contains("library/"));
     let mut count = 0;
-    files.retain(|path| {
-        count += usize::from(over_patterns(path));
-        !over_patterns(path) || count % 8 == 1
+    models.retain(|(_, text)| {
+        let over_patterns = text.contains("library/");
+        count += usize::from(over_patterns);
+        !over_patterns || count % 8 == 1
     });
-    let read = |path: &PathBuf| std::fs::read_to_string(path).ok().map(|text| (path.display().to_string(), text));
-    let mut models: Vec<(String, String)> = files.iter().filter_map(read).collect();
-    let mut pages = Vec::new();
-    collect(&root.join("spec/faults"), "md", &mut pages);
-    for (name, page) in pages.iter().filter_map(read) {
-        let blocks = page.split("\n```asmetal").skip(1).filter_map(|rest| rest.split_once('\n')?.1.split_once("```"));
-        models.extend(blocks.map(|(text, _)| (name.replace(".md", ".asm"), text.to_string())));
+    for (name, page) in repository::files("spec/faults", &["md"]).iter().map(|path| read(path)) {
+        let examples = blocks(&page).into_iter().filter(|block| block.info.starts_with("asmetal"));
+        models.extend(examples.map(|block| (name.replace(".md", ".asm"), block.text.to_string())));
     }
     models
 }

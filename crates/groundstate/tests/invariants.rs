@@ -1,40 +1,16 @@
 //! An invariant that is not evaluated anew has the value that evaluating it would give: runs that evaluate only what may
 //! have changed, and runs that evaluate all, record the same.
 
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use groundstate::simulate::{Bounds, Choices, Inputs, Invariants, Options, RandomSource, Record, Run};
 use program::Program;
 use syntax::SourceFile;
-
-struct Files;
-
-#[allow(clippy::disallowed_methods, reason = "the models are files")]
-impl model::Loader for Files {
-    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        let folder = Path::new(&importer.name).parent().expect("a file is in a folder");
-        let found = folder.join(path).with_extension("asm");
-        let text = std::fs::read_to_string(&found).map_err(|error| format!("{}: {error}", found.display()))?;
-        Ok(SourceFile::new(found.display().to_string(), text))
-    }
-}
-
-#[allow(clippy::disallowed_methods, reason = "the models are files")]
-fn models(folder: &Path, found: &mut Vec<PathBuf>) {
-    let entries = std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-    for path in entries.map(|entry| entry.expect("an entry").path()) {
-        if path.is_dir() {
-            models(&path, found);
-        } else if path.extension().is_some_and(|extension| extension == "asm") {
-            found.push(path);
-        }
-    }
-}
+use testkit::{Disk, repository};
 
 fn load(source: SourceFile) -> Arc<Program> {
     let name = source.name.clone();
-    groundstate::load(source, &mut Files).unwrap_or_else(|faulty| panic!("{name}: {faulty:#?}")).program
+    groundstate::load(source, &mut Disk).unwrap_or_else(|faulty| panic!("{name}: {faulty:#?}")).program
 }
 
 /// The records of a run; `all` lets every invariant be evaluated in every state.
@@ -69,18 +45,11 @@ fn check(program: &Arc<Program>, steps: u64, name: &str) -> usize {
 }
 
 #[test]
-#[allow(clippy::disallowed_methods, reason = "the models are files")]
 fn the_models_of_this_project() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let mut found = Vec::new();
-    for folder in ["examples", "library/patterns"] {
-        models(&root.join(folder), &mut found);
-    }
-    found.sort();
+    let found = ["examples", "library/patterns"].map(|folder| repository::files(folder, &["asm"])).concat();
     let mut checked = 0;
     for path in found {
-        let text = std::fs::read_to_string(&path).expect("a model is a text");
-        let program = load(SourceFile::new(path.display().to_string(), text));
+        let program = load(Disk::read(&path).expect("a model is a text"));
         if program.main.is_some() {
             check(&program, 40, &path.display().to_string());
             checked += 1;

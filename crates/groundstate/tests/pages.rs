@@ -3,6 +3,7 @@
 use groundstate::scenario::{FirstCandidate, Options};
 use groundstate::{Suite, diagnose_failure};
 use syntax::SourceFile;
+use testkit::{Page, Texts};
 
 /// Every kind of fault that scenarios have beyond those of models and of running them.
 const IDS: [&str; 14] = [
@@ -22,26 +23,9 @@ const IDS: [&str; 14] = [
     "unused-pick",
 ];
 
-/// The one model of a page.
-struct OneModel(String);
-
-impl model::Loader for OneModel {
-    fn load(&mut self, _importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        match path {
-            "Lamp.asm" => Ok(SourceFile::new("Lamp.asm", self.0.as_str())),
-            other => Err(format!("there is no file {other}")),
-        }
-    }
-}
-
-fn block<'p>(page: &'p str, info: &str) -> &'p str {
-    let (_, rest) = page.split_once(&format!("```{info}\n")).unwrap_or_else(|| panic!("no block {info} in {page}"));
-    rest.split_once("```").expect("the block ends").0
-}
-
-fn faults_of(page: &str) -> Vec<String> {
-    let mut loader = OneModel(block(page, "asmetal").to_string());
-    let scenario = SourceFile::new("example.avalla", block(page, "avalla fault"));
+fn faults_of(page: &Page) -> Vec<String> {
+    let mut loader = Texts::of([("Lamp.asm", page.example("asmetal"))]);
+    let scenario = SourceFile::new("example.avalla", page.example("avalla fault"));
     let tested = Suite::new().test(scenario, &mut loader, Options::default(), &mut FirstCandidate);
     let Some((verdict, program)) = tested.verdict.zip(tested.program) else {
         return tested.diagnostics.iter().map(|fault| format!("{}: {}", fault.id, fault.message)).collect();
@@ -52,13 +36,9 @@ fn faults_of(page: &str) -> Vec<String> {
 }
 
 #[test]
-#[allow(clippy::disallowed_methods, reason = "the pages are files")]
 fn every_fault_has_a_page_that_shows_it() {
     for id in IDS {
-        let path = format!("{}/../../spec/faults/{id}.md", env!("CARGO_MANIFEST_DIR"));
-        let page = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
-        assert!(page.starts_with(&format!("# {id}\n")), "the page of {id} has another title");
-        let faults = faults_of(&page);
+        let faults = faults_of(&Page::fault(id));
         let ids: Vec<&str> = faults.iter().filter_map(|fault| fault.split(':').next()).collect();
         assert_eq!(ids, [id], "{faults:#?}");
     }

@@ -3,6 +3,7 @@
 use groundstate::scenario::{FirstCandidate, Judgement, Options};
 use groundstate::{Suite, diagnose_failure};
 use syntax::SourceFile;
+use testkit::Texts;
 
 const MODEL: &str = "
 asm Draw
@@ -29,21 +30,11 @@ definitions:
         endpar
 ";
 
-struct OneModel;
-
-impl model::Loader for OneModel {
-    fn load(&mut self, _importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        match path {
-            "Draw.asm" => Ok(SourceFile::new(path, MODEL)),
-            other => Err(format!("there is no file {other}")),
-        }
-    }
-}
-
 /// Runs commands and says how it went.
 fn check(commands: &str, expected: &str) {
     let source = SourceFile::new("test.avalla", format!("scenario test load Draw.asm set low := 1; {commands}"));
-    let tested = Suite::new().test(source, &mut OneModel, Options::default(), &mut FirstCandidate);
+    let tested =
+        Suite::new().test(source, &mut Texts::of([("Draw.asm", MODEL)]), Options::default(), &mut FirstCandidate);
     let outcome = match tested.verdict.zip(tested.program) {
         None => tested.diagnostics.iter().map(|fault| fault.message.clone()).collect::<Vec<_>>().join("; "),
         Some((verdict, program)) => match &verdict.judgement {

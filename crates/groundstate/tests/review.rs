@@ -1,8 +1,6 @@
 //! The examples of spec/review.md have the findings that stand below them, and the faults that only reviews find have pages
 //! whose examples show them.
 
-#![allow(clippy::disallowed_methods, reason = "the pages are files")]
-
 use std::fmt::Write;
 use std::sync::Arc;
 
@@ -10,24 +8,7 @@ use groundstate::verify::Options;
 use groundstate::verify::review::{Meta, Outcome, review};
 use groundstate::{REVIEW_IDS, diagnose_finding};
 use syntax::SourceFile;
-
-struct NoFiles;
-
-impl model::Loader for NoFiles {
-    fn load(&mut self, _importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        Err(format!("no file {path}"))
-    }
-}
-
-fn page(name: &str) -> String {
-    let path = format!("{}/../../spec/{name}.md", env!("CARGO_MANIFEST_DIR"));
-    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
-}
-
-fn blocks<'p>(page: &'p str, info: &str) -> Vec<&'p str> {
-    let opening = format!("```{info}\n");
-    page.split(opening.as_str()).skip(1).map(|rest| rest.split_once("```").expect("the block ends").0).collect()
-}
+use testkit::{NoFiles, Page};
 
 /// The findings of a model: the outcome of each meta-property, and line and kind of each finding.
 fn findings(text: &str) -> String {
@@ -60,8 +41,8 @@ fn findings(text: &str) -> String {
 
 #[test]
 fn the_examples_have_the_findings_that_the_page_says() {
-    let page = page("review");
-    let (models, expected) = (blocks(&page, "asmetal review"), blocks(&page, "findings"));
+    let page = Page::spec("review");
+    let (models, expected) = (page.texts("asmetal review"), page.texts("findings"));
     assert_eq!(models.len(), expected.len());
     for (model, expected) in models.iter().zip(expected) {
         assert_eq!(findings(model), expected, "{model}");
@@ -71,16 +52,16 @@ fn the_examples_have_the_findings_that_the_page_says() {
 #[test]
 fn the_pages_of_findings_show_them() {
     for id in REVIEW_IDS {
-        let page = page(&format!("faults/{id}"));
-        let found = findings(blocks(&page, "asmetal review")[0]);
+        let page = Page::fault(id);
+        let found = findings(page.example("asmetal review"));
         assert!(found.lines().any(|line| line.ends_with(id)), "{id}: {found}");
     }
 }
 
 #[test]
 fn a_clash_is_found_with_a_run_that_ends_in_it() {
-    let page = page("faults/inconsistent-update");
-    let model = blocks(&page, "asmetal run")[0];
+    let page = Page::fault("inconsistent-update");
+    let model = page.example("asmetal run");
     assert!(findings(model).starts_with("MP1 violated\n"), "{}", findings(model));
 }
 

@@ -3,6 +3,7 @@
 use groundstate::scenario::{FirstCandidate, Judgement, Options};
 use groundstate::{Suite, diagnose_failure};
 use syntax::SourceFile;
+use testkit::Texts;
 
 const MODEL: &str = "
 asm Meter
@@ -31,24 +32,17 @@ default init s0:
     function mode = 0
 ";
 
-struct OneModel;
+const SHARED: &str = "scenario shared load Meter.asm begin twice set input := 2; step 2 end";
 
-impl model::Loader for OneModel {
-    fn load(&mut self, _importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        match path {
-            "Meter.asm" => Ok(SourceFile::new(path, MODEL)),
-            "shared.avalla" => {
-                Ok(SourceFile::new(path, "scenario shared load Meter.asm begin twice set input := 2; step 2 end"))
-            }
-            other => Err(format!("there is no file {other}")),
-        }
-    }
+/// The model, and a scenario to include.
+fn files() -> Texts {
+    Texts::of([("Meter.asm", MODEL), ("shared.avalla", SHARED)])
 }
 
 /// Runs commands and says how it went: `passed N steps`, `expected`, or the messages of the failures.
 fn check(commands: &str, expected: &str) {
     let source = SourceFile::new("test.avalla", format!("scenario test load Meter.asm {commands}"));
-    let tested = Suite::new().test(source, &mut OneModel, Options::default(), &mut FirstCandidate);
+    let tested = Suite::new().test(source, &mut files(), Options::default(), &mut FirstCandidate);
     let outcome = match tested.verdict.zip(tested.program) {
         None => tested.diagnostics.iter().map(|fault| fault.message.clone()).collect::<Vec<_>>().join("; "),
         Some((verdict, program)) => match &verdict.judgement {

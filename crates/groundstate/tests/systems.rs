@@ -1,39 +1,20 @@
 //! What is built from the charts of systems goes in lock-step with the models written by hand: the same locations have the
 //! same values in every state, for many lengths of the one elaboration whose time varies.
 
-#![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
-
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use machine::{Closed, Limits, Machine, Show};
-use syntax::SourceFile;
+use testkit::{EditedDisk, repository};
 
-/// Reads files beside the importing one; one of them with a changed time.
-struct Disk {
-    elaboration: String,
-}
-
-impl Disk {
-    fn read(&self, path: &Path) -> Result<SourceFile, String> {
-        let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
-        let text = text.replace("case vs_elaborate: 120", &self.elaboration);
-        Ok(SourceFile::new(path.display().to_string(), text))
-    }
-}
-
-impl model::Loader for Disk {
-    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        let path = Path::new(&importer.name).parent().unwrap_or(Path::new("")).join(format!("{path}.asm"));
-        // One file has one name however it is reached.
-        self.read(&path.canonicalize().map_err(|error| format!("{}: {error}", path.display()))?)
-    }
+/// Files on the disk; one of them with a changed time.
+fn disk(elaboration: u32) -> EditedDisk {
+    EditedDisk { from: "case vs_elaborate: 120".to_string(), to: format!("case vs_elaborate: {elaboration}") }
 }
 
 fn machine(name: &str, elaboration: u32) -> Machine {
-    let mut disk = Disk { elaboration: format!("case vs_elaborate: {elaboration}") };
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../examples/visual_servoing/{name}.asm"));
+    let mut disk = disk(elaboration);
+    let path = repository::root().join(format!("examples/visual_servoing/{name}.asm"));
     let root = disk.read(&path).expect("the example is there");
     let loaded = groundstate::load(root, &mut disk).unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics));
     let mut machine = Machine::new(loaded.program, Limits::default());
@@ -94,14 +75,13 @@ fn the_complete_controller() {
 #[test]
 fn the_charts_are_built() {
     for name in ["VisionSystem", "ControllerSystem"] {
-        let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../examples/visual_servoing");
-        let text =
-            |ending: &str| std::fs::read_to_string(folder.join(format!("{name}.{ending}"))).expect("it is there");
+        let folder = repository::root().join("examples/visual_servoing");
+        let text = |ending: &str| repository::text(folder.join(format!("{name}.{ending}")));
         let file = syntax::FileId(0);
         let (read, faults) = chart::read(file, &syntax::parse_chart(file, &text("chart")));
         assert_eq!(faults, []);
         let beside = folder.join("Imports.asm").display().to_string();
-        let mut disk = Disk { elaboration: "case vs_elaborate: 120".to_string() };
+        let mut disk = disk(120);
         let known = chart::Known::imported(&read, &beside, &mut disk).expect("the imports have no faults");
         assert_eq!(chart::unbuilt(&read, &known), []);
         let built = chart::build(&read, &known, Some(&text("asm"))).expect("it parses");

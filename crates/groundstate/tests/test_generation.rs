@@ -1,8 +1,6 @@
 //! Generated scenarios pass, and together they cover what is said to be reached: the goals and the coverage of scenarios are
 //! counted by different code, and must agree goal by goal.
 
-#![allow(clippy::disallowed_methods, reason = "the examples are files")]
-
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -12,27 +10,15 @@ use groundstate::test_generation::{GoalKind, Method, Subject, Tests, generate_te
 use groundstate::verify::Options;
 use groundstate::{Loaded, Suite};
 use syntax::{SourceFile, Span};
-
-struct Disk;
-
-fn read(path: &Path) -> Result<SourceFile, String> {
-    let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
-    Ok(SourceFile::new(path.display().to_string(), text))
-}
-
-impl model::Loader for Disk {
-    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        let path = Path::new(&importer.name).parent().unwrap_or(Path::new("")).join(path);
-        read(&path).or_else(|_| read(&path.with_extension("asm")))
-    }
-}
+use testkit::{Disk, repository};
 
 fn example(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../{name}.asm"))
+    repository::root().join(format!("{name}.asm"))
 }
 
 fn load(path: &Path) -> Loaded {
-    groundstate::load(read(path).expect("it is there"), &mut Disk).unwrap_or_else(|f| panic!("{:#?}", f.diagnostics))
+    groundstate::load(Disk::read(path).expect("it is there"), &mut Disk)
+        .unwrap_or_else(|f| panic!("{:#?}", f.diagnostics))
 }
 
 fn generate(path: &Path, method: Method, options: &Options) -> Tests {

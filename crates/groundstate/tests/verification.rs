@@ -1,8 +1,6 @@
 //! The examples of spec/verification.md have the verdicts that stand below them; the faults that only verification finds
 //! have pages whose examples show them; counterexamples fail as scenarios where they end.
 
-#![allow(clippy::disallowed_methods, reason = "the pages are files")]
-
 use std::sync::Arc;
 
 use groundstate::scenario::{FirstCandidate, Options as Scenario};
@@ -11,38 +9,20 @@ use groundstate::verify::{Engine, NoStart, Options, Outcome, Reason, Report, Sub
 use groundstate::{Suite, counterexample_scenario};
 use program::Program;
 use syntax::SourceFile;
-
-/// The one model of an example.
-struct OneModel(String);
-
-impl model::Loader for OneModel {
-    fn load(&mut self, _importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        if path == file(&self.0) {
-            Ok(SourceFile::new(path, self.0.as_str()))
-        } else {
-            Err(format!("there is no file {path}"))
-        }
-    }
-}
+use testkit::{Page, Texts};
 
 /// The name of a model's file.
 fn file(model: &str) -> String {
     format!("{}.asm", model.split_whitespace().nth(1).expect("it begins with `asm` and its name"))
 }
 
-fn page(name: &str) -> String {
-    let path = format!("{}/../../spec/{name}.md", env!("CARGO_MANIFEST_DIR"));
-    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
-}
-
-/// The blocks of a page that begin so.
-fn blocks<'p>(page: &'p str, info: &str) -> Vec<&'p str> {
-    let opening = format!("```{info}\n");
-    page.split(opening.as_str()).skip(1).map(|rest| rest.split_once("```").expect("the block ends").0).collect()
+/// The one model of an example.
+fn one_model(text: &str) -> Texts {
+    Texts::of([(file(text).as_str(), text)])
 }
 
 fn check(text: &str, workers: usize) -> (Arc<Program>, Report) {
-    let mut loader = OneModel(text.to_string());
+    let mut loader = one_model(text);
     let loaded = groundstate::load(SourceFile::new(file(text), text), &mut loader);
     let program = loaded.unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics)).program;
     let report = verify(&program, &Options { workers, ..Options::default() }, &mut |_| true);
@@ -73,8 +53,8 @@ fn verdicts(program: &Program, report: &Report) -> String {
 
 #[test]
 fn the_examples_have_the_verdicts_that_the_page_says() {
-    let page = page("verification");
-    let (models, expected) = (blocks(&page, "asmetal verify"), blocks(&page, "verdicts"));
+    let page = Page::spec("verification");
+    let (models, expected) = (page.texts("asmetal verify"), page.texts("verdicts"));
     assert_eq!(models.len(), expected.len());
     for (model, expected) in models.iter().zip(expected) {
         for workers in [1, 2] {
@@ -86,14 +66,14 @@ fn the_examples_have_the_verdicts_that_the_page_says() {
 
 #[test]
 fn counterexamples_fail_as_scenarios_where_they_end() {
-    let page = page("verification");
+    let page = Page::spec("verification");
     let mut failed = 0;
-    for model in blocks(&page, "asmetal verify") {
+    for model in page.texts("asmetal verify") {
         let (program, report) = check(model, 1);
         for verdict in &report.verdicts {
             let Outcome::Violated(trace) = &verdict.outcome else { continue };
             let text = counterexample_scenario(&program, trace, verdict.subject, "example", &file(model));
-            let mut loader = OneModel(model.to_string());
+            let mut loader = one_model(model);
             let source = SourceFile::new("example.avalla", text.clone());
             let tested = Suite::new().test(source, &mut loader, Scenario::default(), &mut FirstCandidate);
             let found = tested.verdict.unwrap_or_else(|| panic!("{:#?}\n{text}", tested.diagnostics));
@@ -110,24 +90,24 @@ fn counterexamples_fail_as_scenarios_where_they_end() {
 
 #[test]
 fn the_pages_of_faults_show_them() {
-    let unreachable = page("faults/unreachable-rule");
-    let (_, report) = check(blocks(&unreachable, "asmetal verify")[0], 1);
+    let unreachable = Page::fault("unreachable-rule");
+    let (_, report) = check(unreachable.example("asmetal verify"), 1);
     assert_eq!(report.unreachable.len(), 1);
-    let no_bound = page("faults/no-bound");
-    let (_, report) = check(blocks(&no_bound, "asmetal verify")[0], 1);
+    let no_bound = Page::fault("no-bound");
+    let (_, report) = check(no_bound.example("asmetal verify"), 1);
     let Outcome::Unknown(reasons) = &report.verdicts[0].outcome else { panic!("{:?}", report.verdicts[0]) };
     assert!(matches!(reasons[..], [Reason::Unbounded(_)]));
-    let outside = page("faults/outside-solver");
-    let text = blocks(&outside, "asmetal solver")[0];
-    let loaded = groundstate::load(SourceFile::new(file(text), text), &mut OneModel(text.to_string()));
+    let outside = Page::fault("outside-solver");
+    let text = outside.example("asmetal solver");
+    let loaded = groundstate::load(SourceFile::new(file(text), text), &mut one_model(text));
     let program = loaded.unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics)).program;
     let options = Options { engine: Engine::Solver(Method::Bounded), ..Options::default() };
     let trouble = verify(&program, &options, &mut |_| true);
     let Err(NoStart::Outside(outside)) = trouble else { panic!("{trouble:?}") };
     assert_eq!(groundstate::diagnose_outside(&outside).id, "outside-solver");
     assert_eq!(outside.what, "a function with values in Seq(Integer)");
-    let violated = page("faults/property-violated");
-    let (_, report) = check(blocks(&violated, "asmetal verify")[0], 1);
+    let violated = Page::fault("property-violated");
+    let (_, report) = check(violated.example("asmetal verify"), 1);
     let Outcome::Violated(trace) = &report.verdicts[4].outcome else { panic!("{:?}", report.verdicts[4]) };
     assert_eq!((trace.steps.len(), trace.turn), (2, Some(0)));
 }

@@ -1,35 +1,16 @@
 //! The models that verify a system do what the system does: from the same initial state, with the lengths of elaborations that
 //! the system has, step by step, up to the quotient. So what is found of them is found of it.
 
-#![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
-
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 
 use groundstate::simulate::read_value;
 use machine::{Choice, Environment, Limits, LocationRef, Machine, Show, TimeUnit, Value};
 use program::{DomainId, Program};
-use syntax::SourceFile;
+use testkit::{EditedDisk, repository};
 
-/// Reads files beside the importing one; one of them with a changed time.
-struct Disk {
-    elaboration: u32,
-}
-
-impl Disk {
-    fn read(&self, path: &Path) -> Result<SourceFile, String> {
-        let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
-        let text = text.replace("case vs_elaborate: 120", &format!("case vs_elaborate: {}", self.elaboration));
-        Ok(SourceFile::new(path.display().to_string(), text))
-    }
-}
-
-impl model::Loader for Disk {
-    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        let path = Path::new(&importer.name).parent().unwrap_or(Path::new("")).join(format!("{path}.asm"));
-        // One file has one name however it is reached.
-        self.read(&path.canonicalize().map_err(|error| format!("{}: {error}", path.display()))?)
-    }
+/// Files on the disk; one of them with a changed time.
+fn disk(elaboration: u32) -> EditedDisk {
+    EditedDisk { from: "case vs_elaborate: 120".to_string(), to: format!("case vs_elaborate: {elaboration}") }
 }
 
 /// No fault is seeded; elaborations end when they do in the system. An endless one has to be told: the operator plans for
@@ -69,8 +50,8 @@ struct Run {
 
 impl Run {
     fn new(name: &str, elaboration: u32) -> Self {
-        let mut disk = Disk { elaboration };
-        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../examples/{name}.asm"));
+        let mut disk = disk(elaboration);
+        let path = repository::root().join(format!("examples/{name}.asm"));
         let root = disk.read(&path).expect("the example is there");
         let loaded = groundstate::load(root, &mut disk).unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics));
         let mut machine = Machine::new(loaded.program, Limits::default());

@@ -1,13 +1,13 @@
 //! Each fault that checking may report has a page `spec/faults/<id>.md`, and the page's example yields that fault.
 
-use std::path::PathBuf;
-
 use crate::support::{check_file, faults};
 use expect_test::expect_file;
 use model::IDS;
 use syntax::Severity;
+use testkit::Page;
+use testkit::page::Block;
 
-struct Page {
+struct Example {
     id: String,
     /// The name and text of the example.
     example: (String, String),
@@ -17,16 +17,12 @@ struct Page {
     others: Vec<(String, String)>,
 }
 
-#[allow(clippy::disallowed_methods, reason = "a test reads the pages it is about")]
-fn page(id: &str) -> Page {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../spec/faults/{id}.md"));
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|_| panic!("{id} has no page {}", path.display()));
-    assert!(text.starts_with(&format!("# {id}\n")), "the page of {id} has another title");
+fn page(id: &str) -> Example {
+    let page = Page::fault(id);
     let mut example = None;
     let mut others = Vec::new();
-    for block in text.split("```asmetal").skip(1) {
-        let (info, rest) = block.split_once('\n').expect("a line end behind the info string");
-        let (code, _) = rest.split_once("```").expect("the end of the block");
+    for block in page.blocks().into_iter().filter(|block| block.info.starts_with("asmetal")) {
+        let Block { info, text: code, .. } = block;
         let named = info.split_whitespace().find_map(|word| word.strip_prefix("file="));
         match info.contains("fault") {
             true => {
@@ -37,8 +33,8 @@ fn page(id: &str) -> Page {
             false => others.push((named.expect("a file name").to_string(), code.to_string())),
         }
     }
-    let warning = text.contains("\n*A warning.* ");
-    Page {
+    let warning = page.text.contains("\n*A warning.* ");
+    Example {
         id: id.to_string(),
         warning,
         example: example.unwrap_or_else(|| panic!("the page of {id} has no example")),
@@ -50,7 +46,7 @@ fn page(id: &str) -> Page {
 fn each_id_has_a_page_whose_example_yields_it_and_nothing_else() {
     let mut trouble = String::new();
     for id in IDS {
-        let Page { id, example: (name, text), warning, others } = page(id);
+        let Example { id, example: (name, text), warning, others } = page(id);
         let mut others: Vec<(&str, &str)> = others.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
         others.push((&name, &text));
         let checked = check_file(&name, &text, &others);
@@ -67,7 +63,7 @@ fn each_id_has_a_page_whose_example_yields_it_and_nothing_else() {
 fn the_wording_of_each_fault() {
     let mut all = String::new();
     for id in IDS {
-        let Page { example: (name, text), mut others, .. } = page(id);
+        let Example { example: (name, text), mut others, .. } = page(id);
         others.push((name.clone(), text.clone()));
         let others: Vec<(&str, &str)> = others.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
         all += &format!("{}\n", faults(&check_file(&name, &text, &others)));
@@ -78,7 +74,7 @@ fn the_wording_of_each_fault() {
 #[test]
 fn every_fault_says_what_to_do() {
     for id in IDS {
-        let Page { example: (name, text), others, .. } = page(id);
+        let Example { example: (name, text), others, .. } = page(id);
         let others: Vec<(&str, &str)> = others.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
         for fault in check_file(&name, &text, &others).diagnostics {
             assert!(fault.help.is_some(), "{id} has no help");

@@ -6,14 +6,7 @@ use machine::{EngineChoice, Limits, Show};
 use program::Program;
 use simulate::{Bounds, Choices, End, Inputs, Invariants, Options, RandomSource, Record, Recorded, Run};
 use syntax::SourceFile;
-
-struct NoFiles;
-
-impl model::Loader for NoFiles {
-    fn load(&mut self, _importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        Err(format!("no file {path}"))
-    }
-}
+use testkit::NoFiles;
 
 /// Inputs of several domains, with arguments and without; choices; a domain that grows and is drawn from.
 const MODEL: &str = "asm test

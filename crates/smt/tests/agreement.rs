@@ -4,24 +4,11 @@
 use std::sync::Arc;
 
 use machine::{Closed, Limits, Machine, Value};
-use model::{Loader, check};
-use smt::{Decision, Solver, translate};
+use model::check;
+use smt::{Decision, translate};
 use syntax::ast::{AstNode, TermFile};
 use syntax::{FileId, SourceFile};
-
-struct Nothing;
-
-impl Loader for Nothing {
-    fn load(&mut self, _: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        Err(format!("there is no file {path}"))
-    }
-}
-
-impl Solver for Nothing {
-    fn solve(&mut self, _: &str) -> Result<String, String> {
-        Err("there is no solver".to_string())
-    }
-}
+use testkit::{NoFiles, NoSolver};
 
 /// Numbers that look random and are the same in every run.
 struct Dice(u64);
@@ -107,7 +94,7 @@ fn conditions_mean_what_the_machine_does() {
              default init s0: function a = {a} function b = {b} function u = {u} function m = {m} function p = {p} \
              function f($m in Mode) = {f} function q($m in Mode) = {q} function h = 4"
         );
-        let mut checked = check(SourceFile::new("Small.asm", text), &mut Nothing);
+        let mut checked = check(SourceFile::new("Small.asm", text), &mut NoFiles);
         assert_eq!(checked.diagnostics, []);
         let defined = if *u == "undef" { "isUndef(u)".to_string() } else { format!("isDef(u) and u = {u}") };
         let given = format!(
@@ -138,7 +125,7 @@ fn decided(checked: &mut model::Checked, condition: &str) -> Decision {
     let fragment = checked.model.check_condition(FileId(9), &term, "the condition");
     assert!(fragment.diagnostics.iter().all(|found| found.severity != syntax::Severity::Error), "{condition}");
     let formula = translate(&checked.model, &fragment.item, &fragment.variables).expect("it is inside");
-    formula.decide(&mut Nothing)
+    formula.decide(&mut NoSolver)
 }
 
 /// The truth of a condition in the initial state; none where evaluating it is a fault.

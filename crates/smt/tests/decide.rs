@@ -1,10 +1,11 @@
 //! Conditions over a small model: which can hold, in which state, and what is asked of a solver.
 
 use expect_test::{Expect, expect};
-use model::{Checked, Loader, check as check_model};
+use model::{Checked, check as check_model};
 use smt::{Decision, Formula, Solver, translate};
 use syntax::ast::{AstNode, TermFile};
 use syntax::{FileId, SourceFile};
+use testkit::NoFiles;
 
 const MODEL: &str = "asm Plant
 import StandardLibrary
@@ -36,16 +37,8 @@ definitions:
 	main rule r_Main = skip
 ";
 
-struct Nothing;
-
-impl Loader for Nothing {
-    fn load(&mut self, _: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        Err(format!("there is no file {path}"))
-    }
-}
-
 fn model() -> Checked {
-    let checked = check_model(SourceFile::new("Plant.asm", MODEL), &mut Nothing);
+    let checked = check_model(SourceFile::new("Plant.asm", MODEL), &mut NoFiles);
     assert_eq!(checked.diagnostics, []);
     checked
 }

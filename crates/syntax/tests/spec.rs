@@ -3,55 +3,25 @@
 //! A block ```` ```asmetal ```` is a file, ```` ```asmetal rule ```` and ```` ```asmetal term ```` are fragments,
 //! ```` ```avalla ```` is a scenario, ```` ```chart ```` a chart; the word `fault` behind these says that the page's own fault is in it.
 
-#![allow(clippy::disallowed_methods, reason = "a test reads the pages it is about")]
-
-use std::path::PathBuf;
 use syntax::{
     FAULT_IDS, FileId, MAX_FAULTS, Parse, SourceFile, assert_invariants, parse_asmetal, parse_avalla, parse_chart,
     parse_term,
 };
+use testkit::Page;
+use testkit::page::Block;
 
-fn page(name: &str) -> String {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("../../spec/{name}.md"));
-    std::fs::read_to_string(&path).unwrap_or_else(|_| panic!("there is no page {}", path.display()))
-}
-
-/// A fenced block of code.
-struct Block {
-    info: String,
-    code: String,
-    line: usize,
-}
-
-fn blocks(page: &str) -> Vec<Block> {
-    let mut blocks = Vec::new();
-    let mut open: Option<Block> = None;
-    for (index, text) in page.lines().enumerate() {
-        match (text.strip_prefix("```"), &mut open) {
-            (Some(info), None) => open = Some(Block { info: info.into(), code: String::new(), line: index + 1 }),
-            (Some(_), Some(_)) => blocks.extend(open.take()),
-            (None, Some(block)) => {
-                block.code.push_str(text);
-                block.code.push('\n');
-            }
-            (None, None) => {}
-        }
-    }
-    blocks
-}
-
-fn parse(block: &Block) -> Option<Parse> {
+fn parse(block: &Block<'_>) -> Option<Parse> {
     let file = FileId(0);
     let words: Vec<&str> = block.info.split_whitespace().filter(|word| *word != "fault").collect();
     Some(match words[..] {
-        ["asmetal"] => parse_asmetal(file, &block.code),
+        ["asmetal"] => parse_asmetal(file, block.text),
         ["asmetal", "rule"] => {
-            parse_asmetal(file, &format!("asm example signature: definitions: rule r_example =\n{}", block.code))
+            parse_asmetal(file, &format!("asm example signature: definitions: rule r_example =\n{}", block.text))
         }
-        ["asmetal", "term"] => parse_term(file, &block.code),
-        ["avalla"] => parse_avalla(file, &block.code),
-        ["chart"] => parse_chart(file, &block.code),
-        ["asmetal", "built"] => parse_asmetal(file, &block.code),
+        ["asmetal", "term"] => parse_term(file, block.text),
+        ["avalla"] => parse_avalla(file, block.text),
+        ["chart"] => parse_chart(file, block.text),
+        ["asmetal", "built"] => parse_asmetal(file, block.text),
         ["ebnf" | "text"] | [] => return None,
         _ => panic!("line {}: a block of an unknown kind: {}", block.line, block.info),
     })
@@ -65,10 +35,10 @@ fn ids(parse: &Parse) -> Vec<&'static str> {
 fn the_examples_of_the_language_parse() {
     for name in ["language", "avalla", "charts"] {
         let mut count = 0;
-        for block in blocks(&page(name)) {
+        for block in Page::spec(name).blocks() {
             let Some(parse) = parse(&block) else { continue };
             assert!(parse.diagnostics.is_empty(), "{name}.md, line {}: {:?}", block.line, parse.diagnostics);
-            assert_invariants(block.code.as_bytes());
+            assert_invariants(block.text.as_bytes());
             count += 1;
         }
         assert!(count >= 5, "{name}.md has hardly an example");
@@ -78,9 +48,8 @@ fn the_examples_of_the_language_parse() {
 #[test]
 fn each_fault_has_a_page_whose_example_shows_it() {
     for id in FAULT_IDS {
-        let page = page(&format!("faults/{id}"));
-        assert!(page.starts_with(&format!("# {id}\n")), "the page of {id} has another title");
-        let blocks = blocks(&page);
+        let page = Page::fault(id);
+        let blocks = page.blocks();
         let example = blocks.iter().find(|block| block.info.ends_with(" fault"));
         match (example, *id) {
             (None, "file-too-large" | "too-many-faults") => {} // too long for a page; see below and `limits.rs`

@@ -181,26 +181,16 @@ fn tidied(path: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use testkit::Texts;
+
     use super::*;
-
-    struct Texts(Vec<(&'static str, &'static str)>);
-
-    impl Loader for Texts {
-        fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-            let folder = importer.name.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"));
-            let name = tidied(&format!("{folder}{path}"));
-            let found = self.0.iter().find(|(known, _)| *known == name);
-            found.map(|(_, text)| SourceFile::new(name.clone(), *text)).ok_or(format!("there is no file {name}"))
-        }
-    }
 
     const PATTERN: &str =
         "chart P import \"../Base\" pattern p control c state s action a enter -> a -> s -> exit endpattern";
 
     fn check(texts: &[(&'static str, &'static str)], expected: &[&str]) -> Chart {
-        let mut texts = Texts(texts.to_vec());
-        let root = SourceFile::new(texts.0[0].0, texts.0[0].1);
-        let loaded = load(root, &mut texts);
+        let (name, text) = texts[0];
+        let loaded = load(SourceFile::new(name, text), &mut Texts::of(texts.iter().copied()));
         let faults: Vec<String> = loaded
             .diagnostics
             .iter()

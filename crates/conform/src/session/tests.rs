@@ -1,33 +1,16 @@
 //! What the model itself does, written down as a recording, conforms; with one event changed it does not; and whoever reads
 //! along hears the same as who reads the whole.
 
-#![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
-
-use std::path::{Path, PathBuf};
-
 use machine::Closed;
 use recording::Track;
-use syntax::SourceFile;
+use testkit::{Disk, repository};
 
 use super::*;
 
-struct Disk;
-
-impl model::Loader for Disk {
-    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        read(&Path::new(&importer.name).parent().unwrap_or(Path::new("")).join(format!("{path}.asm")))
-    }
-}
-
-fn read(path: &Path) -> Result<SourceFile, String> {
-    let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
-    Ok(SourceFile::new(path.display().to_string(), text))
-}
-
 /// A model of the case study.
 pub(super) fn model_named(name: &str) -> (Sources, Model, Program) {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../examples/visual_servoing").join(name);
-    let checked = model::check(read(&path).expect("the model is there"), &mut Disk);
+    let path = repository::root().join("examples/visual_servoing").join(name);
+    let checked = model::check(Disk::read(&path).expect("the model is there"), &mut Disk);
     let program = program::lower(&checked.model).expect("it can be lowered");
     (checked.sources, checked.model, program)
 }

@@ -13,15 +13,7 @@ use std::sync::Arc;
 use machine::{Choice, Environment, Limits, LocationRef, Machine, Show, TimeUnit, Value};
 use program::{DomainId, Program};
 use syntax::SourceFile;
-
-/// Reads nothing: the tests import built-in libraries alone.
-struct NoFiles;
-
-impl model::Loader for NoFiles {
-    fn load(&mut self, _importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        Err(format!("no file {path}"))
-    }
-}
+use testkit::NoFiles;
 
 /// Gives integers 1, 2, 3 … or `true` for every input, and takes the last candidate of every choice.
 #[derive(Default)]

@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use machine::{Closed, Limits, Machine};
 use syntax::SourceFile;
-
-use crate::NoFiles;
+use testkit::{NoFiles, Page};
 
 /// Every kind of fault; [`machine::FaultKind::id`] gives no other.
 const IDS: [&str; 15] = [
@@ -38,13 +37,9 @@ fn fault_of(text: &str) -> Option<&'static str> {
 }
 
 #[test]
-#[allow(clippy::disallowed_methods, reason = "the pages are files")]
 fn every_fault_has_a_page_that_shows_it() {
     for id in IDS {
-        let path = format!("{}/../../spec/faults/{id}.md", env!("CARGO_MANIFEST_DIR"));
-        let page = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
-        let (_, rest) = page.split_once("```asmetal run\n").expect("an example");
-        let (example, _) = rest.split_once("```").expect("the example ends");
-        assert_eq!(fault_of(example), Some(id), "the example of {id}");
+        let page = Page::fault(id);
+        assert_eq!(fault_of(page.example("asmetal run")), Some(id), "the example of {id}");
     }
 }

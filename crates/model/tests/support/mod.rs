@@ -1,31 +1,14 @@
-//! What the tests of this crate share: a loader over a map of texts, and faults as text.
+//! What the tests of this crate share: a file checked with others beside it, and faults as text.
 
 #![allow(dead_code, reason = "each test binary uses its part")]
 
-use std::collections::BTreeMap;
-
-use model::{Checked, Loader, check};
+use model::{Checked, check};
 use syntax::{Diagnostic, Severity, SourceFile, Sources};
-
-/// Files in memory, by their names.
-#[derive(Default)]
-pub struct Files(pub BTreeMap<String, String>);
-
-impl Loader for Files {
-    fn load(&mut self, _importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        let name = path.replace('\\', "/").trim_start_matches("./").to_string();
-        let name = if name.ends_with(".asm") { name } else { format!("{name}.asm") };
-        match self.0.get(&name) {
-            Some(text) => Ok(SourceFile::new(name, text.as_str())),
-            None => Err("there is no such file".to_string()),
-        }
-    }
-}
+use testkit::Texts;
 
 /// Checks a file of that name, with others to import.
 pub fn check_file(name: &str, text: &str, others: &[(&str, &str)]) -> Checked {
-    let mut files = Files(others.iter().map(|(name, text)| (name.to_string(), text.to_string())).collect());
-    check(SourceFile::new(name, text), &mut files)
+    check(SourceFile::new(name, text), &mut Texts::of(others.iter().copied()))
 }
 
 /// Checks the body of an `asm t` that imports the standard library: what stands behind `signature:`.

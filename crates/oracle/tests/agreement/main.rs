@@ -11,7 +11,6 @@
 
 mod compare;
 mod convert;
-mod files;
 mod world;
 
 use std::collections::BTreeMap;
@@ -19,10 +18,10 @@ use std::panic::AssertUnwindSafe;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use compare::{Disagreement, Outcome, Plan};
-use files::{Disk, NoFiles};
 use machine::EngineChoice;
 use oracle::Bounds;
 use syntax::{Severity, SourceFile};
+use testkit::{Disk, NoFiles, repository};
 
 /// The oracle recurses as deep as the model: its threads have room.
 const STACK: usize = 256 << 20;
@@ -173,15 +172,15 @@ fn random_models() {
 fn models_of_the_library_and_the_examples() {
     let engines = [EngineChoice::Interpreted, EngineChoice::Compiled];
     let steps = setting("GROUNDSTATE_STEPS", if full() { 50 } else { 10 });
-    let models: Vec<_> =
-        files::models().into_iter().flat_map(|path| engines.map(|engine| (path.clone(), engine))).collect();
+    // In the order of paths: examples, then the library.
+    let models = ["examples", "library"].map(|folder| repository::files(folder, &["asm"])).concat();
+    let models: Vec<_> = models.into_iter().flat_map(|path| engines.map(|engine| (path.clone(), engine))).collect();
     let (next, run) = (AtomicUsize::new(0), AtomicUsize::new(0));
     let work = || {
         while let Some((path, engine)) = models.get(next.fetch_add(1, Ordering::Relaxed)) {
             let plan = Plan { seed: 1, steps, bounds: Bounds::default(), engine: *engine };
             let name = path.display().to_string();
-            let text = std::fs::read_to_string(path).expect("a readable file");
-            let checked = model::check(SourceFile::new(name.as_str(), text), &mut Disk);
+            let checked = model::check(Disk::read(path).expect("a readable file"), &mut Disk);
             if checked.model.main.is_none() {
                 continue;
             }

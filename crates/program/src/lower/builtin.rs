@@ -70,18 +70,11 @@ fn kind(model: &Model, domain: DomainId) -> Kind {
 mod tests {
     use std::collections::BTreeSet;
 
-    use model::{FunctionKind, Loader};
+    use model::FunctionKind;
     use syntax::SourceFile;
+    use testkit::NoFiles;
 
     use super::*;
-
-    struct NoFiles;
-
-    impl Loader for NoFiles {
-        fn load(&mut self, _importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-            Err(format!("there is no file {path}"))
-        }
-    }
 
     #[test]
     fn a_function_is_one_builtin_at_most() {

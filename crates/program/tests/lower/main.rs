@@ -12,18 +12,10 @@ mod term;
 mod verify;
 
 use expect_test::Expect;
-use model::{Loader, Model};
+use model::Model;
 use program::Program;
 use syntax::{Diagnostic, SourceFile};
-
-/// Finds nothing: the standard libraries are built in.
-struct NoFiles;
-
-impl Loader for NoFiles {
-    fn load(&mut self, _importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        Err(format!("there is no file {path}"))
-    }
-}
+use testkit::NoFiles;
 
 /// A model of these sections, without faults.
 fn model(signature: &str, definitions: &str) -> Model {

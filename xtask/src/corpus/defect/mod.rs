@@ -103,16 +103,10 @@ fn is_later(trace: &Trace, again: &What, difference: &Difference) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use testkit::NoFiles;
+
     use super::*;
     use crate::corpus::trace;
-
-    struct NoFiles;
-
-    impl model::Loader for NoFiles {
-        fn load(&mut self, _: &syntax::SourceFile, path: &str) -> Result<syntax::SourceFile, String> {
-            Err(format!("there is no {path}"))
-        }
-    }
 
     /// The reason why a model with these declarations and this main rule parts from a recorded first step.
     fn reason_of(declarations: &str, rule: &str, record: &str) -> Option<&'static str> {
