@@ -9,10 +9,11 @@
 )]
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use properties::mutation::{SplitMix, mutated};
 use properties::{ALL, seeds};
+use testkit::repository;
 
 /// As much as the main thread has, in which fuzz targets run.
 const STACK: usize = 8 << 20;
@@ -22,37 +23,24 @@ fn setting(name: &str, default: u64) -> u64 {
     std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default)
 }
 
-fn root() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
-}
-
 /// The models, scenarios and pages below a folder, in order.
-fn walk(folder: &Path, found: &mut Vec<seeds::File>) {
-    let entries = std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
-    let mut paths: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
-    paths.sort();
-    for path in paths {
-        if path.is_dir() {
-            walk(&path, found);
-        } else if path.extension().is_some_and(|ending| ["asm", "avalla", "md"].iter().any(|known| ending == *known)) {
-            // A transcript's file may be of another encoding on purpose.
-            let bytes = std::fs::read(&path).expect("a readable file");
-            let name = path.strip_prefix(root()).expect("a path below").display().to_string();
-            found.push((name, String::from_utf8_lossy(&bytes).into_owned()));
-        }
-    }
+fn files(folder: &str) -> Vec<seeds::File> {
+    let read = |path: PathBuf| {
+        // A transcript's file may be of another encoding on purpose.
+        let bytes = std::fs::read(&path).expect("a readable file");
+        let name = path.strip_prefix(repository::root()).expect("a path below").display().to_string();
+        (name, String::from_utf8_lossy(&bytes).into_owned())
+    };
+    repository::files(folder, &["asm", "avalla", "md"]).into_iter().map(read).collect()
 }
 
 /// Checks the property of that name on every seed, then on so many mutations.
 fn holds(name: &str, cases: u64) {
     let property = ALL.iter().find(|property| property.name == name).expect("a property of that name");
-    let mut files = Vec::new();
-    for folder in ["library", "examples", "bench/models", "spec", "crates", "cpp/systems"] {
-        walk(&root().join(folder), &mut files);
-    }
+    let files = ["library", "examples", "bench/models", "spec", "crates", "cpp/systems"].map(files).concat();
     let seeds = seeds::seeds(property, &files);
     assert!(seeds.len() > 50, "only {} seeds", seeds.len());
-    let words = std::fs::read_to_string(root().join("fuzz/asmetal.dict")).expect("a readable file");
+    let words = repository::text("fuzz/asmetal.dict");
     let words = seeds::words(&words);
     assert!(words.len() > 50, "only {} words", words.len());
 

@@ -1,12 +1,12 @@
 //! Code without heap, exceptions and RTTI: compiled with these off, it makes the steps that other generated code makes.
 
-use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
 
 use generate::Options;
 use machine::{Closed, Limits, Machine};
 use syntax::SourceFile;
+use testkit::{Page, repository};
 
 use crate::compile::{Compiler, strict};
 use crate::run::Disk;
@@ -108,7 +108,7 @@ fn what_takes_a_heap_is_refused() {
 }
 
 fn generated(model: &str, bare: bool) -> Result<generate::Generated, Vec<String>> {
-    let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(model);
+    let path = repository::root().join(model);
     let text = std::fs::read_to_string(&path).expect("a readable file");
     let checked = model::check(SourceFile::new(path.to_string_lossy(), text), &mut Disk);
     let program = Arc::new(program::lower(&checked.model).expect("a model without faults"));
@@ -152,9 +152,8 @@ fn printed(compiler: &Compiler, model: &str, bare: bool) -> String {
 /// The program that docs/generated-code.md shows.
 #[test]
 fn the_guide() {
-    let guide = include_str!("../../../../docs/generated-code.md");
-    let (_, from) = guide.split_once("```cpp\n").expect("a program");
-    let (program, _) = from.split_once("```").expect("its end");
+    let guide = Page::read("docs/generated-code.md");
+    let program = guide.example("cpp");
     let compiler = Compiler::new("guide");
     let generated = generated("examples/coffee_machine/CoffeeMachine.asm", false).expect("all of it");
     for file in &generated.files {

@@ -25,6 +25,7 @@ use std::path::{Path, PathBuf};
 
 use model::Loader;
 use syntax::SourceFile;
+use testkit::repository;
 
 use compile::{Compiler, Unit, write};
 use run::{Disk, Prepared, read, record};
@@ -83,7 +84,7 @@ fn judge(folder: &str, cases: Vec<Case>) {
 
 #[test]
 fn examples() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let root = repository::root();
     let mut paths = Vec::new();
     match std::env::var("GROUNDSTATE_MODEL") {
         Ok(path) => paths.push(PathBuf::from(path)),

@@ -1,6 +1,5 @@
 //! A model, its generated code, and a run of the machine to hold that code to.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use generate::replay::{Answers, script, state};
@@ -10,6 +9,7 @@ use model::Loader;
 use program::Program;
 use simulate::{Bounds, ChoiceMade, Choices, Inputs, RandomSource, Record, Run};
 use syntax::{Severity, SourceFile, Sources, Span};
+pub use testkit::Disk;
 
 /// What is compared.
 pub struct Prepared {
@@ -24,19 +24,6 @@ pub struct Prepared {
 pub struct Subject {
     pub program: Arc<Program>,
     sources: Sources,
-}
-
-/// Files on disk. Bytes that are no UTF-8 are replaced.
-pub struct Disk;
-
-impl Loader for Disk {
-    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
-        let folder = Path::new(&importer.name).parent().unwrap_or(Path::new(""));
-        let path = path.replace('\\', "/");
-        let found = folder.join(format!("{}.asm", path.strip_suffix(".asm").unwrap_or(&path)));
-        let bytes = std::fs::read(&found).map_err(|error| error.to_string())?;
-        Ok(SourceFile::new(found.to_string_lossy(), String::from_utf8_lossy(&bytes).into_owned()))
-    }
 }
 
 /// Reads a model; none if it has no main rule. An error is its first fault.
