@@ -1,10 +1,12 @@
 //! YAML inputs: steps to locations to values.
 //!
-//!     always: { passed: false }
-//!     1:
-//!       temperature(ROOM1): 21
-//!     3..5:
-//!       passed: true
+//! ```yaml
+//! always: { passed: false }
+//! 1:
+//!   temperature(ROOM1): 21
+//! 3..5:
+//!   passed: true
+//! ```
 //!
 //! Scalars are taken as they are written, whatever YAML would make of them: the domain of the location says how they
 //! are read. Sequences are sequences, sets, bags or tuples; mappings are maps.
