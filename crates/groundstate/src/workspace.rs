@@ -139,7 +139,12 @@ impl<F: Files> Workspace<F> {
             }
             Some(Kind::Chart) => {
                 let model = Path::new(&root.name).with_extension("asm").to_string_lossy().into_owned();
-                let present = loader.read(&model).ok().map(|source| source.text);
+                let present = match loader.read(&model) {
+                    Ok(source) => Some(source.text),
+                    Err(Absent::Missing) => None,
+                    // Into a text that nobody can read nothing is built.
+                    Err(Absent::Unreadable(reason)) => return Ok(Findings::not_checked(reason)),
+                };
                 let BuiltChart { faults, .. } = build_chart(root, &model, present.as_deref(), loader);
                 Findings { faults, open: None }
             }

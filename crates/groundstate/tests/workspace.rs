@@ -166,3 +166,20 @@ fn one_file_has_one_name() {
         assert_eq!(tidy(path), expect);
     }
 }
+
+#[test]
+fn a_chart_whose_model_cannot_be_read_is_not_called_clean() {
+    struct Locked(Memory);
+    impl Files for Locked {
+        fn read(&mut self, path: &str) -> Result<SourceFile, Absent> {
+            if path.ends_with(".asm") {
+                Err(Absent::Unreadable(format!("{path} is locked")))
+            } else {
+                self.0.read(path)
+            }
+        }
+    }
+    let mut workspace = Workspace::new(Locked(Memory::folder("library/patterns")));
+    let findings = workspace.check("DataProducer.chart").expect("it is there");
+    assert!(!findings.is_clean() && findings.open.is_some_and(|open| open.contains("DataProducer.asm is locked")));
+}
