@@ -131,7 +131,7 @@ impl Dice {
 
 #[test]
 fn damaged_documents() {
-    let whole = include_str!("../../cli/tests/cmd/chart.in/Player.scxml");
+    let whole = include_str!("../../../shells/cli/tests/cmd/chart.in/Player.scxml");
     let pieces: Vec<&str> = whole.split_inclusive(['<', '>', '"', ' ']).collect();
     let mut dice = Dice(7);
     let mut read_back = 0;

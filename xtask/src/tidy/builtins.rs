@@ -18,7 +18,8 @@ const PLACES: usize = 5;
 
 /// Where a place counts.
 fn counts(path: &str) -> bool {
-    let code = path.starts_with("crates/") && path.contains("/src/") && !path.starts_with("crates/oracle/");
+    let ours = ["crates/", "shells/"].iter().any(|folder| path.starts_with(folder));
+    let code = ours && path.contains("/src/") && !path.starts_with("crates/oracle/");
     code || ["library/", "spec/", "cpp/include/"].iter().any(|folder| path.starts_with(folder))
 }
 

@@ -27,7 +27,8 @@ fn comment_of(file: &File) -> Option<&'static [&'static str]> {
     let made = file.path.ends_with(".d.ts") || file.path.contains("/generated/");
     let data =
         ["/tests/data/", "/golden/", "/snapshots/", "/fixtures/"].iter().any(|folder| file.path.contains(folder));
-    let model = file.path.starts_with("crates/") && file.path.contains("/tests/") && file.path.ends_with(".asm");
+    let ours = ["crates/", "shells/"].iter().any(|folder| file.path.starts_with(folder));
+    let model = ours && file.path.contains("/tests/") && file.path.ends_with(".asm");
     (!made && !data && !model).then_some(found.1)
 }
 
