@@ -1,38 +1,39 @@
-//! Control-state charts: what they mean, and the ways between charts, AsmetaL and pictures.
+//! Control-state charts: what they mean, and the ways between charts and AsmetaL.
 //!
-//! In: the tree of a chart file. Out: a [`Chart`] and its faults; from it AsmetaL ([`build()`]) and drawings
-//! ([`drawings()`]). The notation is that of the paper (section IV): control states, guards, actions, pattern machines with
+//! In: the tree of a chart file. Out: a [`Chart`] and its faults; from it AsmetaL ([`build()`]), and what a picture shows
+//! ([`subjects()`], which the crate `draw` draws). The notation is that of the paper (section IV): control states, guards, actions, pattern machines with
 //! an entering arrow and floating exit arrows, pattern instances; its meaning is written in `spec/charts.md`. This crate
 //! gives charts their meaning by the AsmetaL they stand for; it must not execute anything.
 
 pub mod build;
-pub mod draw;
-pub mod export;
-pub mod generate;
 pub mod import;
 
 mod chart;
 mod check;
 mod dump;
+mod export;
 mod extract;
 mod fault;
 mod flow;
-mod place;
+mod lights;
 mod read;
+mod subject;
 mod symbolic;
 pub mod system;
 mod write;
+pub mod xml;
 
 pub use build::{Built, Known, Unknown, build, unbuilt};
 pub use chart::{
     Arrow, Chart, Control, End, Layout, Link, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind,
 };
 pub use check::{Probed, built_faults, check, probed};
-pub use draw::drawings;
 pub use dump::dump;
+pub use export::scxml_of;
 pub use extract::{Extracted, extract};
 pub use fault::IDS as FAULT_IDS;
 pub use flow::{Origin, Target, Transition, transitions};
-pub use place::place;
+pub use lights::{Light, Lights};
 pub use read::{Loaded, load, load_beside, read};
+pub use subject::{NoPictures, NotDrawn, Part, Pictures, Subject, subjects};
 pub use write::write;

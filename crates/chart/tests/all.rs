@@ -3,10 +3,6 @@
 
 mod agreement;
 mod exchange;
-mod geometry;
 mod pages;
-mod pictures;
-mod programs;
 mod regenerate;
-mod robust;
 mod systems;

@@ -1,98 +1,12 @@
-//! C++ from a model: its state, its step and its environment as one class.
+//! C++ from models and from systems.
 //!
-//! In: a [`program::Program`] with its texts, a machine that has made the initial state, [`Options`]. Out: the
-//! [`Generated`] files, or the parts that cannot be generated, each with its place. The meaning of a rule is the
-//! machine's; agreement tests hold the generated code to it step by step. It must not know files or compilers.
+//! [`model`] makes a model's state, step and environment one class. [`system`] makes of a chart's system a program over the
+//! runtime of `cpp/`: a thread a task, the channels as the chart has them. [`names`] spells what both call things. What cannot
+//! be generated is refused with its place.
 
-mod accessors;
-mod body;
-mod choice;
-mod class;
-mod collected;
-mod driver;
-mod form;
-mod generator;
-mod interval;
-mod nesting;
-mod operation;
-mod plan;
-mod project;
-mod range;
-mod renamed;
-pub mod replay;
-mod rule;
-mod settle;
-mod sites;
-mod storage;
-mod term;
-mod text;
-mod types;
-mod writes;
+mod fault;
+pub mod model;
+pub mod names;
+pub mod system;
 
-use program::Program;
-use syntax::{Diagnostic, Sources, Span};
-
-pub use generator::Options;
-pub use text::Mapping;
-
-/// One generated file.
-#[derive(Debug, Clone)]
-pub struct File {
-    /// Its name, within the folder generated to.
-    pub name: String,
-    /// Its text.
-    pub text: String,
-    /// Which of its lines stand for which places of the model.
-    pub mappings: Vec<Mapping>,
-}
-
-/// What is generated from a model.
-#[derive(Debug, Clone)]
-pub struct Generated {
-    /// The namespace of the code and the stem of the files' names.
-    pub name: String,
-    /// Files that are made anew each time.
-    pub files: Vec<File>,
-    /// The places that faults name by number, the first of number 1.
-    pub sites: Vec<Span>,
-    /// What the class calls otherwise than the model, since C++ or the class has the name already: `(model's, class's)`.
-    pub renamed: Vec<(String, String)>,
-}
-
-/// Generates a model.
-///
-/// # Errors
-/// What cannot be generated, each with its place.
-pub fn generate(
-    program: &Program,
-    sources: &Sources,
-    started: &mut machine::Machine,
-    options: &Options,
-) -> Result<Generated, Vec<Diagnostic>> {
-    let program = &settle::settled(program);
-    let plan = plan::plan(program, started);
-    let writes = writes::Writes::new(program);
-    let forms = form::forms(program, &writes);
-    let bodies = body::bodies(program, &plan, &writes, &forms, options, started)?;
-    let name = plan.namespace.clone();
-    let title = sources.iter().next().map_or(program.name.clone(), |(_, file)| file.name.clone());
-    let mut files = Vec::new();
-    let mut add = |name: String, text: &text::Text| {
-        let (text, mappings) = text.finish(&name, sources);
-        files.push(File { name, text, mappings });
-    };
-    let source = class::source(&bodies, &name);
-    add(format!("{name}.hpp"), &class::header(&bodies, &source, file_name(&title)));
-    add(format!("{name}.cpp"), &source);
-    if !options.bare {
-        add("replay.cpp".to_string(), &driver::driver(&bodies, &name));
-    }
-    add("CMakeLists.txt".to_string(), &project::project(&name, options));
-    let sites = bodies.generator.sites.spans().to_vec();
-    Ok(Generated { name, files, sites, renamed: renamed::renamed(&bodies.generator) })
-}
-
-/// The last part of a path.
-fn file_name(path: &str) -> &str {
-    path.rsplit(['/', '\\']).next().unwrap_or(path)
-}
+pub use fault::IDS as FAULT_IDS;

@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use chart::draw::LayoutFault;
+use chart::NoPictures;
 use model::Loader;
 use syntax::SourceFile;
 
@@ -16,25 +16,21 @@ use crate::{check_verification, load};
 
 /// What is wrong with a specification; without a model, none of it is looked at. A file that is not named as a report
 /// specification is taken for what is to be verified.
-///
-/// # Errors
-/// A chart that it names cannot be laid out.
-pub fn check_specification<F: Files + Loader>(
-    root: &SourceFile,
-    model: Option<SourceFile>,
-    files: &mut F,
-) -> Result<Findings, LayoutFault> {
+pub fn check_specification<F: Files + Loader>(root: &SourceFile, model: Option<SourceFile>, files: &mut F) -> Findings {
     let path = Path::new(&root.name);
     let Some(model) = model else {
-        return Ok(Findings::not_checked(format!("there is no model {}", model_of(path).display())));
+        return Findings::not_checked(format!("there is no model {}", model_of(path).display()));
     };
     let mut asked = match load(model, files) {
         Ok(loaded) => loaded.overlay(),
-        Err(faulty) => return Ok(Findings { faults: vec![(faulty.sources, faulty.diagnostics)], open: None }),
+        Err(faulty) => return Findings { faults: vec![(faulty.sources, faulty.diagnostics)], open: None },
     };
     let faults = match Kind::of(path) {
-        Some(Kind::Report) => prepare_report(&mut asked, root.clone(), &root.name, files)?.faults,
+        Some(Kind::Report) => match prepare_report(&mut asked, root.clone(), &root.name, files, &NoPictures) {
+            Ok(prepared) => prepared.faults,
+            Err(undrawn) => return Findings::not_checked(undrawn),
+        },
         _ => check_verification(&mut asked, &root.name, &root.text),
     };
-    Ok(Findings { faults: vec![(asked.sources, faults)], open: None })
+    Findings { faults: vec![(asked.sources, faults)], open: None }
 }

@@ -182,7 +182,7 @@ fn specification<F: Files>(root: &SourceFile, texts: &mut Texts<'_, F>) -> Findi
         Err(Absent::Missing) => None,
         Err(Absent::Unreadable(reason)) => return Findings::not_checked(reason),
     };
-    check_specification(root, model, texts).unwrap_or_else(Findings::not_checked)
+    check_specification(root, model, texts)
 }
 
 /// Why a model is not there to be run.

@@ -5,9 +5,9 @@
 
 use std::sync::Arc;
 
-use chart::export::{Notation, export};
 use chart::system::System;
 use chart::{Chart, Known};
+use draw::{Notation, export};
 use groundstate::test_generation::{Method, Subject, generate_tests};
 use groundstate::verify::review::{Meta, review};
 use groundstate::{Loaded, verify};
@@ -83,7 +83,7 @@ fn of_model(bytes: &[u8]) -> usize {
     let program = Arc::clone(&loaded.program);
     let mut started = Machine::new(Arc::clone(&program), world::limits());
     let _ = started.start(&mut Closed);
-    match generate::generate(&program, &loaded.sources, &mut started, &generate::Options::default()) {
+    match generate::model::generate(&program, &loaded.sources, &mut started, &generate::model::Options::default()) {
         Ok(_) => stages += 1,
         Err(refused) => told(&loaded.sources, &refused),
     }
@@ -167,7 +167,7 @@ fn of_chart(bytes: &[u8]) -> usize {
     }
     let mut stages = 2 + drawn(chart);
     let parse = syntax::parse_chart(FileId(0), &text);
-    let _ = chart::place(chart, &parse, &text, |_| true);
+    let _ = draw::place(chart, &parse, &text, |_| true);
     if let Some(system) = &chart.system {
         stages += generated(chart, system, &loaded.sources);
     }
@@ -198,8 +198,8 @@ fn of_chart(bytes: &[u8]) -> usize {
 
 fn drawn(chart: &Chart) -> usize {
     let mut stages = 0;
-    for drawing in chart::drawings(chart) {
-        stages += usize::from(drawing.svg(chart::draw::Theme::Light).is_ok());
+    for drawing in draw::drawings(chart) {
+        stages += usize::from(drawing.svg(draw::Theme::Light).is_ok());
         for notation in [Notation::Mermaid, Notation::Dot, Notation::Scxml] {
             if let Some(text) = export(&drawing, notation)
                 && let Notation::Scxml = notation
@@ -212,14 +212,14 @@ fn drawn(chart: &Chart) -> usize {
 }
 
 fn generated(chart: &Chart, system: &System, sources: &Sources) -> usize {
-    let faults = chart::generate::ungenerated(system);
+    let faults = generate::system::ungenerated(system);
     told(sources, &faults);
     if !faults.is_empty() {
         return 0;
     }
     for wait_free in [false, true] {
-        let form = chart::generate::Form { wait_free, ..Default::default() };
-        chart::generate::generate(chart, system, "Model.chart", &form);
+        let form = generate::system::Form { wait_free, ..Default::default() };
+        generate::system::generate(chart, system, "Model.chart", &form);
     }
     1
 }

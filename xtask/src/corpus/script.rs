@@ -1,12 +1,12 @@
 //! A recorded run as a text that generated code replays.
 //!
 //! In: a program, a trace that our machine makes as it was recorded, and the choices with which it does. Out: the
-//! answers of each step and the states that the machine comes to with them (`generate::replay`), which are those of the
+//! answers of each step and the states that the machine comes to with them (`generate::model::replay`), which are those of the
 //! record on every location that it lists.
 
 use std::path::{Path, PathBuf};
 
-use generate::replay::{self, Answers};
+use generate::model::replay::{self, Answers};
 use machine::{Choice, Draw, Environment, LocationRef, Machine, TimeUnit, Value};
 use program::{DomainId, Program};
 use syntax::Span;

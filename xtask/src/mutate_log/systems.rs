@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use chart::Chart;
-use chart::generate::{Form, Generated, generate, ungenerated};
+use generate::system::{Form, Generated, generate, ungenerated};
 use groundstate::Loaded;
 use recording::Recording;
 

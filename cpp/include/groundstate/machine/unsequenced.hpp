@@ -3,7 +3,7 @@
 // `Location` is a function without arguments, `FewLocations` one with 64 locations at most, `Word` (word.hpp) one whose
 // values all fit in a machine word. `WholeArray` are locations that a step updates all or not at all, `DisjointLocations`
 // those of which a step never updates one twice with different values. The generator proves which of them a function can
-// be (crates/generate/src/form.rs); whatever it cannot prove has the form Locations, which takes all.
+// be (crates/generate/src/model/form.rs); whatever it cannot prove has the form Locations, which takes all.
 //
 // All but the last keep what they know of a running step in a `Next`, which `begin` gives and `commit` takes. It is a
 // local variable of the step, so that compilers hold it in registers; a step that fails just leaves it. What `commit`

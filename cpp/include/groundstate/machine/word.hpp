@@ -4,7 +4,7 @@
 // with a shift and a mask, a step's next values are one more word, and to commit them is one assignment.
 //
 // A *code* says how a value is written as a number below `count`. INVARIANT: no other value is ever put or updated; the
-// generator has proved it (crates/generate/src/storage.rs).
+// generator has proved it (crates/generate/src/model/storage.rs).
 #pragma once
 
 #include <algorithm>

@@ -13,6 +13,7 @@ pub(crate) mod system;
 pub use known::{Known, Unknown};
 pub(crate) use module::{call, function_name, rule_name, state_value};
 pub(crate) use rule::{machine_rule, origin_condition};
+pub use system::{busy, late};
 
 use crate::chart::{Chart, Control, Machine, ShapeKind};
 use crate::fault;

@@ -23,7 +23,7 @@ pub(super) fn unbuilt(system: &System, known: &Known) -> Vec<Diagnostic> {
 }
 
 /// Deadlines for which there are no patterns.
-pub(crate) fn late(system: &System) -> Vec<Diagnostic> {
+pub fn late(system: &System) -> Vec<Diagnostic> {
     let late = system.components.iter().filter(|component| match component.timing {
         Timing::Synchronous { period, deadline, .. } => period < deadline,
         Timing::Asynchronous { .. } => false,
@@ -173,7 +173,7 @@ fn tasks(system: &System, define: &mut impl FnMut(&str, &str)) {
 }
 
 /// The ticks of a cycle without waiting: a slave's access takes one more than its time, a master's two.
-pub(crate) fn busy(system: &System, component: &Component) -> u64 {
+pub fn busy(system: &System, component: &Component) -> u64 {
     component.phases.iter().map(|phase| taken(system, component, phase)).sum()
 }
 

@@ -30,7 +30,6 @@ pub const IDS: &[&str] = &[
     "misplaced-exit",
     "not-built",
     "not-control-state",
-    "not-generated",
     "overlapping-paths",
     "system-differs",
     "time-unit",
@@ -308,11 +307,6 @@ pub(crate) fn not_built(span: Span, what: &str) -> Diagnostic {
     Diagnostic::error("not-built", span, format!("{what} cannot be built"))
         .because("the next cycle begins at the end of the period, and would have to wait")
         .with_help("let the deadline be the period, or make the period longer")
-}
-
-/// A part of a system of which no code is made.
-pub(crate) fn not_generated(span: Span, what: String, reason: &str, help: &str) -> Diagnostic {
-    Diagnostic::error("not-generated", span, what).because(reason.to_string()).with_help(help.to_string())
 }
 
 /// A name of the chart from which no name of a function can be made.

@@ -4,7 +4,7 @@
 //! transition that is enabled is taken, those of inner states before those of outer ones: so each is led through the `no`
 //! of those before it. An event is a guard, true when it comes; a condition in AsmetaL is one too. What stands in another
 //! language becomes the text of a shape that is to be refined. On a transition is done, in sequence, what leaving, the
-//! transition and entering say. What our own export wrote is read back shape by shape. SYNC(scxml): `export/scxml`.
+//! transition and entering say. What our own export wrote is read back shape by shape. SYNC(scxml): `export.rs`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -15,7 +15,7 @@ use syntax::{Diagnostic, FileId, Severity, Span};
 use super::Imported;
 use super::names::{Names, bare, function};
 use super::tree::{States, is, is_scxml, machines, place, text_of};
-use crate::export::scxml::{NAMESPACE, condition, script};
+use crate::export::{NAMESPACE, condition, script};
 use crate::fault::foreign as fault;
 use crate::read::spoken;
 

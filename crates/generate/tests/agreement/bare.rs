@@ -3,7 +3,7 @@
 use std::process::Command;
 use std::sync::Arc;
 
-use generate::Options;
+use generate::model::Options;
 use machine::{Closed, Limits, Machine};
 use syntax::SourceFile;
 use testkit::{Page, repository};
@@ -107,7 +107,7 @@ fn what_takes_a_heap_is_refused() {
     assert!(refused.iter().all(|fault| fault.contains("takes a heap")), "{refused:?}");
 }
 
-fn generated(model: &str, bare: bool) -> Result<generate::Generated, Vec<String>> {
+fn generated(model: &str, bare: bool) -> Result<generate::model::Generated, Vec<String>> {
     let path = repository::root().join(model);
     let text = std::fs::read_to_string(&path).expect("a readable file");
     let checked = model::check(SourceFile::new(path.to_string_lossy(), text), &mut Disk);
@@ -115,7 +115,7 @@ fn generated(model: &str, bare: bool) -> Result<generate::Generated, Vec<String>
     let mut started = Machine::new(Arc::clone(&program), Limits::default());
     let _ = started.start(&mut Closed);
     let options = Options { bare, ..Options::default() };
-    generate::generate(&program, &checked.sources, &mut started, &options)
+    generate::model::generate(&program, &checked.sources, &mut started, &options)
         .map_err(|faults| faults.into_iter().map(|fault| fault.message).collect())
 }
 

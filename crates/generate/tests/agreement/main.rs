@@ -1,4 +1,5 @@
-//! Generated code and the machine agree: on every model of examples/, and on random models.
+//! Generated code and the machine agree: on every model of examples/, and on random models. Beside it: no macro is an
+//! identifier of it (`macros`), and the programs of the examples are what their charts give (`programs`).
 //!
 //! A model is generated, compiled, and fed the inputs and choices of a run of the machine; the states must be the same
 //! step by step, and a fault must come in the same step. `GROUNDSTATE_FULL` takes every model and more random ones, where
@@ -16,7 +17,9 @@ mod follow;
 mod forms;
 mod initial;
 mod late;
+mod macros;
 mod places;
+mod programs;
 mod run;
 mod unusual;
 mod warnings;

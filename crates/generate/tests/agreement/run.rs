@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use generate::replay::{Answers, script, state};
-use generate::{Generated, Options};
+use generate::model::replay::{Answers, script, state};
+use generate::model::{Generated, Options};
 use machine::{Closed, EngineChoice, Limits, Machine, Value};
 use model::Loader;
 use program::Program;
@@ -42,7 +42,7 @@ impl Subject {
         let mut started = Machine::new(Arc::clone(&self.program), Limits::default());
         // What initial values ask of the environment is asked for again.
         let _ = started.start(&mut Closed);
-        generate::generate(&self.program, &self.sources, &mut started, &Options::default())
+        generate::model::generate(&self.program, &self.sources, &mut started, &Options::default())
             .map_err(|refused| refused[0].message.clone())
     }
 }

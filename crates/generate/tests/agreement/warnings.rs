@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::Arc;
 
-use generate::Options;
+use generate::model::Options;
 use machine::{Closed, Limits, Machine};
 use syntax::SourceFile;
 
@@ -41,16 +41,17 @@ const NAMES: &str = "asm Names\n\nimport StandardLibrary\n\nsignature:\n\tenum d
     \t\t\tunix := unix + class\n\t\t\tmajor(left) := unix\n\t\t\terrno(started) := errno(NAN) + 1\n\t\tendpar\n\n\
     default init s0:\n\tfunction started = EIO\n\tfunction unix = 0\n\tfunction errno($s in State) = 0\n";
 
-fn generated(path: &Path, text: String, bare: bool) -> generate::Generated {
+fn generated(path: &Path, text: String, bare: bool) -> generate::model::Generated {
     let checked = model::check(SourceFile::new(path.to_string_lossy(), text), &mut Disk);
     let program = Arc::new(program::lower(&checked.model).unwrap_or_else(|faults| panic!("{faults:?}")));
     let mut started = Machine::new(Arc::clone(&program), Limits::default());
     let _ = started.start(&mut Closed);
     let options = Options { bare, ..Options::default() };
-    generate::generate(&program, &checked.sources, &mut started, &options).unwrap_or_else(|faults| panic!("{faults:?}"))
+    generate::model::generate(&program, &checked.sources, &mut started, &options)
+        .unwrap_or_else(|faults| panic!("{faults:?}"))
 }
 
-fn compiles(compiler: &Compiler, generated: &generate::Generated) {
+fn compiles(compiler: &Compiler, generated: &generate::model::Generated) {
     let folder = compiler.folder().join(&generated.name);
     std::fs::create_dir_all(&folder).expect("a folder of one's own");
     for file in &generated.files {

@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use chart::draw::{Drawing, LayoutFault, Lights};
+use chart::{Lights, NotDrawn, Pictures, subjects};
 use model::Loader;
 use report::{ChartSpec, LightsSpec, PartSpec, Specification, Wanted, specification_fault};
 use syntax::{Diagnostic, Sources};
@@ -22,7 +22,8 @@ pub fn add<F: Files + Loader>(
     sources: &mut Sources,
     specification: &mut Specification,
     path: &str,
-) -> Result<Vec<Diagnostic>, LayoutFault> {
+    pictures: &dyn Pictures,
+) -> Result<Vec<Diagnostic>, NotDrawn> {
     let mut faults = Vec::new();
     for wanted in std::mem::take(&mut specification.charts) {
         let file = Path::new(path).parent().unwrap_or(Path::new("")).join(&wanted.file);
@@ -40,10 +41,10 @@ pub fn add<F: Files + Loader>(
         let whole = !has_errors(&loaded.diagnostics);
         faults.extend(loaded.diagnostics);
         if whole {
-            show(specification, &chart, &wanted, &mut faults)?;
+            show(specification, &chart, &wanted, pictures, &mut faults)?;
         }
     }
-    specification.spec.chart_style = chart::draw::style(CLASS);
+    specification.spec.chart_style = pictures.style(CLASS);
     Ok(faults)
 }
 
@@ -51,24 +52,24 @@ fn show(
     specification: &mut Specification,
     chart: &chart::Chart,
     wanted: &Wanted,
+    pictures: &dyn Pictures,
     faults: &mut Vec<Diagnostic>,
-) -> Result<(), LayoutFault> {
-    let drawings = chart::drawings(chart);
-    let names: Vec<&str> = drawings.iter().map(Drawing::name).collect();
+) -> Result<(), NotDrawn> {
+    let names: Vec<&str> = subjects(chart).map(|subject| subject.name()).collect();
     for machine in wanted.machines.iter().filter(|machine| !names.contains(&machine.name.as_str())) {
         let unknown = specification_fault(machine.span, format!("{} has no machine `{}`", wanted.file, machine.name));
         faults.push(unknown.with_help(format!("it has: {}", names.join(", "))));
     }
     let elements: Vec<String> = wanted.each.iter().map(|(id, _)| id.clone()).collect();
-    for drawing in &drawings {
-        let own = wanted.machines.iter().find(|machine| machine.name == drawing.name());
+    for subject in subjects(chart) {
+        let own = wanted.machines.iter().find(|machine| machine.name == subject.name());
         if own.is_none() && !wanted.machines.is_empty() {
             continue;
         }
         let prefix = format!("chart-{}-", specification.spec.charts.len());
-        let picture = drawing.part(&prefix, CLASS)?;
-        let parametric = drawing.machine().is_some_and(|machine| !machine.parameters.is_empty());
-        let lights = drawing.lights(&elements);
+        let picture = pictures.part(subject, &prefix, CLASS)?;
+        let parametric = subject.machine().is_some_and(|machine| !machine.parameters.is_empty());
+        let lights = subject.lights(&elements);
         let lights = lights.into_iter().enumerate().map(|(index, lights)| {
             let element = parametric.then(|| &wanted.each[index]);
             let when = own.and_then(|machine| machine.when.as_ref());
@@ -80,7 +81,7 @@ fn show(
             of(lights, element.map(|(_, name)| name.clone()), when.map(|(term, _)| term))
         });
         let lights = lights.collect();
-        specification.spec.charts.push(ChartSpec { title: drawing.title(), picture, lights, named: parametric });
+        specification.spec.charts.push(ChartSpec { title: subject.title(), picture, lights, named: parametric });
     }
     Ok(())
 }

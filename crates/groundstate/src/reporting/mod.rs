@@ -10,7 +10,7 @@ mod watch;
 
 use std::sync::Arc;
 
-use chart::draw::LayoutFault;
+use chart::{NotDrawn, Pictures};
 use model::{Loader, PropertyKind};
 use program::Program;
 use report::{Invariant, Report, ReportBuilder, Specification, read_specification};
@@ -36,20 +36,21 @@ pub struct Prepared {
 /// Reads a specification and checks it against its model. What it names is looked for beside it.
 ///
 /// # Errors
-/// A chart that it names cannot be laid out.
+/// A chart that it names cannot be drawn.
 pub fn prepare_report<F: Files + Loader>(
     asked: &mut Overlay,
     specification: SourceFile,
     path: &str,
     files: &mut F,
-) -> Result<Prepared, LayoutFault> {
+    pictures: &dyn Pictures,
+) -> Result<Prepared, NotDrawn> {
     let text = Arc::clone(&specification.text);
     let file = asked.add(specification);
     let mut wanted = match read_specification(file, &text) {
         Ok(wanted) => wanted,
         Err(faults) => return Ok(Prepared { reporter: None, faults }),
     };
-    let mut faults = charts::add(files, &mut asked.sources, &mut wanted, path)?;
+    let mut faults = charts::add(files, &mut asked.sources, &mut wanted, path, pictures)?;
     if has_errors(&faults) {
         return Ok(Prepared { reporter: None, faults });
     }

@@ -3,8 +3,8 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use chart::draw::{DrawFault, Drawing};
 use clap::{Args, ValueEnum};
+use draw::{DrawFault, Drawing};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -87,7 +87,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Err(exit) => return Ok(exit),
     };
     let wanted = |name: &str| arguments.machine.as_ref().is_none_or(|machine| machine == name);
-    let all = chart::drawings(&chart);
+    let all = draw::drawings(&chart);
     let machines: Vec<_> = all.iter().filter(|drawing| wanted(drawing.name())).collect();
     if machines.is_empty() {
         let names: Vec<&str> = all.iter().map(Drawing::name).collect();
@@ -122,9 +122,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
 
 fn drawn(drawing: &Drawing, form: Form, arguments: &Arguments) -> Result<Vec<u8>, DrawFault> {
     let theme = match (arguments.theme, form) {
-        (Theme::Auto, Form::Svg) => chart::draw::Theme::Auto,
-        (Theme::Auto | Theme::Light, _) => chart::draw::Theme::Light,
-        (Theme::Dark, _) => chart::draw::Theme::Dark,
+        (Theme::Auto, Form::Svg) => draw::Theme::Auto,
+        (Theme::Auto | Theme::Light, _) => draw::Theme::Light,
+        (Theme::Dark, _) => draw::Theme::Dark,
     };
     match form {
         Form::Svg => Ok(drawing.svg(theme)?.into_bytes()),

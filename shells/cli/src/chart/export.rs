@@ -3,8 +3,8 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use chart::export::Notation;
 use clap::{Args, ValueEnum};
+use draw::Notation;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -50,10 +50,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         To::Scxml => (Notation::Scxml, "scxml"),
     };
     let wanted = |name: &str| arguments.machine.as_ref().is_none_or(|machine| machine == name);
-    let drawings = chart::drawings(&chart);
+    let drawings = draw::drawings(&chart);
     let texts = drawings.iter().filter(|drawing| wanted(drawing.name()));
-    let texts: Vec<_> =
-        texts.filter_map(|drawing| Some((drawing.name(), chart::export::export(drawing, notation)?))).collect();
+    let texts: Vec<_> = texts.filter_map(|drawing| Some((drawing.name(), draw::export(drawing, notation)?))).collect();
     if texts.is_empty() {
         return Err(Failure::usage("the chart has nothing of this name in this notation"));
     }

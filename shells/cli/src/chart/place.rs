@@ -31,16 +31,16 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Err(exit) => return Ok(exit),
     };
     let wanted = |name: &str| arguments.machine.as_ref().is_none_or(|machine| machine == name);
-    let drawings = chart::drawings(&chart);
+    let drawings = draw::drawings(&chart);
     if !drawings.iter().any(|drawing| wanted(drawing.name())) {
-        let names: Vec<&str> = drawings.iter().map(chart::draw::Drawing::name).collect();
+        let names: Vec<&str> = drawings.iter().map(draw::Drawing::name).collect();
         let help = format!("it has: {}", names.join(", "));
         return Err(Failure::usage_with_help("the chart has no such machine", help));
     }
     let file = syntax::FileId(0);
     let text = &sources.file(file).text;
     let parse = syntax::parse_chart(file, text);
-    let placed = chart::place(&chart, &parse, text, wanted).map_err(|fault| Failure::usage(fault.to_string()))?;
+    let placed = draw::place(&chart, &parse, text, wanted).map_err(|fault| Failure::usage(fault.to_string()))?;
     let output = arguments.output.as_deref().unwrap_or(&arguments.file);
     if output == Path::new("-") {
         shell.out().write_all(placed.as_bytes())?;

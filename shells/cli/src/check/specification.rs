@@ -18,8 +18,7 @@ pub fn look(path: &Path, root: &SourceFile, disk: &mut Disk) -> Result<Seen, Fai
         Err(Failure::Missing(_)) => None,
         Err(failure) => return Err(failure),
     };
-    let found = check_specification(root, model, disk).map_err(|fault| Failure::usage(fault.to_string()))?;
-    let Findings { faults, open } = found;
+    let Findings { faults, open } = check_specification(root, model, disk);
     Ok(Seen { faults, open, ..Seen::default() })
 }
 

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Component, Path};
 use std::sync::Arc;
 
-use generate::{Generated, Options};
+use generate::model::{Generated, Options};
 use machine::{Closed, Limits, Machine};
 use serde_json::{Value, json};
 use syntax::{SourceFile, Sources, Span};
@@ -31,7 +31,7 @@ pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
     let folder = &arguments.output;
     std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
     let placed = placed(&loaded.sources, folder);
-    let generated = match generate::generate(&program, &placed, &mut started, &options) {
+    let generated = match generate::model::generate(&program, &placed, &mut started, &options) {
         Ok(generated) => generated,
         Err(refused) => {
             shell.diagnostics(&loaded.sources, &refused)?;

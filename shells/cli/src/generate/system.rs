@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use chart::generate::{Form, Generated, generate, ungenerated};
+use generate::system::{Form, Generated, generate, ungenerated};
 
 use super::{Cpp, write};
 use crate::exit::Exit;

@@ -224,7 +224,7 @@ fn prepare(
     source: SourceFile,
     path: &Path,
 ) -> Result<Option<Reporter>, Failure> {
-    let prepared = prepare_report(asked, source, &path.display().to_string(), &mut shell.disk());
+    let prepared = prepare_report(asked, source, &path.display().to_string(), &mut shell.disk(), &draw::Page);
     let Prepared { reporter, faults } = prepared.map_err(|fault| Failure::usage(fault.to_string()))?;
     shell.diagnostics(&asked.sources, &faults)?;
     Ok(reporter)

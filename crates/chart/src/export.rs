@@ -1,0 +1,186 @@
+//! SCXML: a state for each control state, a transition for each path, its guards as the condition and its actions as the
+//! script, both in AsmetaL. A pattern begins in the state `enter` and ends in the final state `exit`; an instance on a path
+//! invokes its pattern, and goes on when that is done.
+//!
+//! What SCXML has no word for (parameters, the control variable, names and texts of shapes, the guards and actions of a path
+//! one by one) stands in a namespace of its own, which other tools pass over. SYNC(scxml): `import/scxml.rs` reads it.
+//!
+//! LIMIT: of two paths whose guards hold together SCXML takes the first one; in a chart they are parallel.
+
+use std::fmt::Write;
+
+use crate::build::call;
+use crate::chart::{Chart, Control, Link, Machine, Refinement, Shape, ShapeId, ShapeKind};
+use crate::flow::{Origin, Target, Transition, is_block, transitions};
+use crate::xml::Text;
+
+/// The namespace of what SCXML has no word for.
+pub(crate) const NAMESPACE: &str = "urn:groundstate:chart";
+
+/// The SCXML of a machine.
+pub fn scxml_of(chart: &Chart, machine: &Machine) -> String {
+    let initial = match machine.initial() {
+        Some(id) if !machine.is_pattern => machine.shape(id).name.as_str(),
+        _ => "enter",
+    };
+    let mut out = format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<scxml xmlns=\"http://www.w3.org/2005/07/scxml\" \
+         xmlns:gs=\"{NAMESPACE}\" version=\"1.0\" datamodel=\"asmetal\" name=\"{}\" initial=\"{initial}\"",
+        Text(&machine.name)
+    );
+    let mut own = |name: &str, value: &str| _ = write!(out, " gs:{name}=\"{}\"", Attribute(value));
+    own("kind", if machine.is_pattern { "pattern" } else { "machine" });
+    own("text", &machine.text);
+    if !machine.parameters.is_empty() {
+        let parameters = machine.parameters.iter().map(|one| format!("{} in {}", one.variable, one.domain));
+        own("parameters", &parameters.collect::<Vec<_>>().join(", "));
+    }
+    match &machine.control {
+        Some(Control::Linked(link)) => own("control", &format!("{{{}}}", link.text)),
+        Some(Control::Made { name, .. }) => own("control", name),
+        None => {}
+    }
+    if let Some(rule) = &machine.rule {
+        own("rule", &rule.text);
+    }
+    out.push_str(">\n");
+    let all = transitions(chart, machine);
+    let writer = Writer { machine };
+    for (id, shape) in machine.numbered().filter(|(id, _)| !is_block(chart, machine, *id)) {
+        writer.declaration(&mut out, id, shape);
+    }
+    for sequence in &machine.sequences {
+        let names: Vec<&str> = sequence.iter().map(|id| machine.shape(*id).name.as_str()).collect();
+        let _ = writeln!(out, "  <gs:sequence names=\"{}\"/>", names.join(", "));
+    }
+    if machine.is_pattern {
+        writer.state(&mut out, None, None, all.iter().filter(|one| one.origin == Origin::Enter));
+    }
+    for (id, shape) in machine.numbered() {
+        if is_block(chart, machine, id) {
+            writer.state(&mut out, Some(shape), Some(id), all.iter().filter(|one| one.origin == Origin::Left(id)));
+        } else if matches!(shape.kind, ShapeKind::State { .. }) {
+            writer.state(&mut out, Some(shape), None, all.iter().filter(|one| one.origin == Origin::State(id)));
+        }
+    }
+    if machine.is_pattern {
+        out.push_str("  <final id=\"exit\"/>\n");
+    }
+    out + "</scxml>\n"
+}
+
+struct Writer<'c> {
+    machine: &'c Machine,
+}
+
+/// Text as the value of an attribute: an end of line stays one.
+struct Attribute<'t>(&'t str);
+
+impl std::fmt::Display for Attribute<'_> {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let lines: Vec<String> = self.0.split('\n').map(|line| Text(line).to_string()).collect();
+        out.write_str(&lines.join("&#10;"))
+    }
+}
+
+impl Writer<'_> {
+    /// What a shape is called and stands for, as attributes.
+    fn about(&self, prefix: &str, shape: &Shape) -> String {
+        let mut out = format!(" {prefix}text=\"{}\"", Attribute(&shape.text));
+        if let Some(Link { text, .. }) = &shape.link {
+            let _ = write!(out, " {prefix}link=\"{}\"", Attribute(text));
+        }
+        if let Some(Refinement { by }) = &shape.refinement {
+            let _ = write!(out, " {prefix}refine=\"{}\"", Attribute(by.as_deref().unwrap_or_default()));
+        }
+        if let ShapeKind::Instance(pattern) = &shape.kind {
+            let _ = write!(out, " {prefix}of=\"{}\"", Attribute(&pattern.name));
+            let _ = write!(out, " {prefix}arguments=\"{}\"", Attribute(&pattern.arguments.join(", ")));
+        }
+        out
+    }
+
+    /// A guard, an action, or an instance in which the machine does not stay.
+    fn declaration(&self, out: &mut String, id: ShapeId, shape: &Shape) {
+        let word = match &self.machine.shape(id).kind {
+            ShapeKind::State { .. } => return,
+            ShapeKind::Guard => "guard",
+            ShapeKind::Action => "action",
+            ShapeKind::Instance(_) => "instance",
+        };
+        let _ = writeln!(out, "  <gs:{word} name=\"{}\"{}/>", Text(&shape.name), self.about("", shape));
+    }
+
+    fn state<'t>(
+        &self,
+        out: &mut String,
+        shape: Option<&Shape>,
+        block: Option<ShapeId>,
+        paths: impl Iterator<Item = &'t Transition>,
+    ) {
+        let name = shape.map_or("enter", |shape| shape.name.as_str());
+        let about = shape.map(|shape| self.about("gs:", shape)).unwrap_or_default();
+        let _ = writeln!(out, "  <state id=\"{}\"{about}>", Text(name));
+        if let Some(ShapeKind::Instance(pattern)) = block.map(|id| &self.machine.shape(id).kind) {
+            let _ = writeln!(out, "    <invoke id=\"{}\" src=\"{}.scxml\"/>", Text(name), Text(&pattern.name));
+        }
+        for path in paths {
+            self.transition(out, name, block.is_some(), path);
+        }
+        let _ = writeln!(out, "  </state>");
+    }
+
+    fn transition(&self, out: &mut String, from: &str, is_block: bool, path: &Transition) {
+        let event = if is_block { format!(" event=\"done.invoke.{}\"", Text(from)) } else { String::new() };
+        let guards: Vec<String> = path.guards.iter().map(|(id, holds)| self.guard(*id, *holds)).collect();
+        let condition = match guards.is_empty() {
+            true => String::new(),
+            false => format!(" cond=\"{}\"", Attribute(&guards.join(" and "))),
+        };
+        let target = match path.target {
+            Target::State(id) | Target::Block(id) => self.machine.shape(id).name.as_str(),
+            Target::Exit => "exit",
+        };
+        let stops: Vec<String> = path
+            .stops
+            .iter()
+            .map(|(id, branch)| {
+                let name = &self.machine.shape(*id).name;
+                match branch {
+                    Some(true) => format!("{name} yes"),
+                    Some(false) => format!("{name} no"),
+                    None => name.clone(),
+                }
+            })
+            .collect();
+        let stops = if stops.is_empty() { String::new() } else { format!(" gs:path=\"{}\"", stops.join(", ")) };
+        let _ = write!(out, "    <transition{event}{condition} target=\"{}\"{stops}", Text(target));
+        let actions: Vec<String> = path.actions.iter().map(|id| call(self.machine, self.machine.shape(*id))).collect();
+        let _ = match script(&actions) {
+            None => writeln!(out, "/>"),
+            Some(script) => writeln!(out, "><script>{}</script></transition>", Text(&script)),
+        };
+    }
+
+    fn guard(&self, id: ShapeId, holds: bool) -> String {
+        condition(&call(self.machine, self.machine.shape(id)), holds)
+    }
+}
+
+/// A test and whether it holds, as a part of a condition.
+pub(crate) fn condition(text: &str, holds: bool) -> String {
+    match (holds, text.contains(' ')) {
+        (true, true) => format!("({text})"),
+        (true, false) => text.to_string(),
+        (false, _) => format!("not ({text})"),
+    }
+}
+
+/// Rules in parallel as one.
+pub(crate) fn script(rules: &[String]) -> Option<String> {
+    match rules {
+        [] => None,
+        [one] => Some(one.clone()),
+        several => Some(format!("par {} endpar", several.join(" "))),
+    }
+}

@@ -1,0 +1,113 @@
+//! Which shape of a picture is to be lit in a state of the specification: the term to evaluate, and the shape for each of
+//! its values. For a page that shows a run.
+
+use crate::build::state_value;
+use crate::chart::{Control, ShapeKind};
+use crate::subject::{Part, Subject};
+use crate::system::Component;
+
+/// Something in a picture that goes from shape to shape: a machine at work for one element, or a component of a system.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Lights {
+    /// The element, or the component; empty: there is but one.
+    pub name: String,
+    /// The control variable, for this element.
+    pub term: String,
+    /// The shapes for its values.
+    pub shapes: Vec<Light>,
+}
+
+/// A shape that is lit while the control variable has a value.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Light {
+    /// The value, as the specification writes it.
+    pub value: String,
+    /// The shape, as `data-shape` names it.
+    pub shape: String,
+    /// In words.
+    pub label: String,
+}
+
+impl Subject<'_> {
+    /// What is lit in its picture: a machine with parameters once for each of `elements`, which are put in for the
+    /// parameters (several are separated by commas), a system's components by their present phase. A machine without a
+    /// control variable is never in a state.
+    pub fn lights(&self, elements: &[String]) -> Vec<Lights> {
+        let (chart, machine) = match self.part {
+            Part::Machine(machine) => (self.chart, machine),
+            Part::System(system) => {
+                let phase = |component: &Component, name: &str| Light {
+                    value: name.to_string(),
+                    shape: format!("{}/{name}", component.name),
+                    label: name.to_string(),
+                };
+                let component = |component: &Component| Lights {
+                    name: component.text.clone(),
+                    // What a system is built to, see `build::system`.
+                    term: format!("scheduler_currentPhase({})", component.name),
+                    shapes: component.phases.iter().map(|one| phase(component, &one.name)).collect(),
+                };
+                return system.components.iter().map(component).collect();
+            }
+        };
+        let Some(control) = &machine.control else { return Vec::new() };
+        let stays = machine.numbered().filter(|(_, shape)| !matches!(shape.kind, ShapeKind::Guard | ShapeKind::Action));
+        let shapes: Vec<Light> = stays
+            .map(|(id, shape)| Light {
+                value: state_value(chart, machine, id),
+                shape: shape.name.clone(),
+                label: shape.text.replace('\n', " "),
+            })
+            .collect();
+        let one = [String::new()];
+        let elements = if machine.parameters.is_empty() { &one } else { elements };
+        let of = |element: &String| {
+            let arguments: Vec<&str> = element.split(',').map(str::trim).filter(|text| !text.is_empty()).collect();
+            let term = match control {
+                Control::Made { name, .. } if arguments.is_empty() => name.clone(),
+                Control::Made { name, .. } => format!("{name}({})", arguments.join(", ")),
+                Control::Linked(link) => {
+                    let variables = machine.parameters.iter().map(|parameter| parameter.variable.as_str());
+                    variables
+                        .zip(&arguments)
+                        .fold(link.text.clone(), |term, (variable, argument)| put_in(&term, variable, argument))
+                }
+            };
+            Lights { name: element.clone(), term, shapes: shapes.clone() }
+        };
+        elements.iter().map(of).collect()
+    }
+}
+
+/// A term with an argument in the place of a variable.
+fn put_in(term: &str, variable: &str, argument: &str) -> String {
+    let mut out = String::new();
+    let mut rest = term;
+    while let Some(at) = rest.find(variable) {
+        let after = &rest[at + variable.len()..];
+        let whole = !after.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+        out.push_str(&rest[..at]);
+        out.push_str(if whole { argument } else { variable });
+        rest = after;
+    }
+    out + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use syntax::{FileId, parse_chart};
+
+    #[test]
+    fn parameters_are_replaced() {
+        assert_eq!(put_in("state(phase($c), $clock)", "$c", "robot"), "state(phase(robot), $clock)");
+        let text = "chart A machine m($c in Crane) control arm initial state toReach state held {HELD} \
+                    guard g toReach -> g yes -> held endmachine";
+        let (chart, _) = crate::read(FileId(0), &parse_chart(FileId(0), text));
+        let subject = crate::subjects(&chart).next().expect("the machine");
+        let lights = subject.lights(&["left".to_string(), "right".to_string()]);
+        assert_eq!(lights[1].term, "arm(right)");
+        let values: Vec<&str> = lights[1].shapes.iter().map(|light| light.value.as_str()).collect();
+        assert_eq!(values, ["TO_REACH", "HELD"]);
+    }
+}

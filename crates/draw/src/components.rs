@@ -1,0 +1,95 @@
+//! A system as a component diagram, before anything has a place: components with their phases, channels as components of
+//! their own between them, as in the paper's Figures 1 and 2, and devices.
+
+use chart::Layout;
+use chart::system::{Action, ChannelKind, Component, System};
+
+use crate::measure::{LEADING, RULE, SMALL, SMALL_LEADING, TEXT, bold_width, extent, text_width, wrapped};
+use crate::picture::{Detail, Figure};
+use crate::scene::{Edge, Node, Scene};
+use crate::words;
+
+/// The scene of a system; its shapes have the places of `layout`, as far as it has any.
+pub fn of_system(system: &System, layout: Option<&Layout>) -> Scene {
+    let mut scene = Scene { free: true, ..Scene::default() };
+    let devices = |sensors: bool| system.devices.iter().filter(move |device| device.is_sensor == sensors);
+    for device in devices(true) {
+        scene.nodes.push(node(&device.name, Figure::Device, &device.text, vec![plain("sensor")]));
+    }
+    for component in &system.components {
+        scene.nodes.push(node(&component.name, Figure::Component, &component.text, about(component, system)));
+    }
+    for channel in &system.channels {
+        let mut small = vec![plain(&words::channel(channel.kind))];
+        if let ChannelKind::Buffer { master, .. } = channel.kind {
+            small.push(plain(&format!("master: {}", system.components[master].text)));
+        }
+        scene.nodes.push(node(&channel.name, Figure::Channel, &channel.name, small));
+    }
+    for device in devices(false) {
+        scene.nodes.push(node(&device.name, Figure::Device, &device.text, vec![plain("actuator")]));
+    }
+    let place = |name: &str| scene.nodes.iter().position(|node| node.id == name);
+    let component = |index: usize| place(&system.components[index].name);
+    let ways = system.channels.iter().flat_map(|channel| {
+        let middle = place(&channel.name);
+        [(component(channel.from), middle), (middle, component(channel.to))]
+    });
+    let links = system.connections.iter().map(|(from, to)| (place(from), place(to)));
+    let edges = ways.chain(links).filter_map(|(from, to)| Some(Edge { from: from?, branch: None, to: to? })).collect();
+    scene.edges = edges;
+    for node in &mut scene.nodes {
+        node.place = layout.and_then(|places| places.get(&node.id)).copied();
+    }
+    scene
+}
+
+fn plain(text: &str) -> Detail {
+    Detail { id: None, text: text.to_string(), right: None }
+}
+
+/// When a component runs, and its phases.
+fn about(component: &Component, system: &System) -> Vec<Detail> {
+    let mut lines = vec![plain(&words::timing(component.timing, system.tick_ns))];
+    for phase in &component.phases {
+        let what = match phase.action {
+            Action::Read(channel) => format!("read {}", system.channels[channel].name),
+            Action::Write(channel) => format!("write {}", system.channels[channel].name),
+            Action::Elaborate(_) => "elaborate".to_string(),
+        };
+        let id = Some(format!("{}/{}", component.name, phase.name));
+        lines.push(Detail { id, text: what, right: Some(words::time(phase.time, system.tick_ns)) });
+    }
+    lines
+}
+
+/// Between the two texts of a line.
+const GAP: f64 = 18.0;
+
+fn node(name: &str, figure: Figure, text: &str, details: Vec<Detail>) -> Node {
+    let lines = wrapped(text, 180.0);
+    let (_, height) = extent(&lines);
+    // The sign of a component stands beside its name.
+    let sign = if figure == Figure::Component { 20.0 } else { 0.0 };
+    let width = lines.iter().map(|line| bold_width(line, TEXT) + 2.0 * sign).fold(0.0, f64::max);
+    let wide = |detail: &Detail| {
+        let right = detail.right.as_ref().map_or(0.0, |right| text_width(right, SMALL) + GAP);
+        text_width(&detail.text, SMALL) + right
+    };
+    let wide = details.iter().map(wide).fold(width, f64::max);
+    let rule = if details.iter().any(|detail| detail.right.is_some()) { RULE } else { 0.0 };
+    let height = height + details.len() as f64 * SMALL_LEADING + rule + 16.0;
+    let margin = if figure == Figure::Channel { 36.0 } else { 28.0 };
+    Node {
+        id: name.to_string(),
+        figure,
+        dashed: false,
+        lines,
+        details,
+        link: None,
+        width: 2.0 * ((wide + margin).max(90.0) / 2.0).ceil(),
+        height: 2.0 * (height.max(LEADING + 20.0) / 2.0).ceil(),
+        place: None,
+        initial: false,
+    }
+}

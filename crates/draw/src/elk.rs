@@ -1,0 +1,229 @@
+//! Scene → picture by the layered algorithm of the Eclipse Layout Kernel.
+//!
+//! In: a [`Scene`]. Out: a [`Picture`]. The graph is handed over as ELK's JSON, the form that its other implementations
+//! read too. Arrows come in from above; a guard's `yes` goes on below and its `no` to the right, at the hexagon's corner,
+//! so the straight way is the way of yes. Equal scenes give equal pictures: the library's random seed is fixed.
+
+use serde_json::{Value, json};
+
+use crate::picture::{Figure, Label, Line, Picture, Placed};
+use crate::scene::{Edge, Node, Scene, branch_size, link_size};
+
+/// The layout library refused a graph: our bug or its own.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LayoutFault(pub String);
+
+impl std::fmt::Display for LayoutFault {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "the layout failed: {}", self.0)
+    }
+}
+
+impl std::error::Error for LayoutFault {}
+
+/// The stack for a layout: enough for some ten thousand shapes in a row.
+const STACK_BYTES: usize = 128 << 20;
+
+/// From so many shapes on the layout is the coarser one.
+const LARGE: usize = 120;
+
+/// The scene with everything in its place.
+pub fn placed(scene: &Scene) -> Result<Picture, LayoutFault> {
+    if scene.nodes.is_empty() {
+        return Ok(Picture { width: 40.0, height: 40.0, ..Picture::default() });
+    }
+    let graph = graph(scene).to_string();
+    // The library walks graphs by recursion, as deep as they are long.
+    let answer = stacker::grow(STACK_BYTES, || elkrs::create_elk().layout_json(&graph));
+    let answer = answer.map_err(|error| LayoutFault(error.to_string()))?;
+    Ok(picture(scene, &answer))
+}
+
+fn graph(scene: &Scene) -> Value {
+    let children: Vec<Value> =
+        scene.nodes.iter().enumerate().map(|(index, node)| shape(index, node, scene.free)).collect();
+    let edges: Vec<Value> = scene
+        .edges
+        .iter()
+        .enumerate()
+        .map(|(index, edge)| {
+            let from = match edge.branch {
+                _ if scene.free => edge.from.to_string(),
+                Some(true) => format!("{}yes", edge.from),
+                Some(false) => format!("{}no", edge.from),
+                None => format!("{}out", edge.from),
+            };
+            let straightness = if edge.branch == Some(false) { "1" } else { "10" };
+            let to = if scene.free { edge.to.to_string() } else { format!("{}in", edge.to) };
+            json!({
+                "id": format!("e{index}"), "sources": [from], "targets": [to],
+                "layoutOptions": { "elk.layered.priority.straightness": straightness },
+            })
+        })
+        .collect();
+    // The finer placement takes time with the cube of the size.
+    let large = scene.nodes.len() > LARGE;
+    json!({
+        "id": "root",
+        "layoutOptions": {
+            "elk.algorithm": "layered",
+            "elk.direction": "DOWN",
+            "elk.randomSeed": "1",
+            "elk.edgeRouting": "ORTHOGONAL",
+            "elk.layered.cycleBreaking.strategy": "DEPTH_FIRST",
+            "elk.layered.considerModelOrder.strategy": "PREFER_NODES",
+            "elk.layered.nodePlacement.strategy": if large { "BRANDES_KOEPF" } else { "NETWORK_SIMPLEX" },
+            "elk.layered.nodePlacement.favorStraightEdges": "true",
+            "elk.layered.thoroughness": if large { "3" } else { "20" },
+            "elk.spacing.nodeNode": "34",
+            "elk.spacing.edgeNode": "20",
+            "elk.spacing.edgeEdge": "14",
+            "elk.spacing.labelNode": "5",
+            "elk.spacing.labelPortHorizontal": "3",
+            "elk.spacing.labelPortVertical": "3",
+            "elk.spacing.componentComponent": "44",
+            "elk.layered.spacing.nodeNodeBetweenLayers": "30",
+            "elk.layered.spacing.edgeNodeBetweenLayers": "16",
+            "elk.layered.spacing.edgeEdgeBetweenLayers": "12",
+            "elk.padding": "[top=20,left=20,bottom=20,right=20]",
+        },
+        "children": children,
+        "edges": edges,
+    })
+}
+
+/// A shape with the places where arrows meet it.
+fn shape(index: usize, node: &Node, free: bool) -> Value {
+    let (width, height) = (node.width, node.height);
+    if free {
+        return json!({ "id": index.to_string(), "width": width, "height": height });
+    }
+    let port = |name: &str, side: &str, x: f64, y: f64, label: Option<bool>| {
+        let labels: Vec<Value> = label
+            .into_iter()
+            .map(|branch| {
+                let (width, height) = branch_size(branch);
+                json!({ "text": if branch { "yes" } else { "no" }, "width": width, "height": height })
+            })
+            .collect();
+        json!({
+            "id": format!("{index}{name}"), "x": x, "y": y, "width": 0, "height": 0, "labels": labels,
+            "layoutOptions": { "elk.port.side": side, "elk.port.borderOffset": "0" },
+        })
+    };
+    let mut ports = vec![port("in", "NORTH", width / 2.0, 0.0, None)];
+    if node.figure == Figure::Hexagon {
+        ports.push(port("yes", "SOUTH", width / 2.0, height, Some(true)));
+        ports.push(port("no", "EAST", width, height / 2.0, Some(false)));
+    } else {
+        ports.push(port("out", "SOUTH", width / 2.0, height, None));
+    }
+    let labels: Vec<Value> = node
+        .link
+        .iter()
+        .map(|link| {
+            let (width, height) = link_size(link);
+            json!({ "text": link, "width": width, "height": height })
+        })
+        .collect();
+    let side = if node.figure == Figure::Hexagon { "H_LEFT" } else { "H_RIGHT" };
+    json!({
+        "id": index.to_string(), "width": width, "height": height, "ports": ports, "labels": labels,
+        "layoutOptions": {
+            "elk.portConstraints": "FIXED_POS",
+            "elk.portLabels.placement": "[OUTSIDE]",
+            "elk.nodeLabels.placement": format!("[OUTSIDE, V_CENTER, {side}]"),
+        },
+    })
+}
+
+fn number(value: &Value, key: &str) -> f64 {
+    value.get(key).and_then(Value::as_f64).unwrap_or_default()
+}
+
+fn list<'v>(value: &'v Value, key: &str) -> impl Iterator<Item = &'v Value> {
+    value.get(key).and_then(Value::as_array).into_iter().flatten()
+}
+
+fn picture(scene: &Scene, answer: &Value) -> Picture {
+    let mut picture =
+        Picture { width: number(answer, "width"), height: number(answer, "height"), ..Picture::default() };
+    for (index, (node, child)) in scene.nodes.iter().zip(list(answer, "children")).enumerate() {
+        let (x, y) = (number(child, "x"), number(child, "y"));
+        picture.boxes.push(shape_at(node, (x + node.width / 2.0, y + node.height / 2.0)));
+        picture.labels.extend(list(child, "labels").map(|given| label(given, index, x, y, true)));
+        for port in list(child, "ports") {
+            let leads = |edge: &&Edge| {
+                let name = port.get("id").and_then(Value::as_str).unwrap_or_default();
+                edge.from == index && name.ends_with(if edge.branch == Some(true) { "yes" } else { "no" })
+            };
+            if scene.edges.iter().any(|edge| leads(&edge)) {
+                let (x, y) = (x + number(port, "x"), y + number(port, "y"));
+                picture.labels.extend(list(port, "labels").map(|given| label(given, index, x, y, false)));
+            }
+        }
+    }
+    for (edge, given) in scene.edges.iter().zip(list(answer, "edges")) {
+        let mut points = Vec::new();
+        for section in list(given, "sections") {
+            let corner = |value: &Value| (number(value, "x"), number(value, "y"));
+            points.extend(section.get("startPoint").map(corner));
+            points.extend(list(section, "bendPoints").map(corner));
+            points.extend(section.get("endPoint").map(corner));
+        }
+        picture.lines.push(line(edge, points));
+    }
+    picture
+}
+
+/// The shape of a node with its centre there.
+pub fn shape_at(node: &Node, (x, y): (f64, f64)) -> Placed {
+    Placed {
+        id: node.id.clone(),
+        figure: node.figure,
+        dashed: node.dashed,
+        initial: node.initial,
+        lines: node.lines.clone(),
+        details: node.details.clone(),
+        x: x - node.width / 2.0,
+        y: y - node.height / 2.0,
+        width: node.width,
+        height: node.height,
+    }
+}
+
+/// The arrow of an edge.
+pub fn line(edge: &Edge, points: Vec<(f64, f64)>) -> Line {
+    Line { from: edge.from, to: edge.to, points: straightened(points) }
+}
+
+fn label(given: &Value, of: usize, x: f64, y: f64, is_link: bool) -> Label {
+    Label {
+        of,
+        text: given.get("text").and_then(Value::as_str).unwrap_or_default().to_string(),
+        is_link,
+        x: x + number(given, "x"),
+        y: y + number(given, "y"),
+        width: number(given, "width"),
+        height: number(given, "height"),
+    }
+}
+
+/// Without corners at which the line goes straight on.
+fn straightened(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    let mut out: Vec<(f64, f64)> = Vec::new();
+    for point in points {
+        while let [.., before, last] = out[..] {
+            let upright = before.0 == last.0 && last.0 == point.0;
+            let level = before.1 == last.1 && last.1 == point.1;
+            if !(upright || level) {
+                break;
+            }
+            out.pop();
+        }
+        if out.last() != Some(&point) {
+            out.push(point);
+        }
+    }
+    out
+}

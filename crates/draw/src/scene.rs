@@ -1,0 +1,188 @@
+//! What is to be drawn, before anything has a place: shapes with their sizes and texts, and arrows between them.
+//!
+//! In: a machine. Out: a [`Scene`]. Its order is that in which a reader meets the shapes, depth first from the start, by
+//! which the layout keeps the first path straight.
+
+use std::collections::BTreeSet;
+
+use chart::{Chart, End, Machine, Shape, ShapeKind};
+
+use crate::measure::{TEXT, extent, in_circle, link_width, text_width, wrapped};
+use crate::picture::{Detail, Figure};
+
+/// A shape to be placed.
+#[derive(Debug, Clone)]
+pub struct Node {
+    /// The name in the chart; `enter`; or `exit` and a number.
+    pub id: String,
+    pub figure: Figure,
+    pub dashed: bool,
+    pub lines: Vec<String>,
+    /// Small lines below.
+    pub details: Vec<Detail>,
+    /// With its braces.
+    pub link: Option<String>,
+    pub width: f64,
+    pub height: f64,
+    /// Where its centre has to lie.
+    pub place: Option<(f64, f64)>,
+    /// The machine starts here.
+    pub initial: bool,
+}
+
+impl Node {
+    /// All its lines of text.
+    pub fn told(&self) -> impl Iterator<Item = String> {
+        let detail = |detail: &Detail| match &detail.right {
+            Some(right) => format!("{}, {right}", detail.text),
+            None => detail.text.clone(),
+        };
+        self.lines.iter().cloned().chain(self.details.iter().map(detail))
+    }
+}
+
+/// An arrow to be routed.
+#[derive(Debug, Clone)]
+pub struct Edge {
+    pub from: usize,
+    pub branch: Option<bool>,
+    pub to: usize,
+}
+
+/// What is to be drawn.
+#[derive(Debug, Clone, Default)]
+pub struct Scene {
+    pub nodes: Vec<Node>,
+    pub edges: Vec<Edge>,
+    /// Arrows may meet shapes anywhere.
+    pub free: bool,
+}
+
+/// The scene of a machine.
+pub fn of_machine(chart: &Chart, machine: &Machine) -> Scene {
+    let order = reading_order(machine);
+    let radius = machine.shapes.iter().filter(|shape| matches!(shape.kind, ShapeKind::State { .. }));
+    let radius = radius.map(|shape| in_circle(&shape.text).1).fold(34.0, f64::max).ceil();
+    let mut scene = Scene::default();
+    for end in &order {
+        let mut node = match end {
+            End::Shape(id) => node(chart, machine.shape(*id), radius),
+            _ => point("enter".to_string(), Figure::Enter),
+        };
+        node.place = chart.layouts.get(&machine.name).and_then(|places| places.get(&node.id)).copied();
+        scene.nodes.push(node);
+    }
+    let place = |end: End| order.iter().position(|known| *known == end);
+    // Drawn in the order of the shapes they start at, `yes` before `no`.
+    let mut arrows: Vec<_> = machine.arrows.iter().collect();
+    arrows.sort_by_key(|arrow| (place(arrow.from), arrow.branch.map(|yes| !yes)));
+    for arrow in arrows {
+        let Some(from) = place(arrow.from) else { continue };
+        let to = match arrow.to {
+            End::Exit => {
+                let count = scene.nodes.iter().filter(|node| node.figure == Figure::Exit).count();
+                scene.nodes.push(point(format!("exit {}", count + 1), Figure::Exit));
+                scene.nodes.len() - 1
+            }
+            end => match place(end) {
+                Some(index) => index,
+                None => continue,
+            },
+        };
+        scene.edges.push(Edge { from, branch: arrow.branch, to });
+    }
+    scene
+}
+
+/// The ends as a reader meets them: depth first from the start, then what no path leads to.
+fn reading_order(machine: &Machine) -> Vec<End> {
+    let start = if machine.is_pattern { Some(End::Enter) } else { machine.initial().map(End::Shape) };
+    let mut order = Vec::new();
+    let mut seen = BTreeSet::new();
+    let rest = machine.numbered().map(|(id, _)| End::Shape(id));
+    for root in start.into_iter().chain(rest) {
+        let mut open = vec![root];
+        while let Some(end) = open.pop() {
+            if end == End::Exit || !seen.insert(end) {
+                continue;
+            }
+            order.push(end);
+            let mut next: Vec<_> = machine.out_of(end).collect();
+            next.sort_by_key(|arrow| arrow.branch.map(|yes| !yes));
+            open.extend(next.iter().rev().map(|arrow| arrow.to));
+        }
+    }
+    order
+}
+
+/// The invisible end of a floating arrow.
+fn point(id: String, figure: Figure) -> Node {
+    Node {
+        id,
+        figure,
+        dashed: false,
+        lines: Vec::new(),
+        details: Vec::new(),
+        link: None,
+        width: 2.0,
+        height: 2.0,
+        place: None,
+        initial: false,
+    }
+}
+
+fn node(chart: &Chart, shape: &Shape, radius: f64) -> Node {
+    let (figure, lines, width, height) = match &shape.kind {
+        ShapeKind::State { .. } => (Figure::Circle, in_circle(&shape.text).0, 2.0 * radius, 2.0 * radius),
+        ShapeKind::Guard => {
+            let lines = wrapped(&shape.text, 120.0);
+            let (width, height) = extent(&lines);
+            let height = (height + 20.0).max(44.0);
+            (Figure::Hexagon, lines, width + 2.0 * corner(height) + 12.0, height)
+        }
+        ShapeKind::Action => {
+            let lines = wrapped(&shape.text, 140.0);
+            let (width, height) = extent(&lines);
+            (Figure::Rectangle, lines, (width + 28.0).max(96.0), (height + 20.0).max(40.0))
+        }
+        ShapeKind::Instance(pattern) => {
+            let mut lines = wrapped(&shape.text, 150.0);
+            let of = chart.machine(&pattern.name).map_or(pattern.name.as_str(), |pattern| pattern.text.as_str());
+            if of != shape.text {
+                lines.extend(wrapped(of, 150.0));
+            }
+            let (width, height) = extent(&lines);
+            (Figure::Block, lines, (width + 52.0).max(120.0), (height + 24.0).max(48.0))
+        }
+    };
+    let rule = chart.pattern_of(shape).and_then(|pattern| pattern.rule.as_ref());
+    let link = shape.link.as_ref().or(rule);
+    Node {
+        id: shape.name.clone(),
+        figure,
+        dashed: shape.refinement.is_some(),
+        lines,
+        details: Vec::new(),
+        place: None,
+        link: link.map(|link| format!("{{{}}}", link.name)),
+        // Even, so that the middle lies on a whole pixel and straight arrows are straight.
+        width: 2.0 * (width / 2.0).ceil(),
+        height: 2.0 * (height / 2.0).ceil(),
+        initial: shape.kind == ShapeKind::State { initial: true },
+    }
+}
+
+/// How far the two corners of a hexagon reach out.
+pub fn corner(height: f64) -> f64 {
+    (height * 0.34).round()
+}
+
+/// The size of the label of a link.
+pub fn link_size(link: &str) -> (f64, f64) {
+    (link_width(link).ceil(), 14.0)
+}
+
+/// The size of `yes` and `no`.
+pub fn branch_size(branch: bool) -> (f64, f64) {
+    (text_width(if branch { "yes" } else { "no" }, TEXT - 1.5).ceil() + 2.0, 14.0)
+}

@@ -1,0 +1,296 @@
+//! Every chart is drawn so that it can be read: no two shapes overlap, no label lies on a shape, a line or another label,
+//! no line runs through a shape, every line starts and ends on the edge of its shape. So it is for every chart of the
+//! repository, for charts made at random, for one of 500 shapes, and, where the chart says where shapes lie, for random
+//! places; and these are kept. The SVG is well-formed and says in words what it shows.
+
+use chart::{Chart, read};
+use draw::{Figure, Notation, Picture, Theme, drawings, export};
+use syntax::{FileId, parse_chart};
+use testkit::{Page, repository};
+
+fn read_chart(text: &str) -> Chart {
+    let (chart, faults) = read(FileId(0), &parse_chart(FileId(0), text));
+    let errors = faults.iter().filter(|fault| fault.severity == syntax::Severity::Error);
+    assert_eq!(errors.collect::<Vec<_>>(), Vec::<&syntax::Diagnostic>::new(), "{text}");
+    chart
+}
+
+fn texts() -> Vec<String> {
+    let files = ["examples", "library"].map(|folder| repository::files(folder, &["chart"])).concat();
+    let page = Page::spec("charts");
+    files.iter().map(repository::text).chain(page.texts("chart").into_iter().map(str::to_string)).collect()
+}
+
+/// Left, upper, right and lower end.
+type Area = (f64, f64, f64, f64);
+
+fn area(x: f64, y: f64, width: f64, height: f64) -> Area {
+    (x, y, x + width, y + height)
+}
+
+fn overlap(a: Area, b: Area) -> bool {
+    let slack = 0.5;
+    a.0 + slack < b.2 && b.0 + slack < a.2 && a.1 + slack < b.3 && b.1 + slack < a.3
+}
+
+/// The area that a stretch of a line covers.
+fn stretch(from: (f64, f64), to: (f64, f64)) -> Area {
+    (from.0.min(to.0) - 0.8, from.1.min(to.1) - 0.8, from.0.max(to.0) + 0.8, from.1.max(to.1) + 0.8)
+}
+
+fn inside(a: Area, picture: &Picture) -> bool {
+    let Picture { left, top, width, height, .. } = *picture;
+    a.0 >= left && a.1 >= top && a.2 <= left + width && a.3 <= top + height
+}
+
+fn assert_readable(picture: &Picture, name: &str) {
+    let shapes: Vec<(Area, &str, Figure)> = picture
+        .boxes
+        .iter()
+        .map(|shape| (area(shape.x, shape.y, shape.width, shape.height), shape.id.as_str(), shape.figure))
+        .collect();
+    for (index, (a, first, _)) in shapes.iter().enumerate() {
+        assert!(inside(*a, picture), "{name}: {first} is outside");
+        for (b, second, _) in &shapes[index + 1..] {
+            assert!(!overlap(*a, *b), "{name}: {first} overlaps {second}");
+        }
+    }
+    let labels: Vec<(Area, &str)> = picture
+        .labels
+        .iter()
+        .map(|label| (area(label.x, label.y, label.width, label.height), label.text.as_str()))
+        .collect();
+    for (index, (a, text)) in labels.iter().enumerate() {
+        assert!(inside(*a, picture), "{name}: {text} is outside");
+        for (b, id, figure) in &shapes {
+            // The corner of a hexagon's box beside its slanted edge is free.
+            let free = *figure == Figure::Hexagon && (a.1 > (b.1 + b.3) / 2.0 || a.3 < (b.1 + b.3) / 2.0);
+            assert!(free || !overlap(*a, *b), "{name}: the label {text} lies on {id}");
+        }
+        for (b, other) in &labels[index + 1..] {
+            assert!(!overlap(*a, *b), "{name}: the label {text} lies on {other}");
+        }
+        for line in &picture.lines {
+            for pair in line.points.windows(2) {
+                assert!(!overlap(*a, stretch(pair[0], pair[1])), "{name}: a line runs through the label {text}");
+            }
+        }
+    }
+    for line in &picture.lines {
+        assert!(line.points.len() >= 2, "{name}: an arrow without points");
+        for (x, y) in &line.points {
+            assert!(inside((*x, *y, *x, *y), picture), "{name}: an arrow leads outside");
+        }
+        for pair in line.points.windows(2) {
+            assert!(pair[0].0 == pair[1].0 || pair[0].1 == pair[1].1, "{name}: a line is neither level nor upright");
+            for (index, (b, id, _)) in shapes.iter().enumerate() {
+                let own = index == line.from || index == line.to;
+                assert!(own || !overlap(*b, stretch(pair[0], pair[1])), "{name}: a line runs through {id}");
+            }
+        }
+        for (end, shape) in [(line.points[0], line.from), (line.points[line.points.len() - 1], line.to)] {
+            let (left, upper, right, lower) = shapes[shape].0;
+            let (x, y) = end;
+            let inside = x >= left - 0.5 && x <= right + 0.5 && y >= upper - 0.5 && y <= lower + 0.5;
+            let edge = [x - left, right - x, y - upper, lower - y].iter().any(|distance| distance.abs() < 0.5);
+            assert!(inside && edge, "{name}: an arrow does not meet {}", shapes[shape].1);
+        }
+    }
+}
+
+#[test]
+fn every_chart_is_readable() {
+    let mut count = 0;
+    for text in texts() {
+        let chart = read_chart(&text);
+        for drawing in drawings(&chart) {
+            let picture = drawing.picture().expect("it is laid out");
+            assert_readable(&picture, &format!("{}/{}", chart.name, drawing.name()));
+            let svg = drawing.svg(Theme::Auto).expect("it is drawn");
+            let tree = roxmltree::Document::parse(&svg).expect("the SVG is well-formed");
+            let titled = |tag: &str| tree.descendants().any(|node| node.has_tag_name(tag) && node.text().is_some());
+            assert!(titled("title") && titled("desc"), "{svg}");
+            assert_eq!(svg, drawing.svg(Theme::Auto).expect("it is drawn again"));
+            if let Some(scxml) = export(&drawing, Notation::Scxml) {
+                roxmltree::Document::parse(&scxml).expect("the SCXML is well-formed");
+            }
+            count += 1;
+        }
+    }
+    assert!(count >= 5, "hardly a chart was found");
+}
+
+/// A ladder of states, each with two guards and an action.
+fn ladder(states: usize) -> String {
+    let mut text = "chart Large machine m control c\n".to_string();
+    for n in 0..states {
+        let initial = if n == 0 { "initial " } else { "" };
+        text += &format!("{initial}state s{n} guard a{n} guard b{n} {{test{n}}} action d{n} {{r_do{n}[]}}\n");
+    }
+    for n in 0..states {
+        let next = (n + 1) % states;
+        text +=
+            &format!("s{n} -> a{n} yes -> d{n} -> s{next} a{n} no -> b{n} b{n} yes -> s{} b{n} no -> s{n}\n", n / 2);
+    }
+    text + "endmachine\n"
+}
+
+#[test]
+fn a_large_chart_is_readable() {
+    let chart = read_chart(&ladder(125));
+    let picture = drawings(&chart)[0].picture().expect("it is laid out");
+    assert_eq!(picture.boxes.len(), 500);
+    assert_readable(&picture, "the large chart");
+}
+
+/// Numbers that look random and are the same in every run.
+struct Dice(u64);
+
+impl Dice {
+    fn throw(&mut self, sides: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) as usize % sides.max(1)
+    }
+
+    fn words(&mut self, most: usize) -> String {
+        let words = ["on", "time", "elapsed", "managing", "swinging", "buffer", "acknowledged", "a", "READ", "lock"];
+        (0..=self.throw(most)).map(|_| words[self.throw(words.len())]).collect::<Vec<_>>().join(" ")
+    }
+
+    fn link(&mut self, before: &str) -> String {
+        if self.throw(3) == 0 { String::new() } else { format!(" {{{before}{}}}", self.words(2).replace(' ', "_")) }
+    }
+}
+
+/// A machine or pattern with so many states, whose paths lead over guards and actions of their own or of others.
+fn random(seed: u64, most: usize) -> String {
+    let mut dice = Dice(seed);
+    let is_pattern = dice.throw(2) == 0;
+    let states = 1 + dice.throw(most);
+    let (open, close) = if is_pattern { ("pattern", "endpattern") } else { ("machine", "endmachine") };
+    let mut shapes = format!("chart Random {open} m \"{}\" control c\n", dice.words(4));
+    let mut paths = String::new();
+    for n in 0..states {
+        let initial = if n == 0 && !is_pattern { "initial " } else { "" };
+        shapes += &format!(
+            "{initial}state s{n} \"{}\"{}\n",
+            dice.words(3),
+            if dice.throw(2) == 0 { format!(" {{S{n}}}") } else { String::new() }
+        );
+    }
+    if is_pattern {
+        shapes += "action first\n";
+        paths += "enter -> first -> s0\n";
+    }
+    let target = |dice: &mut Dice, actions: usize| match dice.throw(5) {
+        0 if is_pattern => "exit".to_string(),
+        1 if actions > 0 => format!("a{}", dice.throw(actions)),
+        _ => format!("s{}", dice.throw(states)),
+    };
+    let (mut guards, mut actions) = (0, 0);
+    for n in 0..states {
+        let mut from = format!("s{n}");
+        for _ in 0..1 + dice.throw(2) {
+            let refined = if dice.throw(4) == 0 { " to refine" } else { "" };
+            shapes += &format!("guard g{guards} \"{}\"{}{refined}\n", dice.words(4), dice.link(""));
+            shapes += &format!("action a{actions} \"{}\"{}\n", dice.words(3), dice.link("r_").replace("}", "[]}"));
+            // To an action made before, or to a state: never in a circle without one.
+            paths += &format!("{from} -> g{guards} yes -> a{actions} -> {}\n", target(&mut dice, actions));
+            match dice.throw(3) {
+                0 => {}
+                1 => paths += &format!("g{guards} no -> {}\n", target(&mut dice, actions)),
+                _ => paths += &format!("g{guards} no -> s{n}\n"),
+            }
+            guards += 1;
+            actions += 1;
+            from = format!("s{}", dice.throw(states));
+        }
+    }
+    shapes + &paths + close + "\n"
+}
+
+#[test]
+fn random_charts_are_readable() {
+    for seed in 0..150 {
+        let text = random(seed, 2 + seed as usize / 10);
+        let picture = drawings(&read_chart(&text))[0].picture().expect("it is laid out");
+        assert_readable(&picture, &format!("seed {seed}\n{text}"));
+    }
+}
+
+/// Machine and shape, and the shape's centre.
+type Places = Vec<(String, (f64, f64))>;
+
+/// The chart with places: those of its picture, drawn apart and moved a little; some are left out.
+fn placed(text: &str, dice: &mut Dice, left_out: usize) -> (String, Places) {
+    let chart = read_chart(text);
+    let (mut out, mut places) = (text.to_string(), Places::new());
+    for drawing in drawings(&chart) {
+        if chart.layouts.contains_key(drawing.name()) {
+            continue;
+        }
+        out += &format!("\nlayout {}\n", drawing.name());
+        for shape in drawing.picture().expect("it is laid out").boxes {
+            if shape.figure == Figure::Exit || dice.throw(100) < left_out {
+                continue;
+            }
+            let mut moved = |at: f64| (at * 1.6 + dice.throw(40) as f64).round() - 20.0;
+            let place = (moved(shape.x + shape.width / 2.0), moved(shape.y + shape.height / 2.0));
+            out += &format!("\t{} at {}, {}\n", shape.id, place.0, place.1);
+            places.push((format!("{}/{}", drawing.name(), shape.id), place));
+        }
+        out += "endlayout\n";
+    }
+    (out, places)
+}
+
+fn assert_placed(text: &str, places: &[(String, (f64, f64))], name: &str) {
+    let chart = read_chart(text);
+    for drawing in drawings(&chart) {
+        let picture = drawing.picture().expect("it is laid out");
+        assert_readable(&picture, name);
+        for shape in &picture.boxes {
+            let id = format!("{}/{}", drawing.name(), shape.id);
+            let centre = (shape.x + shape.width / 2.0, shape.y + shape.height / 2.0);
+            if let Some((_, place)) = places.iter().find(|(known, _)| *known == id) {
+                assert_eq!(centre, *place, "{name}: {id} moved");
+            }
+        }
+    }
+}
+
+#[test]
+fn places_are_kept() {
+    let mut dice = Dice(7);
+    for (index, text) in texts().iter().enumerate() {
+        for left_out in [0, 30] {
+            let (text, places) = placed(text, &mut dice, left_out);
+            assert_placed(&text, &places, &format!("chart {index} without {left_out} %\n{text}"));
+        }
+    }
+    for seed in 0..60 {
+        let (text, places) = placed(&random(seed, 2 + seed as usize / 10), &mut dice, (seed % 3 * 20) as usize);
+        assert_placed(&text, &places, &format!("seed {seed}\n{text}"));
+    }
+}
+
+#[test]
+fn a_large_chart_keeps_its_places() {
+    let (text, places) = placed(&ladder(30), &mut Dice(3), 4);
+    assert_placed(&text, &places, "the large chart");
+}
+
+#[test]
+fn pictures_are_files() {
+    let chart = read_chart(&texts()[0]);
+    let drawing = drawings(&chart)[0];
+    for theme in [Theme::Light, Theme::Dark] {
+        let png = drawing.png(theme, 1.0).expect("it is drawn");
+        assert!(png.starts_with(b"\x89PNG") && png.len() > 5_000, "{}", png.len());
+        assert_eq!(png, drawing.png(theme, 1.0).expect("it is drawn again"));
+        let pdf = drawing.pdf(theme).expect("it is drawn");
+        assert!(pdf.starts_with(b"%PDF") && pdf.len() > 5_000, "{}", pdf.len());
+        assert_eq!(pdf, drawing.pdf(theme).expect("it is drawn again"));
+    }
+    assert!(drawing.png(Theme::Light, 1000.0).is_err());
+}

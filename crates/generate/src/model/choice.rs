@@ -1,0 +1,173 @@
+//! `choose` → the candidates in the machine's order, and the environment that picks one.
+//!
+//! Candidates are listed before one is asked for, unless a number says which one it is: then nothing is listed. Variables
+//! that range over all numbers of a kind are drawn.
+
+use model::Basic;
+use program::{Binder, BinderList, DomainKind, RuleId, Term, TermId};
+
+use crate::model::generator::Generator;
+use crate::model::interval::Interval;
+use crate::model::plan::integer;
+use crate::model::rule::unwrapped;
+use crate::model::text::Text;
+use crate::model::types::type_of;
+
+/// LIMIT: candidates of a choice that are kept in place; more go to the heap.
+const CANDIDATES_IN_PLACE: u64 = 4096;
+
+impl Generator<'_> {
+    /// A choice among what the binders range over.
+    pub fn choose(
+        &mut self,
+        binders: BinderList,
+        condition: Option<TermId>,
+        body: RuleId,
+        if_none: Option<RuleId>,
+        id: RuleId,
+        text: &mut Text,
+    ) {
+        let span = self.program.rule_span(id);
+        let site = self.sites.number(span);
+        let binders = self.program.binder_list(binders).to_vec();
+        text.open("{");
+        let listed = self.draws(&binders, condition, site, text);
+        if listed.is_empty() && !binders.is_empty() && condition.is_none_or(|condition| self.is_true(condition)) {
+            // One candidate, all of whose numbers were drawn; the choice is still made.
+            text.line(format!("(void)choose(1, {site});"));
+            self.rule(body, text);
+            text.close("}");
+            return;
+        }
+        if let ([binder], true) = (&listed[..], condition.is_none_or(|condition| self.is_true(condition)))
+            && let Some(picked) = self.picked(*binder, site)
+        {
+            let Term::Domain(domain) = *self.program.term(binder.range) else { unreachable!("a pick is of a domain") };
+            let ty = type_of(self.program, domain);
+            let name = self.declare(binder.slot, ty, true, self.domain_interval(domain)).name;
+            text.marked(span, format!("[[maybe_unused]] const {} {name} = {picked};", self.plan.cpp(ty, true)));
+            self.rule(body, text);
+            text.close("}");
+            self.frame.scope.release(&name);
+            return;
+        }
+        let candidates = self.fresh("candidates");
+        let mut inner = Text::default();
+        let mut types: Vec<String> = Vec::new();
+        let mut variables = Vec::new();
+        let size = self.ranging_over(&listed, &mut inner, &mut |this, text| {
+            let guard = condition.and_then(|condition| this.guard_unless_true(condition));
+            if let Some(guard) = &guard {
+                text.open_marked(span, format!("if ({}) {{", unwrapped(guard)));
+            }
+            variables = listed.iter().filter_map(|binder| this.frame.slots[binder.slot.0 as usize].clone()).collect();
+            let names: Vec<&str> = variables.iter().map(|variable| variable.name.as_str()).collect();
+            types = variables.iter().map(|variable| this.plan.cpp(variable.ty, variable.defined)).collect();
+            let item = match &names[..] {
+                [one] => one.to_string(),
+                many => format!("{{{}}}", many.join(", ")),
+            };
+            text.line(format!("{candidates}.add({item}, {site});"));
+            if guard.is_some() {
+                text.close("}");
+            }
+        });
+        let item = match &types[..] {
+            [one] => one.clone(),
+            many => format!("std::tuple<{}>", many.join(", ")),
+        };
+        let place = match size {
+            Some(size) if size <= CANDIDATES_IN_PLACE && !item.contains("gs::Value") => size,
+            _ => 0,
+        };
+        if place == 0 && self.options.bare {
+            self.refuse(
+                span,
+                "the candidates of this choice have no bound known beforehand",
+                "range over a finite domain",
+            );
+        }
+        text.line(format!("gs::Candidates<{item}, {place}> {candidates};"));
+        inner.pour(text);
+        match if_none {
+            Some(if_none) => {
+                text.open_marked(span, format!("if ({candidates}.size() == 0) {{"));
+                self.rule(if_none, text);
+                text.between("} else {");
+            }
+            None => text.open_marked(span, format!("if ({candidates}.size() > 0) {{")),
+        }
+        let chosen: Vec<String> = listed
+            .iter()
+            .zip(&variables)
+            .map(|(binder, variable)| self.declare(binder.slot, variable.ty, variable.defined, variable.range).name)
+            .collect();
+        let pick = format!("{candidates}[choose({candidates}.size(), {site})]");
+        match &chosen[..] {
+            [one] => text.line(format!("[[maybe_unused]] const {} {one} = {pick};", types[0])),
+            many => text.line(format!("[[maybe_unused]] const auto [{}] = {pick};", many.join(", "))),
+        }
+        self.rule(body, text);
+        text.close("}");
+        text.close("}");
+        chosen.iter().chain([&candidates]).for_each(|name| self.frame.scope.release(name));
+    }
+
+    /// The choice of one of a domain's elements, where its number says which one it is; none where it does not.
+    fn picked(&self, binder: Binder, site: u32) -> Option<String> {
+        let Term::Domain(domain) = *self.program.term(binder.range) else { return None };
+        let plan = self.plan.domain(domain);
+        let ordinal = |ty: &str, count: usize| match count {
+            0 => None,
+            _ => Some(format!("gs::from_ordinal<{ty}>(static_cast<std::uint32_t>(choose({count}, {site})))")),
+        };
+        match (&self.program.domain(domain).kind, &plan.contents) {
+            (DomainKind::Basic(Basic::Boolean), _) => ordinal("bool", 2),
+            (DomainKind::Enum { literals }, _) => ordinal(&plan.name, literals.len()),
+            (DomainKind::Abstract { elements, .. }, _) if plan.carrier.is_none() => ordinal(&plan.name, elements.len()),
+            (DomainKind::Concrete { .. }, Some(contents)) if plan.carrier.is_none() => {
+                let Interval { low, .. } = crate::model::plan::gapless(contents)?;
+                let chosen = format!("static_cast<std::int64_t>(choose({}, {site}))", contents.len());
+                Some(if low == 0 { chosen } else { format!("{} + {chosen}", integer(low)) })
+            }
+            _ => None,
+        }
+    }
+
+    /// Binds the variables that range over all numbers of a kind, where there is no guard; gives the other binders.
+    fn draws(&mut self, binders: &[Binder], condition: Option<TermId>, site: u32, text: &mut Text) -> Vec<Binder> {
+        let guarded = condition.is_some_and(|condition| !self.is_true(condition));
+        let mut listed = Vec::new();
+        for (variable, binder) in binders.iter().enumerate() {
+            let basic = match self.program.term(binder.range) {
+                Term::Domain(domain) => match self.program.domain(*domain).kind {
+                    DomainKind::Basic(basic @ (Basic::Integer | Basic::Natural | Basic::Real)) if !guarded => {
+                        Some(basic)
+                    }
+                    _ => None,
+                },
+                _ => None,
+            };
+            let Some(basic) = basic else {
+                listed.push(*binder);
+                continue;
+            };
+            let ty = type_of(
+                self.program,
+                match self.program.term(binder.range) {
+                    Term::Domain(domain) => *domain,
+                    _ => continue,
+                },
+            );
+            let range = if basic == Basic::Natural { Interval::NATURAL } else { Interval::ALL };
+            let name = self.declare(binder.slot, ty, true, range).name;
+            let drawn = match basic {
+                Basic::Natural => format!("gs::not_negative(environment_.integer({site}, {variable}), {site})"),
+                Basic::Real => format!("gs::real(environment_.real({site}, {variable}), {site})"),
+                _ => format!("environment_.integer({site}, {variable})"),
+            };
+            text.line(format!("[[maybe_unused]] const {} {name} = {drawn};", self.plan.cpp(ty, true)));
+        }
+        listed
+    }
+}

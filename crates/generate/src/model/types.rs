@@ -1,0 +1,114 @@
+//! The C++ type of a domain, and generated expressions with their types.
+//!
+//! Scalars are typed: truth values, numbers, characters, literals of enum domains, elements of abstract ones. All other
+//! values, strings and collections among them, are of the dynamic type `Value`.
+
+use model::Basic;
+use program::{DomainId, DomainKind, Program};
+
+use crate::model::interval::Interval;
+
+/// The type of an expression, apart from whether it may be undef.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Type {
+    /// `undef` itself, of any domain.
+    Undef,
+    Boolean,
+    /// Integer and Natural.
+    Integer,
+    Real,
+    Char,
+    Enum(DomainId),
+    /// An element of an abstract domain, the base one.
+    Element(DomainId),
+    /// A sequence of literals or elements of a small domain.
+    List(DomainId),
+    /// Everything else.
+    Value,
+}
+
+/// The type of a domain's values.
+pub(crate) fn type_of(program: &Program, domain: DomainId) -> Type {
+    let base = program.base_domain(domain);
+    match &program.domain(base).kind {
+        DomainKind::Basic(Basic::Boolean) => Type::Boolean,
+        DomainKind::Basic(Basic::Integer | Basic::Natural) => Type::Integer,
+        DomainKind::Basic(Basic::Real) => Type::Real,
+        DomainKind::Basic(Basic::Char) => Type::Char,
+        DomainKind::Basic(Basic::Undef) => Type::Undef,
+        DomainKind::Enum { .. } => Type::Enum(base),
+        DomainKind::Abstract { .. } => Type::Element(base),
+        _ => Type::Value,
+    }
+}
+
+/// LIMIT: a list has a byte for each item, and a value for undef.
+const MOST_IN_LISTS: usize = 255;
+
+/// The type of what a function or term gives: that of a domain's values, with lists.
+pub(crate) fn result_type(program: &Program, domain: DomainId) -> Type {
+    let DomainKind::Seq(of) = &program.domain(domain).kind else { return type_of(program, domain) };
+    match ordinals(program, *of) {
+        Some(1..=MOST_IN_LISTS) => Type::List(program.base_domain(*of)),
+        _ => Type::Value,
+    }
+}
+
+/// How many values an enum domain has, or an abstract one that does not grow.
+pub(crate) fn ordinals(program: &Program, domain: DomainId) -> Option<usize> {
+    match &program.domain(program.base_domain(domain)).kind {
+        DomainKind::Enum { literals } => Some(literals.len()),
+        DomainKind::Abstract { elements, dynamic: false } => Some(elements.len()),
+        _ => None,
+    }
+}
+
+/// The type of a list's items.
+pub(crate) fn item_type(program: &Program, domain: DomainId) -> Type {
+    type_of(program, domain)
+}
+
+/// An expression of C++.
+#[derive(Debug, Clone)]
+pub(crate) struct Code {
+    pub text: String,
+    pub ty: Type,
+    /// It is never undef; of a [`Type::Value`] always false.
+    pub defined: bool,
+    /// It neither faults nor asks anybody, so that it does not matter when it is evaluated.
+    pub pure: bool,
+    /// If it is an integer, it lies in here.
+    pub range: Interval,
+}
+
+impl Code {
+    pub fn defined(text: impl Into<String>, ty: Type) -> Code {
+        Code { text: text.into(), ty, defined: ty != Type::Value, pure: false, range: Interval::ALL }
+    }
+
+    pub fn maybe(text: impl Into<String>, ty: Type) -> Code {
+        Code { text: text.into(), ty, defined: false, pure: false, range: Interval::ALL }
+    }
+
+    pub fn value(text: impl Into<String>) -> Code {
+        Code::maybe(text, Type::Value)
+    }
+
+    pub fn pure(self) -> Code {
+        Code { pure: true, ..self }
+    }
+
+    /// `undef`, of no type yet.
+    pub fn undef() -> Code {
+        Code { text: "gs::Value{}".into(), ty: Type::Undef, defined: false, pure: true, range: Interval::EMPTY }
+    }
+
+    pub fn within(self, range: Interval) -> Code {
+        Code { range, ..self }
+    }
+
+    /// The same where another integer stands beside it, which makes a literal one of 64 bits.
+    pub fn beside(&self) -> &str {
+        self.text.strip_prefix("std::int64_t{").and_then(|rest| rest.strip_suffix('}')).unwrap_or(&self.text)
+    }
+}

@@ -1,0 +1,153 @@
+//! Which functions and growing domains a rule may update, directly or through calls.
+//!
+//! In: a program. Out: by procedure, the [`Target`]s. Rule values and agents may run every procedure that is a value or
+//! a program. Units and sequences of the generated code name these and no more.
+
+use std::collections::BTreeSet;
+
+use program::{DomainId, DomainKind, FunctionId, ProcedureId, Program, Rule, RuleId, Term};
+
+/// Something that an update changes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Target {
+    Function(FunctionId),
+    Domain(DomainId),
+}
+
+/// By procedure, its targets.
+#[derive(Debug, Clone)]
+pub(crate) struct Writes {
+    procedures: Vec<BTreeSet<Target>>,
+    /// What a rule value or an agent's program may update.
+    values: BTreeSet<Target>,
+    /// The functions that some rule updates, or has of its own.
+    updated: BTreeSet<FunctionId>,
+    /// How many units stand inside each other; none where that has no bound.
+    pub levels: Option<u64>,
+}
+
+impl Writes {
+    /// Finds them out.
+    pub fn new(program: &Program) -> Writes {
+        let mut writes = Writes {
+            procedures: vec![BTreeSet::new(); program.procedures.len()],
+            values: BTreeSet::new(),
+            updated: updated(program),
+            levels: crate::model::nesting::levels(program),
+        };
+        let run: Vec<ProcedureId> = runnable(program).collect();
+        loop {
+            let mut changed = false;
+            for (index, procedure) in program.procedures.iter().enumerate() {
+                let found = writes.of(program, procedure.body);
+                changed |= found.len() != writes.procedures[index].len();
+                writes.procedures[index] = found;
+            }
+            let values: BTreeSet<Target> =
+                run.iter().flat_map(|id| writes.procedures[id.0 as usize].iter().copied()).collect();
+            changed |= values.len() != writes.values.len();
+            writes.values = values;
+            if !changed {
+                return writes;
+            }
+        }
+    }
+
+    /// What a rule may update.
+    pub fn of(&self, program: &Program, rule: RuleId) -> BTreeSet<Target> {
+        let mut found = BTreeSet::new();
+        let mut open = vec![rule];
+        while let Some(id) = open.pop() {
+            match program.rule(id) {
+                Rule::Update { function, .. } => {
+                    found.insert(Target::Function(*function));
+                }
+                Rule::Return { function, procedure, .. } => {
+                    found.insert(Target::Function(*function));
+                    found.extend(self.procedure(*procedure));
+                }
+                Rule::Call { procedure, .. } | Rule::TurboCall { procedure, .. } => {
+                    found.extend(self.procedure(*procedure));
+                }
+                Rule::RunValue { .. } | Rule::RunAgent { .. } => found.extend(&self.values),
+                Rule::Extend { domain, .. } => {
+                    let base = program.base_domain(*domain);
+                    found.extend([Target::Domain(*domain), Target::Domain(base)]);
+                }
+                Rule::Skip
+                | Rule::Par(_)
+                | Rule::Seq(_)
+                | Rule::If { .. }
+                | Rule::Switch { .. }
+                | Rule::Let { .. }
+                | Rule::Choose { .. }
+                | Rule::Forall { .. }
+                | Rule::Iterate(_)
+                | Rule::While { .. }
+                | Rule::RecursiveWhile { .. }
+                | Rule::Local { .. } => {}
+            }
+            program.each_child_of_rule(id, &mut |child| open.push(child));
+        }
+        found.retain(|target| match target {
+            Target::Domain(domain) => match program.domain(*domain).kind {
+                DomainKind::Abstract { dynamic, .. } | DomainKind::Concrete { dynamic, .. } => dynamic,
+                _ => false,
+            },
+            Target::Function(_) => true,
+        });
+        found
+    }
+
+    /// Whether any rule updates a function.
+    pub fn anywhere(&self, function: FunctionId) -> bool {
+        self.updated.contains(&function)
+    }
+
+    /// What a procedure may update.
+    pub fn procedure(&self, procedure: ProcedureId) -> &BTreeSet<Target> {
+        &self.procedures[procedure.0 as usize]
+    }
+}
+
+fn updated(program: &Program) -> BTreeSet<FunctionId> {
+    let mut found = BTreeSet::new();
+    for rule in &program.rules {
+        match rule {
+            Rule::Update { function, .. } | Rule::Return { function, .. } => {
+                found.insert(*function);
+            }
+            Rule::Local { start, len, .. } => {
+                found.extend(&program.function_lists[*start as usize..(*start + *len) as usize]);
+            }
+            Rule::Skip
+            | Rule::Call { .. }
+            | Rule::TurboCall { .. }
+            | Rule::RunValue { .. }
+            | Rule::RunAgent { .. }
+            | Rule::Par(_)
+            | Rule::Seq(_)
+            | Rule::If { .. }
+            | Rule::Switch { .. }
+            | Rule::Let { .. }
+            | Rule::Choose { .. }
+            | Rule::Forall { .. }
+            | Rule::Extend { .. }
+            | Rule::Iterate(_)
+            | Rule::While { .. }
+            | Rule::RecursiveWhile { .. } => {}
+        }
+    }
+    found
+}
+
+/// The procedures that are values or programs of agents.
+pub(crate) fn runnable(program: &Program) -> impl Iterator<Item = ProcedureId> {
+    let values = program.terms.iter().filter_map(|term| match term {
+        Term::Rule(procedure) => Some(*procedure),
+        _ => None,
+    });
+    let agents = program.agents.iter().map(|agent| agent.procedure);
+    let all: BTreeSet<ProcedureId> = values.chain(agents).collect();
+    all.into_iter()
+}

@@ -1,0 +1,90 @@
+//! The cycle of one task: its phases in their order, each a call into the runtime.
+
+use std::fmt::Write;
+
+use chart::system::{Action, System, Timing};
+
+use super::names::{hook, member, pascal};
+use super::plan::{Access, Form, access, ends, numbers};
+
+/// The function of the cycle of the component of this index.
+pub(super) fn cycle(text: &mut String, system: &System, index: usize, form: &Form) {
+    let component = &system.components[index];
+    let name = &component.name;
+    let numbers = numbers(system);
+    let _ = write!(
+        text,
+        "    void {name}_cycle(const Cycle& cycle) {{\n        this->cycle({index}, cycle, [&](Phases& phases) {{\n"
+    );
+    if component.phases.iter().any(|phase| matches!(phase.action, Action::Write(_))) {
+        text.push_str("            bool ready = false;\n");
+    }
+    let writes = |from: usize| component.phases[from..].iter().any(|phase| matches!(phase.action, Action::Write(_)));
+    for (at, phase) in component.phases.iter().enumerate() {
+        let number = format!("{{{}, {}}}", numbers.phases[index] + at, phase.time);
+        match phase.action {
+            Action::Elaborate(_) => {
+                let assigned = if writes(at) { "ready = " } else { "" };
+                let _ = write!(
+                    text,
+                    "            {assigned}phases.elaborate({number}, [&] {{\n                typename {}::Out out{{{}}};\n                \
+                     return hooks_.{}.{}(cycle, {name}_in_, out);\n            }});\n",
+                    pascal(name),
+                    places(system, index, form),
+                    member(name),
+                    hook(&phase.subject)
+                );
+            }
+            Action::Read(channel) => {
+                let channel = &system.channels[channel];
+                let seen = format!("{name}_in_.{}", member(&channel.name));
+                let call = match access(channel, index, form) {
+                    Access::InPlace | Access::Cell => {
+                        format!("read_in_place({number}, {0}_channel_, {seen})", channel.name)
+                    }
+                    Access::Copy => format!("read_copy({number}, {0}_channel_, {0}_copy_, {seen})", channel.name),
+                    Access::Message => format!("receive({number}, {0}_channel_, {0}_last_, {seen})", channel.name),
+                };
+                let _ = writeln!(text, "            phases.{call};");
+            }
+            Action::Write(channel) => {
+                let called = numbers.channels + channel;
+                let channel = &system.channels[channel].name;
+                let call = match access(&system.channels[called - numbers.channels], index, form) {
+                    Access::InPlace => format!("write_in_place({number}, {channel}_channel_, {called}, ready)"),
+                    Access::Cell => format!("store({number}, {channel}_channel_, {called}, ready)"),
+                    Access::Copy => {
+                        format!("write_copy({number}, {channel}_channel_, {channel}_staged_, {called}, ready)")
+                    }
+                    Access::Message => {
+                        format!("send({number}, {channel}_channel_, {channel}_staged_, {called}, ready)")
+                    }
+                };
+                let _ = writeln!(text, "            phases.{call};");
+            }
+        }
+    }
+    if let Timing::Synchronous { .. } = component.timing {
+        let _ =
+            writeln!(text, "            phases.complete({}, this->instant_ns({index}));", numbers.components + index);
+    }
+    text.push_str("        });\n");
+    if component.timing == (Timing::Asynchronous { awaits: None }) {
+        let _ = writeln!(text, "        this->rest_for_a_cycle({index}, cycle);");
+    }
+    text.push_str("    }\n\n");
+}
+
+/// Where a component's results are prepared, in the order of `Out`.
+fn places(system: &System, index: usize, form: &Form) -> String {
+    let (_, written) = ends(&system.components[index]);
+    let place = |channel: &usize| {
+        let channel = &system.channels[*channel];
+        match access(channel, index, form) {
+            Access::InPlace | Access::Cell => format!("{}_channel_.own()", channel.name),
+            Access::Copy => format!("{}_staged_", channel.name),
+            Access::Message => format!("{}_staged_.datum", channel.name),
+        }
+    };
+    written.iter().map(place).collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,40 @@
+//! Names of the chart as names of C++: types in PascalCase, functions in snake_case.
+
+use crate::names::{is_reserved, snake};
+
+/// `camera_to_vs` as `CameraToVs`, `visionSystem` as `VisionSystem`.
+pub(super) fn pascal(name: &str) -> String {
+    let parts = name.split('_').filter(|part| !part.is_empty());
+    let joined: String = parts.map(|part| part[..1].to_uppercase() + &part[1..]).collect();
+    member(&joined)
+}
+
+/// A name as that of a member: with `_` behind it where it means something in C++.
+pub(super) fn member(name: &str) -> String {
+    if is_reserved(name) { format!("{name}_") } else { name.to_string() }
+}
+
+/// The name of a hook: a member, beside those that every hook class has.
+pub(super) fn hook(name: &str) -> String {
+    let name = snake(name);
+    if ["start", "safe_stop"].contains(&name.as_str()) { format!("{name}_") } else { member(&name) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_change_their_shape() {
+        let check = |name: &str, type_name: &str, function: &str| {
+            assert_eq!((pascal(name).as_str(), snake(name).as_str()), (type_name, function));
+        };
+        check("camera_to_vs", "CameraToVs", "camera_to_vs");
+        check("setPoint", "SetPoint", "set_point");
+        check("visionSystem", "VisionSystem", "vision_system");
+        check("grab", "Grab", "grab");
+        // A macro of the headers that the program includes.
+        check("EIO", "EIO_", "eio");
+        assert_eq!((member("operator").as_str(), member("camera").as_str()), ("operator_", "camera"));
+    }
+}

@@ -1,0 +1,85 @@
+//! What is decided of a system before anything is printed: how each end of a channel is used, which numbers the program gives
+//! its parts, in which order tasks go first and stop.
+
+use chart::system::{Action, Channel, ChannelKind, Component, System};
+
+/// Options of the program.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Form {
+    /// Buffers are handed over by one atomic exchange instead of the protocol with a lock.
+    pub wait_free: bool,
+    /// The namespace of the generated classes and of the user's; made of the system's name where none is given.
+    pub namespace: Option<String>,
+}
+
+/// How a channel is used at one of its ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Access {
+    /// In the channel's own array.
+    InPlace,
+    /// On a copy, carried over under the lock.
+    Copy,
+    /// Messages of a queue.
+    Message,
+    /// A single cell, in place.
+    Cell,
+}
+
+/// How the component of this index uses a channel.
+pub(super) fn access(channel: &Channel, component: usize, form: &Form) -> Access {
+    match channel.kind {
+        ChannelKind::Queue { .. } => Access::Message,
+        ChannelKind::Shared => Access::Cell,
+        ChannelKind::Buffer { .. } if form.wait_free => Access::Cell,
+        ChannelKind::Buffer { master, .. } if master == component => Access::InPlace,
+        ChannelKind::Buffer { .. } => Access::Copy,
+    }
+}
+
+/// The channels that a component reads and writes, in the order of the phases.
+pub(super) fn ends(component: &Component) -> (Vec<usize>, Vec<usize>) {
+    let of = |wanted: fn(&Action) -> Option<usize>| component.phases.iter().filter_map(|p| wanted(&p.action)).collect();
+    let read = |action: &Action| if let Action::Read(channel) = action { Some(*channel) } else { None };
+    let written = |action: &Action| if let Action::Write(channel) = action { Some(*channel) } else { None };
+    (of(read), of(written))
+}
+
+/// The numbers of phases, channels and components among the names.
+pub(super) struct Numbers {
+    /// The number of the first phase of each component.
+    pub(super) phases: Vec<usize>,
+    /// The number of the first channel.
+    pub(super) channels: usize,
+    /// The number of the first component.
+    pub(super) components: usize,
+}
+
+/// The numbers of a system's parts.
+pub(super) fn numbers(system: &System) -> Numbers {
+    let mut next = 0;
+    let mut phases = Vec::new();
+    for component in &system.components {
+        phases.push(next);
+        next += component.phases.len();
+    }
+    Numbers { phases, channels: next, components: next + system.channels.len() }
+}
+
+/// Of the tasks that are ready at one instant the one with the shorter period goes first.
+pub(super) fn ranks(system: &System) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..system.components.len()).collect();
+    order.sort_by_key(|index| system.components[*index].timing.period().unwrap_or(u64::MAX));
+    let rank = |index: usize| order.iter().position(|other| *other == index).unwrap_or(index);
+    (0..system.components.len()).map(rank).collect()
+}
+
+/// Components that move something are stopped first, then the others, both in the order of the chart.
+pub(super) fn stopping(system: &System) -> Vec<usize> {
+    let acts = |component: &Component| {
+        let actuator = |name: &String| system.devices.iter().any(|device| !device.is_sensor && device.name == *name);
+        system.connections.iter().any(|(from, to)| *from == component.name && actuator(to))
+    };
+    let mut order: Vec<usize> = (0..system.components.len()).collect();
+    order.sort_by_key(|index| !acts(&system.components[*index]));
+    order
+}

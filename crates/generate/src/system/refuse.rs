@@ -1,0 +1,50 @@
+//! What of a system cannot be generated, and why.
+
+use chart::build::late;
+use chart::system::{Action, System};
+use syntax::{Diagnostic, Span};
+
+use super::names::pascal;
+use crate::fault::not_generated;
+use crate::names::snake;
+
+/// What of a system cannot be generated; the places are those of the chart.
+pub fn ungenerated(system: &System) -> Vec<Diagnostic> {
+    let mut faults = late(system);
+    for component in &system.components {
+        let mut hooks: Vec<String> = Vec::new();
+        for phase in &component.phases {
+            match phase.action {
+                Action::Elaborate(_) if hooks.contains(&snake(&phase.subject)) => faults.push(not_generated(
+                    phase.span,
+                    format!("a second elaboration `{}` of `{}` cannot be generated", phase.subject, component.name),
+                    "each elaboration is a function of the component's hook class",
+                    "rename one of them",
+                )),
+                Action::Elaborate(_) => hooks.push(snake(&phase.subject)),
+                Action::Write(_) if hooks.is_empty() => faults.push(not_generated(
+                    phase.span,
+                    format!("`{}` writes `{}` before it has elaborated anything", component.name, phase.subject),
+                    "what is written comes from the component's hook, and there is none before this phase",
+                    "put an `elaborate` phase before it",
+                )),
+                _ => {}
+            }
+        }
+    }
+    let mut types: Vec<(String, Span)> = Vec::new();
+    let all = system.channels.iter().map(|channel| (&channel.name, channel.span));
+    for (name, span) in all.chain(system.components.iter().map(|component| (&component.name, component.span))) {
+        let made = pascal(name);
+        match types.iter().find(|(known, _)| *known == made) {
+            Some(_) => faults.push(not_generated(
+                span,
+                format!("`{name}` and another name make one type `{made}`"),
+                "components and channels are types of the generated code",
+                "rename one of them",
+            )),
+            None => types.push((made, span)),
+        }
+    }
+    faults
+}
