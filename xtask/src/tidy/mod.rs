@@ -5,6 +5,7 @@
 //! them too. It must not know what the code does.
 
 mod builtins;
+mod circles;
 mod dependencies;
 mod layers;
 mod links;
@@ -82,6 +83,7 @@ const RULES: &[Rule] = &[
     dependencies::documented,
     links::links,
     builtins::builtins,
+    circles::circles,
 ];
 
 /// The command.

@@ -8,8 +8,8 @@ use std::collections::BTreeSet;
 
 use program::FunctionId;
 
-use crate::model::class::{carriers, functions, parameters};
 use crate::model::generator::{Generator, Need};
+use crate::model::members::{carriers, functions, parameters};
 use crate::model::plan::Role;
 use crate::model::text::Text;
 

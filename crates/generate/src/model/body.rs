@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use program::{Expression, FunctionId, FunctionKind, ProcedureId, Program, Runs};
 use syntax::Diagnostic;
 
+use crate::model::code::unwrapped;
 use crate::model::form::Form;
 use crate::model::generator::{Assumptions, Generator, Need, Options};
 use crate::model::interval::Interval;
@@ -124,7 +125,7 @@ fn once(generator: &mut Generator<'_>, started: &machine::Machine, known: &Known
     for id in generator.reached.clone() {
         let plan = generator.plan.function(id).clone();
         if matches!(plan.role, Role::Input | Role::Shared) {
-            let names: Vec<String> = (0..plan.dimensions.len()).map(crate::model::class::argument_name).collect();
+            let names: Vec<String> = (0..plan.dimensions.len()).map(crate::model::members::argument_name).collect();
             let asked = format!("environment_.{}({})", plan.name, names.join(", "));
             let asked = generator.checked(id, asked, Interval::ALL, "site");
             generator.asked.insert(id, asked);
@@ -208,7 +209,7 @@ fn definition(generator: &mut Generator<'_>, id: FunctionId) -> Member {
     let result = generator.plan.cpp(plan.ty, defined);
     let mut text = Text::default();
     text.open_marked(function.span, format!("{result} Machine::{}({}) {{", plan.name, silenced(&parameters)));
-    let body = crate::model::rule::unwrapped(&body);
+    let body = unwrapped(&body);
     let recursive = reads_itself(program, id);
     if recursive || !pure {
         generator.refuted.pure[id.0 as usize] = false;
@@ -266,7 +267,7 @@ fn initial_value(generator: &mut Generator<'_>, id: FunctionId, initial: usize, 
     let mut text = Text::default();
     let list = silenced(&parameters);
     text.open_marked(program.initials[initial].span, format!("{result} Machine::initial_{}({list}) {{", plan.name));
-    text.marked(program.term_span(expression.body), format!("return {};", crate::model::rule::unwrapped(&body)));
+    text.marked(program.term_span(expression.body), format!("return {};", unwrapped(&body)));
     text.close("}");
     Member { declaration: format!("{result} initial_{}({});", plan.name, parameters.join(", ")), definition: text }
 }
@@ -473,7 +474,7 @@ fn acting(program: &Program) -> bool {
         while let Some(rule) = rules.pop() {
             let called: Vec<ProcedureId> = match program.rule(rule).runs() {
                 Runs::Procedure(procedure) => vec![procedure],
-                Runs::Value { .. } => crate::model::writes::runnable(program).collect(),
+                Runs::Value { .. } => crate::model::nesting::runnable(program).collect(),
                 // An agent's program is run by the agent: it has a `self`.
                 Runs::Agent | Runs::Nothing => Vec::new(),
             };
@@ -507,7 +508,7 @@ fn is_recursive(program: &Program, id: ProcedureId) -> bool {
                 Runs::Procedure(procedure) => vec![procedure],
                 Runs::Value { arguments } => {
                     let fits = |id: &ProcedureId| program.procedure(*id).parameters.len() == arguments.len as usize;
-                    crate::model::writes::runnable(program).filter(fits).collect()
+                    crate::model::nesting::runnable(program).filter(fits).collect()
                 }
                 Runs::Agent => program.agents.iter().map(|agent| agent.procedure).collect(),
                 Runs::Nothing => Vec::new(),

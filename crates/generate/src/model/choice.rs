@@ -6,10 +6,10 @@
 use model::Basic;
 use program::{Binder, BinderList, DomainKind, RuleId, Term, TermId};
 
+use crate::model::code::unwrapped;
 use crate::model::generator::Generator;
 use crate::model::interval::Interval;
 use crate::model::plan::integer;
-use crate::model::rule::unwrapped;
 use crate::model::text::Text;
 use crate::model::types::type_of;
 
@@ -123,8 +123,10 @@ impl Generator<'_> {
         };
         match (&self.program.domain(domain).kind, &plan.contents) {
             (DomainKind::Basic(Basic::Boolean), _) => ordinal("bool", 2),
-            (DomainKind::Enum { literals }, _) => ordinal(&plan.name, literals.len()),
-            (DomainKind::Abstract { elements, .. }, _) if plan.carrier.is_none() => ordinal(&plan.name, elements.len()),
+            (DomainKind::Enum { literals }, _) => ordinal(plan.name(), literals.len()),
+            (DomainKind::Abstract { elements, .. }, _) if plan.carrier.is_none() => {
+                ordinal(plan.name(), elements.len())
+            }
             (DomainKind::Concrete { .. }, Some(contents)) if plan.carrier.is_none() => {
                 let Interval { low, .. } = crate::model::plan::gapless(contents)?;
                 let chosen = format!("static_cast<std::int64_t>(choose({}, {site}))", contents.len());

@@ -3,21 +3,19 @@
 //! In: bodies. Out: two texts. The class holds the state; `start` sets the initial one and `step` makes a step, whose
 //! update set is committed or, after a fault, dropped. What it asks for comes from an `Environment`.
 
-use std::collections::BTreeSet;
-
-use program::{DomainId, DomainKind, FunctionId, Program};
+use program::{DomainKind, FunctionId, Program};
 
 use crate::model::accessors::{accessors, initial_state, kept_from_start};
 use crate::model::body::Bodies;
 use crate::model::generator::{Generator, Need};
-use crate::model::plan::{DomainPlan, FunctionPlan, Role};
+use crate::model::members::{carriers, counts_steps, functions, logs, parameters, stepped};
+use crate::model::plan::Role;
 use crate::model::renamed::{called, literals_called};
-use crate::model::storage::Updates;
 use crate::model::text::{Text, escaped};
 use crate::model::types::Type;
 
-/// The header of a source; it declares the types that one of the two names.
-pub(crate) fn header(bodies: &Bodies<'_>, source: &Text, title: &str) -> Text {
+/// The header; it declares the types that code has named, so that everything else is made before.
+pub(crate) fn header(bodies: &Bodies<'_>, title: &str) -> Text {
     let generator = &bodies.generator;
     let (program, plan) = (generator.program, generator.plan);
     let mut body = Text::default();
@@ -55,25 +53,16 @@ pub(crate) fn header(bodies: &Bodies<'_>, source: &Text, title: &str) -> Text {
     text.line("#include <array>\n#include <cstddef>\n#include <cstdint>\n#include <limits>\n#include <tuple>\n#include <utility>\n");
     includes.iter().for_each(|name| text.line(format!("#include <groundstate/machine/{name}.hpp>")));
     text.line(format!("\nnamespace {} {{\n\nnamespace gs = groundstate::machine;\n", plan.namespace));
-    let words = words(&[&body.plain(), &source.plain()]);
-    types(generator, &words, &mut text);
+    types(generator, &mut text);
     body.pour(&mut text);
     text.line(format!("\n}}  // namespace {}", plan.namespace));
     text
 }
 
-/// The identifiers in generated texts.
-fn words(texts: &[&str]) -> BTreeSet<String> {
-    let words = |text: &&str| -> Vec<String> {
-        text.split(|letter: char| !(letter.is_ascii_alphanumeric() || letter == '_')).map(str::to_string).collect()
-    };
-    texts.iter().flat_map(words).collect()
-}
-
 /// The enum types and element types that something is made of.
-fn types(generator: &Generator<'_>, words: &BTreeSet<String>, text: &mut Text) {
+fn types(generator: &Generator<'_>, text: &mut Text) {
     for (index, plan) in generator.plan.domains.iter().enumerate() {
-        if !words.contains(&plan.name) {
+        if !plan.is_named() {
             continue;
         }
         match &generator.program.domains[index].kind {
@@ -81,21 +70,21 @@ fn types(generator: &Generator<'_>, words: &BTreeSet<String>, text: &mut Text) {
                 if let Some(told) = literals_called(literals, &plan.literals) {
                     text.line(told);
                 }
-                text.line(format!("enum class {} : std::uint32_t {{ {} }};", plan.name, plan.literals.join(", ")));
+                text.line(format!("enum class {} : std::uint32_t {{ {} }};", plan.stem(), plan.literals.join(", ")));
             }
             DomainKind::Abstract { elements, .. } => {
                 let named = match elements.len() {
                     0 => String::new(),
                     _ => format!("  // {}", elements.join(", ")),
                 };
-                text.open(format!("struct {} {{{named}", plan.name));
+                text.open(format!("struct {} {{{named}", plan.stem()));
                 text.line("std::uint32_t element = 0;");
-                text.line(format!("friend constexpr bool operator==(const {0}&, const {0}&) = default;", plan.name));
+                text.line(format!("friend constexpr bool operator==(const {0}&, const {0}&) = default;", plan.stem()));
                 text.close("};");
             }
             _ => continue,
         }
-        text.line(format!("constexpr std::uint32_t domain_of({}) {{ return {index}; }}\n", plan.name));
+        text.line(format!("constexpr std::uint32_t domain_of({}) {{ return {index}; }}\n", plan.stem()));
     }
 }
 
@@ -139,33 +128,6 @@ fn signature(program: &Program, id: FunctionId) -> String {
     let names: Vec<&str> = function.parameters.iter().map(|domain| program.domain(*domain).name.as_str()).collect();
     let from = if names.is_empty() { String::new() } else { format!("{} -> ", names.join(", ")) };
     format!("{}: {from}{}", function.name, program.domain(function.codomain).name)
-}
-
-/// The functions of these roles that the code reaches, or that others may set.
-pub(crate) fn functions<'p>(generator: &'p Generator<'_>, roles: &[Role]) -> Vec<(FunctionId, &'p FunctionPlan)> {
-    let all = generator.plan.functions.iter().enumerate();
-    all.map(|(index, plan)| (FunctionId(index as u32), plan))
-        .filter(|(id, plan)| roles.contains(&plan.role) && generator.reached.contains(id))
-        .collect()
-}
-
-/// A function's parameters, each possibly undef where some reader's argument may be, and their names.
-pub(crate) fn parameters(generator: &Generator<'_>, id: FunctionId) -> (String, String) {
-    let mut declared = Vec::new();
-    let mut names = Vec::new();
-    for (place, domain) in generator.program.function(id).parameters.iter().enumerate() {
-        let ty = generator.parameter_type(*domain);
-        let name = argument_name(place);
-        let defined = generator.assumed.inside[id.0 as usize][place];
-        declared.push(format!("{} {name}", generator.parameter(ty, defined)));
-        names.push(name);
-    }
-    (declared.join(", "), names.join(", "))
-}
-
-/// What the argument of that place is called.
-pub(crate) fn argument_name(place: usize) -> String {
-    if place == 0 { "argument".to_string() } else { format!("argument_{}", place + 1) }
 }
 
 fn class(bodies: &Bodies<'_>, text: &mut Text) {
@@ -306,37 +268,6 @@ fn helpers(bodies: &Bodies<'_>, text: &mut Text) {
     text.close("}");
 }
 
-/// Whether what was asked for is remembered by the number of the step.
-fn counts_steps(generator: &Generator<'_>) -> bool {
-    generator.needs.contains(&Need::Clock) || !functions(generator, &[Role::Input]).is_empty()
-}
-
-/// The functions whose updates in the running step are in a `Next`.
-fn stepped<'p>(generator: &'p Generator<'_>) -> Vec<&'p FunctionPlan> {
-    let all = functions(generator, &[Role::State, Role::Local]).into_iter();
-    all.filter(|(id, _)| generator.storage(*id).updates == Updates::Step).map(|(_, function)| function).collect()
-}
-
-/// The members that have a log of the running step.
-fn logs(generator: &Generator<'_>) -> Vec<String> {
-    let mut all = Vec::new();
-    for (id, function) in functions(generator, &[Role::State, Role::Local, Role::Shared]) {
-        if generator.storage(id).updates == Updates::Log {
-            let dot = if function.role == Role::Shared { ".locations" } else { "" };
-            all.push(format!("{}{dot}", function.member));
-        }
-    }
-    all.extend(carriers(generator).into_iter().filter_map(|(_, domain)| domain.carrier.clone()));
-    all
-}
-
-/// The growing domains that the code ranges over, asks or extends.
-pub(crate) fn carriers<'p>(generator: &'p Generator<'_>) -> Vec<(usize, &'p DomainPlan)> {
-    let all = generator.plan.domains.iter().enumerate();
-    all.filter(|(index, plan)| plan.carrier.is_some() && generator.carriers.contains(&DomainId(*index as u32)))
-        .collect()
-}
-
 fn members(generator: &Generator<'_>, text: &mut Text) {
     let plan = generator.plan;
     for (index, domain) in carriers(generator) {
@@ -368,9 +299,9 @@ pub(crate) fn source(bodies: &Bodies<'_>, file: &str) -> Text {
     text.line(format!("namespace {} {{\n", plan.namespace));
     if !generator.tables.is_empty() {
         text.line("namespace {\n");
-        for (name, contents) in &generator.tables {
-            let constant = if contents.contains("gs::Value") { "const" } else { "constexpr" };
-            text.line(format!("{constant} auto {name} = {contents};"));
+        for table in &generator.tables {
+            let constant = if table.dynamic { "const" } else { "constexpr" };
+            text.line(format!("{constant} auto {} = {};", table.name, table.contents));
         }
         text.line("\n}  // namespace\n");
     }
@@ -517,7 +448,7 @@ fn agents(bodies: &Bodies<'_>, text: &mut Text) {
         text.open("\ngs::Value Machine::agent_program([[maybe_unused]] const gs::Value& agent) {");
         match base {
             Some(base) => {
-                let name = &generator.plan.domain(base).name;
+                let name = generator.plan.domain(base).name();
                 text.line(format!("const std::int64_t rule = program_of(gs::unbox<{name}>(agent, 0));"));
                 text.line("return rule < 0 ? gs::Value{} : gs::Value::rule(static_cast<std::uint32_t>(rule));");
             }

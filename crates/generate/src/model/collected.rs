@@ -5,11 +5,12 @@
 
 use program::{BinderList, CollectionKind, DomainId, Quantifier, Term, TermId, TermList};
 
+use crate::model::code::{CALLED, Code};
 use crate::model::generator::Generator;
 use crate::model::interval::Interval;
-use crate::model::term::{CALLED, collection};
+use crate::model::term::collection;
 use crate::model::text::Text;
-use crate::model::types::{Code, Type, item_type};
+use crate::model::types::{Type, item_type};
 
 impl Generator<'_> {
     /// `[binders | condition : body]`, or another kind of collection.

@@ -13,7 +13,8 @@ use program::{
     Binder, DomainKind, FunctionId, Literal, ProcedureId, Program, Rule, RuleId, Slot, Term, TermId, TermList,
 };
 
-use crate::model::writes::{Target, Writes, runnable};
+use crate::model::nesting::runnable;
+use crate::model::writes::{Target, Writes};
 
 /// See the module.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

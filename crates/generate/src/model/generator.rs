@@ -11,15 +11,14 @@ use program::{DomainId, DomainKind, FunctionId, ProcedureId, Program, Slot, Term
 use syntax::{Diagnostic, Span};
 
 use crate::fault::no_form;
-
-use crate::names::Scope;
-
+use crate::model::code::Code;
 use crate::model::form::Form;
 use crate::model::interval::Interval;
-use crate::model::plan::Plan;
+use crate::model::plan::{Plan, covers};
 use crate::model::sites::Sites;
-use crate::model::types::{Code, Type};
+use crate::model::types::Type;
 use crate::model::writes::Writes;
+use crate::names::Scope;
 
 /// What may be assumed of a program, by its tables.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -138,8 +137,8 @@ pub(crate) struct Generator<'a> {
     pub refuted: Assumptions,
     pub sites: Sites,
     pub frame: Frame,
-    /// Constant sets and lists, by their text: each becomes a table.
-    pub tables: Vec<(String, String)>,
+    /// Constant sets and lists.
+    pub tables: Vec<Table>,
     /// What cannot be generated.
     pub refused: Vec<Diagnostic>,
     /// Functions whose code is needed.
@@ -156,6 +155,16 @@ pub(crate) struct Generator<'a> {
     pub asked: BTreeMap<FunctionId, String>,
     /// It matters neither in which order nor how often a set's elements are ranged over.
     pub unordered: bool,
+}
+
+/// A constant set or list, which stands once.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Table {
+    pub name: String,
+    /// As C++ writes it.
+    pub contents: String,
+    /// It holds dynamic values, which no compiler makes.
+    pub dynamic: bool,
 }
 
 /// See [`Generator::needs`].
@@ -183,6 +192,7 @@ impl<'a> Generator<'a> {
         options: &'a Options,
         assumed: Assumptions,
     ) -> Self {
+        plan.begin();
         Generator {
             program,
             plan,
@@ -230,6 +240,12 @@ impl<'a> Generator<'a> {
             Type::Undef => Type::Value,
             ty => ty,
         }
+    }
+
+    /// A subset that does not grow has all elements of its base.
+    pub fn is_all_of(&self, subset: DomainId, base: DomainId) -> bool {
+        let contents = &self.plan.domain(subset).contents;
+        contents.as_ref().is_some_and(|contents| covers(self.program, base, contents))
     }
 
     /// Between what the integers of a domain lie.

@@ -8,11 +8,13 @@ mod accessors;
 mod body;
 mod choice;
 mod class;
+mod code;
 mod collected;
 mod driver;
 mod form;
 mod generator;
 mod interval;
+mod members;
 mod nesting;
 mod operation;
 mod plan;
@@ -82,7 +84,7 @@ pub fn generate(
         files.push(File { name, text, mappings });
     };
     let source = class::source(&bodies, &name);
-    add(format!("{name}.hpp"), &class::header(&bodies, &source, file_name(&title)));
+    add(format!("{name}.hpp"), &class::header(&bodies, file_name(&title)));
     add(format!("{name}.cpp"), &source);
     if !options.bare {
         add("replay.cpp".to_string(), &driver::driver(&bodies, &name));

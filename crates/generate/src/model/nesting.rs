@@ -3,9 +3,20 @@
 //! In: a program. Out: a bound on the levels of `seq`, loops, turbo calls and scopes around any update, through calls; none
 //! where a rule may call itself. A location has at most one update a level in the log of the running step.
 
-use program::{ProcedureId, Program, Rule, RuleId};
+use std::collections::BTreeSet;
 
-use crate::model::writes::runnable;
+use program::{ProcedureId, Program, Rule, RuleId, Term};
+
+/// The procedures that are values or programs of agents.
+pub(crate) fn runnable(program: &Program) -> impl Iterator<Item = ProcedureId> {
+    let values = program.terms.iter().filter_map(|term| match term {
+        Term::Rule(procedure) => Some(*procedure),
+        _ => None,
+    });
+    let agents = program.agents.iter().map(|agent| agent.procedure);
+    let all: BTreeSet<ProcedureId> = values.chain(agents).collect();
+    all.into_iter()
+}
 
 /// The levels around any update of the main rule.
 pub(crate) fn levels(program: &Program) -> Option<u64> {

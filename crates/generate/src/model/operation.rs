@@ -7,11 +7,10 @@ use program::{Builtin, Cpp, Operands, TermId, TermList};
 
 use crate::names::{identifier, snake};
 
+use crate::model::code::{Code, beside, between, unwrapped, within};
 use crate::model::generator::{EMPTY, Generator, Need};
 use crate::model::interval::{Interval, Outcome};
-use crate::model::rule::unwrapped;
-use crate::model::term::CALLED;
-use crate::model::types::{Code, Type, item_type};
+use crate::model::types::{Type, item_type};
 
 /// LIMIT: items of a list; collection_limit of machine/operands.hpp. SYNC(collection)
 const MOST_ITEMS: i64 = 10_000_000;
@@ -310,19 +309,6 @@ fn function_of(builtin: Builtin) -> String {
     identifier(&snake(&format!("{builtin:?}")))
 }
 
-/// Two integers with an operator between; a literal is written without its type where the other one has it.
-pub(crate) fn beside(left: &Code, symbol: &str, right: &Code) -> String {
-    if left.beside() != left.text && right.beside() != right.text {
-        return between(&left.text, symbol, &right.text);
-    }
-    between(left.beside(), symbol, right.beside())
-}
-
-/// An operator between two terms. Compilers warn of a term compared with itself where they see it.
-pub(crate) fn between(left: &str, symbol: &str, right: &str) -> String {
-    if left == right { format!("({left} {symbol} gs::itself({left}))") } else { format!("({left} {symbol} {right})") }
-}
-
 /// A truth value.
 fn truth(text: String, pure: bool) -> Code {
     Code { pure, ..Code::defined(text, Type::Boolean) }
@@ -342,14 +328,6 @@ fn arithmetic(builtin: Builtin, codes: &[Code]) -> Option<(Outcome, Option<&'sta
         (Builtin::IntAbs, [a]) => (a.range.absolute(), None),
         _ => return None,
     })
-}
-
-/// An expression after statements.
-pub(crate) fn within(statements: &str, code: Code) -> Code {
-    match statements {
-        "" => code,
-        _ => Code { text: format!("{CALLED} {{ {statements}return {}; }}()", code.text), pure: false, ..code },
-    }
 }
 
 fn boolean(code: &Code) -> bool {

@@ -3,6 +3,7 @@
 //! In: a program and a machine that has made its initial state, which knows the contents of static domains. Out: a
 //! [`Plan`], the same for every run. It decides nothing about rules and terms.
 
+use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use model::Basic;
@@ -10,7 +11,6 @@ use program::{DomainId, DomainKind, FunctionId, FunctionKind, ProcedureId, Progr
 
 use crate::names::{Scope, identifier, namespace, snake};
 
-use crate::model::generator::Generator;
 use crate::model::interval::Interval;
 use crate::model::types::{Type, result_type, type_of};
 
@@ -70,8 +70,10 @@ pub(crate) struct FunctionPlan {
 /// A domain.
 #[derive(Debug, Clone)]
 pub(crate) struct DomainPlan {
-    /// The C++ type of an enum or abstract domain; the stem of other names.
-    pub name: String,
+    /// See [`DomainPlan::name`].
+    name: String,
+    /// The code names the type, so that it must be declared.
+    named: Cell<bool>,
     /// Identifiers of an enum's literals.
     pub literals: Vec<String>,
     /// The contents of a concrete domain that never grows.
@@ -204,8 +206,14 @@ fn plan_domain(
     members: &mut Scope,
 ) -> DomainPlan {
     let domain = program.domain(id);
-    let mut plan =
-        DomainPlan { name: String::new(), literals: Vec::new(), contents: None, initial: Vec::new(), carrier: None };
+    let mut plan = DomainPlan {
+        name: String::new(),
+        named: Cell::new(false),
+        literals: Vec::new(),
+        contents: None,
+        initial: Vec::new(),
+        carrier: None,
+    };
     match &domain.kind {
         DomainKind::Enum { literals } => {
             plan.name = types.take(&domain.name);
@@ -309,16 +317,8 @@ fn dimension(program: &Program, domains: &[DomainPlan], domain: DomainId, initia
     }
 }
 
-impl Generator<'_> {
-    /// A subset that does not grow has all elements of its base.
-    pub fn is_all_of(&self, subset: DomainId, base: DomainId) -> bool {
-        let contents = &self.plan.domain(subset).contents;
-        contents.as_ref().is_some_and(|contents| covers(self.program, base, contents))
-    }
-}
-
 /// Whether this is all there is of an enum domain, or of an abstract one that does not grow.
-fn covers(program: &Program, domain: DomainId, contents: &[machine::Value]) -> bool {
+pub(crate) fn covers(program: &Program, domain: DomainId, contents: &[machine::Value]) -> bool {
     match &program.domain(domain).kind {
         DomainKind::Enum { literals: all } | DomainKind::Abstract { elements: all, dynamic: false } => {
             contents.len() == all.len()
@@ -351,7 +351,7 @@ pub(crate) fn integer(number: i64) -> String {
 }
 
 /// The type of a value that is defined.
-pub(crate) fn cpp_type(domains: &[DomainPlan], ty: Type) -> String {
+fn cpp_type(domains: &[DomainPlan], ty: Type) -> String {
     match ty {
         Type::Boolean => "bool".into(),
         Type::Integer => "std::int64_t".into(),
@@ -363,7 +363,30 @@ pub(crate) fn cpp_type(domains: &[DomainPlan], ty: Type) -> String {
     }
 }
 
+impl DomainPlan {
+    /// The C++ type of an enum or abstract domain, for code that needs its declaration.
+    pub fn name(&self) -> &str {
+        self.named.set(true);
+        &self.name
+    }
+
+    /// The same as the stem of other names.
+    pub fn stem(&self) -> &str {
+        &self.name
+    }
+
+    /// Whether code has taken the name since [`Plan::begin`].
+    pub fn is_named(&self) -> bool {
+        self.named.get()
+    }
+}
+
 impl Plan {
+    /// Code is generated anew: no type is named yet.
+    pub fn begin(&self) {
+        self.domains.iter().for_each(|domain| domain.named.set(false));
+    }
+
     pub fn function(&self, id: FunctionId) -> &FunctionPlan {
         &self.functions[id.0 as usize]
     }
@@ -378,6 +401,9 @@ impl Plan {
 
     /// The C++ type of values of a type, defined or not.
     pub fn cpp(&self, ty: Type, defined: bool) -> String {
+        if let Type::Enum(domain) | Type::Element(domain) | Type::List(domain) = ty {
+            self.domain(domain).named.set(true);
+        }
         let plain = cpp_type(&self.domains, ty);
         if defined || plain == "gs::Value" { plain } else { format!("gs::Maybe<{plain}>") }
     }

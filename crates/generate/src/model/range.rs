@@ -7,7 +7,7 @@ use model::{Basic, CollectionKind, Literal};
 use program::{Binder, BinderList, DomainId, DomainKind, Term, TermId};
 
 use crate::model::form::Form;
-use crate::model::generator::{Generator, Variable};
+use crate::model::generator::{Generator, Table, Variable};
 use crate::model::interval::Interval;
 use crate::model::plan::integer;
 use crate::model::term::real;
@@ -183,18 +183,18 @@ impl<'a> Generator<'a> {
             |name: &str, count: usize| Some((format!("gs::Ordinals<{name}>{{{count}}}"), Some(count as u64)));
         match &self.program.domain(domain).kind {
             DomainKind::Basic(Basic::Boolean) => ordinals("bool", 2),
-            DomainKind::Enum { literals } => ordinals(&plan.name, literals.len()),
+            DomainKind::Enum { literals } => ordinals(plan.name(), literals.len()),
             DomainKind::Abstract { elements, .. } => match &own {
-                None => ordinals(&plan.name, elements.len()),
+                None => ordinals(plan.name(), elements.len()),
                 Some(carrier) => {
                     let most = self.capacity(&self.program.domain(domain).name).map(u64::from);
-                    Some((format!("gs::listed<{}>({carrier})", plan.name), most))
+                    Some((format!("gs::listed<{}>({carrier})", plan.name()), most))
                 }
             },
             DomainKind::Concrete { base, .. } => match (&own, &plan.contents) {
                 (Some(carrier), _) => {
                     let most = self.capacity(&self.program.domain(domain).name).map(u64::from);
-                    Some((format!("gs::listed<{}>({carrier})", self.plan.domain(*base).name), most))
+                    Some((format!("gs::listed<{}>({carrier})", self.plan.domain(*base).name()), most))
                 }
                 (None, Some(contents)) => {
                     let contents = contents.clone();
@@ -220,23 +220,28 @@ impl<'a> Generator<'a> {
         let ty = type_of(self.program, domain);
         let plain = if ty == Type::Undef { "gs::Value".to_string() } else { self.plan.cpp(ty, true) };
         let items: Vec<String> = contents.iter().map(|value| self.constant(value, ty)).collect();
-        self.table(&format!("{}_contents", self.plan.domain(domain).name), &plain, &items)
+        self.table(
+            &format!("{}_contents", self.plan.domain(domain).stem()),
+            &plain,
+            ty == Type::Undef || ty == Type::Value,
+            &items,
+        )
     }
 
     /// A table of constants; one of the same contents is used again.
-    fn table(&mut self, name: &str, plain: &str, items: &[String]) -> String {
+    fn table(&mut self, name: &str, plain: &str, dynamic: bool, items: &[String]) -> String {
         let contents = format!("std::array<{plain}, {}>{{{}}}", items.len(), items.join(", "));
-        if let Some((name, _)) = self.tables.iter().find(|(_, text)| *text == contents) {
-            return name.clone();
+        if let Some(known) = self.tables.iter().find(|table| table.contents == contents) {
+            return known.name.clone();
         }
-        let taken = |this: &Self, candidate: &str| this.tables.iter().any(|(name, _)| name == candidate);
+        let taken = |this: &Self, candidate: &str| this.tables.iter().any(|table| table.name == candidate);
         let mut candidate = name.to_string();
         let mut number = 1;
         while taken(self, &candidate) {
             number += 1;
             candidate = format!("{name}_{number}");
         }
-        self.tables.push((candidate.clone(), contents));
+        self.tables.push(Table { name: candidate.clone(), contents, dynamic });
         candidate
     }
 
@@ -263,10 +268,10 @@ impl<'a> Generator<'a> {
             Value::Enum(domain, index) if dynamic => format!("gs::Value::enumeration({}, {index})", domain.0),
             Value::Enum(domain, index) => {
                 let plan = self.plan.domain(*domain);
-                format!("{}::{}", plan.name, plan.literals[*index as usize])
+                format!("{}::{}", plan.name(), plan.literals[*index as usize])
             }
             Value::Element(domain, number) if dynamic => format!("gs::Value::element({}, {number})", domain.0),
-            Value::Element(domain, number) => format!("{}{{{number}}}", self.plan.domain(*domain).name),
+            Value::Element(domain, number) => format!("{}{{{number}}}", self.plan.domain(*domain).name()),
             Value::Rule(procedure) => {
                 self.entered.insert(*procedure);
                 format!("gs::Value::rule({})", procedure.0)
@@ -332,7 +337,7 @@ impl<'a> Generator<'a> {
         }
         let items: Vec<String> = values.iter().map(|value| self.constant(value, ty)).collect();
         let plain = self.plan.cpp(ty, true);
-        Some((self.table("listed", &plain, &items), ty, items.len() as u64))
+        Some((self.table("listed", &plain, false, &items), ty, items.len() as u64))
     }
 
     fn is_integer(&self, term: TermId) -> bool {

@@ -4,8 +4,8 @@
 
 use program::DomainKind;
 
-use crate::model::class::functions;
 use crate::model::generator::Generator;
+use crate::model::members::functions;
 use crate::model::plan::Role;
 
 /// What whoever uses the class finds under another name, as `(the model's, the class's)`: functions, then enum and abstract
@@ -17,7 +17,7 @@ pub(crate) fn renamed(generator: &Generator<'_>) -> Vec<(String, String)> {
     }
     for (domain, plan) in generator.program.domains.iter().zip(&generator.plan.domains) {
         if let DomainKind::Enum { .. } | DomainKind::Abstract { .. } = &domain.kind {
-            found.push((domain.name.clone(), plan.name.clone()));
+            found.push((domain.name.clone(), plan.stem().to_string()));
         }
         if let DomainKind::Enum { literals } = &domain.kind {
             found.extend(literals.iter().cloned().zip(plan.literals.iter().cloned()));

@@ -11,14 +11,15 @@ use program::{
     TermList,
 };
 
+use crate::model::code::{CALLED, Code, listed, unwrapped};
 use crate::model::generator::{Generator, Need};
 use crate::model::interval::Interval;
+use crate::model::nesting::runnable;
 use crate::model::plan::{Role, integer};
 use crate::model::storage::Updates;
-use crate::model::term::{CALLED, listed};
 use crate::model::text::Text;
-use crate::model::types::{Code, Type, type_of};
-use crate::model::writes::{Target, runnable};
+use crate::model::types::{Type, type_of};
+use crate::model::writes::Target;
 
 impl Generator<'_> {
     /// A rule as statements.
@@ -428,7 +429,7 @@ impl Generator<'_> {
             );
             return;
         };
-        let name = self.plan.domain(base).name.clone();
+        let name = self.plan.domain(base).name().to_string();
         text.open("{");
         let mut made = Vec::new();
         for offset in 0..count {
@@ -477,22 +478,4 @@ fn declared(class: &str, name: &str, members: &[String]) -> String {
         [] => format!("gs::{class}<> {name};"),
         _ => format!("gs::{class} {name}{{{}}};", members.join(", ")),
     }
-}
-
-/// A text without the parentheses around it.
-pub(crate) fn unwrapped(text: &str) -> &str {
-    let Some(inner) = text.strip_prefix('(').and_then(|text| text.strip_suffix(')')) else { return text };
-    let mut depth = 0;
-    for letter in inner.chars() {
-        match letter {
-            '(' => depth += 1,
-            ')' if depth == 0 => return text,
-            ')' => depth -= 1,
-            // A comma between operands would be one between arguments.
-            ',' if depth == 0 => return text,
-            '"' | '\'' => return text,
-            _ => {}
-        }
-    }
-    inner
 }

@@ -6,17 +6,13 @@
 
 use program::{CollectionKind, DomainKind, FunctionId, Literal, Term, TermId, TermList};
 
+use crate::model::code::{CALLED, Code, beside, between, listed, unwrapped, within};
 use crate::model::form::Form;
 use crate::model::generator::Generator;
 use crate::model::interval::Interval;
-use crate::model::operation::{beside, between, within};
 use crate::model::plan::{Dimension, Role, integer};
-use crate::model::rule::unwrapped;
 use crate::model::text::escaped;
-use crate::model::types::{Code, Type, result_type};
-
-/// Before the body of a lambda that is called on the spot: part of the code around it, whatever compilers estimate.
-pub(crate) const CALLED: &str = "[&]() GROUNDSTATE_CALLED";
+use crate::model::types::{Type, result_type};
 
 impl Generator<'_> {
     /// The type that a term's domain says it has.
@@ -186,7 +182,7 @@ impl Generator<'_> {
             Literal::Char(letter) => Code::defined(format!("char32_t{{{}}}", *letter as u32), Type::Char).pure(),
             Literal::Enum(domain, index) => {
                 let plan = self.plan.domain(*domain);
-                let text = format!("{}::{}", plan.name, plan.literals[*index as usize]);
+                let text = format!("{}::{}", plan.name(), plan.literals[*index as usize]);
                 Code::defined(text, Type::Enum(*domain)).pure()
             }
             Literal::Complex(re, im) => {
@@ -205,7 +201,7 @@ impl Generator<'_> {
         let index = function.0 as usize;
         if let Role::Element(number) = plan.role {
             let Type::Element(domain) = plan.ty else { return Code::value("gs::Value{}").pure() };
-            let name = &self.plan.domain(domain).name;
+            let name = self.plan.domain(domain).name();
             return Code::defined(format!("{name}{{{number}}}"), plan.ty).pure();
         }
         self.reached.insert(function);
@@ -463,11 +459,6 @@ impl Generator<'_> {
             },
         }
     }
-}
-
-/// Expressions as a list of arguments.
-pub(crate) fn listed(codes: &[Code]) -> String {
-    codes.iter().map(|code| unwrapped(&code.text)).collect::<Vec<_>>().join(", ")
 }
 
 /// A collection of a kind, of a list of elements.

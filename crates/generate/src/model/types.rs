@@ -6,8 +6,6 @@
 use model::Basic;
 use program::{DomainId, DomainKind, Program};
 
-use crate::model::interval::Interval;
-
 /// The type of an expression, apart from whether it may be undef.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Type {
@@ -66,49 +64,4 @@ pub(crate) fn ordinals(program: &Program, domain: DomainId) -> Option<usize> {
 /// The type of a list's items.
 pub(crate) fn item_type(program: &Program, domain: DomainId) -> Type {
     type_of(program, domain)
-}
-
-/// An expression of C++.
-#[derive(Debug, Clone)]
-pub(crate) struct Code {
-    pub text: String,
-    pub ty: Type,
-    /// It is never undef; of a [`Type::Value`] always false.
-    pub defined: bool,
-    /// It neither faults nor asks anybody, so that it does not matter when it is evaluated.
-    pub pure: bool,
-    /// If it is an integer, it lies in here.
-    pub range: Interval,
-}
-
-impl Code {
-    pub fn defined(text: impl Into<String>, ty: Type) -> Code {
-        Code { text: text.into(), ty, defined: ty != Type::Value, pure: false, range: Interval::ALL }
-    }
-
-    pub fn maybe(text: impl Into<String>, ty: Type) -> Code {
-        Code { text: text.into(), ty, defined: false, pure: false, range: Interval::ALL }
-    }
-
-    pub fn value(text: impl Into<String>) -> Code {
-        Code::maybe(text, Type::Value)
-    }
-
-    pub fn pure(self) -> Code {
-        Code { pure: true, ..self }
-    }
-
-    /// `undef`, of no type yet.
-    pub fn undef() -> Code {
-        Code { text: "gs::Value{}".into(), ty: Type::Undef, defined: false, pure: true, range: Interval::EMPTY }
-    }
-
-    pub fn within(self, range: Interval) -> Code {
-        Code { range, ..self }
-    }
-
-    /// The same where another integer stands beside it, which makes a literal one of 64 bits.
-    pub fn beside(&self) -> &str {
-        self.text.strip_prefix("std::int64_t{").and_then(|rest| rest.strip_suffix('}')).unwrap_or(&self.text)
-    }
 }

@@ -5,7 +5,9 @@
 
 use std::collections::BTreeSet;
 
-use program::{DomainId, DomainKind, FunctionId, ProcedureId, Program, Rule, RuleId, Term};
+use program::{DomainId, DomainKind, FunctionId, ProcedureId, Program, Rule, RuleId};
+
+use crate::model::nesting::runnable;
 
 /// Something that an update changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -139,15 +141,4 @@ fn updated(program: &Program) -> BTreeSet<FunctionId> {
         }
     }
     found
-}
-
-/// The procedures that are values or programs of agents.
-pub(crate) fn runnable(program: &Program) -> impl Iterator<Item = ProcedureId> {
-    let values = program.terms.iter().filter_map(|term| match term {
-        Term::Rule(procedure) => Some(*procedure),
-        _ => None,
-    });
-    let agents = program.agents.iter().map(|agent| agent.procedure);
-    let all: BTreeSet<ProcedureId> = values.chain(agents).collect();
-    all.into_iter()
 }
