@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 use syntax::Span;
 
+use crate::link::Link;
 use crate::system::System;
 
 /// A chart file.
@@ -138,19 +139,6 @@ pub enum Control {
         /// Where it is named.
         span: Span,
     },
-}
-
-/// A piece of AsmetaL that a shape stands for.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Link {
-    /// The term or rule, on one line, without comments.
-    pub text: String,
-    /// The name that the picture shows: of the function, literal or rule that it begins with.
-    pub name: String,
-    /// It is this name applied to arguments and nothing else.
-    pub is_application: bool,
-    /// Where it stands.
-    pub span: Span,
 }
 
 /// A shape of a machine.

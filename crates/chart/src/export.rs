@@ -10,8 +10,9 @@
 use std::fmt::Write;
 
 use crate::build::call;
-use crate::chart::{Chart, Control, Link, Machine, Refinement, Shape, ShapeId, ShapeKind};
+use crate::chart::{Chart, Control, Machine, Refinement, Shape, ShapeId, ShapeKind};
 use crate::flow::{Origin, Target, Transition, is_block, transitions};
+use crate::link::Link;
 use crate::xml::Text;
 
 /// The namespace of what SCXML has no word for.

@@ -8,7 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use model::{Call, DomainKind, FunctionId, Literal, Model, RuleId, RuleKind, TermKind};
 
-use crate::chart::{Arrow, Chart, Control, End, Link, Machine, Parameter, Shape, ShapeId, ShapeKind, WORDS};
+use crate::chart::{Arrow, Chart, Control, End, Machine, Parameter, Shape, ShapeId, ShapeKind, WORDS};
+use crate::link::Link;
 use crate::read::spoken;
 use crate::symbolic::{Depth, Effect, Explorer, Guarded, Path, Reason, consistent};
 

@@ -16,6 +16,7 @@ mod extract;
 mod fault;
 mod flow;
 mod lights;
+mod link;
 mod read;
 mod subject;
 mod symbolic;
@@ -25,7 +26,7 @@ pub mod xml;
 
 pub use build::{Built, Known, Unknown, build, unbuilt};
 pub use chart::{
-    Arrow, Chart, Control, End, Layout, Link, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind,
+    Arrow, Chart, Control, End, Layout, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind,
 };
 pub use check::{Probed, built_faults, check, probed};
 pub use dump::dump;
@@ -34,6 +35,7 @@ pub use extract::{Extracted, extract};
 pub use fault::IDS as FAULT_IDS;
 pub use flow::{Origin, Target, Transition, transitions};
 pub use lights::{Light, Lights};
+pub use link::Link;
 pub use read::{Loaded, load, load_beside, read};
 pub use subject::{NoPictures, NotDrawn, Part, Pictures, Subject, subjects};
 pub use write::write;

@@ -5,7 +5,7 @@
 
 use syntax::Span;
 
-use crate::chart::Link;
+use crate::link::Link;
 
 /// A system.
 #[derive(Debug, Clone, PartialEq)]

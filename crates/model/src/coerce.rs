@@ -6,11 +6,13 @@
 //! INVARIANT: a term without numbers comes out as it went in, but for the domain of an empty collection.
 
 use crate::check::body::Body;
+use crate::collection::CollectionKind;
 use crate::compat::{Bindings, COERCING};
 use crate::constant;
-use crate::domain::{Basic, DomainId, DomainKind, Domains};
+use crate::domain::{Basic, DomainKind, Domains};
+use crate::id::DomainId;
 use crate::model::Model;
-use crate::term::{Binder, CollectionKind, Literal, Term, TermKind};
+use crate::term::{Binder, Literal, Term, TermKind};
 
 /// The cost of taking a constant Integer for a Natural.
 const CONSTANT: u32 = COERCING / 2;
@@ -242,7 +244,7 @@ impl Body<'_> {
 
     /// The components of a product-valued term, and the variable that they are projections of, to be bound to the
     /// term by a `let` around their use; none where the term may stand several times as it is.
-    pub(crate) fn take_apart(&mut self, tuple: &Term) -> (Option<crate::model::VariableId>, Vec<Term>) {
+    pub(crate) fn take_apart(&mut self, tuple: &Term) -> (Option<crate::id::VariableId>, Vec<Term>) {
         let type_domain = self.site.model.domains.type_domain(tuple.domain);
         let parts = self.site.model.domains.parameters_of(type_domain);
         if let TermKind::Tuple(components) = &tuple.kind {

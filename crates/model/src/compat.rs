@@ -7,7 +7,8 @@
 //!
 //! INVARIANT: reads the table only; a type variable is bound to a domain that a term really has.
 
-use crate::domain::{Basic, DomainId, DomainKind, Domains};
+use crate::domain::{Basic, DomainKind, Domains};
+use crate::id::DomainId;
 
 /// The least cost that stands for a numeric coercion.
 pub(crate) const COERCING: u32 = 10_000;

@@ -9,10 +9,13 @@ use std::collections::BTreeMap;
 use syntax::ast::{self, AstNode};
 use syntax::{FileId, Span, SyntaxKind, SyntaxToken};
 
-use crate::domain::{DomainId, DomainKind, Domains};
+use crate::declaration::{Function, FunctionKind, Rule, Variable};
+use crate::domain::{DomainKind, Domains};
 use crate::fault::{self, Faults};
+use crate::id::DomainId;
+use crate::id::{RuleId, VariableId};
 use crate::imports::Unit;
-use crate::model::{Function, FunctionKind, Model, Rule, RuleId, Variable, VariableId};
+use crate::model::Model;
 use crate::names::Names;
 use crate::rule::{RuleKind, RuleNode};
 use crate::site::{Site, predefined};
@@ -188,7 +191,7 @@ impl Declare<'_> {
         let name = token.text().to_string();
         let library = self.library;
         let function = Function { name, kind, parameters, codomain, definition: None, library, span };
-        let same = |id: &&crate::model::FunctionId| self.model.function(**id).parameters == function.parameters;
+        let same = |id: &&crate::id::FunctionId| self.model.function(**id).parameters == function.parameters;
         if let Some(first) = self.names.functions(&function.name).iter().find(same).copied() {
             let place = self.model.function(first).span;
             let signature = self.site().signature(first);

@@ -8,11 +8,9 @@ use std::collections::BTreeMap;
 
 use syntax::Span;
 
-use crate::term::{CollectionKind, Term};
-
-/// Names a domain of a [`Domains`] table.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct DomainId(pub u32);
+use crate::collection::CollectionKind;
+use crate::id::DomainId;
+use crate::term::Term;
 
 /// The basic domains. `Natural ⊂ Integer ⊂ Real ⊂ Complex`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

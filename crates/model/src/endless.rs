@@ -8,7 +8,8 @@
 use syntax::Span;
 
 use crate::fault::{self, Faults};
-use crate::model::{FunctionId, Model};
+use crate::id::FunctionId;
+use crate::model::Model;
 use crate::term::{Term, TermKind};
 
 /// Warns of definitions that cannot be evaluated.

@@ -13,13 +13,16 @@ pub mod term;
 
 mod check;
 mod coerce;
+mod collection;
 mod compat;
 mod constant;
+mod declaration;
 mod declare;
 mod dump;
 mod endless;
 mod fault;
 mod fragment;
+mod id;
 mod imports;
 mod library;
 mod macros;
@@ -33,15 +36,16 @@ mod visit;
 
 pub use check::check;
 
-pub use domain::{Basic, Domain, DomainId, DomainKind, Domains};
+pub use collection::CollectionKind;
+pub use declaration::{Definition, Function, FunctionKind, Rule, Variable};
+pub use domain::{Basic, Domain, DomainKind, Domains};
 pub use fault::IDS;
 pub use fault::name::missing_operator;
 pub use fragment::Fragment;
-pub use model::{
-    AgentProgram, Checked, Definition, Function, FunctionId, FunctionKind, Init, InitialFunction, Loader, Model,
-    Property, PropertyKind, Rule, RuleId, Variable, VariableId,
-};
+pub use id::DomainId;
+pub use id::{FunctionId, RuleId, VariableId};
+pub use model::{AgentProgram, Checked, Init, InitialFunction, Loader, Model, Property, PropertyKind};
 pub use names::Names;
 pub use rule::{Call, RuleKind, RuleNode, Target};
 pub use suggest::nearest;
-pub use term::{Binder, CollectionKind, Literal, Quantifier, Term, TermKind};
+pub use term::{Binder, Literal, Quantifier, Term, TermKind};

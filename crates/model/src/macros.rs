@@ -9,8 +9,10 @@ use std::collections::BTreeSet;
 use syntax::Span;
 
 use crate::check::local_state::UpdatedParameters;
+use crate::declaration::FunctionKind;
 use crate::fault::{self, Faults};
-use crate::model::{FunctionKind, Model, RuleId, VariableId};
+use crate::id::{RuleId, VariableId};
+use crate::model::Model;
 use crate::rule::{Call, RuleKind, RuleNode, Target};
 use crate::term::{Term, TermKind};
 

@@ -5,22 +5,11 @@
 
 use syntax::{Diagnostic, FileId, Parse, SourceFile, Sources, Span};
 
-use crate::domain::{DomainId, Domains};
+use crate::declaration::{Definition, Function, Rule, Variable};
+use crate::domain::Domains;
+use crate::id::{DomainId, FunctionId, RuleId};
 use crate::names::Names;
-use crate::rule::RuleNode;
 use crate::term::Term;
-
-/// Names a function of a model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct FunctionId(pub u32);
-
-/// Names a rule of a model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct RuleId(pub u32);
-
-/// Names a logical variable within its declaration (a rule, a definition, a property).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct VariableId(pub u32);
 
 /// Finds the texts of imported files; the shells implement it over a disk, tests over a map.
 pub trait Loader {
@@ -110,86 +99,6 @@ impl Model {
     pub fn functions(&self) -> impl Iterator<Item = (FunctionId, &Function)> {
         self.functions.iter().enumerate().map(|(i, function)| (FunctionId(i as u32), function))
     }
-}
-
-/// A logical variable.
-#[derive(Debug, Clone)]
-pub struct Variable {
-    /// The name with its `$`; a made one starts with `$$`.
-    pub name: String,
-    /// The domain of its values.
-    pub domain: DomainId,
-    /// Where it is bound.
-    pub span: Span,
-}
-
-/// Who may change a function, and when (Börger & Stärk, section 2.2.3).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum FunctionKind {
-    /// Never changes; defined by a term, by the library, or (0-ary, abstract) an element of its domain.
-    Static,
-    /// Defined by a term over the state.
-    Derived,
-    /// Written by the environment.
-    Monitored,
-    /// Written by the machine.
-    Controlled,
-    /// Written by both.
-    Shared,
-    /// Written by the machine and not read by it.
-    Out,
-    /// Of a turbo rule with local state.
-    Local,
-}
-
-/// A function.
-#[derive(Debug, Clone)]
-pub struct Function {
-    /// The name.
-    pub name: String,
-    /// The kind.
-    pub kind: FunctionKind,
-    /// Parameter domains; a declared product is taken apart into its components.
-    pub parameters: Vec<DomainId>,
-    /// The domain of its values.
-    pub codomain: DomainId,
-    /// The defining term of a static or derived function.
-    pub definition: Option<Definition>,
-    /// Declared in a built-in library file; without a definition its meaning is the machine's
-    /// (named by `name`, `parameters` and `codomain`).
-    pub library: bool,
-    /// Where it is declared.
-    pub span: Span,
-}
-
-/// A defining term with its parameters.
-#[derive(Debug, Clone)]
-pub struct Definition {
-    /// All variables of this definition.
-    pub variables: Vec<Variable>,
-    /// The parameters, a prefix of the variables.
-    pub parameters: Vec<VariableId>,
-    /// The term.
-    pub body: Term,
-}
-
-/// A declared rule.
-#[derive(Debug, Clone)]
-pub struct Rule {
-    /// The name.
-    pub name: String,
-    /// A turbo rule: called by value, atomic.
-    pub turbo: bool,
-    /// All variables of this declaration.
-    pub variables: Vec<Variable>,
-    /// The parameters, a prefix of the variables.
-    pub parameters: Vec<VariableId>,
-    /// The domain of a turbo rule's result.
-    pub result: Option<DomainId>,
-    /// The body.
-    pub body: RuleNode,
-    /// Where the name is declared.
-    pub span: Span,
 }
 
 /// What a property is for.

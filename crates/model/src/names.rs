@@ -6,8 +6,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::domain::DomainId;
-use crate::model::{Function, FunctionId, RuleId};
+use crate::declaration::Function;
+use crate::id::DomainId;
+use crate::id::{FunctionId, RuleId};
 
 /// What the names of a file mean.
 #[derive(Debug, Clone, Default)]

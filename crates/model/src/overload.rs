@@ -6,8 +6,10 @@
 
 use crate::coerce;
 use crate::compat::Bindings;
-use crate::domain::{DomainId, DomainKind};
-use crate::model::{FunctionId, Model, RuleId};
+use crate::domain::DomainKind;
+use crate::id::DomainId;
+use crate::id::{FunctionId, RuleId};
+use crate::model::Model;
 use crate::term::{Term, TermKind};
 
 /// How the arguments meet the parameters.

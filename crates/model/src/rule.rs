@@ -2,8 +2,8 @@
 
 use syntax::Span;
 
-use crate::domain::DomainId;
-use crate::model::{FunctionId, RuleId, VariableId};
+use crate::id::DomainId;
+use crate::id::{FunctionId, RuleId, VariableId};
 use crate::term::{Binder, Term};
 
 /// A rule and its place.

@@ -6,10 +6,13 @@
 use syntax::ast::{self, AstNode};
 use syntax::{FileId, Span, SyntaxKind, SyntaxToken};
 
-use crate::domain::{Basic, Domain, DomainId, DomainKind, Domains};
+use crate::declaration::FunctionKind;
+use crate::domain::{Basic, Domain, DomainKind, Domains};
 use crate::fault::{self, Faults, Mismatch};
+use crate::id::DomainId;
+use crate::id::{FunctionId, RuleId};
 use crate::library;
-use crate::model::{FunctionId, FunctionKind, Model, RuleId};
+use crate::model::Model;
 use crate::names::Names;
 use crate::suggest::{did_you_mean, nearest};
 

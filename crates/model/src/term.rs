@@ -5,8 +5,9 @@
 
 use syntax::Span;
 
-use crate::domain::DomainId;
-use crate::model::{FunctionId, RuleId, VariableId};
+use crate::collection::CollectionKind;
+use crate::id::DomainId;
+use crate::id::{FunctionId, RuleId, VariableId};
 
 /// A term, its domain and its place.
 #[derive(Debug, Clone)]
@@ -38,19 +39,6 @@ pub enum Literal {
     String(String),
     /// An enum literal: its domain and its place in it.
     Enum(DomainId, u32),
-}
-
-/// Set, sequence, bag or map.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum CollectionKind {
-    /// `{a}`
-    Set,
-    /// `[a]`
-    Seq,
-    /// `<a>`
-    Bag,
-    /// `{a -> b}`: each element is a term that gives a pair.
-    Map,
 }
 
 /// `forall`, `exists`, `exists unique`.

@@ -10,9 +10,11 @@ use std::collections::BTreeSet;
 
 use syntax::Span;
 
+use crate::declaration::FunctionKind;
 use crate::domain::DomainKind;
 use crate::fault::{self, Faults};
-use crate::model::{FunctionId, FunctionKind, Model, RuleId};
+use crate::id::{FunctionId, RuleId};
+use crate::model::Model;
 use crate::rule::{RuleKind, RuleNode, Target};
 use crate::term::{Literal, Term, TermKind};
 

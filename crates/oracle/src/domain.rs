@@ -3,8 +3,9 @@
 //! Abstract and dynamic domains are read off the state (their characteristic functions are part of it); enumerations,
 //! truth values, and products and powersets of what can be enumerated have the elements their definition says.
 
-use model::{Basic, DomainId, DomainKind, Domains, FunctionId, FunctionKind, Model, RuleId};
+use model::{Basic, DomainId, DomainKind, Domains, FunctionId, RuleId};
 
+use crate::element::{is_abstract, named_elements};
 use crate::fault::Fault;
 use crate::interpreter::{Assignment, Interpreter};
 use crate::state::State;
@@ -125,27 +126,4 @@ impl Interpreter<'_> {
         }
         Ok(found)
     }
-}
-
-/// Is it a domain of unnamed elements?
-pub(crate) fn is_abstract(model: &Model, domain: DomainId) -> bool {
-    matches!(model.domains.kind(domain), DomainKind::Abstract { .. })
-}
-
-/// The elements named by static functions: the function, the domain it is declared with, and the element. The elements
-/// of an abstract domain are numbered in the order of these declarations.
-pub(crate) fn named_elements(model: &Model) -> impl Iterator<Item = (FunctionId, DomainId, Value)> {
-    let mut counts = std::collections::BTreeMap::new();
-    model.functions().filter_map(move |(id, function)| {
-        let base = model.domains.type_domain(function.codomain);
-        let names_element = function.kind == FunctionKind::Static
-            && function.definition.is_none()
-            && function.parameters.is_empty()
-            && is_abstract(model, base);
-        names_element.then(|| {
-            let next = counts.entry(base).or_insert(0u32);
-            *next += 1;
-            (id, function.codomain, Value::Element(base, *next - 1))
-        })
-    })
 }

@@ -4,22 +4,13 @@
 //! evaluated when it is first needed; one that needs itself is a fault. A function whose arguments cannot be enumerated
 //! is given its initial values when they are read: they are then still those of the initial state.
 
-use std::collections::BTreeMap;
-
 use model::{DomainId, DomainKind, FunctionId, FunctionKind, Init, InitialFunction, Model};
 
-use crate::domain::{is_abstract, named_elements};
+use crate::element::{is_abstract, named_elements};
 use crate::fault::Fault;
-use crate::interpreter::{Assignment, Interpreter};
+use crate::interpreter::{Assignment, Initialisation, Interpreter};
 use crate::state::{Location, State};
 use crate::value::Value;
-
-/// Initial values as far as they are known.
-#[derive(Debug, Default)]
-pub(crate) struct Initialisation {
-    known: BTreeMap<Location, Value>,
-    running: Vec<Location>,
-}
 
 impl Interpreter<'_> {
     /// The initial state.

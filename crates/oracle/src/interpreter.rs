@@ -10,7 +10,6 @@ use model::{DomainId, Model, VariableId};
 
 use crate::environment::{Environment, Tick};
 use crate::fault::Fault;
-use crate::initial::Initialisation;
 use crate::state::{Location, State};
 use crate::value::Value;
 
@@ -68,6 +67,13 @@ impl Default for Bounds {
     fn default() -> Self {
         Bounds { iterations: 10_000, depth: 100, elements: 100_000 }
     }
+}
+
+/// Initial values as far as they are known.
+#[derive(Debug, Default)]
+pub(crate) struct Initialisation {
+    pub(crate) known: BTreeMap<Location, Value>,
+    pub(crate) running: Vec<Location>,
 }
 
 /// See the head of this file.

@@ -8,6 +8,7 @@
 
 mod builtin;
 mod domain;
+mod element;
 mod environment;
 mod fault;
 pub mod generate;

@@ -2,7 +2,7 @@
 
 use model::{DomainKind, Model};
 
-use crate::domain::named_elements;
+use crate::element::named_elements;
 use crate::value::{Double, Value};
 
 /// The value as text.

@@ -13,6 +13,6 @@ mod verify;
 pub use builtin::{Builtin, BuiltinInfo, Cpp, Effect, Kind, LooksThrough, Operands, ShowsOrder, TemporalOperator};
 pub use dump::dump;
 pub use ir::*;
-pub use lower::{IDS, Specialisations, lower, lower_location, lower_rule, lower_term};
+pub use lower::{IDS, lower, lower_location, lower_rule, lower_term};
 pub use model::{CollectionKind, DomainId, FunctionId, FunctionKind, Literal, PropertyKind, Quantifier};
 pub use verify::verify;

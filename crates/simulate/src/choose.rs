@@ -10,8 +10,8 @@ use program::Program;
 use syntax::Span;
 
 use crate::draw::{Bounds, draw_basic};
-use crate::inputs::Signal;
-use crate::random::{SplitMix, StableHash};
+use crate::signal::Signal;
+use crate::splitmix::{SplitMix, StableHash};
 
 /// A choice as it was made.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -9,8 +9,8 @@ use machine::{Machine, Real, Value};
 use model::Basic;
 use program::{DomainId, DomainKind, FunctionKind, Program};
 
-use crate::random::SplitMix;
 use crate::read::type_domain;
+use crate::splitmix::SplitMix;
 
 /// What infinite domains are cut to when inputs are random.
 #[derive(Debug, Clone, PartialEq)]

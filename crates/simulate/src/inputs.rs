@@ -9,6 +9,7 @@ use program::{DomainId, Program};
 use crate::choose::{ChoiceMade, Choices};
 use crate::clock::{Clock, LibraryTime, StepClock, library_time};
 use crate::draw::{Bounds, Carriers};
+use crate::signal::Signal;
 
 /// A question for an input.
 #[derive(Debug)]
@@ -60,15 +61,6 @@ pub trait Source {
 
     /// The step is over: it counted, or (stepping back) it is to be asked again.
     fn after_step(&mut self, _step: u64, _back: bool) {}
-}
-
-/// What a user at a prompt may want instead of giving a value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Signal {
-    /// To take the last step back.
-    Back,
-    /// To end the run.
-    Quit,
 }
 
 /// The environment of a run.

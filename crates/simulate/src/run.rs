@@ -10,21 +10,10 @@ use std::sync::Arc;
 use machine::{Cause, EngineChoice, Fault, FaultKind, Limits, Machine, Passed, Snapshot, Step, Value};
 use program::{Expression, Program};
 
-use crate::inputs::{Inputs, Signal};
+use crate::inputs::Inputs;
 use crate::invariants::Watch;
-use crate::trace::{End, Record, StepRecord, Violation};
-
-/// What is done about an invariant that does not hold.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Invariants {
-    /// It ends the run.
-    #[default]
-    Stop,
-    /// It is reported and the run goes on.
-    Report,
-    /// Invariants are not evaluated.
-    Ignore,
-}
+use crate::signal::Signal;
+use crate::trace::{End, Invariants, Record, StepRecord, Violation};
 
 /// When to stop, and what to record.
 #[derive(Debug, Clone)]

@@ -7,7 +7,18 @@ use machine::{Change, Fault, Location, TimeUnit, Value};
 use syntax::Span;
 
 use crate::choose::ChoiceMade;
-use crate::run::Invariants;
+
+/// What is done about an invariant that does not hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Invariants {
+    /// It ends the run.
+    #[default]
+    Stop,
+    /// It is reported and the run goes on.
+    Report,
+    /// Invariants are not evaluated.
+    Ignore,
+}
 
 /// What a trace says of its run as a whole.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

@@ -8,8 +8,8 @@ use program::{FunctionId, FunctionKind, Program};
 
 use crate::constants::{read_input, split};
 use crate::inputs::{Ask, Source};
-use crate::random::{SplitMix, location_key_of};
 use crate::read::read_value;
+use crate::splitmix::{SplitMix, location_key_of};
 
 /// Values and their weights.
 #[derive(Debug, Clone)]

@@ -3,7 +3,7 @@
 //! Every stage adds its faults beside its result; shells render them (text or JSON). A diagnostic's `id` is
 //! kebab-case and names its page `spec/faults/<id>.md`, which `groundstate explain <id>` shows.
 
-use crate::source::Span;
+use crate::span::Span;
 
 /// How bad a fault is. Only an `Error` stops the flow after the stage that found it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -18,7 +18,9 @@ mod format;
 mod grammar;
 mod invariant;
 mod lexer;
+mod limit;
 mod parser;
+mod span;
 mod token_set;
 
 pub use diagnostic::{Diagnostic, Label, Severity};
@@ -28,8 +30,9 @@ pub use fault::IDS as FAULT_IDS;
 pub use format::format;
 pub use invariant::{assert_invariants, differ_in_layout_only};
 pub use kind::{AsmetaL, SyntaxKind};
-pub use parser::{MAX_CHAIN, MAX_FAULTS, MAX_NESTING, MAX_TEXT_BYTES};
-pub use source::{FileId, LineColumn, SourceFile, Sources, Span};
+pub use limit::{MAX_CHAIN, MAX_FAULTS, MAX_NESTING, MAX_TEXT_BYTES};
+pub use source::{LineColumn, SourceFile, Sources};
+pub use span::{FileId, Span};
 
 use lexer::Mode;
 

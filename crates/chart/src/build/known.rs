@@ -11,6 +11,16 @@ use crate::fault;
 /// The library of patterns, as a chart imports it that does not know where it is.
 const PATTERNS: &str = "patterns/ControlTask";
 
+/// What the patterns have to declare and the imports of a chart do not.
+pub(super) fn missing(known: &Known) -> Option<&'static str> {
+    let domain = OWNED.into_iter().find(|domain| !known.domains.contains(*domain));
+    domain.or_else(|| ["r_scheduler_execute", "r_sem_arbitrate"].into_iter().find(|rule| !known.rules.contains(*rule)))
+}
+
+/// Domains whose elements the chart alone decides.
+pub(crate) const OWNED: [&str; 7] =
+    ["Scheduler", "Task", "SwingingBuffer", "Semaphore", "SchedulePhase", "MessageQueue", "SharedValue"];
+
 /// Names that exist already.
 #[derive(Debug, Clone, Default)]
 pub struct Known {
@@ -69,14 +79,14 @@ impl Known {
     /// The faults of the imports.
     pub fn completed(chart: &mut Chart, beside: &str, loader: &mut dyn Loader) -> Result<Known, Box<Unknown>> {
         let known = Known::imported(chart, beside, loader)?;
-        let Some(system) = chart.system.as_ref().filter(|_| super::system::missing(&known).is_some()) else {
+        let Some(system) = chart.system.as_ref().filter(|_| missing(&known).is_some()) else {
             return Ok(known);
         };
         let mut whole = chart.clone();
         whole.imports.push(PATTERNS.to_string());
         whole.places.push(system.span);
         match Known::imported(&whole, beside, loader) {
-            Ok(known) if super::system::missing(&known).is_none() => {
+            Ok(known) if missing(&known).is_none() => {
                 *chart = whole;
                 Ok(known)
             }

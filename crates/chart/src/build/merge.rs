@@ -105,7 +105,7 @@ fn forgotten(signature: &SyntaxNode, parts: &Parts, edits: &mut Vec<Edit>) {
     for node in signature.children().filter(|node| node.kind() == FUNCTION_DECL) {
         let text = node.text().to_string();
         let of = text.rsplit(':').next().unwrap_or_default().trim();
-        let element = text.starts_with("static") && super::system::OWNED.contains(&of);
+        let element = text.starts_with("static") && super::known::OWNED.contains(&of);
         let name = declared(&node).unwrap_or_default();
         if element && !parts.declarations.iter().any(|item| item.name == name) {
             let range = trimmed_range(&node);

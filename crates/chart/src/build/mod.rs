@@ -8,11 +8,13 @@ mod known;
 mod merge;
 mod module;
 mod rule;
+mod spelling;
 pub(crate) mod system;
 
+pub(crate) use known::OWNED;
 pub use known::{Known, Unknown};
-pub(crate) use module::{call, function_name, rule_name, state_value};
 pub(crate) use rule::{machine_rule, origin_condition};
+pub(crate) use spelling::{call, function_name, rule_name, state_value};
 pub use system::{busy, late};
 
 use crate::chart::{Chart, Control, Machine, ShapeKind};
@@ -53,12 +55,12 @@ fn twice(chart: &Chart, known: &Known) -> Vec<syntax::Diagnostic> {
     let mut faults = Vec::new();
     for machine in &chart.machines {
         for shape in machine.shapes.iter().filter(|shape| shape.link.is_none()) {
-            let text = module::call(machine, shape);
+            let text = call(machine, shape);
             let name = text.split(['(', '[']).next().unwrap_or_default();
             let machines = || chart.machines.iter();
             let (what, first) = match shape.kind {
                 ShapeKind::Action if !known.rules.contains(name) => {
-                    ("rule", machines().find(|other| module::rule_name(other) == name).map(|other| other.span))
+                    ("rule", machines().find(|other| rule_name(other) == name).map(|other| other.span))
                 }
                 ShapeKind::Guard if !known.terms.contains(name) => {
                     let control = |other: &Machine| match &other.control {

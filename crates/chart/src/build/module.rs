@@ -8,7 +8,8 @@ use std::fmt::Write;
 
 use super::known::Known;
 use super::rule::machine_rule;
-use crate::chart::{Chart, Control, Machine, Shape, ShapeId, ShapeKind};
+use super::spelling::{applied, call, function_name, rule_name, state_value};
+use crate::chart::{Chart, Control, Machine, Shape, ShapeKind};
 use crate::flow::is_block;
 
 /// A declaration or definition by its name.
@@ -39,107 +40,6 @@ pub(super) struct Parts {
     pub(super) owns: bool,
     /// Names still to be written by hand.
     pub(super) to_write: Vec<String>,
-}
-
-/// The name of a machine's rule.
-pub(crate) fn rule_name(machine: &Machine) -> String {
-    match &machine.rule {
-        Some(link) => link.name.clone(),
-        None => format!("r_{}", machine.name),
-    }
-}
-
-/// The value of the control variable in a state or block: the linked one, or one made of the shape's name. Literals are
-/// one name space, so a name that a machine with another control variable has as well gets the machine's before it.
-pub(crate) fn state_value(chart: &Chart, machine: &Machine, id: ShapeId) -> String {
-    let shape = machine.shape(id);
-    if let (Some(link), ShapeKind::State { .. }) = (&shape.link, &shape.kind) {
-        return link.text.clone();
-    }
-    let value = literal(&shape.name);
-    let all = chart.machines.iter().chain(&chart.patterns);
-    let others = all.filter(|other| control_name(other) != control_name(machine));
-    let taken = others.flat_map(|other| &other.shapes).any(|other| match (&other.kind, &other.link) {
-        (ShapeKind::State { .. }, Some(link)) => link.text == value,
-        (ShapeKind::State { .. } | ShapeKind::Instance(_), _) => literal(&other.name) == value,
-        _ => false,
-    });
-    if taken { format!("{}_{value}", literal(&machine.name)) } else { value }
-}
-
-/// The function that holds the control state.
-fn control_name(machine: &Machine) -> Option<&str> {
-    match machine.control.as_ref()? {
-        Control::Linked(link) => Some(&link.name),
-        Control::Made { name, .. } => Some(name),
-    }
-}
-
-/// `waitingTrigger` as `WAITING_TRIGGER`.
-fn literal(name: &str) -> String {
-    let mut text = String::new();
-    let mut before = '_';
-    for letter in name.chars() {
-        if letter.is_uppercase() && before.is_lowercase() {
-            text.push('_');
-        }
-        text.extend(letter.to_uppercase());
-        before = letter;
-    }
-    if text.starts_with(|c: char| c.is_ascii_uppercase()) && text[1..].starts_with(|c: char| c.is_ascii_uppercase()) {
-        text
-    } else {
-        format!("STATE_{text}")
-    }
-}
-
-/// The control variable as a location.
-pub(crate) fn control_location(machine: &Machine) -> Option<String> {
-    Some(match machine.control.as_ref()? {
-        Control::Linked(link) => link.text.clone(),
-        Control::Made { name, .. } => applied(name, machine, '(', ')'),
-    })
-}
-
-fn applied(name: &str, machine: &Machine, open: char, close: char) -> String {
-    let variables: Vec<&str> = machine.parameters.iter().map(|parameter| parameter.variable.as_str()).collect();
-    match (variables.is_empty(), open) {
-        (true, '(') => name.to_string(),
-        _ => format!("{name}{open}{}{close}", variables.join(", ")),
-    }
-}
-
-/// The term of a guard or the rule of an action.
-pub(crate) fn call(machine: &Machine, shape: &Shape) -> String {
-    match (&shape.link, &shape.kind) {
-        (Some(link), _) => link.text.clone(),
-        (None, ShapeKind::Guard) => applied(&function_name(&shape.name), machine, '(', ')'),
-        (None, _) => applied(&format!("r_{}", shape.name), machine, '[', ']'),
-    }
-}
-
-/// The name of a function made of a name.
-pub(crate) fn function_name(name: &str) -> String {
-    let mut letters = name.chars();
-    letters.next().map(|first| first.to_lowercase().chain(letters).collect()).unwrap_or_default()
-}
-
-/// A text with variables replaced, each whole.
-pub(crate) fn substituted(text: &str, variables: &[&str], values: &[String]) -> String {
-    let mut out = String::new();
-    let mut rest = text;
-    while let Some(at) = rest.find('$') {
-        let end =
-            rest[at + 1..].find(|c: char| !c.is_ascii_alphanumeric() && c != '_').map_or(rest.len(), |n| at + 1 + n);
-        let variable = &rest[at..end];
-        out.push_str(&rest[..at]);
-        match variables.iter().position(|known| *known == variable).and_then(|index| values.get(index)) {
-            Some(value) => out.push_str(value),
-            None => out.push_str(variable),
-        }
-        rest = &rest[end..];
-    }
-    out + rest
 }
 
 /// All parts of a chart's file.

@@ -5,7 +5,7 @@
 
 use std::fmt::Write;
 
-use super::module::{call, control_location, rule_name, state_value, substituted};
+use super::spelling::{call, control_location, rule_name, state_value, substituted};
 use crate::chart::{Chart, End, Machine, ShapeId, ShapeKind};
 use crate::flow::{Origin, is_beside, is_block, origins};
 

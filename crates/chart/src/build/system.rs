@@ -9,6 +9,7 @@ use std::fmt::Write;
 use syntax::Diagnostic;
 
 use super::known::Known;
+use super::known::missing;
 use super::module::{Item, Parts};
 use crate::chart::Chart;
 use crate::fault;
@@ -30,16 +31,6 @@ pub fn late(system: &System) -> Vec<Diagnostic> {
     });
     late.map(|component| fault::not_built(component.span, "a deadline after the end of the period")).collect()
 }
-
-/// What the patterns have to declare and the imports of a chart do not.
-pub(super) fn missing(known: &Known) -> Option<&'static str> {
-    let domain = OWNED.into_iter().find(|domain| !known.domains.contains(*domain));
-    domain.or_else(|| ["r_scheduler_execute", "r_sem_arbitrate"].into_iter().find(|rule| !known.rules.contains(*rule)))
-}
-
-/// Domains whose elements the chart alone decides.
-pub(crate) const OWNED: [&str; 7] =
-    ["Scheduler", "Task", "SwingingBuffer", "Semaphore", "SchedulePhase", "MessageQueue", "SharedValue"];
 
 /// The parts of a system's file.
 pub(super) fn parts(chart: &Chart, system: &System, known: &Known) -> Parts {

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use syntax::ast::{self, AstNode, Term};
 use syntax::{FileId, Span, SyntaxKind, SyntaxNode};
 
-use crate::build::system::OWNED;
+use crate::build::OWNED;
 
 /// A text without its layout, and where it stands.
 pub(super) type Placed = (String, Span);

@@ -88,7 +88,7 @@ impl Comparison<'_> {
                 }
             }
         }
-        for domain in crate::build::system::OWNED {
+        for domain in crate::build::OWNED {
             let all = self.model.elements.iter().filter(|(name, (of, _))| {
                 of == domain && !self.built.elements.contains_key(*name) && !self.comes_with_another(name)
             });
@@ -126,7 +126,7 @@ impl Comparison<'_> {
             [one] => Some(one.clone()),
             _ => None,
         });
-        let owned = domain.filter(|domain| crate::build::system::OWNED.contains(&domain.as_str()));
+        let owned = domain.filter(|domain| crate::build::OWNED.contains(&domain.as_str()));
         match (drawn, written, owned) {
             (None, Some(written), None) => {
                 let place = (written.span, "the model's");

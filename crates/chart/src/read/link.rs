@@ -3,7 +3,7 @@
 use syntax::ast::{self, AstNode, Rule, Term};
 use syntax::{FileId, Span, SyntaxKind, SyntaxNode};
 
-use crate::chart::Link;
+use crate::link::Link;
 
 /// The text of a node on one line, without comments.
 pub(crate) fn flat(node: &SyntaxNode) -> String {

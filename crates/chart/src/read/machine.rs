@@ -1,15 +1,14 @@
 //! One machine: its control variable, shapes, arrows and sequences.
 
-use std::collections::BTreeMap;
-
 use syntax::ast::{self, AstNode, MachineChart, PathStop};
 use syntax::{Span, SyntaxToken};
 
 use super::link::{flat, link, names_function};
 use super::{Reader, structure};
 use crate::build::function_name;
-use crate::chart::{Arrow, Control, End, Link, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind};
+use crate::chart::{Arrow, Control, End, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind};
 use crate::fault;
+use crate::link::Link;
 
 impl Reader {
     pub(super) fn machine(&mut self, node: &MachineChart) -> Option<Machine> {
@@ -190,9 +189,6 @@ pub(crate) fn spoken(name: &str) -> String {
     }
     text
 }
-
-/// Shapes by their name, for faults about values.
-pub(super) type ByValue<'m> = BTreeMap<&'m str, &'m Shape>;
 
 #[cfg(test)]
 mod tests {

@@ -4,9 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use syntax::Diagnostic;
 
-use super::machine::ByValue;
-use crate::chart::{Arrow, End, Machine, ShapeId, ShapeKind};
+use crate::chart::{Arrow, End, Machine, Shape, ShapeId, ShapeKind};
 use crate::fault;
+
+/// Shapes by their name, for faults about values.
+type ByValue<'m> = BTreeMap<&'m str, &'m Shape>;
 
 /// The faults of a machine; `sound` when all names of its paths are known.
 pub(super) fn faults(machine: &Machine, sound: bool) -> Vec<Diagnostic> {

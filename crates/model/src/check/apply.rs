@@ -7,9 +7,10 @@ use syntax::{Span, SyntaxToken, ast};
 
 use super::body::{Body, error_term};
 use crate::coerce::can_coerce;
-use crate::domain::{DomainId, DomainKind, Domains};
+use crate::domain::{DomainKind, Domains};
 use crate::fault;
-use crate::model::FunctionId;
+use crate::id::DomainId;
+use crate::id::FunctionId;
 use crate::overload::{self, Choice, Shape};
 use crate::term::{Term, TermKind};
 

@@ -7,9 +7,11 @@ use std::collections::BTreeSet;
 
 use syntax::{Span, SyntaxToken};
 
-use crate::domain::{DomainId, Domains};
+use crate::declaration::{Function, FunctionKind, Variable};
+use crate::domain::Domains;
 use crate::fault;
-use crate::model::{Function, FunctionId, FunctionKind, Variable, VariableId};
+use crate::id::DomainId;
+use crate::id::{FunctionId, VariableId};
 use crate::site::Site;
 use crate::suggest::did_you_mean;
 use crate::term::{Term, TermKind};

@@ -7,10 +7,12 @@ use syntax::Span;
 use syntax::ast::{self, Bracket};
 
 use super::body::{Body, Bound, error_term};
+use crate::collection::CollectionKind;
 use crate::constant;
-use crate::domain::{Basic, DomainId, DomainKind, Domains};
+use crate::domain::{Basic, DomainKind, Domains};
 use crate::fault;
-use crate::term::{Binder, CollectionKind, Term, TermKind};
+use crate::id::DomainId;
+use crate::term::{Binder, Term, TermKind};
 
 fn kind_of(bracket: Bracket) -> CollectionKind {
     match bracket {

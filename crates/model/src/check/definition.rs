@@ -10,10 +10,12 @@ use syntax::ast;
 
 use super::body::{Body, Bound, error_term};
 use crate::coerce::can_coerce;
+use crate::declaration::{Definition, FunctionKind, Variable};
 use crate::declare;
-use crate::domain::{DomainId, DomainKind, Domains};
+use crate::domain::{DomainKind, Domains};
 use crate::fault;
-use crate::model::{Definition, FunctionId, FunctionKind, Variable, VariableId};
+use crate::id::DomainId;
+use crate::id::{FunctionId, VariableId};
 use crate::site::{Site, kind_word};
 use crate::term::{Term, TermKind};
 

@@ -7,9 +7,11 @@ use syntax::ast;
 
 use super::body::{Body, Bound};
 use super::definition;
-use crate::domain::{DomainId, Domains};
+use crate::declaration::FunctionKind;
+use crate::domain::Domains;
 use crate::fault;
-use crate::model::{AgentProgram, FunctionKind, Init, InitialFunction};
+use crate::id::DomainId;
+use crate::model::{AgentProgram, Init, InitialFunction};
 use crate::site::{Site, kind_word};
 
 /// Checks all initial states of a file; gives them and the index of the default one.

@@ -6,8 +6,9 @@ use syntax::ast;
 use syntax::{Span, SyntaxKind, SyntaxToken};
 
 use super::body::{Body, error_term};
-use crate::domain::{DomainId, Domains};
+use crate::domain::Domains;
 use crate::fault;
+use crate::id::DomainId;
 use crate::term::{Literal, Term, TermKind};
 
 impl Body<'_> {

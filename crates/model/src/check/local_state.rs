@@ -11,7 +11,7 @@ use syntax::ast::{self, AstNode};
 use syntax::{Span, SyntaxKind};
 
 use super::body::{Body, Bound};
-use crate::model::{FunctionId, VariableId};
+use crate::id::{FunctionId, VariableId};
 use crate::rule::{RuleKind, RuleNode, Target};
 use crate::term::Term;
 

@@ -22,11 +22,13 @@ use std::collections::BTreeSet;
 use syntax::ast::{self, AstNode};
 use syntax::{FileId, SourceFile, Sources, Span};
 
+use crate::declaration::FunctionKind;
 use crate::domain::{DomainKind, Domains};
 use crate::fault::{self, Faults};
+use crate::id::{RuleId, VariableId};
 use crate::imports::{self, Import, Unit};
 use crate::library;
-use crate::model::{Checked, FunctionKind, Loader, Model, RuleId, VariableId};
+use crate::model::{Checked, Loader, Model};
 use crate::names::{Names, Selection};
 use crate::site::{Site, kind_word};
 use crate::suggest::nearest;

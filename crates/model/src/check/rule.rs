@@ -9,9 +9,11 @@ use syntax::ast;
 
 use super::body::{Body, Bound};
 use crate::coerce::can_coerce;
-use crate::domain::{DomainId, DomainKind, Domains};
+use crate::declaration::{Function, FunctionKind};
+use crate::domain::{DomainKind, Domains};
 use crate::fault;
-use crate::model::{Function, FunctionKind, VariableId};
+use crate::id::DomainId;
+use crate::id::VariableId;
 use crate::rule::{RuleKind, RuleNode};
 use crate::term::{Binder, Term, TermKind};
 

@@ -8,9 +8,10 @@ use syntax::{Span, SyntaxKind, SyntaxToken};
 
 use super::body::{Body, Bound, error_term};
 use crate::coerce::can_coerce;
-use crate::domain::{DomainId, DomainKind, Domains};
+use crate::domain::{DomainKind, Domains};
 use crate::fault;
-use crate::model::VariableId;
+use crate::id::DomainId;
+use crate::id::VariableId;
 use crate::term::{Literal, Quantifier, Term, TermKind};
 
 impl Body<'_> {

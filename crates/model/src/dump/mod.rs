@@ -8,8 +8,10 @@ mod text;
 
 use std::fmt::Write;
 
+use crate::declaration::{Definition, Function, Rule, Variable};
 use crate::domain::{Domain, DomainKind};
-use crate::model::{Definition, Function, Init, Model, Property, PropertyKind, Rule, Variable, VariableId};
+use crate::id::VariableId;
+use crate::model::{Init, Model, Property, PropertyKind};
 use crate::rule::RuleNode;
 use crate::site::kind_word;
 use crate::term::Term;

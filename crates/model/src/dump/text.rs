@@ -6,10 +6,13 @@
 use std::fmt::Write;
 
 use super::signature;
+use crate::collection::CollectionKind;
+use crate::declaration::{FunctionKind, Variable};
 use crate::domain::{Basic, DomainKind};
-use crate::model::{FunctionId, FunctionKind, Model, Variable, VariableId};
+use crate::id::{FunctionId, VariableId};
+use crate::model::Model;
 use crate::rule::{Call, RuleKind, RuleNode, Target};
-use crate::term::{Binder, CollectionKind, Literal, Quantifier, Term, TermKind};
+use crate::term::{Binder, Literal, Quantifier, Term, TermKind};
 
 /// A term or rule being written.
 pub(super) struct Text<'m> {

@@ -18,7 +18,7 @@ pub(super) fn apply(model: &Model, name: &str, values: &[Value]) -> Option<Outco
         ("toString", [value]) => string(show(model, value)),
         ("id", [agent @ Value::Element(..)]) => string(show(model, agent)),
         ("getAgent", [Value::String(name)]) => {
-            let mut named = crate::domain::named_elements(model);
+            let mut named = crate::element::named_elements(model);
             let found = named.find(|(function, ..)| model.function(*function).name == *name);
             Some(Ok(found.map_or(Value::Undef, |(_, _, element)| element)))
         }

@@ -9,11 +9,14 @@
 
 mod program;
 mod rule;
+mod specialisation;
 mod term;
 mod visit;
 
 pub use program::{AgentProgram, Domain, DomainKind, Expression, Function, Initial, Procedure, Program, Property};
 pub use rule::{Rule, Runs};
+pub(crate) use specialisation::ArgumentId;
+pub use specialisation::Specialisations;
 pub use term::Term;
 
 /// LIMIT: how deep terms and rules nest in one procedure or expression.

@@ -6,8 +6,8 @@
 use model::{DomainId, FunctionId, FunctionKind, Literal, PropertyKind};
 use syntax::Span;
 
+use crate::ir::Specialisations;
 use crate::ir::{Binder, BinderList, ProcedureId, Rule, RuleId, RuleList, Term, TermId, TermList};
-use crate::lower::Specialisations;
 
 /// A rule with a frame of its own: a (specialised) macro rule, a turbo rule, the main rule, a fragment.
 #[derive(Debug, Clone)]

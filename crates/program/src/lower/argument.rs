@@ -13,13 +13,10 @@ use std::rc::Rc;
 
 use model::{Binder, FunctionKind, RuleId, Term, TermKind, VariableId};
 
-use crate::ir::Slot;
+use crate::ir::{ArgumentId, Slot};
 use crate::lower::environment::{Binding, Environment};
-use crate::lower::functions::Meaning;
+use crate::lower::meaning::Meaning;
 use crate::lower::{Lowering, RED_ZONE, STACK_PIECE};
-
-/// Names a by-name argument: equal arguments have one id.
-pub(super) type ArgumentId = u32;
 
 /// A by-name argument.
 #[derive(Debug)]

@@ -7,7 +7,7 @@
 use model::{Basic, DomainId, DomainKind, Function, Model};
 
 use crate::builtin::{Builtin, COMPONENTS, Kind, TemporalOperator};
-use crate::lower::functions::Meaning;
+use crate::lower::meaning::Meaning;
 
 /// The meaning of a library function; none where the machine knows no such operation.
 pub(super) fn resolve(model: &Model, function: &Function) -> Option<Meaning> {

@@ -10,20 +10,11 @@ use std::fmt::Write;
 use model::{DomainId, RuleId, Term};
 use syntax::Span;
 
+use crate::ir::ArgumentId;
 use crate::ir::{self, Procedure, ProcedureId, Slot, TermId, TermList};
-use crate::lower::argument::ArgumentId;
 use crate::lower::environment::{Binding, Environment, Frame};
 use crate::lower::result::{InPlace, Place};
 use crate::lower::{Lowering, MAX_PROCEDURES};
-
-/// Which procedure stands for which rule with which arguments.
-#[derive(Debug, Clone, Default)]
-pub struct Specialisations {
-    /// By-name arguments by their canonical text.
-    pub(super) arguments: BTreeMap<String, ArgumentId>,
-    /// Procedures by rule and shape of the arguments.
-    pub(super) procedures: BTreeMap<String, ProcedureId>,
-}
 
 /// A procedure whose body is still to be lowered.
 #[derive(Debug)]

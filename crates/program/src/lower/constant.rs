@@ -8,7 +8,7 @@ use syntax::Span;
 use crate::builtin::Builtin;
 use crate::ir::{self, TermId};
 use crate::lower::Lowering;
-use crate::lower::functions::Meaning;
+use crate::lower::meaning::Meaning;
 
 /// The integers up to here are exact as doubles.
 const EXACT: u64 = 1 << 53;

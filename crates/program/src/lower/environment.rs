@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 
 use model::{Binder, DomainId, DomainKind, Variable, VariableId};
 
+use crate::ir::ArgumentId;
 use crate::ir::{self, BinderList, Slot};
 use crate::lower::Lowering;
-use crate::lower::argument::ArgumentId;
 
 /// What a variable stands for.
 #[derive(Debug, Clone)]

@@ -5,24 +5,9 @@
 
 use model::{Definition, DomainId, FunctionId, FunctionKind, Init};
 
-use crate::builtin::Builtin;
 use crate::ir::{DomainKind, Function, Initial};
+use crate::lower::meaning::Meaning;
 use crate::lower::{Lowering, builtin};
-
-/// What an application of a function is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Meaning {
-    /// A location.
-    Read,
-    /// Its definition.
-    Define,
-    /// A fault: it has no definition and is no element.
-    Missing,
-    /// An operation of the library.
-    Builtin(Builtin),
-    /// Just its argument of that index: unary plus, `first(1, 2)`.
-    Argument(usize),
-}
 
 impl<'m> Lowering<'m, '_> {
     /// What an application of a function is.

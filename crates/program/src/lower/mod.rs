@@ -17,6 +17,7 @@ mod environment;
 mod fragment;
 mod functions;
 mod initial;
+mod meaning;
 mod number;
 mod property;
 mod result;
@@ -29,15 +30,14 @@ use std::rc::Rc;
 use model::{FunctionId, Model, Term};
 use syntax::{Diagnostic, Span};
 
-use crate::ir::{Expression, MAX_DEPTH, Program, RuleId, TermId};
+use crate::ir::{ArgumentId, Expression, MAX_DEPTH, Program, RuleId, TermId};
 
-pub use call::Specialisations;
 pub use fragment::{lower_location, lower_rule, lower_term};
 
-use argument::{Argument, ArgumentId};
+use argument::Argument;
 use constant::ConstantKey;
 use environment::{Environment, Frame};
-use functions::Meaning;
+use meaning::Meaning;
 
 /// The ids of the faults that lowering may report; each has a page `spec/faults/<id>.md`.
 pub const IDS: &[&str] = &["model-too-large", "not-a-location"];

@@ -7,7 +7,7 @@ use model::{Domains, FunctionId, TermKind, VariableId};
 use crate::builtin::Builtin;
 use crate::ir::{self, TermId, TermList};
 use crate::lower::environment::Binding;
-use crate::lower::functions::Meaning;
+use crate::lower::meaning::Meaning;
 use crate::lower::number::Form;
 use crate::lower::{Lowering, constant};
 

@@ -362,7 +362,7 @@ pub(crate) fn expected_shape(found: Found<'_>, wanted: &str) -> Diagnostic {
 
 /// The limit of nesting.
 pub(crate) fn nested_too_deeply(found: Found<'_>) -> Diagnostic {
-    use crate::parser::{MAX_CHAIN, MAX_NESTING};
+    use crate::limit::{MAX_CHAIN, MAX_NESTING};
     Diagnostic::error("nested-too-deeply", found.span, "this is nested too deeply")
         .because(format!("at most {MAX_NESTING} constructs in one another, and {MAX_CHAIN} operators in one chain"))
         .with_help("split it: define functions for parts of a term, rules for parts of a rule")
@@ -420,7 +420,7 @@ pub(crate) fn dot_in_block_name(found: Found<'_>) -> Diagnostic {
 
 /// A text beyond the limit.
 pub(crate) fn file_too_large(span: Span, length: usize) -> Diagnostic {
-    let limit = crate::parser::MAX_TEXT_BYTES;
+    let limit = crate::limit::MAX_TEXT_BYTES;
     Diagnostic::error(
         "file-too-large",
         span,
@@ -432,7 +432,7 @@ pub(crate) fn file_too_large(span: Span, length: usize) -> Diagnostic {
 
 /// The limit of faults.
 pub(crate) fn too_many_faults(next: Span) -> Diagnostic {
-    let limit = crate::parser::MAX_FAULTS;
+    let limit = crate::limit::MAX_FAULTS;
     let fault = Diagnostic::warning("too-many-faults", next, "there are more faults from here on");
     fault
         .because(format!("only the first {limit} of a file are reported"))

@@ -2,6 +2,7 @@
 //!
 //! In: the cursor at `let` or at the first variable. Out: a LET_TERM or LET_RULE with BINDINGs, or BINDERs. `in` behind
 //! a binding is the membership operator, unless the bindings lack their closing parenthesis.
+//! CIRCLE(grammar)
 
 use super::conditional::{self, Body};
 use super::term::{inside, term};

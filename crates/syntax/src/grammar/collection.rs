@@ -2,6 +2,7 @@
 //!
 //! Which of them it is shows only behind the first element, so the node is put around what was read. `{$x in …` always
 //! starts a comprehension; a set whose first element is a membership test has it in parentheses.
+//! CIRCLE(grammar)
 
 use super::term::{delimited, inside, term};
 use super::{binding, list, recovery};

@@ -2,6 +2,7 @@
 //!
 //! In: the cursor at the first word, and what a branch holds: a term or a rule. Out: IF_ and SWITCH_ nodes with
 //! CONDITIONAL_BRANCH and CASE_BRANCH. A branch that comes too late is parsed and reported.
+//! CIRCLE(grammar)
 
 use super::recovery;
 use super::sets::TERM_STARTS;

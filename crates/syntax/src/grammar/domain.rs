@@ -3,6 +3,7 @@
 //! In: the cursor at a domain or a declaration. Out: a NAMED_DOMAIN or STRUCTURED_DOMAIN, or one of the declarations.
 //! A domain in capitals only is an enum literal to the lexer; it is taken as a domain here, and a later stage says what
 //! is wrong with it. The number of domains in a structured one is checked here.
+//! CIRCLE(grammar)
 
 use super::{list, name, recovery, term};
 use crate::SyntaxKind::{self, *};

@@ -2,6 +2,7 @@
 //!
 //! In: the cursor at the word that starts one. Out: FUNCTION_DECL, FUNCTION_DEF, DOMAIN_DEF, PARAMETER_LIST. Initial
 //! states use the same definitions.
+//! CIRCLE(grammar)
 
 use super::sets::{DOMAIN_STARTS, TERM_STARTS};
 use super::{domain, list, name, recovery, term};

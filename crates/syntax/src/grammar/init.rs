@@ -2,6 +2,7 @@
 //!
 //! In: the cursor at `default` or `init`. Out: an INIT with definitions of domains and functions, and programs of
 //! agents, in any order.
+//! CIRCLE(grammar)
 
 use super::sets::SECTION_STARTS;
 use super::{function, name, recovery, rule};

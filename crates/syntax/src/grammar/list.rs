@@ -2,6 +2,7 @@
 //!
 //! In: the closing bracket and how to parse an item. Out: the number of items. A forgotten comma is reported and the
 //! list goes on; an item on a new line belongs to what comes next, for then the bracket is what is forgotten.
+//! CIRCLE(grammar)
 
 use super::recovery;
 use super::sets::TERM_STARTS;

@@ -7,6 +7,7 @@ mod binding;
 #[cfg(test)]
 mod brief;
 mod chart;
+mod chart_part;
 mod collection;
 mod conditional;
 mod domain;

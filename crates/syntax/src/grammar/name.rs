@@ -2,6 +2,7 @@
 //!
 //! In: the cursor where a name must stand. Out: the name taken, and whether there was one. A name of another class is
 //! taken with a fault, so that what stands behind it is still read; so is a keyword that is plainly meant as a name.
+//! CIRCLE(grammar)
 
 use crate::fault;
 use crate::parser::Parser;

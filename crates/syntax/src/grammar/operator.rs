@@ -2,6 +2,7 @@
 //!
 //! All are left associative. Lowest first: `implies iff` < `or xor` < `and` < relations < `not` < `+ -` < `* / mod` <
 //! `^` < signs. Operators of other languages, which are reported, bind like the ones they stand for.
+//! CIRCLE(grammar)
 
 use crate::SyntaxKind::*;
 use crate::fault;

@@ -2,6 +2,7 @@
 //!
 //! In: the cursor at the word that starts one. Out: INVARIANT, CTL_SPEC, LTL_SPEC, INVAR, JUSTICE or COMPASSION. The
 //! operators of temporal logic are functions of a library, so nothing here knows them.
+//! CIRCLE(grammar)
 
 use super::{domain, name, term};
 use crate::SyntaxKind::{self, *};

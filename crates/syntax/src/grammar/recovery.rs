@@ -2,6 +2,7 @@
 //!
 //! Skipped tokens lie in ERROR nodes. The aim is one fault for one mistake: an end that a construct around waits for
 //! is never skipped, and text that looks right is parsed even in a wrong place.
+//! CIRCLE(grammar)
 
 use super::sets::*;
 use super::{domain, list, operator, rule, term};

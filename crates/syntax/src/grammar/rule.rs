@@ -2,6 +2,7 @@
 //!
 //! In: the cursor at a rule. Out: one of the rule nodes. What starts with a function or a variable is read as a
 //! location first; the token behind it tells an update, a return and a rule that is a value apart.
+//! CIRCLE(grammar)
 
 use super::conditional::Body;
 use super::recovery;

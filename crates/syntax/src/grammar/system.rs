@@ -2,7 +2,7 @@
 //!
 //! In: the cursor at `system`. Out: SYSTEM_CHART. Every length of time is a number and a unit.
 
-use super::chart::{block, eat_word, expect_word, keyword, no_item, rule_link, shape_name};
+use super::chart_part::{block, eat_word, expect_word, keyword, no_item, rule_link, shape_name};
 use crate::SyntaxKind::*;
 use crate::fault;
 use crate::parser::Parser;

@@ -2,13 +2,15 @@
 //!
 //! Every term is an operand everywhere; the peer's distinction between infix and extended terms is gone. A quantified
 //! term's node and a tuple's node include their parentheses.
+//! CIRCLE(grammar): terms hold rules and rules terms, and what recovers from a fault reads any of them.
 
 use super::operator::{LOWEST, NOT, SIGN, infix, infix_power, is_infix_word};
 use super::sets::RULE_WORDS;
 use super::{binding, collection, conditional, domain, list, recovery};
 use crate::SyntaxKind::*;
 use crate::fault;
-use crate::parser::{MAX_CHAIN, Parser, Within};
+use crate::limit::MAX_CHAIN;
+use crate::parser::{Parser, Within};
 
 /// A whole term.
 pub(super) fn term(p: &mut Parser<'_>, wanted: &str) -> bool {

@@ -11,7 +11,7 @@ mod raw;
 mod word;
 
 use crate::fault;
-use crate::parser::MAX_FAULTS;
+use crate::limit::MAX_FAULTS;
 use crate::{Diagnostic, FileId, Span, SyntaxKind, SyntaxKind::*};
 use logos::Logos;
 use raw::Raw;

@@ -1,8 +1,9 @@
 //! How deep the cursor is, and which constructs wait for their end.
 
-use super::{MAX_NESTING, Parser};
+use super::Parser;
 use crate::SyntaxKind;
 use crate::fault::Found;
+use crate::limit::MAX_NESTING;
 
 /// A construct that waits for its end.
 #[derive(Debug, Clone, Copy)]

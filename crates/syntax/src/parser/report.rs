@@ -1,7 +1,8 @@
 //! Reporting faults, each mistake once.
 
-use super::{MAX_FAULTS, Parser};
+use super::Parser;
 use crate::fault::{self, Found};
+use crate::limit::MAX_FAULTS;
 use crate::{Diagnostic, Span, SyntaxKind, SyntaxKind::*};
 
 impl<'t> Parser<'t> {

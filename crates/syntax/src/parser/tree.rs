@@ -4,9 +4,10 @@
 //! INVARIANT: a node starts right before its first token and ends right behind its last one. So trivia, and characters
 //! that are skipped, lie outside the nodes that they separate, and a node without tokens does not come to be.
 
-use super::{MAX_FAULTS, Parser};
+use super::Parser;
 use crate::fault;
 use crate::lexer::Token;
+use crate::limit::MAX_FAULTS;
 use crate::{AsmetaL, Parse, SyntaxKind, SyntaxKind::*};
 use rowan::{GreenNodeBuilder, Language};
 
