@@ -16,7 +16,7 @@ pub enum Severity {
     Note,
 }
 
-/// A place that a diagnostic points to, with what is to be seen there.
+/// A place that a diagnostic points to, with what to see there.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Label {
     /// Where.

@@ -1,7 +1,8 @@
 //! The tree as text, for `groundstate dump tree` and golden tests.
 //!
-//! In: a node. Out: one line a node or token: nodes with their byte range, tokens with their text in quotes; white
-//! space is left out. The form is stable: tests of later stages pin it. Walks without recursion, so any depth is fine.
+//! In: a node. Out: one line for each node or token: nodes with their byte range, tokens with their text in quotes.
+//! White space is left out. The form is stable: tests of later stages pin it. The walk does not recurse, so any depth
+//! is fine.
 
 use crate::{SyntaxKind, SyntaxNode};
 use rowan::{NodeOrToken, WalkEvent};

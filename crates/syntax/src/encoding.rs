@@ -1,9 +1,9 @@
-//! The bytes of a file as text: UTF-8, or what else they are taken for.
+//! The bytes of a file as text: UTF-8, or otherwise Windows-1252.
 //!
-//! In: all bytes of a file. Out: the text, and where it was not UTF-8 the first byte that shows it ([`Foreign`]).
-//! Older models hold comments in the encoding of somebody's editor; of these Windows-1252, which extends Latin-1, is
-//! by far the most usual and gives every byte a meaning (WHATWG Encoding Standard, index windows-1252). INVARIANT:
-//! UTF-8 is never changed.
+//! In: all bytes of a file. Out: the text, and, if it was not UTF-8, the first byte that shows it ([`Foreign`]). Older
+//! models hold comments in the encoding of some editor. Windows-1252, which extends Latin-1, is by far the most usual
+//! one, and gives every byte a meaning (WHATWG Encoding Standard, index windows-1252). INVARIANT: UTF-8 is never
+//! changed.
 
 use crate::{Diagnostic, FileId, Span};
 
@@ -39,7 +39,7 @@ impl Foreign {
     }
 }
 
-/// The text of a file, unless the bytes are no text at all.
+/// The text of a file, unless the bytes are not text at all.
 pub(crate) fn decode(bytes: Vec<u8>) -> Result<(String, Option<Foreign>), NotText> {
     let (bytes, offset) = match String::from_utf8(bytes) {
         Ok(text) => return Ok((text, None)),

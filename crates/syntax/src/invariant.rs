@@ -1,4 +1,4 @@
-//! What holds of every parse, whatever the text: the entry of fuzz targets and property tests.
+//! What holds for every parse, whatever the text: the entry of fuzz targets and property tests.
 //!
 //! In: any bytes. Out: nothing, or a panic that names the broken invariant.
 
@@ -6,7 +6,7 @@ use crate::{
     Diagnostic, FileId, MAX_FAULTS, Parse, SyntaxKind, format, parse_asmetal, parse_avalla, parse_chart, parse_term,
 };
 
-/// Parses any bytes as a model, a scenario, a chart and a term, and asserts what holds of every parse.
+/// Parses any bytes as a model, a scenario, a chart and a term, and asserts what holds for every parse.
 ///
 /// # Panics
 ///

@@ -1,7 +1,7 @@
 //! The kinds of tokens and nodes of the lossless tree.
 //!
 //! One enum serves AsmetaL, Avalla and charts. Keywords are tokens of their own; `and or xor not mod implies iff` are
-//! ordinary [`SyntaxKind::FUNCTION_ID`] tokens, as they may be called as functions (spec/language.md, 1.1).
+//! ordinary [`SyntaxKind::FUNCTION_ID`] tokens, because they may be called as functions (spec/language.md, 1.1).
 
 #![allow(non_camel_case_types, missing_docs, reason = "rowan's convention: kinds are written as in the grammar")]
 

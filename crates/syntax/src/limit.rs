@@ -1,10 +1,10 @@
 //! How large, deep and faulty a text may be.
 
-/// How many constructs may be nested in one another (parentheses, rules in rules, right operands …).
+/// How deeply constructs may be nested (parentheses, rules in rules, right operands …).
 pub const MAX_NESTING: usize = 256;
 
 /// The greatest height of the tree of one rule or term. A chain of left-associative operators (`a + b + …`) makes the
-/// tree higher by one for each operator; so a chain has at most this many.
+/// tree higher by one for each operator, so a chain has at most this many.
 pub const MAX_CHAIN: usize = 1000;
 
 /// How many faults of one file are reported.

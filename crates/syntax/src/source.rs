@@ -38,10 +38,10 @@ impl SourceFile {
         SourceFile { name: name.into(), text, foreign: None, line_starts }
     }
 
-    /// Takes the bytes of a file for text: UTF-8, or else Windows-1252.
+    /// Takes the bytes of a file for text: UTF-8, or otherwise Windows-1252.
     ///
     /// # Errors
-    /// They are no text.
+    /// They are not text.
     pub fn decode(name: impl Into<String>, bytes: Vec<u8>) -> Result<Self, NotText> {
         let (text, foreign) = decode(bytes)?;
         Ok(SourceFile { foreign, ..SourceFile::new(name, text) })

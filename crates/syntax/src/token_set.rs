@@ -1,7 +1,7 @@
 //! A set of token kinds as a bit mask, made at compile time.
 //!
-//! In: kinds. Out: membership in constant time. INVARIANT: only token kinds are put in, whose numbers lie below 192;
-//! the constructor's index check fails at compile time otherwise.
+//! In: kinds. Out: membership in constant time. INVARIANT: it holds only token kinds, whose numbers lie below 192;
+//! otherwise the constructor's index check fails at compile time.
 
 use crate::SyntaxKind;
 

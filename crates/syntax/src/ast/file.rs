@@ -33,7 +33,7 @@ nodes! {
     EnumLiteralDecl = ENUM_LITERAL_DECL,
     /// `[dynamic] domain D subsetof E`
     ConcreteDomainDecl = CONCRETE_DOMAIN_DECL,
-    /// A structured domain standing as a declaration of its own.
+    /// A structured domain as a declaration of its own.
     StructuredDomainDecl = STRUCTURED_DOMAIN_DECL,
     /// `D`
     NamedDomain = NAMED_DOMAIN,

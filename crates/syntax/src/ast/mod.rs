@@ -1,7 +1,7 @@
-//! Typed views of the lossless tree: what later stages read.
+//! Typed views of the lossless tree. Later stages read the tree through them.
 //!
-//! A view is a cheap handle on a [`SyntaxNode`]; every accessor may give `None` (or an empty iterator), as the
-//! tree of a faulty text has holes. The parser has already reported those, so a reader skips them in silence.
+//! A view is a cheap handle on a [`SyntaxNode`]. Every accessor may give `None` (or an empty iterator), because the
+//! tree of a faulty text has holes. The parser has already reported them, so a reader skips them silently.
 
 mod chart;
 mod file;
@@ -34,8 +34,8 @@ pub trait AstNode: Sized {
 
 /// The byte range of a node without the trivia at its ends.
 ///
-/// INVARIANT: the parser puts trivia outside the nodes it separates, so only the root has trivia at its ends, and only
-/// the node's own children need a look. This takes constant time for all other nodes.
+/// INVARIANT: the parser puts trivia outside the nodes it separates, so only the root has trivia at its ends, and
+/// looking at the node's own children is enough. For all other nodes this takes constant time.
 pub fn trimmed_range(node: &SyntaxNode) -> rowan::TextRange {
     let trivia = |element: &crate::SyntaxElement| element.kind().is_trivia();
     let mut first = node.first_child_or_token();

@@ -131,7 +131,7 @@ impl IfRule {
     pub fn branches(&self) -> Children<ConditionalBranch> {
         children(self.syntax())
     }
-    /// The rule behind `else`.
+    /// The rule after `else`.
     pub fn otherwise(&self) -> Option<Rule> {
         child(self.syntax())
     }
@@ -142,15 +142,15 @@ impl ChooseRule {
     pub fn binders(&self) -> Children<Binder> {
         children(self.syntax())
     }
-    /// The term behind `with`.
+    /// The term after `with`.
     pub fn condition(&self) -> Option<Term> {
         child(self.syntax())
     }
-    /// The rule behind `do`.
+    /// The rule after `do`.
     pub fn body(&self) -> Option<Rule> {
         nth(self.syntax(), 0)
     }
-    /// The rule behind `ifnone`.
+    /// The rule after `ifnone`.
     pub fn if_none(&self) -> Option<Rule> {
         nth(self.syntax(), 1)
     }
@@ -161,11 +161,11 @@ impl ForallRule {
     pub fn binders(&self) -> Children<Binder> {
         children(self.syntax())
     }
-    /// The term behind `with`.
+    /// The term after `with`.
     pub fn condition(&self) -> Option<Term> {
         child(self.syntax())
     }
-    /// The rule behind `do`.
+    /// The rule after `do`.
     pub fn body(&self) -> Option<Rule> {
         child(self.syntax())
     }
@@ -176,7 +176,7 @@ impl LetRule {
     pub fn bindings(&self) -> Children<Binding> {
         children(self.syntax())
     }
-    /// The rule behind `in`.
+    /// The rule after `in`.
     pub fn body(&self) -> Option<Rule> {
         child(self.syntax())
     }
@@ -191,7 +191,7 @@ impl ExtendRule {
     pub fn variables(&self) -> impl Iterator<Item = SyntaxToken> {
         tokens(self.syntax()).filter(|token| token.kind() == VARIABLE)
     }
-    /// The rule behind `do`.
+    /// The rule after `do`.
     pub fn body(&self) -> Option<Rule> {
         child(self.syntax())
     }
@@ -209,7 +209,7 @@ impl WhileRule {
     pub fn condition(&self) -> Option<Term> {
         child(self.syntax())
     }
-    /// The rule behind `do`.
+    /// The rule after `do`.
     pub fn body(&self) -> Option<Rule> {
         child(self.syntax())
     }
@@ -220,7 +220,7 @@ impl RecursiveWhileRule {
     pub fn condition(&self) -> Option<Term> {
         child(self.syntax())
     }
-    /// The rule behind `do`.
+    /// The rule after `do`.
     pub fn body(&self) -> Option<Rule> {
         child(self.syntax())
     }
@@ -235,7 +235,7 @@ impl SwitchRule {
     pub fn cases(&self) -> Children<CaseBranch> {
         children(self.syntax())
     }
-    /// The rule behind `otherwise`.
+    /// The rule after `otherwise`.
     pub fn otherwise(&self) -> Option<Rule> {
         child(self.syntax())
     }

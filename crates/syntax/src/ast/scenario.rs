@@ -8,7 +8,7 @@ nodes! {
     ScenarioFile = SCENARIO_FILE,
     /// `invariant NAME: term;`
     ScenarioInvariant = SCENARIO_INVARIANT,
-    /// `expect failure [by check | by invariant NAME | by inconsistent update | by error];` behind `load`.
+    /// `expect failure [by check | by invariant NAME | by inconsistent update | by error];` after `load`.
     ScenarioExpect = SCENARIO_EXPECT,
     /// `[strict] check term;`
     CheckCommand = CHECK_COMMAND,
@@ -45,11 +45,11 @@ impl ScenarioFile {
     pub fn name(&self) -> Option<SyntaxToken> {
         token(self.syntax(), GENERIC_ID)
     }
-    /// The path behind `load`, bare ([`MODULE_REF`]) or in quotes ([`STRING`]).
+    /// The path after `load`, bare ([`MODULE_REF`]) or in quotes ([`STRING`]).
     pub fn model_token(&self) -> Option<SyntaxToken> {
         tokens(self.syntax()).find(|token| matches!(token.kind(), MODULE_REF | STRING))
     }
-    /// The path behind `load` as text, without quotes.
+    /// The path after `load` as text, without quotes.
     pub fn model_path(&self) -> Option<String> {
         self.model_token().map(|token| token.text().trim_matches('"').to_string())
     }
@@ -78,7 +78,7 @@ impl ScenarioInvariant {
     }
 }
 
-/// The words of an `expect`: which trouble is expected.
+/// The words of an `expect`: the expected kind of failure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Expected {
     /// Any failure.
@@ -94,7 +94,7 @@ pub enum Expected {
 }
 
 fn expected(node: &crate::SyntaxNode) -> Expected {
-    // The name of an invariant is none of the words.
+    // The name of an invariant is not one of the words.
     let has = |word: &str| tokens(node).any(|token| token.kind() != GENERIC_ID && token.text() == word);
     if has("inconsistent") {
         Expected::InconsistentUpdate
@@ -110,7 +110,7 @@ fn expected(node: &crate::SyntaxNode) -> Expected {
 }
 
 impl ScenarioExpect {
-    /// Which trouble.
+    /// The expected failure.
     pub fn expected(&self) -> Expected {
         expected(self.syntax())
     }
@@ -121,7 +121,7 @@ impl ScenarioExpect {
 }
 
 impl ExpectStepCommand {
-    /// Which trouble: [`Expected::InconsistentUpdate`] or [`Expected::Error`].
+    /// The expected failure: [`Expected::InconsistentUpdate`] or [`Expected::Error`].
     pub fn expected(&self) -> Expected {
         expected(self.syntax())
     }
@@ -161,7 +161,7 @@ impl StepUntilCommand {
     pub fn term(&self) -> Option<Term> {
         child(self.syntax())
     }
-    /// The bound behind `within`.
+    /// The bound after `within`.
     pub fn bound(&self) -> Option<SyntaxToken> {
         token(self.syntax(), INTEGER)
     }

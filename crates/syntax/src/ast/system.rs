@@ -97,7 +97,7 @@ impl ComponentKind {
     pub fn awaits(&self) -> Option<SyntaxToken> {
         token(self.syntax(), GENERIC_ID)
     }
-    /// The quantity behind `period`, `offset` or `deadline`.
+    /// The quantity after `period`, `offset` or `deadline`.
     pub fn quantity(&self, word: SyntaxKind) -> Option<Quantity> {
         let word = token(self.syntax(), word)?;
         let mut next = word.next_sibling_or_token();
@@ -136,7 +136,7 @@ impl Phase {
     pub fn subject(&self) -> Option<SyntaxToken> {
         names(self.syntax()).next()
     }
-    /// The name behind `as`.
+    /// The name after `as`.
     pub fn name(&self) -> Option<SyntaxToken> {
         token(self.syntax(), AS_KW)?;
         names(self.syntax()).nth(1)
@@ -183,14 +183,14 @@ impl ChannelKind {
     pub fn size(&self) -> Option<SyntaxToken> {
         token(self.syntax(), INTEGER)
     }
-    /// The component behind `master`.
+    /// The component after `master`.
     pub fn master(&self) -> Option<SyntaxToken> {
         token(self.syntax(), GENERIC_ID)
     }
 }
 
 impl Device {
-    /// It is a sensor; else an actuator.
+    /// It is a sensor; otherwise it is an actuator.
     pub fn is_sensor(&self) -> bool {
         token(self.syntax(), SENSOR_KW).is_some()
     }

@@ -12,7 +12,7 @@ nodes! {
     VariableTerm = VARIABLE_TERM,
     /// `f`, `f(a,b)`, `self.f(a)`
     FunctionTerm = FUNCTION_TERM,
-    /// `(a, b)` behind a function's name, `[a, b]` or `(a, b)` behind a rule's.
+    /// `(a, b)` after a function's name, `[a, b]` or `(a, b)` after a rule's.
     ArgumentList = ARGUMENT_LIST,
     /// A domain as the set of its elements.
     DomainTerm = DOMAIN_TERM,
@@ -188,7 +188,7 @@ impl QuantifiedTerm {
     pub fn binders(&self) -> Children<Binder> {
         children(self.syntax())
     }
-    /// The term behind `with`.
+    /// The term after `with`.
     pub fn condition(&self) -> Option<Term> {
         child(self.syntax())
     }
@@ -210,7 +210,7 @@ impl IfTerm {
     pub fn branches(&self) -> Children<ConditionalBranch> {
         children(self.syntax())
     }
-    /// The term behind `else`.
+    /// The term after `else`.
     pub fn otherwise(&self) -> Option<Term> {
         child(self.syntax())
     }
@@ -221,11 +221,11 @@ impl ConditionalBranch {
     pub fn guard(&self) -> Option<Term> {
         nth(self.syntax(), 0)
     }
-    /// The term behind `then`, in an if term.
+    /// The term after `then`, in an if term.
     pub fn term(&self) -> Option<Term> {
         nth(self.syntax(), 1)
     }
-    /// The rule behind `then`, in an if rule.
+    /// The rule after `then`, in an if rule.
     pub fn rule(&self) -> Option<super::Rule> {
         child(self.syntax())
     }
@@ -240,7 +240,7 @@ impl SwitchTerm {
     pub fn cases(&self) -> Children<CaseBranch> {
         children(self.syntax())
     }
-    /// The term behind `otherwise`.
+    /// The term after `otherwise`.
     pub fn otherwise(&self) -> Option<Term> {
         nth(self.syntax(), 1)
     }
@@ -251,11 +251,11 @@ impl CaseBranch {
     pub fn value(&self) -> Option<Term> {
         nth(self.syntax(), 0)
     }
-    /// The term behind the colon, in a switch term.
+    /// The term after the colon, in a switch term.
     pub fn term(&self) -> Option<Term> {
         nth(self.syntax(), 1)
     }
-    /// The rule behind the colon, in a switch rule.
+    /// The rule after the colon, in a switch rule.
     pub fn rule(&self) -> Option<super::Rule> {
         child(self.syntax())
     }
@@ -266,7 +266,7 @@ impl LetTerm {
     pub fn bindings(&self) -> Children<Binding> {
         children(self.syntax())
     }
-    /// The term behind `in`.
+    /// The term after `in`.
     pub fn body(&self) -> Option<Term> {
         child(self.syntax())
     }
@@ -345,11 +345,11 @@ impl ComprehensionTerm {
         let bar = tokens(self.syntax()).find(|token| matches!(token.kind(), BAR | COLON))?;
         (bar.kind() == BAR).then(|| nth(self.syntax(), 0)).flatten()
     }
-    /// The term behind `:`; absent in a map comprehension, see [`ComprehensionTerm::entry`].
+    /// The term after `:`; absent in a map comprehension, see [`ComprehensionTerm::entry`].
     pub fn body(&self) -> Option<Term> {
         nth(self.syntax(), usize::from(self.condition().is_some()))
     }
-    /// The entry behind `:` of a map comprehension.
+    /// The entry after `:` of a map comprehension.
     pub fn entry(&self) -> Option<MapEntry> {
         child(self.syntax())
     }

@@ -1,7 +1,7 @@
-//! Faults of the lexer: characters that are no token, and literals that do not end.
+//! Faults of the lexer: characters that make no token, and literals that do not end.
 //!
-//! In: the place, and the text there. Out: a diagnostic that names what to write instead; for operators of other
-//! languages that is the operator of AsmetaL, see [`replacement`].
+//! In: the place, and the text there. Out: a diagnostic that names what to write instead. For operators of other
+//! languages that is the operator of AsmetaL (see [`replacement`]).
 
 use crate::{Diagnostic, Span};
 

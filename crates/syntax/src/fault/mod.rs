@@ -1,4 +1,4 @@
-//! The faults of syntax: one constructor each, so that all texts are seen together.
+//! The faults of syntax: one constructor each, so that all their texts stand together.
 //!
 //! In: the place and what stands there. Out: a [`crate::Diagnostic`] whose id is one of [`IDS`] and has a page
 //! `spec/faults/<id>.md`. Each message says what is wrong, the reason what was expected, the help what to write.

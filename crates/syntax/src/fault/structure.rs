@@ -1,7 +1,7 @@
 //! Faults of the parser: one constructor for each thing that can be wrong with the structure of a text.
 //!
-//! In: [`Found`], what stands at the place. Out: a diagnostic. The constructors only word the fault; when to report it,
-//! and how to go on, is decided in `grammar::recovery`.
+//! In: [`Found`], what stands at the place. Out: a diagnostic. The constructors only word the fault;
+//! `grammar::recovery` decides when to report it and how to go on.
 
 use super::wording::{expected, found, name_of, renamed, shape_of};
 use crate::{Diagnostic, Span, SyntaxKind, SyntaxKind::*};
@@ -122,7 +122,7 @@ pub(crate) fn stray_end(found: Found<'_>) -> Diagnostic {
         .with_help("remove it, or write what it is to end")
 }
 
-/// Two rules where one is to stand.
+/// Two rules where only one may stand.
 pub(crate) fn several_rules(found: Found<'_>, opener: Found<'_>) -> Diagnostic {
     Diagnostic::error("several-rules", found.span, format!("a second rule where `{}` takes one", opener.text))
         .because("this rule follows another without `par` or `seq` around them")
@@ -151,7 +151,7 @@ pub(crate) fn term_as_rule(found: Found<'_>) -> Diagnostic {
         .with_help("write `location := term` for an update")
 }
 
-/// A branch behind `else` or `otherwise`.
+/// A branch after `else` or `otherwise`.
 pub(crate) fn misplaced_branch(found: Found<'_>, last: &str) -> Diagnostic {
     Diagnostic::error("misplaced-branch", found.span, format!("{found} behind `{last}`"))
         .because(format!("`{last}` is the last branch"))
@@ -259,7 +259,7 @@ pub(crate) fn empty_parentheses(found: Found<'_>) -> Diagnostic {
         .with_help("a function without arguments is written without parentheses")
 }
 
-/// A wrong number of domains behind a constructor.
+/// A wrong number of domains after a constructor.
 pub(crate) fn domain_arity(found: Found<'_>, count: usize) -> Diagnostic {
     let wanted = match found.kind {
         PROD_KW => "two domains or more",
@@ -299,7 +299,7 @@ pub(crate) fn separator(found: Found<'_>) -> Diagnostic {
         .with_help("remove it")
 }
 
-/// Text behind the end.
+/// Text after the end.
 pub(crate) fn unexpected_text(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("unexpected-text", found.span, format!("expected the end, found {found}"))
         .because("the term ends before this")

@@ -1,7 +1,7 @@
 //! How faults name what was found, what was expected, and the classes of names.
 //!
 //! In: kinds and texts of tokens. Out: pieces of sentences; [`renamed`] proposes the nearest name of a class.
-//! INVARIANT: a found text is shown short and between backticks, so no message ends with a full stop.
+//! INVARIANT: a found text is shown shortened and between backticks, so no message ends with a full stop.
 
 use crate::SyntaxKind::{self, *};
 

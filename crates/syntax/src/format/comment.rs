@@ -1,4 +1,4 @@
-//! Which comments belong to a token: those behind it on its line, and those on the lines before it.
+//! Which comments belong to a token: those after it on its line, and those on the lines before it.
 //!
 //! In: a token. Out: documents of its comments, and of the empty line before it, if there is one. INVARIANT: each comment
 //! of a file belongs to exactly one token or to the end of the file, so none is lost and none is printed twice.
@@ -14,7 +14,7 @@ struct Comment {
     blank_before: bool,
 }
 
-/// The comments behind a token on its line.
+/// The comments after a token on its line.
 pub(super) fn behind(token: &SyntaxToken) -> Vec<Document> {
     let mut comments = Vec::new();
     let mut next = token.next_token();
@@ -134,7 +134,7 @@ pub(super) fn at_start_of_file(root: &SyntaxNode) -> Document {
     }
 }
 
-/// The comments behind the last token of a file.
+/// The comments after the last token of a file.
 pub(super) fn at_end_of_file(root: &SyntaxNode) -> Document {
     let Some(last) = root.last_token().filter(|token| token.kind().is_trivia()) else { return Document::nothing() };
     let (mut trivia, starts_file) = trivia_before(&last);

@@ -1,7 +1,7 @@
-//! What is to be printed: texts, and places where a line may or must end.
+//! What the printer prints: texts, and places where a line may or must end.
 //!
-//! Made by `layout` and `comment`, printed by `printer`. A comment is a piece of its own, as it ends its line whatever
-//! stands around it.
+//! Made by `layout` and `comment`, printed by `printer`. A comment is a piece of its own, because it ends its line
+//! whatever stands around it.
 
 /// A piece of output.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -18,7 +18,7 @@ pub(super) enum Document {
     HardLine,
     /// A line end and an empty line.
     BlankLine,
-    /// A comment behind a token, which ends the line.
+    /// A comment after a token, which ends the line.
     TrailingComment(String),
     /// A comment on a line of its own.
     OwnLineComment(String),

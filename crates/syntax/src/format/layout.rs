@@ -97,7 +97,7 @@ fn own_line(element: &SyntaxElement, separator: Separator, blanks: bool) -> Docu
     }
 }
 
-/// A part that goes on with a line.
+/// A part that continues a line.
 fn in_line(element: &SyntaxElement, separator: Separator) -> Document {
     let mut parts = match first_token(element) {
         Some(first) => comment::within_line(&first),

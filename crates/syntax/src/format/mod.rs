@@ -1,10 +1,10 @@
 //! The canonical layout of a model or scenario.
 //!
-//! In: a parse without errors. Out: its text with tabs for indentation, one rule, declaration or command a line, long
-//! lines folded, at most one blank line between neighbours. INVARIANT: the tokens and the comments stay the same and
-//! in order, so the meaning does; formatting twice changes nothing more.
+//! In: a parse without errors. Out: its text with tabs for indentation, one rule, declaration or command on each line,
+//! long lines folded, and at most one blank line between neighbours. INVARIANT: the tokens and the comments stay the
+//! same and in order, so the meaning stays the same; formatting twice changes nothing more.
 //!
-//! `layout` says where a node's parts go, `document` holds what is to be printed, `printer` folds the lines.
+//! `layout` decides where a node's parts go, `document` holds what is printed, `printer` folds the lines.
 
 mod comment;
 mod document;
@@ -18,7 +18,7 @@ use document::Document;
 /// The greatest width of a line, where a tab counts as four columns.
 pub const WIDTH: usize = 120;
 
-/// Formats a file. The text of a faulty one is given back as it is.
+/// Formats a file. A faulty file is returned unchanged.
 ///
 /// ```
 /// let parse = syntax::parse_asmetal(syntax::FileId(0), "asm a signature: definitions: main rule r_Main=par x:=1 skip endpar");

@@ -1,8 +1,9 @@
-//! Prints a document: a group that fits on the rest of the line is printed flat, else its lines end where they may.
+//! Prints a document: a group that fits on the rest of the line is printed flat; otherwise its lines end where they
+//! may.
 //!
 //! In: a document. Out: text without a final line end. Blanks and line ends wait until the next text, so no line ends
-//! with white space, and a comment to the end of a line can never swallow a token. Works with its own stack, so any
-//! depth is fine. Time is linear: whether a group fits is known within one line's width.
+//! with white space, and a comment to the end of a line can never swallow a token. It keeps its own stack, so any depth
+//! is fine. Time is linear: one line's width decides whether a group fits.
 
 use super::WIDTH;
 use super::document::Document::{self, *};
@@ -95,7 +96,7 @@ impl Printer {
     }
 }
 
-/// The document fits into so many columns, together with what follows on the same line.
+/// The document fits into this many columns, together with what follows on the same line.
 fn fits(document: &Document, room: usize, rest: &[Job<'_>]) -> bool {
     let mut room = room as isize;
     let mut jobs = vec![(document, true)];

@@ -1,7 +1,7 @@
 //! The table of the layout: what stands between two parts of a node.
 //!
-//! In: a node, the kind of the part before, and the part. Out: a [`Separator`]. Only here the author's line breaks count:
-//! a body on a line of its own stays there, and a short `if` or a single simple rule stays on its line.
+//! In: a node, the kind of the part before, and the part. Out: a [`Separator`]. Only this module looks at the author's
+//! line breaks: a body on a line of its own stays there, and a short `if` or a single simple rule stays on its line.
 
 use super::comment;
 use crate::SyntaxKind::{self, *};
@@ -174,7 +174,7 @@ fn branching(here: SyntaxKind, before: SyntaxKind, kind: SyntaxKind, on_line: bo
     }
 }
 
-/// A rule behind `do` or `ifnone`.
+/// A rule after `do` or `ifnone`.
 fn body(before: SyntaxKind, kind: SyntaxKind, on_line: bool) -> Separator {
     match kind {
         IFNONE_KW => Own,

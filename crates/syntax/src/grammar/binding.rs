@@ -1,6 +1,6 @@
 //! `let`, and variables that range over a collection (spec/language.md, 6.2 and 7).
 //!
-//! In: the cursor at `let` or at the first variable. Out: a LET_TERM or LET_RULE with BINDINGs, or BINDERs. `in` behind
+//! In: the cursor at `let` or at the first variable. Out: a LET_TERM or LET_RULE with BINDINGs, or BINDERs. `in` after
 //! a binding is the membership operator, unless the bindings lack their closing parenthesis.
 //! CIRCLE(grammar)
 

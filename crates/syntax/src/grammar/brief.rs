@@ -1,7 +1,7 @@
 //! The tree as short text, for the unit tests of the grammar: `BINARY(a + b)`.
 //!
-//! A node is its kind without the last word, with its children in parentheses; a token is its text. What is too long
-//! for a line has a line for each child. The ids of the faults stand behind the tree.
+//! A node is its kind without the last word, with its children in parentheses; a token is its text. A node too long for
+//! a line has a line for each child. The ids of the faults stand after the tree.
 
 use crate::{FileId, Parse, SyntaxNode};
 use rowan::{Direction, NodeOrToken};
@@ -28,7 +28,7 @@ pub(super) fn chart(text: &str) -> String {
     whole(&crate::parse_chart(FileId(0), text))
 }
 
-/// The tree of a rule, and of what stands behind it.
+/// The tree of a rule, and of what stands after it.
 pub(super) fn rule(text: &str) -> String {
     let parse = crate::parse_asmetal(FileId(0), &format!("asm a signature: definitions: rule r_a = {text}"));
     let declaration = parse.syntax().descendants().find(|node| node.kind() == crate::SyntaxKind::RULE_DECL);

@@ -1,7 +1,7 @@
 //! Charts: machines and patterns with their shapes, paths and layout (spec/charts.md). Systems are in `system`.
 //!
-//! Like those of scenarios, the words of charts are no keywords of the lexer: the grammar takes them as keywords where an
-//! item starts, so that a linked model may have a function `state`. What stands in the braces of a link is AsmetaL.
+//! Like those of scenarios, the words of charts are not keywords of the lexer. The grammar takes them as keywords where
+//! an item starts, so a linked model may have a function `state`. The text in the braces of a link is AsmetaL.
 
 use super::chart_part::{
     ENDS, block, eat_word, ends_block_around, expect_word, keyword, no_item, rule_link, rule_name_link, section_word,
@@ -74,7 +74,7 @@ fn starts_path(p: &Parser<'_>) -> bool {
     p.peek(1) == ARROW || p.peek(2) == ARROW
 }
 
-/// A word that [`shape_name`] takes as a name, so that what starts with one always goes on.
+/// A word that [`shape_name`] takes as a name, so an item that starts with one always makes progress.
 fn is_name(p: &Parser<'_>) -> bool {
     p.token_text().starts_with(|letter: char| letter.is_alphabetic() || letter == '_') && keyword(p, &ENDS).is_none()
 }

@@ -1,7 +1,7 @@
 //! Sets, sequences, bags and maps: literals, ranges and comprehensions (spec/language.md, 6.2).
 //!
-//! Which of them it is shows only behind the first element, so the node is put around what was read. `{$x in …` always
-//! starts a comprehension; a set whose first element is a membership test has it in parentheses.
+//! Only the text after the first element shows which of them it is, so the node is put around what was read. `{$x in …`
+//! always starts a comprehension; a set whose first element is a membership test has it in parentheses.
 //! CIRCLE(grammar)
 
 use super::term::{delimited, inside, term};

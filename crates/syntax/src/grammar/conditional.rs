@@ -11,7 +11,7 @@ use crate::SyntaxKind::{self, *};
 use crate::fault;
 use crate::parser::Parser;
 
-/// What stands behind `then`, `else`, `case a:` and `otherwise`.
+/// What stands after `then`, `else`, `case a:` and `otherwise`.
 #[derive(Clone, Copy)]
 pub(super) struct Body {
     /// Parses the body.
@@ -24,7 +24,7 @@ pub(super) struct Body {
 pub(super) const TERM: Body = Body { parse: |p, wanted| _ = delimited(p, wanted), starts: |p| p.at_any(TERM_STARTS) };
 
 impl Body {
-    /// The body behind a keyword or mark; where that is missing, a body that stands there is read all the same.
+    /// The body after a keyword or mark. If that is missing, a body that stands there is read all the same.
     pub(super) fn behind(self, p: &mut Parser<'_>, keyword: SyntaxKind, context: &str, wanted: &str) {
         if p.expect(keyword, context) || (self.starts)(p) {
             (self.parse)(p, wanted);
@@ -76,12 +76,12 @@ pub(super) fn if_construct(p: &mut Parser<'_>, kind: SyntaxKind, body: Body) {
     p.finish();
 }
 
-/// The cursor is at what other languages have for `elseif`.
+/// The cursor is at another language's word for `elseif`.
 pub(super) fn at_foreign_elseif(p: &Parser<'_>) -> bool {
     (p.at_word("elif") || p.at_word("elsif")) && !matches!(p.peek(1), ASSIGN | COLON)
 }
 
-/// Takes `elseif`, or what other languages have for it.
+/// Takes `elseif`, or another language's word for it.
 fn elseif(p: &mut Parser<'_>) -> bool {
     if at_foreign_elseif(p) {
         let found = p.found();

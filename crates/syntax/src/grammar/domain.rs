@@ -1,8 +1,8 @@
 //! Domains, and their declarations in the signature (spec/language.md, section 3).
 //!
 //! In: the cursor at a domain or a declaration. Out: a NAMED_DOMAIN or STRUCTURED_DOMAIN, or one of the declarations.
-//! A domain in capitals only is an enum literal to the lexer; it is taken as a domain here, and a later stage says what
-//! is wrong with it. The number of domains in a structured one is checked here.
+//! To the lexer, a domain in capitals only is an enum literal. It is taken as a domain here, and a later stage reports
+//! what is wrong with it. The number of domains in a structured one is checked here.
 //! CIRCLE(grammar)
 
 use super::{list, name, recovery, term};
@@ -61,7 +61,7 @@ fn structured(p: &mut Parser<'_>) {
     p.leave();
 }
 
-/// A declaration of a domain; `false` when the cursor is at none.
+/// A declaration of a domain; `false` if the cursor is not at one.
 pub(super) fn declaration(p: &mut Parser<'_>) -> bool {
     let behind = if p.at(DYNAMIC_KW) { p.peek(1) } else { p.current() };
     match behind {

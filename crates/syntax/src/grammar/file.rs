@@ -1,7 +1,7 @@
 //! The file and its sections (spec/language.md, section 2).
 //!
-//! In: the cursor at the start of a file. Out: the children of SOURCE_FILE. Sections in a wrong order, twice or without
-//! their heading are parsed all the same, so that one misplaced word does not hide the faults of a whole section.
+//! In: the cursor at the start of a file. Out: the children of SOURCE_FILE. Sections in a wrong order, twice, or
+//! without their heading are parsed all the same. So one misplaced word does not hide the faults of a whole section.
 
 use super::sets::{DECLARATION_STARTS, DEFINITION_STARTS, SECTION_STARTS};
 use super::{domain, function, init, list, name, property, recovery, rule};
@@ -43,7 +43,7 @@ impl Sections {
         }
     }
 
-    /// Reports a section that stands behind one it must precede.
+    /// Reports a section that stands after one it must precede.
     fn before(p: &mut Parser<'_>, later: &[(bool, &str)]) {
         if let Some((_, word)) = later.iter().find(|(seen, _)| *seen) {
             let found = p.found();

@@ -1,7 +1,7 @@
 //! Lists between brackets, their items separated by commas.
 //!
-//! In: the closing bracket and how to parse an item. Out: the number of items. A forgotten comma is reported and the
-//! list goes on; an item on a new line belongs to what comes next, for then the bracket is what is forgotten.
+//! In: the closing bracket and how to parse an item. Out: the number of items. A forgotten comma is reported, and the
+//! list goes on. An item on a new line belongs to what comes next: then the bracket is what was forgotten.
 //! CIRCLE(grammar)
 
 use super::recovery;
@@ -40,7 +40,7 @@ pub(super) fn items(p: &mut Parser<'_>, close: SyntaxKind, mut item: impl FnMut(
     1 + more_items(p, close, item)
 }
 
-/// Items behind the first one up to the closing bracket, which is left; gives their number.
+/// Items after the first one up to the closing bracket, which is left; gives their number.
 pub(super) fn more_items(
     p: &mut Parser<'_>,
     close: SyntaxKind,

@@ -1,7 +1,7 @@
-//! The grammar of AsmetaL, Avalla and charts as a recursive descent, one file a layer (spec/language.md).
+//! The grammar of AsmetaL, Avalla and charts as a recursive descent, one file for each layer (spec/language.md).
 //!
-//! Each function parses one construct at the cursor and leaves the cursor behind it. On a fault it reports, keeps
-//! what was read as part of the tree, and stops at a token from which a caller can go on.
+//! Each function parses one construct at the cursor and leaves the cursor after it. On a fault it reports the fault,
+//! keeps what was read as part of the tree, and stops at a token from which a caller can go on.
 
 mod binding;
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Names of a class.
 //!
 //! In: the cursor where a name must stand. Out: the name taken, and whether there was one. A name of another class is
-//! taken with a fault, so that what stands behind it is still read; so is a keyword that is plainly meant as a name.
+//! taken with a fault, so that the text after it is still read. So is a keyword that is clearly meant as a name.
 //! CIRCLE(grammar)
 
 use crate::fault;
@@ -9,7 +9,7 @@ use crate::parser::Parser;
 use crate::token_set::TokenSet;
 use crate::{SyntaxKind, SyntaxKind::*};
 
-/// Names of any class: what may be meant as a name of another class.
+/// Names of any class: they may be meant as a name of another class.
 pub(super) const NAMES: TokenSet = TokenSet::new(&[
     ENUM_ID,
     DOMAIN_ID,

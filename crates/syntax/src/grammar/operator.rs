@@ -1,7 +1,7 @@
 //! Infix operators: which token is one, and how tightly it binds (spec/language.md, 6.1).
 //!
 //! All are left associative. Lowest first: `implies iff` < `or xor` < `and` < relations < `not` < `+ -` < `* / mod` <
-//! `^` < signs. Operators of other languages, which are reported, bind like the ones they stand for.
+//! `^` < signs. Operators of other languages are reported; they bind like the ones they stand for.
 //! CIRCLE(grammar)
 
 use crate::SyntaxKind::*;

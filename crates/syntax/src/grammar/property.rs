@@ -17,7 +17,7 @@ pub(super) fn assumption(p: &mut Parser<'_>, kind: SyntaxKind) {
     p.finish();
 }
 
-/// `COMPASSION (p, q)`; the peer knows it without the closing parenthesis only.
+/// `COMPASSION (p, q)`; the peer accepts it only without the closing parenthesis.
 pub(super) fn compassion(p: &mut Parser<'_>) {
     p.start(COMPASSION);
     p.bump();

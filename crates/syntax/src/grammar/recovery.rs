@@ -1,7 +1,7 @@
-//! What the grammar does where the text is faulty: which fault to report, what to skip, where to go on.
+//! What the grammar does with faulty text: which fault to report, what to skip, where to go on.
 //!
-//! Skipped tokens lie in ERROR nodes. The aim is one fault for one mistake: an end that a construct around waits for
-//! is never skipped, and text that looks right is parsed even in a wrong place.
+//! Skipped tokens lie in ERROR nodes. The aim is one fault for one mistake. An end that an enclosing construct waits
+//! for is never skipped, and text that looks right is parsed even in a wrong place.
 //! CIRCLE(grammar)
 
 use super::sets::*;
@@ -69,7 +69,7 @@ pub(super) fn no_term(p: &mut Parser<'_>, wanted: &str) -> bool {
     goes_on && !p.on_new_line() && term::term(p, wanted)
 }
 
-/// `A * B` behind a domain: more domains, joined by a mark.
+/// `A * B` after a domain: more domains, joined by a mark.
 pub(super) fn product_of_domains(p: &mut Parser<'_>) {
     while p.at(STAR) || p.at(ERROR) && fault::replacement(p.token_text()) == Some("*") {
         let found = p.found();
@@ -119,7 +119,7 @@ fn rule_junk(p: &mut Parser<'_>) {
     p.finish();
 }
 
-/// In a block: is there one more rule? Skips what is none.
+/// In a block: is there one more rule? Skips text that is not one.
 pub(super) fn more_rules(p: &mut Parser<'_>, end: SyntaxKind) -> bool {
     loop {
         if p.on_new_line() {
@@ -149,7 +149,7 @@ pub(super) fn more_rules(p: &mut Parser<'_>, end: SyntaxKind) -> bool {
     }
 }
 
-/// A construct around waits for the token at the cursor.
+/// An enclosing construct waits for the token at the cursor.
 fn belongs_around(p: &Parser<'_>) -> bool {
     p.is_awaited(match p.current() {
         ELSE_KW | ELSEIF_KW => ENDIF_KW,
@@ -162,10 +162,10 @@ fn separates(p: &Parser<'_>) -> bool {
     matches!(p.current(), SEMICOLON | COMMA)
 }
 
-/// Words that look like the end of a rule that has none.
+/// Words that look like an end of a rule that has no end.
 const NO_ENDS: [&str; 7] = ["endchoose", "enddo", "endforall", "endwhile", "endextend", "endrule", "endfor"];
 
-/// Behind a rule: a mark or a word that other languages have there.
+/// After a rule: a mark or a word that other languages put there.
 pub(super) fn behind_rule(p: &mut Parser<'_>) {
     let found = p.found();
     if p.at(SEMICOLON) && !p.in_scenario {
@@ -192,7 +192,7 @@ pub(super) fn bracketed_rule(p: &mut Parser<'_>) {
     p.finish();
 }
 
-/// Behind the one rule of a branch: reports further rules and keeps them out of the way.
+/// After the one rule of a branch: reports further rules and keeps them out of the way.
 pub(super) fn several_rules(p: &mut Parser<'_>) {
     let Some((end, opener)) = p.innermost() else { return };
     if !rule::starts(p) {
@@ -206,7 +206,7 @@ pub(super) fn several_rules(p: &mut Parser<'_>) {
     more_than_one(p, opener);
 }
 
-/// Behind the body of a rule's declaration: the same.
+/// After the body of a rule's declaration: the same.
 pub(super) fn several_bodies(p: &mut Parser<'_>, declaration: Found<'_>) {
     if rule::starts(p) {
         more_than_one(p, declaration);
@@ -223,7 +223,7 @@ fn more_than_one(p: &mut Parser<'_>, opener: Found<'_>) {
     p.finish();
 }
 
-/// Behind a term that stands as a rule: an operator shows that an update, or nothing, was meant.
+/// After a term that stands as a rule: an operator shows that an update, or nothing, was meant.
 pub(super) fn term_as_rule(p: &mut Parser<'_>) {
     let found = p.found();
     if p.at(COLON) && p.peek(1) == EQ {
@@ -243,7 +243,7 @@ pub(super) fn term_as_rule(p: &mut Parser<'_>) {
     }
 }
 
-/// Behind `<-`, where no call of a turbo rule stands.
+/// After `<-`, where no call of a turbo rule stands.
 pub(super) fn no_turbo_call(p: &mut Parser<'_>) {
     let found = p.missing();
     p.fault(fault::expected_rule(found, "a call of a turbo rule, as `r_x(…)`, behind `<-`"));
@@ -256,7 +256,7 @@ pub(super) fn no_turbo_call(p: &mut Parser<'_>) {
     }
 }
 
-/// Before the next item of a section: at a word that one starts with, what went wrong before is over.
+/// Before the next item of a section: at a word that starts an item, earlier trouble is over.
 pub(super) fn item(p: &mut Parser<'_>) {
     if p.at_any(FENCES) {
         p.starts_anew();
@@ -288,7 +288,7 @@ pub(super) fn no_head(p: &mut Parser<'_>) {
     p.finish();
 }
 
-/// Behind the last thing of a file.
+/// After the last thing of a file.
 pub(super) fn rest_of_file(p: &mut Parser<'_>) {
     if p.at(EOF) {
         return;
@@ -309,7 +309,7 @@ pub(super) fn too_deep(p: &mut Parser<'_>) -> bool {
     true
 }
 
-/// Skips up to the end that a construct around waits for.
+/// Skips up to the end that an enclosing construct waits for.
 pub(super) fn chain_too_long(p: &mut Parser<'_>) {
     let found = p.found();
     p.fault_once(fault::nested_too_deeply(found));
@@ -331,7 +331,7 @@ pub(super) fn chain_too_long(p: &mut Parser<'_>) {
     p.finish();
 }
 
-/// Takes so many tokens into an ERROR node.
+/// Takes this many tokens into an ERROR node.
 pub(super) fn error(p: &mut Parser<'_>, count: usize) {
     p.start(ERROR);
     for _ in 0..count {

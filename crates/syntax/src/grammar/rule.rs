@@ -1,7 +1,7 @@
 //! Rules and their declarations (spec/language.md, sections 5 and 7).
 //!
-//! In: the cursor at a rule. Out: one of the rule nodes. What starts with a function or a variable is read as a
-//! location first; the token behind it tells an update, a return and a rule that is a value apart.
+//! In: the cursor at a rule. Out: one of the rule nodes. A rule that starts with a function or a variable is first read
+//! as a location. The token after it shows whether it is an update, a return or a rule value.
 //! CIRCLE(grammar)
 
 use super::conditional::Body;
@@ -71,7 +71,7 @@ fn rule_here(p: &mut Parser<'_>, wanted: &str) -> bool {
     true
 }
 
-/// The rule of a branch, which an end mark follows.
+/// The rule of a branch; an end mark follows it.
 const BRANCH: Body = Body {
     parse: |p, wanted| {
         rule(p, wanted);
@@ -80,7 +80,7 @@ const BRANCH: Body = Body {
     starts: |p| starts(p) || p.at(L_BRACE),
 };
 
-/// The rule behind a keyword or mark; where that is missing, a rule that stands there is read all the same.
+/// The rule after a keyword or mark. If that is missing, a rule that stands there is read all the same.
 fn behind(p: &mut Parser<'_>, keyword: SyntaxKind, context: &str, wanted: &str) {
     if p.expect(keyword, context) || starts(p) {
         rule(p, wanted);

@@ -1,6 +1,6 @@
 //! Scenarios: the language Avalla (spec/avalla.md).
 //!
-//! Its words are no keywords of the lexer: each is an ordinary name, so that a model may have a function `step`. The
+//! Its words are not keywords of the lexer: each is an ordinary name, so a model may have a function `step`. The
 //! grammar takes them as keywords where a command starts.
 
 use super::sets::TERM_STARTS;
@@ -71,7 +71,7 @@ fn command_word(p: &Parser<'_>) -> Option<SyntaxKind> {
     })
 }
 
-/// One command; `false` when the cursor is at none.
+/// One command; `false` if the cursor is not at one.
 fn command(p: &mut Parser<'_>) -> bool {
     let Some(kind) = command_word(p) else { return false };
     match kind {

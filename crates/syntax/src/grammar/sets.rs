@@ -56,7 +56,7 @@ pub(super) const RULE_WORDS: TokenSet = TokenSet::new(&[
 /// Words that end a construct.
 pub(super) const BLOCK_ENDS: TokenSet =
     TokenSet::new(&[ENDPAR_KW, ENDSEQ_KW, ENDITERATE_KW, ENDIF_KW, ENDSWITCH_KW, ENDLET_KW]);
-/// Brackets that end a construct; `>` does so only behind a bag.
+/// Brackets that end a construct; `>` does so only after a bag.
 pub(super) const BRACKET_ENDS: TokenSet = TokenSet::new(&[R_PAREN, R_BRACKET, R_BRACE]);
 /// Both.
 pub(super) const ENDS: TokenSet = BLOCK_ENDS.union(BRACKET_ENDS);

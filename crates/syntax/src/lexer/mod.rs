@@ -1,9 +1,9 @@
 //! Text → tokens.
 //!
-//! In: the text of one file. Out: tokens that cover it without gap, and the faults of characters that are no token.
-//! Three places read otherwise than the rest: the name behind `asm`, `module` and `init` is of any shape, the path
-//! behind `import` (and behind `load` in a scenario) is read as a whole, and a number takes the imaginary unit that
-//! touches it. A complex literal never takes a sign, nor the start of a name.
+//! In: the text of one file. Out: tokens that cover it without gaps, and the faults of characters that make no token.
+//! Three places have rules of their own: the name after `asm`, `module` and `init` has any shape; the path after
+//! `import` (and after `load` in a scenario) is read as a whole; and a number takes the imaginary unit that touches it.
+//! A complex literal never takes a sign, nor the start of a name.
 //!
 //! INVARIANT: the tokens' texts joined are the text.
 
@@ -197,7 +197,7 @@ impl<'t> Lexer<'t> {
         space.is_some_and(|space| self.text[space.start as usize..].starts_with(['\n', '\r']))
     }
 
-    /// How many tokens other than trivia were read; 3 stands for more, too.
+    /// How many tokens other than trivia were read; 3 also stands for more.
     fn significant_before(&self) -> usize {
         self.tokens.iter().filter(|token| !token.kind.is_trivia()).take(3).count()
     }
@@ -241,7 +241,7 @@ impl<'t> Lexer<'t> {
         })
     }
 
-    /// `1.5e3` is meant as a number with an exponent: says so and joins the two.
+    /// `1.5e3` is meant as a number with an exponent: reports that and joins the two.
     fn takes_exponent(&mut self, text: &str, start: usize) -> bool {
         let exponent = text.len() > 1
             && matches!(text.as_bytes()[0], b'e' | b'E')

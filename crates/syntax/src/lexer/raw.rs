@@ -1,7 +1,7 @@
 //! The regular layer of the lexer: what logos recognises without context.
 //!
 //! Longest match wins. Marks that other languages use as operators are one token, so that one fault can name the
-//! AsmetaL operator. An unterminated comment, string or character is a token too: to the end of the file or line.
+//! AsmetaL operator. An unterminated comment, string or character is a token, too: up to the end of the file or line.
 
 use crate::SyntaxKind::{self, *};
 use logos::Logos;
@@ -106,7 +106,7 @@ pub(super) enum Raw {
     ForeignComment,
 }
 
-/// Takes a comment up to its end mark, or else the rest of the file.
+/// Takes a comment up to its end mark, or otherwise the rest of the file.
 fn block_comment(lexer: &mut logos::Lexer<'_, Raw>) {
     let rest = lexer.remainder();
     lexer.bump(rest.find("*/").map_or(rest.len(), |at| at + 2));

@@ -10,7 +10,7 @@ impl<'t> Parser<'t> {
     ///
     /// # Panics
     ///
-    /// When the grammar is stuck, which is a bug: it looks at one token ever again.
+    /// When the grammar is stuck, which is a bug: it looks at the same token again and again.
     pub(crate) fn current(&self) -> SyntaxKind {
         let looks = self.looks.get() + 1;
         self.looks.set(looks);
@@ -87,7 +87,7 @@ impl<'t> Parser<'t> {
 
     /// How many tokens stand between the cursor and a token of this kind on the same line.
     ///
-    /// LIMIT: it looks at most 64 tokens ahead, so that a long faulty line takes linear time.
+    /// LIMIT: looks at most 64 tokens ahead, so a long faulty line takes linear time.
     pub(crate) fn find_on_line(&self, kind: SyntaxKind) -> Option<usize> {
         let mut count = 0;
         for at in self.at..(self.at + 64).min(self.tokens.len()) {
@@ -103,7 +103,7 @@ impl<'t> Parser<'t> {
         None
     }
 
-    /// By the indentation the current token stands beside the innermost open construct, not in it.
+    /// By its indentation, the current token stands beside the innermost open construct, not in it.
     pub(crate) fn is_left_of_innermost(&self) -> bool {
         let opener = self.open.last().and_then(|open| self.indentation(open.opener));
         let here = self.indentation(self.at);
@@ -122,7 +122,7 @@ impl<'t> Parser<'t> {
         (at == 0 || self.tokens[at - 1].kind == WHITESPACE).then_some(line)
     }
 
-    /// An empty span behind the token before the current one.
+    /// An empty span after the token before the current one.
     pub(super) fn end_of_previous(&self) -> Span {
         let mut at = self.at;
         while at > 0 && self.is_skipped(at - 1) {
@@ -143,8 +143,8 @@ impl<'t> Parser<'t> {
         &self.text[start..end]
     }
 
-    /// The grammar does not see this token: trivia, and strange characters, which the lexer has reported. An operator
-    /// of another language it does see, so that the operands stay together.
+    /// The grammar does not see this token: it is trivia, or a strange character, which the lexer has reported. It does
+    /// see an operator of another language, so the operands stay together.
     pub(super) fn is_skipped(&self, at: usize) -> bool {
         let kind = self.tokens[at].kind;
         kind.is_trivia() || kind == ERROR && fault::replacement(self.text_of(at)).is_none()

@@ -1,9 +1,8 @@
 //! The parser's machinery: a cursor over the tokens, the tree under construction, and the faults.
 //!
 //! In: a text and the grammar's start. Out: a [`Parse`]. The grammar (module `grammar`) decides; this module keeps the
-//! books. INVARIANT: every token goes into the tree exactly once and in order, so the tree is lossless; a node never
-//! starts or ends with trivia, except the root. At one token at most one fault is reported: what follows from it is no
-//! news.
+//! books. INVARIANT: every token goes into the tree exactly once and in order, so the tree is lossless; no node but the
+//! root starts or ends with trivia. At most one fault is reported at a token; faults that follow from it are not.
 //!
 //! LIMIT: [`MAX_NESTING`], [`MAX_CHAIN`], [`MAX_FAULTS`], [`MAX_TEXT_BYTES`].
 
@@ -21,14 +20,14 @@ use rowan::{GreenNodeBuilder, Language};
 use std::cell::Cell;
 use tree::{Event, Wrap};
 
-/// What a term stands in, as far as that changes its operators.
+/// What surrounds a term, as far as that changes its operators.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Within {
     /// Parentheses, keywords or nothing.
     Plain,
     /// A bag, which a bare `>` closes.
     Bag,
-    /// The bindings of a `let`, behind which `in` stands.
+    /// The bindings of a `let`, after which `in` stands.
     Bindings,
 }
 
@@ -37,7 +36,7 @@ pub(crate) struct Parser<'t> {
     file: FileId,
     text: &'t str,
     tokens: Vec<Token>,
-    /// The current token; never one that is skipped.
+    /// The current token; never a skipped one.
     at: usize,
     events: Vec<Event>,
     wraps: Vec<Wrap>,
@@ -45,7 +44,7 @@ pub(crate) struct Parser<'t> {
     faults: Vec<Diagnostic>,
     /// The token at which the last fault was reported.
     fault_at: usize,
-    /// Starts of tokens that the lexer found without their end; faults right behind them are no news.
+    /// Starts of tokens that the lexer found without their end; faults right after them are not reported again.
     unterminated: Vec<u32>,
 
     /// Constructs that wait for their end, innermost last.
@@ -55,7 +54,7 @@ pub(crate) struct Parser<'t> {
     nesting_reported: bool,
     /// Keywords that are declared as names.
     keywords: Vec<&'t str>,
-    /// One of these was used, and read as the keyword it is: faults behind it follow from that.
+    /// One of these was used, and read as the keyword that it is. Faults after it follow from that.
     confused: bool,
     depth: usize,
     /// The greatest depth of the tree since the last [`Parser::take_deepest`].
@@ -63,7 +62,7 @@ pub(crate) struct Parser<'t> {
 
     /// How often the current token was looked at.
     looks: Cell<u32>,
-    /// What a term stands in, as far as that changes its operators.
+    /// What surrounds a term, as far as that changes its operators.
     pub(crate) within: Within,
     /// A scenario is read: `;` ends a command.
     pub(crate) in_scenario: bool,

@@ -38,7 +38,7 @@ impl Parser<'_> {
         self.deepest = self.deepest.max(outside);
     }
 
-    /// The depth of the subtree if one more operator is put on top of it.
+    /// The depth of the subtree with one more operator on top of it.
     pub(crate) fn lift_deepest(&mut self) -> usize {
         self.deepest += 1;
         self.deepest
@@ -63,7 +63,7 @@ impl<'t> Parser<'t> {
         self.open.last().map(|open| (open.end, open.found))
     }
 
-    /// Takes the end of the innermost construct, and notes when it is not below the beginning.
+    /// Takes the end of the innermost construct, and notes if it is not below the beginning.
     pub(crate) fn bump_end(&mut self) {
         let Some(open) = self.open.pop() else { return };
         if let (Some(first), Some(last)) = (self.indentation(open.opener), self.indentation(self.at))
@@ -89,7 +89,7 @@ impl<'t> Parser<'t> {
         within.map(|open| open.found)
     }
 
-    /// A construct around waits for this end.
+    /// An enclosing construct waits for this end.
     pub(crate) fn is_awaited(&self, end: SyntaxKind) -> bool {
         self.open.iter().any(|open| open.end == end)
     }

@@ -6,7 +6,7 @@ use crate::limit::MAX_FAULTS;
 use crate::{Diagnostic, Span, SyntaxKind, SyntaxKind::*};
 
 impl<'t> Parser<'t> {
-    /// Reports a fault at the current token, unless it follows from one that is known.
+    /// Reports a fault at the current token, unless it follows from a known one.
     pub(crate) fn fault(&mut self, fault: Diagnostic) {
         let news =
             self.fault_at != self.at && !self.at(ERROR) && !self.has_enough_faults() && !self.follows_lexical_fault();
@@ -26,14 +26,15 @@ impl<'t> Parser<'t> {
         self.fault_at = self.at;
     }
 
-    /// The current token, or one of the two before it, is a keyword that is declared as a name: the text behind it does
-    /// not mean what it says.
+    /// The current token, or one of the two before it, is a keyword that is declared as a name. So the text after it
+    /// does not mean what it says.
     fn follows_keyword(&self) -> bool {
         let before = (0..=self.at).rev().filter(|at| !self.is_skipped(*at)).take(3);
         !self.keywords.is_empty() && before.into_iter().any(|at| self.keywords.contains(&self.text_of(at)))
     }
 
-    /// Something new starts at the current token: a fault there is news, even if what stands before was reported there.
+    /// Something new starts at the current token: a fault there is reported, even if one about the text before was
+    /// reported there.
     pub(crate) fn starts_anew(&mut self) {
         self.fault_at = usize::MAX;
     }
@@ -60,18 +61,18 @@ impl<'t> Parser<'t> {
         false
     }
 
-    /// The current token as a fault shows it that reports something missing before it.
+    /// The current token, as shown by a fault that reports something missing before it.
     pub(crate) fn missing(&self) -> Found<'t> {
         Found { span: self.missing_place(), ..self.found() }
     }
 
-    /// Where something is missing: at the current token, or, if that is on a later line, behind the one before.
+    /// Where something is missing: at the current token, or, if that is on a later line, after the one before.
     pub(crate) fn missing_place(&self) -> Span {
         if self.on_new_line() || self.at(EOF) { self.end_of_previous() } else { self.span_of(self.at) }
     }
 
-    /// What the lexer has reported stands right before the current token: a strange character, or a string, character
-    /// or comment without its end.
+    /// Something that the lexer has reported stands right before the current token: a strange character, or a string,
+    /// character or comment without its end.
     fn follows_lexical_fault(&self) -> bool {
         let mut from = self.at;
         while from > 0 && self.is_skipped(from - 1) {
@@ -86,7 +87,7 @@ impl<'t> Parser<'t> {
         self.unterminated.get(next).is_some_and(|start| *start < until)
     }
 
-    /// So many faults are known that no more are kept. (The lexer, which runs first, keeps half as many.)
+    /// So many faults are known that no more are kept. (The lexer runs first, and keeps half as many.)
     pub(super) fn has_enough_faults(&self) -> bool {
         self.faults.len() > 2 * MAX_FAULTS
     }

@@ -1,8 +1,8 @@
-//! Building the tree: the grammar opens and finishes nodes and takes tokens; all of that is noted as events, and made
-//! into the tree at the end.
+//! Building the tree. The grammar opens and finishes nodes and takes tokens. All of that is noted as events, which are
+//! made into the tree at the end.
 //!
-//! INVARIANT: a node starts right before its first token and ends right behind its last one. So trivia, and characters
-//! that are skipped, lie outside the nodes that they separate, and a node without tokens does not come to be.
+//! INVARIANT: a node starts right before its first token and ends right after its last one. So trivia and skipped
+//! characters lie outside the nodes that they separate, and a node without tokens is never made.
 
 use super::Parser;
 use crate::fault;
@@ -48,7 +48,7 @@ impl Parser<'_> {
         Checkpoint(self.events.len() - 1)
     }
 
-    /// Opens a node at a checkpoint, around all that was read since and around the nodes opened there before.
+    /// Opens a node at a checkpoint, around everything read since and around the nodes opened there before.
     pub(crate) fn start_at(&mut self, checkpoint: Checkpoint, kind: SyntaxKind) {
         if let Event::Checkpoint(outermost) = &mut self.events[checkpoint.0] {
             self.wraps.push(Wrap { kind, within: *outermost });
@@ -116,7 +116,7 @@ impl Parser<'_> {
     }
 }
 
-/// Makes the tree of the events.
+/// Makes the tree from the events.
 struct Builder<'t> {
     text: &'t str,
     tokens: &'t [Token],
@@ -148,7 +148,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Before a token: what was skipped goes into the node around, then the nodes that wait for a token start.
+    /// Before a token: what was skipped goes into the enclosing node, then the nodes that wait for a token start.
     fn go_to(&mut self, index: usize) {
         while self.token < index {
             self.emit(self.tokens[self.token].kind, 1);
@@ -158,7 +158,7 @@ impl Builder<'_> {
         }
     }
 
-    /// So many tokens, as one of this kind.
+    /// This many tokens, as one of this kind.
     fn tokens(&mut self, kind: SyntaxKind, index: usize, count: usize) {
         self.go_to(index);
         self.emit(kind, count);
