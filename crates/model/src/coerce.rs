@@ -1,9 +1,9 @@
 //! Makes a term fit where another domain is expected.
 //!
-//! In: a term and the domain expected. Out: whether it may stand there, and the term with what that needs:
-//! [`TermKind::Coerce`] where a number changes its form, constants turned into literals of the expected domain, and
-//! both pushed into branches, elements and components, so that the coercion stands at the number itself.
-//! INVARIANT: a term without numbers comes out as it went in, but for the domain of an empty collection.
+//! In: a term and the domain expected. Out: whether it may stand there, and the converted term. A number that changes
+//! its form gets a [`TermKind::Coerce`]; constants become literals of the expected domain. Both are pushed into
+//! branches, elements and components, so the coercion stands at the number itself. INVARIANT: a term without numbers
+//! does not change, except for the domain of an empty collection.
 
 use crate::check::body::Body;
 use crate::collection::CollectionKind;
@@ -17,7 +17,7 @@ use crate::term::{Binder, Literal, Term, TermKind};
 /// The cost of taking a constant Integer for a Natural.
 const CONSTANT: u32 = COERCING / 2;
 
-/// The cost of a term for a formal domain, as [`Domains::fit`] with what is known of the term itself.
+/// The cost of a term for a formal domain: [`Domains::fit`], with what is known of the term itself.
 pub(crate) fn cost(model: &Model, term: &Term, formal: DomainId, bindings: &mut Bindings) -> Option<u32> {
     let domains = &model.domains;
     let before = bindings.clone();
@@ -120,7 +120,7 @@ fn can_push(model: &Model, term: &Term, target: DomainId) -> bool {
     }
 }
 
-/// Which kind of collection a domain is, whatever it holds: a basic domain stands for each.
+/// The kind of collection that a domain is, whatever it holds; a basic domain stands for each kind.
 fn rough(domains: &Domains, domain: DomainId) -> DomainId {
     match domains.kind(domains.type_domain(domain)) {
         DomainKind::Powerset(_) => Domains::INTEGER,

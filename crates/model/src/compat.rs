@@ -1,9 +1,9 @@
 //! Compatibility of domains, as a cost.
 //!
-//! In: the domain of a term (actual) and the domain expected (formal). Out: `None` when no value of the one may
-//! stand for the other, else how far apart they are: 0 exactly the same, below [`COERCING`] compatible as
-//! AsmetaL has it (spec/language.md, 8.1: concrete and type domain in either direction, `undef`, type variables),
-//! from there on through a numeric coercion Natural ⊂ Integer ⊂ Real ⊂ Complex.
+//! In: the domain of a term (actual) and the domain expected (formal). Out: `None` if no value of the one may stand for
+//! the other; otherwise how far apart they are. 0 means exactly the same; below [`COERCING`] they are compatible as
+//! AsmetaL has it (spec/language.md, 8.1: concrete and type domain in either direction, `undef`, type variables); from
+//! there on, they need a numeric coercion Natural ⊂ Integer ⊂ Real ⊂ Complex.
 //!
 //! INVARIANT: reads the table only; a type variable is bound to a domain that a term really has.
 
@@ -12,7 +12,7 @@ use crate::id::DomainId;
 
 /// The least cost that stands for a numeric coercion.
 pub(crate) const COERCING: u32 = 10_000;
-/// The least cost that stands for taking a value for one of a subset, which only the run can tell.
+/// The least cost that stands for taking a value for one of a subset; only the run knows whether it is one.
 pub(crate) const NARROWING: u32 = 100;
 const TO_BASE: u32 = 10;
 const VARIABLE: u32 = 20;

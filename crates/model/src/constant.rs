@@ -1,7 +1,7 @@
 //! Integers known without a state: literals and arithmetic on them.
 //!
-//! In: a checked term. Out: its value, if it is the same in every state and plain to see. Used to take a constant
-//! for a Natural, to see an empty range, and to see an element written twice. It knows no definitions.
+//! In: a checked term. Out: its value, if it is plainly the same in every state. This is used to take a constant for a
+//! Natural, to find an empty range, and to find an element written twice. It knows no definitions.
 
 use crate::model::Model;
 use crate::term::{Literal, Term, TermKind};

@@ -1,8 +1,8 @@
 //! Declarations: the signature of a file and the headings of its rules, into the model's tables.
 //!
 //! In: a unit and the names that its imports bring. Out: the names that the file sees, its own included; faults for
-//! what is declared twice, or over what does not exist. INVARIANT: bodies are not looked at; every declared rule and
-//! function has its parameters when the first body is checked, so the order of declarations does not matter.
+//! what is declared twice, or over what does not exist. INVARIANT: this module does not look at bodies. Every declared
+//! rule and function has its parameters when the first body is checked, so the order of declarations does not matter.
 
 use std::collections::BTreeMap;
 

@@ -82,7 +82,7 @@ pub enum DomainKind {
     Map(DomainId, DomainId),
     /// Rules with these parameter domains.
     Rule(Vec<DomainId>),
-    /// Stands for a domain that a reported fault left unknown; compatible with every other.
+    /// The domain that a reported fault left unknown; compatible with every other.
     Error,
 }
 
@@ -212,7 +212,8 @@ impl Domains {
         }
     }
 
-    /// The parameter domains of a function declared over `domain`: the components of a product, else itself.
+    /// The parameter domains of a function declared over `domain`: the components of a product, otherwise the domain
+    /// itself.
     pub fn parameters_of(&self, domain: DomainId) -> Vec<DomainId> {
         match self.kind(domain) {
             DomainKind::Prod(parts) => parts.clone(),

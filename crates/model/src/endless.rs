@@ -1,9 +1,9 @@
 //! Definitions that use themselves whatever the state is, so that no evaluation of them ends.
 //!
 //! In: the checked definitions of static and derived functions. Out: one warning for each circle of functions of which
-//! each certainly evaluates the next. Certain is what stands in no branch, in no condition or body of what is ranged
-//! over, and not behind a connective that may be decided by its left side. Any other recursion may end, and is a run's
-//! to judge.
+//! each certainly evaluates the next. A use is certain if it stands in no branch, in no condition or body of a binder,
+//! and not on the right of a connective that its left side may decide. Any other recursion may end, and is a run's to
+//! judge.
 
 use syntax::Span;
 

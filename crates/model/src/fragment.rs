@@ -53,7 +53,7 @@ impl Model {
         self.fragment(file, |body| body.term(term))
     }
 
-    /// Checks a term that is to be Boolean; `what` names it in a fault: "the condition of `check`".
+    /// Checks a term that must be Boolean; `what` names it in a fault: "the condition of `check`".
     pub fn check_condition(&mut self, file: FileId, term: &ast::Term, what: &str) -> Fragment<Term> {
         self.fragment(file, |body| {
             let place = body.place(term);
@@ -61,7 +61,7 @@ impl Model {
         })
     }
 
-    /// Checks a term that is to be of a domain, and takes it there; `what` names what takes it: "`$x`".
+    /// Checks a term that must be of a domain, and converts it to that domain; `what` names what takes it: "`$x`".
     pub fn check_value(&mut self, file: FileId, term: &ast::Term, domain: DomainId, what: &str) -> Fragment<Term> {
         self.fragment(file, |body| {
             let value = body.term(term);

@@ -1,8 +1,9 @@
-//! Reads the root file and all that it imports, each once.
+//! Reads the root file and everything that it imports, each file once.
 //!
-//! In: the root text and a [`Loader`]. Out: [`Unit`]s, imported files before those that import them, the root last;
-//! a built-in library counts as one file, wherever it is looked for (spec/standard-library.md). Each import leads to the unit it names, or to none after a reported fault. INVARIANT: no unit leads back to itself:
-//! an import that would close a circle is a fault and leads nowhere.
+//! In: the root text and a [`Loader`]. Out: [`Unit`]s, imported files before those that import them, the root last; a
+//! built-in library counts as one file, wherever it is looked for (spec/standard-library.md). Each import leads to the
+//! unit that it names, or, after a reported fault, to none. INVARIANT: no unit leads back to itself: an import that
+//! would close a circle is a fault and leads nowhere.
 
 use std::collections::BTreeMap;
 
@@ -23,7 +24,7 @@ pub(crate) struct Unit {
     pub(crate) imports: Vec<Import>,
     /// It is a built-in library, or a copy that is read in its place.
     pub(crate) library: bool,
-    /// A fault stands in it so early that a declaration may be lost.
+    /// It has a fault so early that a declaration may be lost.
     pub(crate) broken: bool,
 }
 
@@ -88,7 +89,7 @@ impl Reader<'_> {
             if library::stem(&path) != name {
                 self.faults.push(fault::import::library_path(span, library::stem(&path), &name));
             }
-            // Whatever folder it is looked for in: a model has each library once.
+            // A model has each library once, whatever folder it is looked for in.
             let identity = identity(&built_in.name);
             if let Some(Some(unit)) = self.seen.get(&identity) {
                 return Some(*unit);

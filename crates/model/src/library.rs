@@ -27,12 +27,12 @@ pub(crate) fn find(path: &str) -> Option<SourceFile> {
     Some(SourceFile::new(format!("<std>/{name}.asm"), *text))
 }
 
-/// A file of that name is one of the built-in libraries, or stands for one.
+/// A file of that name is one of the built-in libraries, or takes its place.
 pub(crate) fn is_library(path: &str) -> bool {
     LIBRARIES.iter().any(|(name, _)| *name == stem(path))
 }
 
-/// The library's text says all that it means, so that a copy can be read in its place: the time libraries. What the
+/// The library's text says everything that it means, so a copy can be read in its place: the time libraries. What the
 /// others declare is known to the machine alone.
 pub(crate) fn is_all_text(path: &str) -> bool {
     stem(path).starts_with("TimeLibrary")

@@ -1,8 +1,8 @@
 //! What can be said of macro rules only when all rules are known.
 //!
-//! In: the rules of a model. Out: faults where macro rules call each other in a circle, and where a parameter that is
-//! updated gets an argument that is no location. A macro call stands for the body of the rule with the arguments put
-//! in for the parameters (Börger & Stärk 2003, section 2.2.4), hence both.
+//! In: the rules of a model. Out: faults where macro rules call each other in a circle, and where an updated parameter
+//! gets an argument that is not a location. A macro call stands for the body of the rule with the arguments put in for
+//! the parameters (Börger & Stärk 2003, section 2.2.4), hence both.
 
 use std::collections::BTreeSet;
 
@@ -16,7 +16,7 @@ use crate::model::Model;
 use crate::rule::{Call, RuleKind, RuleNode, Target};
 use crate::term::{Term, TermKind};
 
-/// Reports recursive macro rules, and arguments that have to be locations and are not.
+/// Reports recursive macro rules, and arguments that must be locations and are not.
 pub(crate) fn check(model: &Model, faults: &mut Faults) {
     report_recursion(model, faults);
     let updated = updated_parameters(model);

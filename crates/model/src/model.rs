@@ -17,7 +17,8 @@ pub trait Loader {
     /// it is missing and either slash is a separator. The error is a sentence for the user.
     fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String>;
 
-    /// The tree of a text, under the name that its file has among the texts read; whoever keeps trees gives one of the same text.
+    /// The tree of a text, under the name that its file has among the texts read. An implementation that keeps trees
+    /// gives one of the same text.
     fn parse(&mut self, file: FileId, source: &SourceFile) -> Parse {
         syntax::parse_asmetal(file, &source.text)
     }
@@ -123,7 +124,7 @@ pub enum PropertyKind {
 pub struct Property {
     /// Which.
     pub kind: PropertyKind,
-    /// Its name, or `invariant at line N` where it has none.
+    /// Its name, or `invariant at line N` if it has none.
     pub name: String,
     /// The variables of its formulas.
     pub variables: Vec<Variable>,

@@ -1,8 +1,9 @@
 //! Which of several functions or rules of one name an application means.
 //!
-//! In: the candidates and the checked arguments. Out: the candidate of the least cost and what its type variables
-//! stand for. Exact domains win, then compatible ones (spec/language.md, 8.1), then those that need a numeric coercion;
-//! of equal functions the latest declared wins, of equal rules the first. A list of arguments and one argument of a product domain are the same.
+//! In: the candidates and the checked arguments. Out: the candidate of the least cost, and what its type variables
+//! stand for. Exact domains win, then compatible ones (spec/language.md, 8.1), then those that need a numeric coercion.
+//! Of equal functions, the one declared last wins; of equal rules, the first. A list of arguments and one argument of a
+//! product domain are the same.
 
 use crate::coerce;
 use crate::compat::Bindings;

@@ -36,7 +36,7 @@ pub enum Target {
 pub struct Call {
     /// The rule, overloads resolved.
     pub rule: RuleId,
-    /// One term a parameter. By name for macro rules, by value for turbo rules.
+    /// One term for each parameter: by name for macro rules, by value for turbo rules.
     pub arguments: Vec<Term>,
 }
 
@@ -122,7 +122,7 @@ pub enum RuleKind {
         /// The rule run for each.
         body: Box<RuleNode>,
     },
-    /// With fresh elements of a dynamic domain.
+    /// With new elements of a dynamic domain.
     Extend {
         /// The domain: dynamic abstract, or dynamic concrete over an abstract one.
         domain: DomainId,

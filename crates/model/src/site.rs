@@ -44,7 +44,7 @@ impl Site<'_> {
         self.model.domains.display(domain)
     }
 
-    /// What to say of a term of domain `found` where `expected` is.
+    /// What to say of a term of domain `found` where `expected` is needed.
     pub(crate) fn mismatch(&self, expected: DomainId, found: DomainId) -> Mismatch {
         let domains = &self.model.domains;
         let conversion = match (domains.numeric(found), domains.numeric(expected)) {

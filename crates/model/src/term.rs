@@ -1,7 +1,7 @@
 //! Terms with every name resolved and a domain on each (spec/language.md, section 6).
 //!
-//! Operators are applications of library functions; sugar is gone: `self.f(a)` is `f(self, a)`, `x in S` is
-//! `contains(S, x)`, parentheses are dropped, an argument list given as one product is taken apart.
+//! Operators are applications of library functions. Sugar is gone: `self.f(a)` is `f(self, a)`, and `x in S` is
+//! `contains(S, x)`. Parentheses are dropped, and an argument list given as one product is taken apart.
 
 use syntax::Span;
 

@@ -1,10 +1,10 @@
 //! Control states that nothing ever enters: a function without an initial value that is set only where it has one already.
 //!
-//! In: a model without errors. Out: a warning for each such function. Found are controlled functions over enums that no initial
-//! state gives a value, and whose every update, in all rules that can run, stands under a test for one of their values:
-//! `mode = IDLE`, `switch mode`, `isDef(mode)`, also within `and` and derived functions. INVARIANT: nothing is said of a
-//! function that some rule might set first; so rules whose values are taken, and locations that are handed to rules, count
-//! as updates.
+//! In: a model without errors. Out: a warning for each such function. It finds controlled functions over enums that no
+//! initial state gives a value, if each of their updates, in all rules that can run, is guarded by a test for one of
+//! their values: `mode = IDLE`, `switch mode`, `isDef(mode)`, also within `and` and derived functions. INVARIANT: it
+//! reports no function that some rule might set first. So rules whose values are taken, and locations that are handed
+//! to rules, count as updates.
 
 use std::collections::BTreeSet;
 
@@ -21,7 +21,7 @@ use crate::term::{Literal, Term, TermKind};
 /// LIMIT: how deep definitions of derived functions are followed.
 const DEFINITIONS: usize = 8;
 
-/// Warns of functions that never come to have a value.
+/// Warns of functions that never get a value.
 pub(crate) fn check(model: &Model, faults: &mut Faults) {
     let Some(main) = model.main else { return };
     let init = model.default_init.and_then(|index| model.inits.get(index));
@@ -45,7 +45,7 @@ pub(crate) fn check(model: &Model, faults: &mut Faults) {
     }
 }
 
-/// Rules that are taken as values somewhere: whoever has them can run them.
+/// Rules that are taken as values somewhere: they may run wherever such a value goes.
 fn values(model: &Model) -> BTreeSet<u32> {
     let mut found = BTreeSet::new();
     let mut look = |term: &Term| {
@@ -68,7 +68,7 @@ fn values(model: &Model) -> BTreeSet<u32> {
 struct Search<'m> {
     model: &'m Model,
     function: FunctionId,
-    /// The first test that an update of the function stands behind.
+    /// The first test that guards an update of the function.
     asked: Option<Span>,
 }
 

@@ -1,4 +1,4 @@
-//! Walks over terms and rules, parts before wholes' later siblings, in the order of the text.
+//! Walks over terms and rules in the order of the text; the parts of a node come before its later siblings.
 //!
 //! In: a term or rule and a function to call on each. Out: nothing of its own. INVARIANT: every term and rule inside is
 //! visited once, the outermost first; safe however deep.

@@ -1,7 +1,7 @@
 //! Applications of functions and operators: which overload is meant, and why none is.
 //!
-//! In: a name and arguments. Out: [`TermKind::Apply`] with one argument a parameter, or a fault that says what the
-//! candidates would take. Projections (`first`, `second`, …) of products become [`TermKind::Project`].
+//! In: a name and arguments. Out: [`TermKind::Apply`] with one argument for each parameter, or a fault that says what
+//! the candidates would take. Projections (`first`, `second`, …) of products become [`TermKind::Project`].
 
 use syntax::{Span, SyntaxToken, ast};
 
@@ -153,8 +153,8 @@ impl Body<'_> {
         Some(Term { kind: TermKind::Project { tuple: Box::new(tuple), index: index as u32 }, domain, span })
     }
 
-    /// A function over a subset of an abstract domain needs an argument of that subset. (Where `self` is an argument
-    /// nothing is reported: that the agent is of the right kind is a matter of whose program this is.)
+    /// A function over a subset of an abstract domain needs an argument of that subset. (If `self` is an argument
+    /// nothing is reported: whose program this is decides whether the agent is of the right kind.)
     fn report_narrower(&mut self, id: FunctionId, formal: DomainId, argument: &Term) {
         let domains = &self.site.model.domains;
         let DomainKind::Concrete { base, .. } = domains.kind(formal) else { return };

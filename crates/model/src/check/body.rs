@@ -16,7 +16,7 @@ use crate::site::Site;
 use crate::suggest::did_you_mean;
 use crate::term::{Term, TermKind};
 
-/// What binds a variable; decides whether it may be updated, and how that is explained.
+/// What binds a variable. This decides whether it may be updated, and how that is explained.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Bound {
     /// A parameter of a macro rule, called by name.
@@ -94,7 +94,7 @@ impl<'a> Body<'a> {
         self.site.span(node)
     }
 
-    /// Where the scope stands now.
+    /// The present end of the scope.
     pub(crate) fn mark(&self) -> Mark {
         Mark(self.scope.len())
     }

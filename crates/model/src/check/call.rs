@@ -100,7 +100,7 @@ impl Body<'_> {
         self.site.faults.push(fault);
     }
 
-    /// The rule of that name with exactly these parameter domains, else one whose parameters take them; without
+    /// The rule of that name with exactly these parameter domains, otherwise one whose parameters take them; without
     /// domains, the only one of that name.
     pub(crate) fn rule_by_domains(&mut self, token: &SyntaxToken, domains: &[DomainId], span: Span) -> Option<RuleId> {
         let candidates = self.site.names.rules(token.text());

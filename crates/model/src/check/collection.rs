@@ -1,7 +1,7 @@
 //! Collections: literals, ranges, maps, comprehensions, and the binders that range over them.
 //!
-//! In: typed views. Out: terms whose elements all have the domain that the collection says. A binder may range over a
-//! domain and any set, sequence or bag, whatever the collection that is made.
+//! In: typed views. Out: terms whose elements all have the collection's domain. A binder may range over a domain and
+//! any set, sequence or bag, whatever collection is made.
 
 use syntax::Span;
 use syntax::ast::{self, Bracket};
@@ -42,7 +42,7 @@ impl Body<'_> {
         }
     }
 
-    /// Brings all elements to one domain; that of no elements is Undef.
+    /// Brings all elements to one domain; without elements it is Undef.
     fn common_domain(&mut self, elements: &mut [Term]) -> Option<DomainId> {
         let mut domain = Domains::UNDEF;
         for index in 0..elements.len() {

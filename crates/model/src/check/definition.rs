@@ -45,7 +45,7 @@ pub(crate) fn function(mut site: Site<'_>, def: &ast::FunctionDef, defined: &mut
         site.faults.push(fault::function::duplicate_definition(name_span, first, "function", &name));
         return;
     }
-    // An element that is defined as itself is an element like one without definition.
+    // An element that is defined as itself is treated like one without definition.
     let is_itself = matches!(&definition.body.kind, TermKind::Apply { function, arguments } if *function == id && arguments.is_empty());
     let base = site.model.domains.type_domain(site.model.function(id).codomain);
     if is_itself && matches!(site.model.domains.kind(base), DomainKind::Abstract { .. }) {
@@ -54,7 +54,7 @@ pub(crate) fn function(mut site: Site<'_>, def: &ast::FunctionDef, defined: &mut
     site.model.functions[id.0 as usize].definition = Some(definition);
 }
 
-/// The function that a definition or initialisation is of, and its checked right side.
+/// The function that is defined or initialised, and its checked right side.
 pub(crate) fn header_and_body(site: &mut Site<'_>, def: &ast::FunctionDef) -> Option<(FunctionId, Definition)> {
     let place = site.span(def);
     let parameters = def.parameters().map(|list| declare::parameters(site, &list)).unwrap_or_default();
@@ -218,7 +218,8 @@ pub(crate) fn domain(mut site: Site<'_>, def: &ast::DomainDef, defined: &mut Def
     }
 }
 
-/// The domain that a definition is of, and its checked contents; `init` tells the initial contents of a dynamic one.
+/// The domain that is defined, and its checked contents; with `init` these are the initial contents of a dynamic
+/// domain.
 pub(crate) fn contents(site: &mut Site<'_>, def: &ast::DomainDef, init: bool) -> Option<(DomainId, Span, Term)> {
     let place = site.span(def);
     let token = def.name()?;

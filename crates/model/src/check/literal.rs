@@ -69,7 +69,7 @@ impl Body<'_> {
         value
     }
 
-    /// `[num] [sign] i [num]`: real part, and imaginary part that is 1 where no number stands.
+    /// `[num] [sign] i [num]`: the real part, and the imaginary part, which is 1 if there is no number.
     fn complex(&mut self, text: &str, span: Span) -> Option<(f64, f64)> {
         let (real, imaginary) = text.split_once('i')?;
         let (real, sign) = match real.strip_suffix('-') {

@@ -17,8 +17,8 @@ use crate::term::Term;
 
 /// Parameters that their macro rules update: the rule's name and the parameter's place.
 ///
-/// By name, so that it is known before any rule is checked: it may hold too much where names are overloaded, never
-/// too little.
+/// By name, so that it is known before any rule is checked. It may hold too much where names are overloaded, never too
+/// little.
 pub(crate) type UpdatedParameters = BTreeSet<(String, usize)>;
 
 /// Adds the parameters that the rules of a file update, themselves or through the rules that they call.

@@ -1,7 +1,7 @@
 //! The whole of checking: texts in, checked model out.
 //!
 //! In: the root file and a [`Loader`]. Out: [`Checked`]. Files are checked in the order of imports, so what a file
-//! needs from another is there; within a file first everything is declared, then bodies are checked.
+//! needs from another is known. Within a file everything is declared first; then bodies are checked.
 
 pub(crate) mod body;
 

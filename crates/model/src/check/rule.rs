@@ -1,8 +1,8 @@
 //! Rules: from a written rule to one with every name resolved (spec/language.md, section 7).
 //!
-//! In: a typed view of a rule. Out: a [`RuleNode`]; [`RuleKind::Error`] where a fault was reported.
-//! INVARIANT: safe on any tree, however deep. That macro rules are not recursive, and that location parameters get
-//! locations, is seen only when all rules are known: see `macros.rs`.
+//! In: a typed view of a rule. Out: a [`RuleNode`]; [`RuleKind::Error`] where a fault was reported. INVARIANT: safe on
+//! any tree, however deep. Whether macro rules are recursive, and whether location parameters get locations, is known
+//! only when all rules are known: see `macros.rs`.
 
 use syntax::Span;
 use syntax::ast;

@@ -1,7 +1,7 @@
 //! Terms: from a written term to one with a domain on every part (spec/language.md, section 6).
 //!
-//! In: a typed view of a term. Out: a [`Term`]; where a fault was reported, one of domain [`Domains::ERROR`], which is
-//! compatible with every other, so that one mistake is one fault. INVARIANT: safe on any tree, however deep.
+//! In: a typed view of a term. Out: a [`Term`]. After a reported fault its domain is [`Domains::ERROR`], which is
+//! compatible with every other, so one mistake gives one fault. INVARIANT: safe on any tree, however deep.
 
 use syntax::ast;
 use syntax::{Span, SyntaxKind, SyntaxToken};
@@ -204,7 +204,7 @@ impl Body<'_> {
         Term { kind: TermKind::Switch { subject: Box::new(subject), cases, otherwise }, domain, span }
     }
 
-    /// The value of a case, taken to the subject's domain where that is a matter of numbers.
+    /// The value of a case; a number is taken to the subject's domain.
     pub(crate) fn case_value(&mut self, subject: &Term, value: Option<ast::Term>, place: Span) -> Term {
         let value = self.optional_term(value, place);
         if can_coerce(self.site.model, &value, subject.domain) {
@@ -279,14 +279,14 @@ impl Body<'_> {
     }
 }
 
-/// The least integer, whose digits alone are beyond the greatest.
+/// The least integer: its digits alone are beyond the greatest one.
 fn least_integer(operand: Option<ast::Term>) -> Option<i64> {
     let Some(ast::Term::Literal(literal)) = operand else { return None };
     let token = literal.token().filter(|token| token.kind() == SyntaxKind::INTEGER)?;
     (token.text().parse::<u64>().ok()? == i64::MIN.unsigned_abs()).then_some(i64::MIN)
 }
 
-/// The library function behind a binary operator.
+/// The library function of a binary operator.
 fn function_of(operator: &SyntaxToken) -> Option<&'static str> {
     Some(match operator.kind() {
         SyntaxKind::EQ => "eq",

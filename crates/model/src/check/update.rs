@@ -83,7 +83,7 @@ impl Body<'_> {
         RuleKind::Return { target: place.target, call }
     }
 
-    /// The location that a term stands for; `returned` where a turbo rule gives it its result.
+    /// The location that a term stands for; `returned` if a turbo rule gives it its result.
     fn target(&mut self, target: &ast::Term, returned: bool) -> Option<Place> {
         if let ast::Term::Variable(variable) = target {
             return self.variable_place(variable);
@@ -154,7 +154,7 @@ impl Body<'_> {
         let function = self.site.model.function(id);
         let (kind, name, declared) = (function.kind, function.name.clone(), function.span);
         if returned && kind == FunctionKind::Monitored && !self.in_scenario {
-            // Accepted by the peer, which forgets the value at the end of the step.
+            // The peer accepts it, and forgets the value at the end of the step.
             let span = self.site.span(target);
             self.site.faults.push(fault::rule::return_lost(span, &name, declared));
             return true;
@@ -194,7 +194,7 @@ impl Body<'_> {
     }
 }
 
-/// The function and the arguments of an application; a product taken apart by a `let` is put where it is used.
+/// The function and the arguments of an application; a product taken apart by a `let` is put in where it is used.
 fn application(term: Term) -> Option<(FunctionId, Vec<Term>)> {
     match term.kind {
         TermKind::Apply { function, arguments } => Some((function, arguments)),

@@ -51,7 +51,7 @@ impl Model {
         text.out
     }
 
-    /// A rule as text, a line a rule; `variables` are those of its declaration.
+    /// A rule as text, one line for each rule; `variables` are those of its declaration.
     pub fn dump_rule(&self, rule: &RuleNode, variables: &[Variable]) -> String {
         let mut text = Text::new(self, variables);
         text.rule(rule, 0);

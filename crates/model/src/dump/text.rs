@@ -1,7 +1,7 @@
 //! Terms and rules as text, the inner part of the dump.
 //!
-//! In: a model, the variables of a declaration. Out: terms on one line in prefix form, rules a line each, indented by
-//! two blanks a level. Every coercion is shown; safe however deep.
+//! In: a model, the variables of a declaration. Out: terms on one line in prefix form; one line for each rule, indented
+//! by two blanks for each level. Every coercion is shown. Safe at any depth.
 
 use std::fmt::Write;
 

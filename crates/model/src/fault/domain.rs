@@ -33,7 +33,7 @@ pub(crate) fn not_definable(span: Span, name: &str, kind: &str, help: &str) -> D
         .with_help(help)
 }
 
-/// A static subset of which nobody says what is in it.
+/// A static subset without a definition of its contents.
 pub(crate) fn without_contents(span: Span, name: &str, base: &str) -> Diagnostic {
     Diagnostic::warning(
         "domain-without-contents",

@@ -4,7 +4,7 @@ use syntax::{Diagnostic, Span};
 
 use super::Mismatch;
 
-/// A definition in the definitions section of a function that is neither static nor derived.
+/// A definition, in the definitions section, of a function that is neither static nor derived.
 pub(crate) fn define_dynamic(span: Span, name: &str, kind: &str, declared: Span) -> Diagnostic {
     Diagnostic::error("define-dynamic-function", span, format!("the {kind} function `{name}` cannot be defined"))
         .because("only static and derived functions have a definition")
@@ -37,7 +37,7 @@ pub(crate) fn undefined(span: Span, name: &str, kind: &str) -> Diagnostic {
         .with_help(format!("define it: `function {name}… = …` in the definitions section"))
 }
 
-/// A function that is set only where it has a value already, and begins without one.
+/// A function that is set only where it already has a value, and begins without one.
 pub(crate) fn unstarted(span: Span, name: &str, asked: Span, has_init: bool) -> Diagnostic {
     let help = match has_init {
         true => format!("give it its first value in the `default init` section: `function {name} = …`"),
@@ -124,7 +124,7 @@ pub(crate) fn duplicate_default_init(span: Span, first: Span) -> Diagnostic {
         .with_help("remove one `default`")
 }
 
-/// `agent D: …` with something that is no domain of agents, or no program for it.
+/// `agent D: …` where `D` is not a domain of agents, or the rule is not a program for it.
 pub(crate) fn agent_program(span: Span, message: String, help: &str) -> Diagnostic {
     Diagnostic::error("agent-without-program", span, message).with_help(help)
 }

@@ -44,13 +44,13 @@ pub(crate) fn unknown_name(span: Span, name: &str, help: String) -> Diagnostic {
     .with_help(help)
 }
 
-/// The name behind `asm` differs from the file's.
+/// The name after `asm` differs from the file's.
 pub(crate) fn file_name(span: Span, name: &str, stem: &str, word: &str) -> Diagnostic {
     Diagnostic::error("file-name-mismatch", span, format!("the {word} is named `{name}`, but its file is `{stem}.asm`"))
         .with_help(format!("write `{word} {stem}`, or rename the file to `{name}.asm`"))
 }
 
-/// A library name that only the letters' case tells from a built-in one.
+/// A library name that differs from a built-in one only in capitals.
 pub(crate) fn library_path(span: Span, written: &str, name: &str) -> Diagnostic {
     Diagnostic::warning("library-path", span, format!("`{written}` is read as the built-in library `{name}`"))
         .with_help(format!("write `{name}`; elsewhere the letters' case matters"))

@@ -1,7 +1,8 @@
-//! The faults that checking reports, one function a kind, by what they are about.
+//! The faults that checking reports: one function for each kind, grouped by subject.
 //!
-//! In: the names, domains and places involved. Out: a [`Diagnostic`]. Wording only: that a fault stands is decided
-//! where the rule of the language is checked. INVARIANT: every id is in [`IDS`] and has a page `spec/faults/<id>.md`.
+//! In: the names, domains and places involved. Out: a [`Diagnostic`]. This module only words the faults; whether there
+//! is one is decided where the rule of the language is checked. INVARIANT: every id is in [`IDS`] and has a page
+//! `spec/faults/<id>.md`.
 
 pub(crate) mod domain;
 pub(crate) mod function;
@@ -132,7 +133,8 @@ impl Faults {
         }
     }
 
-    /// What a name that is a keyword leaves of a text is not what was meant: behind it the fault of the name alone counts.
+    /// After a name that is a keyword, the text does not mean what it says: from there on only the fault of the name
+    /// counts.
     fn drop_what_follows_from_keywords(&mut self) {
         let names = self.list.iter().filter(|fault| fault.id == "keyword-as-name");
         let places: Vec<Span> = names.map(|fault| fault.primary.span).collect();

@@ -28,7 +28,7 @@ pub(crate) fn unknown_rule(span: Span, name: &str, help: String) -> Diagnostic {
     Diagnostic::error("unknown-rule", span, format!("there is no rule `{name}`")).with_help(help)
 }
 
-/// A variable that is not bound here. Where it is in another scope of the declaration, only a run that gets here fails.
+/// A variable that is not bound here. If another scope of the declaration binds it, only a run that gets here fails.
 pub(crate) fn unknown_variable(span: Span, name: &str, elsewhere: Option<Span>, help: String) -> Diagnostic {
     let message = format!("`{name}` is not bound here");
     match elsewhere {

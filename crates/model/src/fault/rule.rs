@@ -66,7 +66,7 @@ pub(crate) fn update_of_variable(span: Span, name: &str, bound: Span, what: &str
     .with_help(help)
 }
 
-/// An update of a term that is no location at all.
+/// An update of a term that is not a location at all.
 pub(crate) fn not_a_location(span: Span, message: &str, declared: Option<Span>) -> Diagnostic {
     let fault = Diagnostic::error("not-a-location", span, message.to_string())
         .with_help("give a dynamic function with its arguments: `f(a)`");
@@ -121,7 +121,7 @@ pub(crate) fn recursive_macro(span: Span, cycle: &[String], declared: Span) -> D
         .with_help("declare it `turbo rule` and call it with `()`")
 }
 
-/// A term in the place of a rule whose value is no rule.
+/// A term in the place of a rule; its value is not a rule.
 pub(crate) fn not_a_rule(span: Span, found: &str, help: String) -> Diagnostic {
     Diagnostic::error("not-a-rule", span, format!("a rule is expected here, but this term is {found}"))
         .because(found.to_string())

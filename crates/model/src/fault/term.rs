@@ -75,7 +75,7 @@ pub(crate) fn guard_not_boolean(span: Span, what: &str, found: &str) -> Diagnost
         .with_help("compare it with something: `… = …`")
 }
 
-/// Branches of one term with domains that do not go together.
+/// Branches of one term with domains that do not fit each other.
 pub(crate) fn branch_domains(span: Span, found: &str, first: Span, expected: &str) -> Diagnostic {
     Diagnostic::error("branch-domains", span, format!("this branch gives {found}, but the first gives {expected}"))
         .because(found.to_string())
@@ -83,7 +83,7 @@ pub(crate) fn branch_domains(span: Span, found: &str, first: Span, expected: &st
         .with_help("let all branches give values of one domain")
 }
 
-/// Elements of one collection with domains that do not go together.
+/// Elements of one collection with domains that do not fit each other.
 pub(crate) fn element_domains(span: Span, found: &str, first: Span, expected: &str) -> Diagnostic {
     Diagnostic::error(
         "element-domains",
@@ -127,7 +127,7 @@ pub(crate) fn not_a_collection(span: Span, found: &str) -> Diagnostic {
     .with_help("name a domain, or give a set, sequence or bag: `{1 : 10}`")
 }
 
-/// Bounds of a range that are no numbers.
+/// Bounds of a range that are not numbers.
 pub(crate) fn range_bounds(span: Span, found: &str) -> Diagnostic {
     Diagnostic::error("range-bounds", span, format!("a range goes over numbers, but this is {found}"))
         .because(found.to_string())

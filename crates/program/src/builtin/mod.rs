@@ -1,10 +1,10 @@
 //! Library functions as operations of the machine, and what is known of each.
 //!
-//! Named after spec/standard-library.md. A builtin is chosen by the function's name and the *kinds* of its parameter
-//! domains; values then select nothing more, but polymorphic ones work on any value. [`table`] holds one row for each: its
-//! names, its operands, what its value depends on, what it shows, what it costs, its C++ twin. INVARIANT: whoever asks such a
-//! question of a builtin asks its row, and lists no builtins of its own; a row without an answer does not compile. What a
-//! builtin computes is the machine's.
+//! Named after spec/standard-library.md. The function's name and the *kinds* of its parameter domains select a builtin;
+//! values then select nothing more. Polymorphic builtins work on any value. [`table`] holds one row for each: its
+//! names, its operands, what its value depends on, what it shows, what it costs, its C++ twin. INVARIANT: code that
+//! needs such an answer asks the builtin's row, and keeps no list of builtins of its own; a row without an answer does
+//! not compile. What a builtin computes is the machine's.
 
 mod table;
 mod temporal;
@@ -21,7 +21,7 @@ pub(crate) const COMPONENTS: [&str; 9] =
 pub struct BuiltinInfo {
     /// What messages call it.
     pub name: &'static str,
-    /// The names that the library declares it under; none where its name alone does not tell which builtin it is.
+    /// The names under which the library declares it; none if the name alone does not select the builtin.
     pub declared: &'static [&'static str],
     /// The operands it is declared with.
     pub operands: Operands,
@@ -60,14 +60,14 @@ pub enum Kind {
     Bag,
     /// Maps.
     Map,
-    /// A domain variable, or a domain that selects nothing. In a row: whatever the parameter is.
+    /// A domain variable, or a domain that selects nothing. In a row: any parameter.
     Any,
 }
 
 /// The operands that a builtin is declared with.
 #[derive(Debug, Clone, Copy)]
 pub enum Operands {
-    /// So many, of any kind.
+    /// This many, of any kind.
     Values(usize),
     /// One or more, of any kind.
     OneOrMore,
@@ -77,9 +77,9 @@ pub enum Operands {
     Ordered,
     /// So many Integer or Natural.
     Integers(usize),
-    /// So many numbers, the widest of them Real. All are brought to Real.
+    /// This many numbers, the widest of them Real. All are brought to Real.
     Reals(usize),
-    /// So many numbers, the widest of them Complex. All are brought to Complex.
+    /// This many numbers, the widest of them Complex. All are brought to Complex.
     Complexes(usize),
     /// Of these kinds, in this order.
     Of(&'static [Kind]),
@@ -89,7 +89,8 @@ pub enum Operands {
     Own,
 }
 
-/// What a builtin's value depends on beside its operands' values: whether it can be kept, shared or left to later.
+/// What a builtin's value depends on besides its operands' values. This decides whether it can be kept, shared or put
+/// off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Effect {
     /// Nothing.
@@ -117,7 +118,7 @@ pub enum ShowsOrder {
     OfResult,
 }
 
-/// What a builtin looks through without making anything of that size: work that must be counted.
+/// What a builtin looks through without making anything of that size. This work must be counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LooksThrough {
     /// Nothing that may be large.

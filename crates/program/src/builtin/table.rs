@@ -1,4 +1,4 @@
-//! The table of builtins: a row each, in which every column must be filled in.
+//! The table of builtins: one row for each, in which every column must be filled in.
 //!
 //! In: nothing. Out: the enumeration [`Builtin`], the row of each ([`Builtin::info`]), and all of them ([`Builtin::ALL`]).
 //! The columns are the fields of [`BuiltinInfo`], in their order. INVARIANT: no two rows accept the same function; a test
@@ -12,8 +12,8 @@ use super::Operands::{Alike, Complexes, Integers, Of, OneOf, OneOrMore, Ordered,
 use super::ShowsOrder::{No, OfOperands, OfResult};
 use super::{BuiltinInfo, TemporalOperator};
 
-/// `Variant: name, declared, operands, effect, shows_order, looks_through, cpp;`. A variant with a parameter gives its type
-/// and the one value that stands for all in the list.
+/// `Variant: name, declared, operands, effect, shows_order, looks_through, cpp;`. A variant with a parameter gives its
+/// type, and the one value that stands for all of them in the list.
 macro_rules! builtins {
     ($($variant:ident $(($parameter:ty = $one:expr))?: $name:literal, [$($declared:literal),*], $operands:expr,
         $effect:expr, $shows_order:expr, $looks_through:expr, $cpp:expr;)*) => {

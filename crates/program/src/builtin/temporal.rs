@@ -1,7 +1,7 @@
-//! The operators of the CTL and LTL libraries: a row each.
+//! The operators of the CTL and LTL libraries: one row for each.
 //!
-//! In: nothing. Out: the enumeration [`TemporalOperator`] and what is known of each. What they mean is the business of
-//! whoever looks at runs.
+//! In: nothing. Out: the enumeration [`TemporalOperator`] and what is known of each. Their meaning is left to code that
+//! looks at runs.
 
 use Logic::{Branching, Linear};
 

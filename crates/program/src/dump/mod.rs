@@ -1,6 +1,6 @@
 //! A program as text: for people, and for golden tests.
 //!
-//! Tables in order, one entry a line, rules indented by their nesting. Operations of the machine have their names
+//! Tables in order, one entry on each line, rules indented by their nesting. Operations of the machine have their names
 //! in [`crate::Builtin`], so that `IntAdd(x, 1)` and `RealAdd(x, 1.0)` differ; what the model did not declare is left
 //! out. INVARIANT: the same program gives the same text.
 
@@ -165,7 +165,7 @@ impl<'p> Dump<'p> {
         write!(self.text, "{}#{}", self.program.procedure(id).name, id.0)
     }
 
-    /// The name of a slot, with its number where the name is not its alone.
+    /// The name of a slot, with its number if another slot has the same name.
     fn slot(&mut self, slot: Slot) -> Written {
         let name = &self.names[slot.0 as usize];
         self.text.push_str(name);

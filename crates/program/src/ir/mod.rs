@@ -5,7 +5,7 @@
 //! parent's, a slot lies below the frame size of its procedure and is bound at one place of it only, argument
 //! counts match, terms and rules nest no deeper than [`MAX_DEPTH`].
 //!
-//! Domain and function ids are those of the model, so that a fault found here can speak of the model.
+//! Domain and function ids are those of the model, so a fault found here can refer to the model.
 
 mod program;
 mod rule;

@@ -191,7 +191,7 @@ pub struct Program {
     pub procedures: Vec<Procedure>,
     /// The main rule.
     pub main: Option<ProcedureId>,
-    /// Initial values, in order; of a library function such as `self` none.
+    /// Initial values, in order; a library function such as `self` has none.
     pub initials: Vec<Initial>,
     /// Programs of agents, the more specific domains first: the first that holds an agent counts.
     pub agents: Vec<AgentProgram>,
@@ -201,7 +201,7 @@ pub struct Program {
     pub self_function: Option<FunctionId>,
     /// The library function `result`, if the model imports it.
     pub result_function: Option<FunctionId>,
-    /// Which procedure stands for which rule with which arguments; used when fragments are added.
+    /// The procedure of each rule with certain arguments; used when fragments are added.
     pub specialisations: Specialisations,
 }
 
@@ -246,7 +246,7 @@ impl Program {
     pub fn domain(&self, id: DomainId) -> &Domain {
         &self.domains[id.0 as usize]
     }
-    /// The type domain of a domain: of a concrete one what it is a subset of.
+    /// The type domain of a domain; for a concrete one, the domain of which it is a subset.
     pub fn base_domain(&self, id: DomainId) -> DomainId {
         match self.domain(id).kind {
             DomainKind::Concrete { base, .. } => base,

@@ -20,8 +20,8 @@ pub enum Rule {
         /// The new value.
         value: TermId,
     },
-    /// A macro call: the procedure's first slots are set to the arguments. It is no unit of its own: its updates
-    /// are those of the caller.
+    /// A macro call: the procedure's first slots are set to the arguments. It is not a unit of its own: its updates are
+    /// those of the caller.
     Call {
         /// The procedure.
         procedure: ProcedureId,

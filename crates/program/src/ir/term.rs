@@ -85,7 +85,7 @@ pub enum Term {
         /// The condition; true if absent.
         condition: Option<TermId>,
     },
-    /// Guards and terms alternate in `branches`; undef where none is taken and there is no `otherwise`.
+    /// Guards and terms alternate in `branches`; undef if none is taken and there is no `otherwise`.
     If {
         /// guard, term, guard, term, …
         branches: TermList,
@@ -114,7 +114,7 @@ pub enum Term {
     Rule(ProcedureId),
     /// A variable outside its scope: a fault.
     Unbound,
-    /// A static or derived function that has no definition and is no element: a fault.
+    /// A static or derived function that has no definition and is not an element: a fault.
     Missing(FunctionId),
     /// A numeric coercion to the term's domain, Real or Complex.
     Coerce(TermId),

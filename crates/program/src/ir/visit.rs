@@ -1,7 +1,7 @@
 //! The children of terms and rules, in the order in which they are written.
 //!
-//! For readers that walk a program without regard to what each construct means: the verifier, dependency
-//! searches, generators. A call's procedure is no child: it has a frame of its own.
+//! For readers that walk a program without regard to what each construct means: the verifier, dependency searches,
+//! generators. A call's procedure is not a child: it has a frame of its own.
 
 use std::collections::BTreeSet;
 
@@ -140,8 +140,8 @@ impl Program {
         false
     }
 
-    /// The dynamic functions that a closed term reads, directly or through definitions, in order; none if its value
-    /// depends on more than these and the elements of domains: on inputs, the clock, a choice, what an agent runs.
+    /// The dynamic functions that a closed term reads, directly or through definitions, in order. None if its value
+    /// depends on more than these and the elements of domains: on inputs, the clock, a choice, or an agent's program.
     pub fn reads(&self, expression: &Expression) -> Option<Vec<FunctionId>> {
         let (functions, depends_on_more) = self.all_reads(expression);
         (!depends_on_more).then_some(functions)
@@ -156,7 +156,7 @@ impl Program {
         (read, depends_on_more)
     }
 
-    /// The same, where a monitored function is one that is read like any other.
+    /// The same, with monitored functions treated like any other.
     pub fn reads_and_more(&self, expression: &Expression) -> (Vec<FunctionId>, bool) {
         let mut read = BTreeSet::new();
         let mut depends_on_more = false;

@@ -1,11 +1,11 @@
-//! By-name arguments: what is passed by value, and the canonical form of what is not.
+//! By-name arguments: which ones are passed by value, and the canonical form of the others.
 //!
 //! A macro call substitutes its arguments in the rule's body (Börger & Stärk 2003, section 2.4.4). An argument is
-//! passed by value when that cannot be told from substitution: its value is the same wherever the body may
-//! evaluate it, and its evaluation cannot fail. Every other one becomes an [`Argument`]: the term as written, and
-//! what its variables stand for, with the slots it needs from the caller numbered from 0 in order of occurrence.
-//! INVARIANT: arguments with the same text of [`Lowering::intern`] are the same but for places in the source, so
-//! that equal calls share a procedure. LIMIT: the shared terms have the place of the first of equal arguments.
+//! passed by value if that has the same effect as substitution: its value is the same wherever the body may evaluate
+//! it, and its evaluation cannot fail. Every other one becomes an [`Argument`]: the term as written, and what its
+//! variables stand for. The slots that it needs from the caller are numbered from 0 in order of occurrence. INVARIANT:
+//! arguments with the same text of [`Lowering::intern`] differ only in places of the source, so equal calls share a
+//! procedure. LIMIT: the shared terms have the place of the first of equal arguments.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;

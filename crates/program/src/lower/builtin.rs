@@ -9,7 +9,7 @@ use model::{Basic, DomainId, DomainKind, Function, Model};
 use crate::builtin::{Builtin, COMPONENTS, Kind, TemporalOperator};
 use crate::lower::meaning::Meaning;
 
-/// The meaning of a library function; none where the machine knows no such operation.
+/// The meaning of a library function; none if the machine knows no such operation.
 pub(super) fn resolve(model: &Model, function: &Function) -> Option<Meaning> {
     let kinds: Vec<Kind> = function.parameters.iter().map(|domain| kind(model, *domain)).collect();
     let name = function.name.as_str();

@@ -1,8 +1,8 @@
 //! Calls: which procedure a rule becomes for the arguments it is given.
 //!
-//! A turbo rule is one procedure, called by value. A macro rule is one procedure for each shape of its arguments:
-//! those by value are its first slots, then come the slots that its by-name arguments need. INVARIANT: a procedure
-//! has its number before its body is lowered, so that recursion ends; calls of the same shape share it.
+//! A turbo rule is one procedure, called by value. A macro rule is one procedure for each shape of its arguments: those
+//! by value are its first slots, then come the slots that its by-name arguments need. INVARIANT: a procedure has its
+//! number before its body is lowered, so recursion ends; calls of the same shape share it.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -27,7 +27,7 @@ pub(super) struct Pending<'m> {
 }
 
 impl<'m> Lowering<'m, '_> {
-    /// The procedure of a call, and the terms passed to it; `stands` says what stands in the place of `result` in it.
+    /// The procedure of a call, and the terms passed to it; `stands` is what replaces `result` in it.
     pub(super) fn lower_call(
         &mut self,
         id: RuleId,
@@ -75,7 +75,7 @@ impl<'m> Lowering<'m, '_> {
         let location = match stands {
             InPlace::Nothing => None,
             InPlace::Location(function, given) => Some((function, given)),
-            // A macro rule's arguments may read `result`, whether it does itself or not.
+            // A macro rule's arguments may read `result`, whether the rule itself does or not.
             InPlace::AsAround if rule.turbo && !self.uses_result(id) => None,
             InPlace::AsAround => self.program.result_function.and_then(|result| self.in_place_of(result, span)),
         };
@@ -105,7 +105,7 @@ impl<'m> Lowering<'m, '_> {
         self.procedure(key, id, environment, frame, None)
     }
 
-    /// A procedure of a rule without parameters that is none of the model's: a fragment.
+    /// A procedure of a rule without parameters that is not one of the model's: a fragment.
     pub(super) fn fragment_procedure(&mut self, rule: &'m model::Rule) -> ProcedureId {
         let procedure = self.add_procedure(None, rule, &Frame::default());
         let environment = Environment { variables: &rule.variables, bindings: BTreeMap::new() };

@@ -1,6 +1,6 @@
 //! Constants: the pool, and literals with a sign or a coercion as one constant.
 //!
-//! Folding stops there: it changes no meaning, and the IR stays close to the text.
+//! There is no further folding. So no meaning changes, and the IR stays close to the text.
 
 use model::{Basic, DomainId, DomainKind, Literal, Term, TermKind};
 use syntax::Span;

@@ -1,9 +1,9 @@
 //! What a variable stands for, and the slots of a frame.
 //!
-//! The variables of a model are numbered by declaration; a body can hold terms of several declarations, since
-//! by-name arguments are lowered within the callee. An [`Environment`] speaks about the variables of *one*
-//! declaration and the slots of *one* frame. INVARIANT: a slot is bound at one place of its body only, so that a
-//! name can never capture another.
+//! The variables of a model are numbered by declaration. A body can hold terms of several declarations, because by-name
+//! arguments are lowered within the callee. An [`Environment`] speaks about the variables of *one* declaration and the
+//! slots of *one* frame. INVARIANT: a slot is bound at one place of its body only, so that a name can never capture
+//! another.
 
 use std::collections::BTreeMap;
 

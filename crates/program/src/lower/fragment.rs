@@ -1,8 +1,8 @@
 //! Fragments: terms, rules and locations added to a program that is already lowered.
 //!
-//! In: what a scenario, a command line or a debugger wrote, checked against the same model (which may have grown
-//! by domains and functions meanwhile). Out: ids and expressions of the same program; what was there before stays
-//! as it is. Errors are those of [`crate::lower`]; after one the program is still well formed.
+//! In: the text of a scenario, a command line or a debugger, checked against the same model (which may have grown by
+//! domains and functions meanwhile). Out: ids and expressions of the same program; its other parts do not change.
+//! Errors are those of [`crate::lower`]; after one the program is still well formed.
 
 use model::{FunctionId, Model, Term, Variable};
 use syntax::Diagnostic;
@@ -40,7 +40,7 @@ pub fn lower_rule(program: &mut Program, model: &Model, rule: &model::Rule) -> R
 /// Adds the arguments of a location: `f(1, a)` as the function and a term for each argument.
 ///
 /// # Errors
-/// `not-a-location` for a term that is no application of a dynamic function; `model-too-large`.
+/// `not-a-location` for a term that is not an application of a dynamic function; `model-too-large`.
 pub fn lower_location(
     program: &mut Program,
     model: &Model,

@@ -112,7 +112,7 @@ impl<'m> Lowering<'m, '_> {
     }
 }
 
-/// The definition of a static or derived function, unless it is the remains of a reported fault.
+/// The definition of a static or derived function, unless it is only the rest of a reported fault.
 fn definition(function: &model::Function) -> Option<&Definition> {
     let defined = matches!(function.kind, FunctionKind::Static | FunctionKind::Derived);
     let fits = |definition: &&Definition| definition.parameters.len() == function.parameters.len();

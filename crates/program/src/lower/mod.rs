@@ -1,11 +1,11 @@
 //! Lowering: the checked model → the IR.
 //!
-//! In: a complete model. Out: a [`Program`] that [`crate::verify`] accepts, or the limits that were passed. A
-//! fault that an incomplete model still holds becomes undef or skip; nothing here panics on it.
+//! In: a complete model. Out: a [`Program`] that [`crate::verify`] accepts, or the limits that were passed. A fault
+//! left in an incomplete model becomes undef or skip; nothing here panics on it.
 //!
-//! Bodies are lowered one at a time, each in its own frame: definitions and formulas where they are met, rules from
-//! a queue ([`call`]), so that chains of calls cost no stack. Macro rules are called by name (Börger & Stärk 2003,
-//! section 2.4.4): [`argument`] says what that means for a frame of slots.
+//! Bodies are lowered one at a time, each in its own frame. Definitions and formulas are lowered where they are met,
+//! rules from a queue ([`call`]), so chains of calls cost no stack. Macro rules are called by name (Börger & Stärk
+//! 2003, section 2.4.4): [`argument`] says what that means for a frame of slots.
 
 mod arena;
 mod argument;
@@ -46,7 +46,7 @@ pub const IDS: &[&str] = &["model-too-large", "not-a-location"];
 const MAX_PROCEDURES: usize = 100_000;
 /// LIMIT: how many terms and rules.
 const MAX_NODES: usize = 2_000_000;
-/// LIMIT: how deep the lowering nests. An application can add a coercion, hence half of what the IR allows.
+/// LIMIT: how deep the lowering nests. An application can add a coercion, so this is half of what the IR allows.
 const MAX_NESTING: u32 = MAX_DEPTH / 2;
 /// Stack kept free for one level, and how much is added when it is not.
 const RED_ZONE: usize = 64 * 1024;
@@ -72,8 +72,8 @@ const STACK_PIECE: usize = 1024 * 1024;
 /// ```
 ///
 /// # Errors
-/// `model-too-large` where the calls by name need more procedures or terms than the limits allow;
-/// `not-a-location` where a rule that assigns its parameter is run with a value for it.
+/// `model-too-large` if the calls by name need more procedures or terms than the limits allow; `not-a-location` if a
+/// rule that assigns its parameter is run with a value for it.
 pub fn lower(model: &Model) -> Result<Program, Vec<Diagnostic>> {
     let mut program = Program { name: model.name.clone(), asynchronous: model.asynchronous, ..Program::default() };
     let mut lowering = Lowering::new(model, &mut program);
@@ -93,14 +93,14 @@ struct Lowering<'m, 'p> {
     program: &'p mut Program,
     /// Where each literal stands in the pool.
     constants: BTreeMap<ConstantKey, u32>,
-    /// What an application of each function is, once it was asked for.
+    /// What an application of each function is, once it was needed.
     meanings: BTreeMap<FunctionId, Meaning>,
     /// The by-name arguments met so far.
     arguments: BTreeMap<ArgumentId, Rc<Argument<'m>>>,
     /// Procedures whose bodies are still to be lowered.
     pending: VecDeque<call::Pending<'m>>,
     diagnostics: Vec<Diagnostic>,
-    /// Set when a limit was passed: stands for every term and rule from then on.
+    /// Set when a limit was passed; it then stands for every term and rule.
     stopped: Option<(TermId, RuleId)>,
     /// What the variables of the term or rule being lowered stand for.
     environment: Environment<'m>,
@@ -108,7 +108,7 @@ struct Lowering<'m, 'p> {
     frame: Frame,
     /// How deep in the body.
     depth: u32,
-    /// What stands in the place of `result` in the body.
+    /// What replaces `result` in the body.
     place: Option<result::Place>,
     /// What rules do, as far as that was asked for.
     reaches: BTreeMap<model::RuleId, Rc<result::Reach>>,

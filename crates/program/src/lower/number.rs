@@ -1,8 +1,8 @@
-//! Numeric forms: where operands of one operation differ in form, the narrower is coerced.
+//! Numeric forms: if operands of one operation differ in form, the narrower one is coerced.
 //!
-//! The checker makes a coercion explicit where an argument's domain differs from the parameter's. What is left are
-//! library functions declared over different numbers, such as `eq: Prod(Real, Integer)`, and equality over a domain
-//! variable; the machine compares values of one form only.
+//! The checker makes a coercion explicit where an argument's domain differs from the parameter's. That leaves library
+//! functions declared over different numbers, such as `eq: Prod(Real, Integer)`, and equality over a domain variable;
+//! the machine compares values of one form only.
 
 use model::{Basic, DomainId, DomainKind, Term};
 

@@ -1,10 +1,11 @@
 //! `l <- R(t)`: the body of R with the location l in the place of `result` (Börger & Stärk 2003, section 4.1.2).
 //!
-//! An update of `result` is then an update of l: within a `seq` a later one of l takes its place, and what reads `result` reads
-//! l. The arguments of l are evaluated once, where the rule is called, and passed to a procedure of its own for l's function.
-//! Most bodies need none: where nothing in them tells the difference, they write `result`, and the machine makes an update of l
-//! of that at the end of the call. INVARIANT: the two ways come to the same. What runs through a rule value, or as an agent's
-//! program, always writes `result`; so does a rule whose result goes to a local function.
+//! An update of `result` is then an update of l: within a `seq` a later update of l replaces it, and a read of `result`
+//! reads l. The arguments of l are evaluated once, where the rule is called, and passed to a procedure of its own for
+//! l's function. Most bodies do not need one: if nothing in them shows the difference, they write `result`, and at the
+//! end of the call the machine turns that into an update of l. INVARIANT: the two ways have the same effect. A rule
+//! that runs through a rule value, or as an agent's program, always writes `result`; so does a rule whose result goes
+//! to a local function.
 
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -22,12 +23,12 @@ pub(super) struct Place {
     pub slots: Vec<Slot>,
 }
 
-/// What stands in the place of `result` in a rule that is called.
+/// What replaces `result` in a rule that is called.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum InPlace {
     /// Nothing: it writes `result`.
     Nothing,
-    /// What stands there in the rule that calls it.
+    /// What replaces it in the calling rule.
     AsAround,
     /// A location, with the terms of its arguments.
     Location(FunctionId, TermList),
@@ -46,7 +47,7 @@ pub(super) struct Reach {
 }
 
 impl<'m> Lowering<'m, '_> {
-    /// The location that is meant by a function without arguments, where that is `result` and a location stands in its place.
+    /// The location that a function without arguments means, if that is `result` and a location replaces it.
     pub(super) fn in_place_of(&mut self, function: FunctionId, span: Span) -> Option<(FunctionId, TermList)> {
         if Some(function) != self.program.result_function {
             return None;
@@ -58,7 +59,7 @@ impl<'m> Lowering<'m, '_> {
         Some((function, self.term_list(&terms)))
     }
 
-    /// Whether the body of a rule has to be given a location of this function.
+    /// Whether the body of a rule must be given a location of this function.
     pub(super) fn needs_place(&mut self, rule: RuleId, function: FunctionId) -> bool {
         let declared = self.model.function(function);
         // What the environment holds is not written; and the called rule knows no local function but its own, even if that is
@@ -138,7 +139,7 @@ fn called(node: &RuleNode) -> Option<RuleId> {
     }
 }
 
-/// The function that a rule writes a location of; of a parameter's the argument of the call says it.
+/// The function of the location that a rule writes; for a parameter, the argument of the call says which one.
 fn written(node: &RuleNode) -> Option<FunctionId> {
     match &node.kind {
         RuleKind::Update { target: Target::Location { function, .. }, .. }

@@ -12,7 +12,7 @@ use crate::lower::environment::Binding;
 use crate::lower::result::InPlace;
 
 impl<'m> Lowering<'m, '_> {
-    /// Adds a rule with all that stands in it.
+    /// Adds a rule with everything in it.
     pub(super) fn lower_rule(&mut self, rule: &'m RuleNode) -> RuleId {
         if let Some((_, skip)) = self.stopped {
             return skip;
@@ -91,7 +91,7 @@ impl<'m> Lowering<'m, '_> {
         self.rule(lowered, span)
     }
 
-    /// Whether a rule is more than the remains of a reported fault.
+    /// Whether a rule is more than the rest of a reported fault.
     fn is_whole(&self, rule: &RuleNode) -> bool {
         match &rule.kind {
             RuleKind::Choose { binders, .. } | RuleKind::Forall { binders, .. } => !binders.is_empty(),
@@ -128,7 +128,7 @@ impl<'m> Lowering<'m, '_> {
         ir::Rule::Local { start, len: locals.len() as u32, initialisations, body }
     }
 
-    /// The location written to; none where the parameter is no location here, which is reported.
+    /// The location written to; none if the parameter is not a location here, which is reported.
     fn lower_target(&mut self, target: &'m Target) -> Option<(FunctionId, TermList)> {
         match target {
             Target::Location { function, arguments, span } => {

@@ -1,6 +1,7 @@
 //! Terms: one case a construct.
 //!
-//! A variable becomes its slot, or the by-name argument it stands for, which is lowered anew at each place.
+//! A variable becomes its slot, or the by-name argument that it stands for; that argument is lowered anew at each
+//! place.
 
 use model::{Domains, FunctionId, TermKind, VariableId};
 
@@ -12,7 +13,7 @@ use crate::lower::number::Form;
 use crate::lower::{Lowering, constant};
 
 impl<'m> Lowering<'m, '_> {
-    /// Adds a term with all that stands in it.
+    /// Adds a term with everything in it.
     pub(super) fn lower_term(&mut self, term: &'m model::Term) -> TermId {
         if let Some((undef, _)) = self.stopped {
             return undef;
