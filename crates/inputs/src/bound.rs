@@ -1,4 +1,4 @@
-//! Bounds of a search: which values an input is tried with, as `--bound` and the file beside a model say.
+//! Bounds of a search: the values to try for an input, from `--bound` and the file beside a model.
 //!
 //! In: `NAME=LOW..HIGH` or `NAME=VALUE,VALUE`, and the program. Out: the values of each function of that name.
 
@@ -18,7 +18,7 @@ const VALUES: i64 = 1 << 20;
 /// Reads bounds.
 ///
 /// # Errors
-/// The first that cannot be read, or does not fit the program.
+/// The first one that cannot be read, or does not fit the program.
 pub fn read(program: &Program, texts: &[String]) -> Result<Bounds, Refused> {
     let mut bounds = Bounds::new();
     for text in texts {

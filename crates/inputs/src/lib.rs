@@ -1,8 +1,8 @@
-//! What stands beside a model, read: inputs by step, values to try, what is to be verified, options about all of these.
+//! Reads what stands beside a model: inputs by step, values to try, what to verify, and options about all of these.
 //!
-//! In: texts, with a [`FileId`] where a fault is to show its place. Out: sources of [`simulate`], bounds of a search,
-//! [`verification::Verification`], or what is wrong. A fault in a file is a [`Diagnostic`]; a wrong option is a sentence,
-//! and the shell adds the name of the option. It must not know files or the command line.
+//! In: texts, with a [`FileId`] if a fault should show its place. Out: sources of [`simulate`], bounds of a search,
+//! [`verification::Verification`], or what is wrong. A fault in a file is a [`Diagnostic`]; a wrong option is a
+//! sentence, and the shell adds the name of the option. It must not know files or the command line.
 
 pub mod bound;
 pub mod node;
@@ -30,7 +30,7 @@ pub enum Form {
 }
 
 impl Form {
-    /// The form of a file by its ending; none if the ending is another one.
+    /// The form of a file, from its ending; none for any other ending.
     pub fn of(path: &Path) -> Option<Form> {
         match path.extension()?.to_str()? {
             "yaml" | "yml" => Some(Form::Yaml),
@@ -43,7 +43,8 @@ impl Form {
 /// A file of inputs as a source for a program.
 ///
 /// # Errors
-/// The first place that cannot be read, or else all inputs that the program does not have and all values that do not fit.
+/// The first place that cannot be read; otherwise all inputs that the program does not have, and all values that do not
+/// fit.
 pub fn named(program: &Program, form: Form, file: FileId, source: &str) -> Result<Named, Vec<Diagnostic>> {
     let read = match form {
         Form::Yaml => yaml::read(file, source),
@@ -91,7 +92,7 @@ fn steps(text: &str, span: Span) -> Result<Steps, Box<Diagnostic>> {
     Steps::read(text).map_err(|message| fault(span, message))
 }
 
-/// A whole file as a span, for what has no better place.
+/// A whole file as a span, for faults that have no better place.
 fn whole(file: FileId) -> Span {
     Span { file, start: 0, end: 0 }
 }

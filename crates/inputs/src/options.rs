@@ -35,7 +35,7 @@ pub fn reals(text: &str) -> Result<(f64, f64), String> {
 /// The time that passes in a step, such as `10ms`.
 ///
 /// # Errors
-/// It is none; a sentence for the user, who may also write `system`.
+/// It is not a time; a sentence for the user, who may also write `system`.
 pub fn step_ns(text: &str) -> Result<u64, String> {
     let digits = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
     let (number, unit) = text.split_at(digits);
@@ -89,7 +89,7 @@ pub fn asked(program: &Program) -> Vec<String> {
         .collect()
 }
 
-/// That a program takes inputs although there is no source of them, as a sentence; none if it takes none.
+/// A sentence that says that a program takes inputs although there is no source of them; none if it takes no inputs.
 pub fn without_source(program: &Program) -> Option<String> {
     let asked = asked(program);
     let names = match asked.len() {

@@ -1,4 +1,4 @@
-//! CSV inputs: one column a location, or the long form `step,location,value`.
+//! CSV inputs: one column for each location, or the long form `step,location,value`.
 //!
 //! In the first form the column `step` may be missing; the rows are then steps 1, 2, 3, … An empty cell gives
 //! nothing, so the value before it holds on.

@@ -1,4 +1,4 @@
-//! `MODEL.verify.yaml`: what is to be verified of a model, and with which inputs.
+//! `MODEL.verify.yaml`: what to verify of a model, and with which inputs.
 //!
 //! In: the file's text. Out: a [`Verification`], whose terms are still texts, or the first fault of the form. Whether the
 //! terms fit the model is not known here.

@@ -8,7 +8,7 @@
 //!   passed: true
 //! ```
 //!
-//! Scalars are taken as they are written, whatever YAML would make of them: the domain of the location says how they
+//! Scalars are taken as they are written, whatever YAML would make of them: the domain of the location decides how they
 //! are read. Sequences are sequences, sets, bags or tuples; mappings are maps.
 
 use saphyr_parser::{Event, Parser, ScanError, Span as Mark};

@@ -1,7 +1,8 @@
-//! The commands of the tool on any text: each ends, in a verdict or in faults.
+//! The commands of the tool on any text: each one ends, in a verdict or in faults.
 //!
-//! In: bytes, as the file that a command is given. Out: how many stages they came through, or a panic. What the shells add
-//! (files, options, output) is not looked at: these are the functions that they call, with all that is told of faults.
+//! In: bytes, as the file that a command is given. Out: how many stages they passed, or a panic. What the shells add
+//! (files, options, output) is not tested: these are the functions that they call, with everything reported about
+//! faults.
 
 use std::sync::Arc;
 
@@ -23,7 +24,7 @@ use crate::world::{self, Models};
 pub struct Commands {
     /// The ending of such files, without the dot.
     pub ending: &'static str,
-    /// Runs them all; how many stages the bytes came through.
+    /// Runs them all; gives the number of stages that the bytes passed.
     pub run: fn(&[u8]) -> usize,
 }
 
@@ -35,7 +36,7 @@ pub const COMMANDS: &[Commands] = &[
     Commands { ending: "scxml", run: of_scxml },
 ];
 
-/// LIMIT: a search ends after so many states, a walk after so many steps.
+/// LIMIT: a search ends after this many states, a walk after this many steps.
 const STATES: u64 = 60;
 
 struct NoSolver;
@@ -46,7 +47,7 @@ impl smt::Solver for NoSolver {
     }
 }
 
-/// What is told of faults: each lies in a text.
+/// Every reported fault lies in a text.
 fn told(sources: &Sources, faults: &[Diagnostic]) {
     for fault in faults {
         for label in std::iter::once(&fault.primary).chain(&fault.secondary) {
@@ -116,7 +117,7 @@ fn explored(loaded: &Loaded, program: &Arc<program::Program>) -> usize {
         ..verify::Options::default()
     };
     let mut stages = 0;
-    // LIMIT: one state may have very many successors; a search that made this much progress is not gone on with.
+    // LIMIT: one state may have very many successors; a search that made this much progress is ended.
     let mut steps = 0;
     let mut watch = |_: &verify::Progress| {
         steps += 1;

@@ -1,8 +1,8 @@
-//! What holds whatever the text, each property a function of bytes that panics where it is broken.
+//! What holds whatever the text: each property is a function of bytes that panics if it is broken.
 //!
-//! In: any bytes. Out: whether they came to the last stage, or a panic. Coverage-guided fuzzing (`fuzz/`) and the tests of this crate, which mutate
-//! seeds, call the same functions. INVARIANT: nothing here depends on anything but the bytes, so an input that breaks a
-//! property once does so always. It must not know who calls it, nor where seeds lie.
+//! In: any bytes. Out: whether they reached the last stage, or a panic. Coverage-guided fuzzing (`fuzz/`) and the tests
+//! of this crate, which mutate seeds, call the same functions. INVARIANT: everything here depends only on the bytes, so
+//! an input that breaks a property once always breaks it. It must not know its callers, nor where seeds lie.
 
 pub mod commands;
 pub mod mutation;
@@ -12,14 +12,14 @@ mod run;
 mod text;
 mod world;
 
-/// What holds of any bytes, under the name of its fuzz target.
+/// What holds for any bytes, under the name of its fuzz target.
 #[derive(Debug, Clone, Copy)]
 pub struct Property {
     /// What it says, with low lines.
     pub name: &'static str,
-    /// Panics where it does not hold. Whether the bytes came to the last stage that it looks at.
+    /// Panics if it does not hold. Gives whether the bytes reached the last stage that it looks at.
     pub check: fn(&[u8]) -> bool,
-    /// Whether its inputs are a model and a scenario, parted by [`seeds::DIVIDER`], or one text.
+    /// Whether its inputs are a model and a scenario, separated by [`seeds::DIVIDER`], or one text.
     pub of_scenario: bool,
 }
 
@@ -32,10 +32,10 @@ pub const ALL: &[Property] = &[
     Property { name: "scenario_never_panics", check: run::scenario_never_panics, of_scenario: true },
 ];
 
-/// Checks the property of that name; whether the bytes came to the last stage that it looks at.
+/// Checks the property of that name; gives whether the bytes reached the last stage that it looks at.
 ///
 /// # Panics
-/// It does not hold of these bytes, or there is none of that name.
+/// It does not hold for these bytes, or there is none of that name.
 pub fn check(name: &str, bytes: &[u8]) -> bool {
     let property = ALL.iter().find(|property| property.name == name).expect("a property of that name");
     (property.check)(bytes)

@@ -1,7 +1,7 @@
-//! Wounds to a text: tokens lost, doubled, exchanged, taken from elsewhere; bytes flipped.
+//! Mutations of a text: tokens lost, doubled, exchanged, taken from elsewhere; bytes flipped.
 //!
 //! In: a text, others of its kind, words of the language, a seed. Out: bytes like it, the same for the same seed. Most
-//! mutations are of one or two tokens, so that many of the models still check and go on to the later stages.
+//! mutations change one or two tokens, so many of the models still check and reach the later stages.
 
 /// Steele, Lea, Flood: SplitMix64.
 #[derive(Debug, Clone)]
@@ -75,7 +75,7 @@ fn tokens(text: &str) -> Vec<&str> {
 const EDGES: &[&str] =
     &["0", "1", "2", "300", "3001", "2147483648", "9223372036854775807", "9223372036854775808", "1e400"];
 
-/// A text like `text` of which whole lines are lost, doubled, exchanged, indented, or taken from elsewhere.
+/// A text like `text`, with whole lines lost, doubled, exchanged, indented, or taken from elsewhere.
 pub fn with_lines_mutated(text: &str, others: &[String], random: &mut SplitMix) -> String {
     let mut lines: Vec<String> = text.split_inclusive('\n').map(str::to_string).collect();
     for _ in 0..=random.below(3) {
@@ -105,7 +105,7 @@ pub fn with_lines_mutated(text: &str, others: &[String], random: &mut SplitMix) 
     lines.concat()
 }
 
-/// A text like `text`; what is taken from elsewhere is of `others` or of `words`.
+/// A text like `text`; parts from elsewhere come from `others` or `words`.
 pub fn mutated(text: &str, others: &[String], words: &[String], random: &mut SplitMix) -> Vec<u8> {
     let mut tokens: Vec<&str> = tokens(text);
     for _ in 0..[1, 1, 1, 2, 2, 5][random.index(6)] {

@@ -53,7 +53,7 @@ pub(crate) fn a_failed_step_leaves_the_state(bytes: &[u8]) -> bool {
     true
 }
 
-/// A scenario against a model comes to a verdict or to faults.
+/// A scenario against a model ends in a verdict or in faults.
 pub(crate) fn scenario_never_panics(bytes: &[u8]) -> bool {
     let text = world::text(bytes);
     let (model, scenario) = text.split_once(DIVIDER).unwrap_or(("", &text));

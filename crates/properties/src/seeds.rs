@@ -4,7 +4,7 @@
 
 use crate::Property;
 
-/// Parts an input for a scenario: the model before it, the scenario after it.
+/// Divides an input for a scenario: the model before it, the scenario after it.
 pub const DIVIDER: &str = "\n%%%%\n";
 
 /// A file: its path from the root of the repository, and its text.
@@ -31,7 +31,7 @@ pub fn seeds(property: &Property, files: &[File]) -> Vec<String> {
     seeds
 }
 
-/// The words of a dictionary as libFuzzer reads it: one a line, in quotes.
+/// The words of a dictionary as libFuzzer reads it: one on each line, in quotes.
 pub fn words(dictionary: &str) -> Vec<String> {
     let quoted =
         |line: &str| Some(line.strip_prefix('"')?.strip_suffix('"')?.replace("\\\"", "\"").replace("\\\\", "\\"));

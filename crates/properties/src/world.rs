@@ -1,4 +1,4 @@
-//! The world that properties are checked in: models to import, limits that keep one input short, inputs and choices.
+//! The world in which properties are checked: models to import, limits that keep one input short, inputs and choices.
 
 use machine::{Choice, Environment, Limits, LocationRef, TimeUnit, Value};
 use model::Loader;
@@ -10,7 +10,7 @@ use crate::mutation::SplitMix;
 /// This project's models: file name without ending, text.
 const MODELS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/models.rs"));
 
-/// LIMIT: longer inputs are cut; what they find, shorter ones find sooner.
+/// LIMIT: longer inputs are cut; shorter ones find the same things sooner.
 pub(crate) const MAX_BYTES: usize = 16 * 1024;
 
 /// The input as text.
@@ -24,7 +24,7 @@ pub(crate) fn limits() -> Limits {
     Limits { updates: 3_000, locations: 20_000, work: 100_000, ..limits }
 }
 
-/// The text as a file that is named as the text names itself: under another name no model checks.
+/// The text as a file with the name that the text gives: under another name no model checks.
 pub(crate) fn source(text: &str) -> SourceFile {
     let mut words = text
         .split(|letter: char| !letter.is_alphanumeric() && letter != '_')
@@ -52,7 +52,7 @@ impl Loader for Models {
     }
 }
 
-/// Answers by a small generator seeded from the text, so that the same text runs the same way.
+/// Answers by a small generator seeded from the text, so the same text always runs the same way.
 #[derive(Debug)]
 pub(crate) struct Seeded(SplitMix);
 

@@ -1,12 +1,12 @@
-//! The checksum of MCAP files: CRC-32 as ISO 3309 has it, of bytes that come piece by piece.
+//! The checksum of MCAP files: the CRC-32 of ISO 3309, over bytes that come piece by piece.
 //!
-//! In: bytes. Out: their checksum, as the format stores it. Eight bytes are taken at a time, since a log is long.
+//! In: bytes. Out: their checksum, as the format stores it. It takes eight bytes at a time, because a log is long.
 
 /// A checksum on its way.
 #[derive(Debug, Clone, Copy)]
 pub struct Checksum(u32);
 
-/// `TABLES[k][byte]`: what a byte comes to that has `k` more behind it.
+/// `TABLES[k][byte]`: the value of a byte that `k` more bytes follow.
 static TABLES: [[u32; 256]; 8] = tables();
 
 const fn tables() -> [[u32; 256]; 8] {

@@ -1,6 +1,6 @@
 //! One event of a task: what happened, to what, and when.
 //!
-//! The kinds are those of spec/conform.md, in its order; each has one word, by which recordings and messages name it.
+//! The kinds are those of spec/conform.md, in its order. Each has one word, which recordings and messages use.
 
 use std::fmt;
 use std::sync::Arc;
@@ -32,7 +32,7 @@ pub enum Kind {
     Begins,
     /// A phase.
     Ends,
-    /// A writing was passed over: there was nothing to hand over.
+    /// A writing was skipped: there was nothing to hand over.
     Passes,
     /// Wants the lock.
     Asks,

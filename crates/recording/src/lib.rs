@@ -1,8 +1,8 @@
 //! What a running program recorded: the events of its tasks, and when their cycles were due.
 //!
-//! In: the bytes of an MCAP file, whole ([`Recording::read`]) or as they are written ([`Reader`]). Out: a [`Recording`], a
-//! track of events a task, as spec/conform.md lists them. It must not know what the events are held against, nor how they
-//! are shown.
+//! In: the bytes of an MCAP file, whole ([`Recording::read`]) or as they are written ([`Reader`]). Out: a
+//! [`Recording`], with a track of events for each task, as spec/conform.md lists them. It must not know what the events
+//! are compared with, nor how they are shown.
 
 mod checksum;
 mod event;
@@ -18,7 +18,7 @@ pub struct Rhythm {
     pub period_ns: i64,
     /// Of the first one, from the origin of the run.
     pub offset_ns: i64,
-    /// From when a cycle is due to when it has to be done.
+    /// The time from when a cycle is due to when it must be done.
     pub deadline_ns: i64,
 }
 
@@ -27,9 +27,9 @@ pub struct Rhythm {
 pub struct Track {
     /// The component.
     pub task: String,
-    /// Of a synchronous task, where the recording tells it.
+    /// For a synchronous task, if the recording gives it.
     pub rhythm: Option<Rhythm>,
-    /// The channel whose data wake an asynchronous task; none: it awaits nothing, or the recording does not tell.
+    /// The channel whose data wake an asynchronous task; none: it awaits nothing, or the recording does not say.
     pub awaits: Option<String>,
     /// Its events, in order.
     pub events: Vec<Event>,
@@ -90,7 +90,7 @@ impl Recording {
         self.tracks.iter().map(|track| track.events.len()).sum()
     }
 
-    /// When something happened, as far as that means anything: where the pace is the model's, what happens within a tick
+    /// When something happened, as far as that means anything: if the pace is the model's, what happens within a tick
     /// has no order, and parts of it tell nothing.
     pub fn instant_ns(&self, event: &Event) -> i64 {
         match self.pace == "modelled" && self.tick_ns > 0 {

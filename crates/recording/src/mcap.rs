@@ -1,7 +1,7 @@
 //! MCAP bytes → events, task by task.
 //!
-//! Reads what `cpp/include/groundstate/recorder.hpp` writes: records and uncompressed chunks, from the front, so that a
-//! file that ends early gives all that came before. Checksums are looked at wherever the file has them. INVARIANT: the
+//! Reads what `cpp/include/groundstate/recorder.hpp` writes: records and uncompressed chunks, from the front, so a file
+//! that ends early gives everything before its end. Checksums are checked wherever the file has them. INVARIANT: the
 //! events of a track are in the task's order without a gap, and their instants do not go back; what comes after a lost
 //! event is left out, and the track says so.
 
@@ -27,7 +27,7 @@ fn malformed<T>(words: impl Into<String>) -> Result<T, Malformed> {
     Err(Malformed(words.into()))
 }
 
-/// A checksum that a file states, 0: none, and the one that its bytes have.
+/// The checksum that a file states (0: none), and the one that its bytes have.
 fn agree(stated: u32, found: u32, what: &str) -> Result<(), Malformed> {
     match stated == 0 || stated == found {
         true => Ok(()),
@@ -35,7 +35,7 @@ fn agree(stated: u32, found: u32, what: &str) -> Result<(), Malformed> {
     }
 }
 
-/// Reads numbers and texts of a record; none behind its end.
+/// Reads numbers and texts of a record; none after its end.
 struct Cursor<'a>(&'a [u8]);
 
 impl<'a> Cursor<'a> {
@@ -86,7 +86,7 @@ struct Said<'a> {
     fresh: Option<bool>,
 }
 
-/// Reads a file that may still be written: whatever comes, in pieces of any size.
+/// Reads a file that may still be written, in pieces of any size.
 #[derive(Debug, Default)]
 pub struct Reader {
     recording: Recording,
@@ -117,7 +117,7 @@ impl Recording {
     /// Reads the bytes of an MCAP file.
     ///
     /// # Errors
-    /// It is none, or none of a generated program, or it is damaged.
+    /// It is not an MCAP file, or not one of a generated program, or it is damaged.
     pub fn read(bytes: &[u8]) -> Result<Recording, Malformed> {
         let mut reader = Reader::default();
         reader.feed(bytes)?;
@@ -129,9 +129,9 @@ impl Reader {
     /// Reads on.
     ///
     /// # Errors
-    /// It is no MCAP file, or none of a generated program, or it is damaged.
+    /// It is not an MCAP file, or not one of a generated program, or it is damaged.
     pub fn feed(&mut self, bytes: &[u8]) -> Result<(), Malformed> {
-        // A file that is read whole is not copied, nor is a record again with each piece of it that comes.
+        // A file that is read whole is not copied. Nor is a record copied again with each piece of it that comes.
         if self.rest.is_empty() {
             let read = self.go_on(bytes)?;
             self.rest.extend_from_slice(&bytes[read..]);
@@ -148,7 +148,7 @@ impl Reader {
     /// All that came, of a file that is at its end.
     ///
     /// # Errors
-    /// It is no MCAP file, or none of a generated program.
+    /// It is not an MCAP file, or not one of a generated program.
     pub fn finish(self) -> Result<Recording, Malformed> {
         if self.place == Place::Before {
             return malformed("it is no MCAP file");
@@ -161,7 +161,7 @@ impl Reader {
         Ok(Recording { ended, ..self.recording })
     }
 
-    /// Reads as many whole records as there are; how many bytes these are.
+    /// Reads as many whole records as there are; gives their number of bytes.
     fn go_on(&mut self, all: &[u8]) -> Result<usize, Malformed> {
         let mut cursor = Cursor(all);
         if self.place == Place::Before {
@@ -204,7 +204,7 @@ impl Reader {
         &self.recording
     }
 
-    /// Whether the end of the data has come, behind which is nothing new.
+    /// Whether the end of the data has come; nothing new follows it.
     pub fn has_ended(&self) -> bool {
         matches!(self.place, Place::Summary | Place::Behind)
     }
@@ -255,7 +255,7 @@ impl Reader {
         Ok(())
     }
 
-    /// A channel is a task. It may be said again, word by word.
+    /// A channel is a task. It may be declared again, word by word.
     fn channel(&mut self, id: u64, task: &str) -> Result<(), Malformed> {
         let tracks = &self.recording.tracks;
         match (self.channels.get(&id), tracks.iter().any(|track| track.task == task)) {
@@ -292,7 +292,7 @@ impl Reader {
                 recording.wait_free = text("wait_free").split_whitespace().map(str::to_string).collect();
                 self.timing = values.iter().map(|(key, value)| (key.to_string(), value.to_string())).collect();
             }
-            // Told before any event of a task that was asked to stop.
+            // Written before any event of a task that was asked to stop.
             "stop" | "end" => {
                 let stopped_ns = text("stopped_ns").parse().ok().filter(|stopped_ns| *stopped_ns >= 0);
                 if stopped_ns.is_none() || recording.stopped_ns.is_some_and(|told| Some(told) != stopped_ns) {
@@ -318,7 +318,7 @@ impl Reader {
     fn message(&mut self, cursor: &mut Cursor<'_>) -> Option<Result<(), Malformed>> {
         let channel = cursor.number::<2>()?;
         cursor.number::<4>()?;
-        // An instant before the beginning is a number that no run comes to: signed, it is less than nothing.
+        // An instant before the beginning is a number that no run reaches: as a signed number, it is negative.
         let time_ns = cursor.number::<8>()? as i64;
         cursor.number::<8>()?;
         let Some(track) = self.channels.get(&channel) else {
@@ -327,7 +327,7 @@ impl Reader {
         if self.recording.ended {
             return Some(malformed("an event comes behind the end of the run"));
         }
-        // What comes behind the horizon after all is lost for who has gone on.
+        // An event that comes before the horizon after all is lost for a reader that has gone on.
         let late = self.recording.horizon_ns.is_some_and(|horizon| time_ns < horizon);
         let track = &mut self.recording.tracks[*track];
         let Ok(said) = serde_json::from_slice::<Said<'_>>(cursor.0) else {

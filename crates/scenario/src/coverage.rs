@@ -1,8 +1,9 @@
-//! What there is to cover of a model, and what scenarios covered: rules, branches, updates, forall with no, one and many
+//! What a model has to cover, and what scenarios covered: rules, branches, updates, forall with no, one and many
 //! elements.
 //!
-//! In: a model. Out: all that is [`wanted`] of tests; and with the counts of several runs, by the place of the rule in the
-//! text, so that a macro rule lowered several times counts as one, [`Items`]: each covered or not.
+//! In: a model. Out: everything that is [`wanted`] of tests; and, with the counts of several runs, [`Items`], each
+//! covered or not. Counts go by the place of the rule in the text, so a macro rule that is lowered several times counts
+//! as one.
 
 use std::collections::BTreeMap;
 
@@ -56,7 +57,8 @@ impl Counts {
 pub struct Item {
     /// The declared rule it is in.
     pub rule: String,
-    /// What it is: the rule's name, `then`, `else`, `case`, `no candidate`, the updated location's text is at `span`.
+    /// The kind of item: the rule's name, `then`, `else`, `case`, `no candidate`, the updated location's text is at
+    /// `span`.
     pub what: &'static str,
     /// Where.
     pub span: Span,

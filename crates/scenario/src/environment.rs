@@ -1,9 +1,9 @@
 //! The environment of a scenario: inputs that stay until set again, picks, a policy for the other choices.
 //!
-//! An input that was never set is undef; [`ScenarioEnvironment::missing`] tells that one was asked for, so that an
-//! invariant over inputs is not judged before its inputs are there. One with an initial value keeps it until it is set.
-//! The clock shows 1 s in the initial state and a second more in each next one; so do the monitored functions of the
-//! time libraries that are not set.
+//! An input that was never set is undef; one with an initial value keeps it until it is set.
+//! [`ScenarioEnvironment::missing`] says whether an unset one was asked for, so an invariant over inputs is not judged
+//! before its inputs are there. The clock shows 1 s in the initial state and a second more in each next one; so do the
+//! monitored functions of the time libraries that are not set.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -12,10 +12,10 @@ use machine::{Choice, Draw, Environment, Location, LocationRef, Show, TimeUnit, 
 use program::{DomainId, Program};
 use syntax::Span;
 
-/// LIMIT: a number drawn from an infinite domain is one of so many.
+/// LIMIT: a number drawn from an infinite domain is one of this many.
 const NUMBERS: usize = 21;
 
-/// How choices are made that no `pick` makes; comes in as a parameter, so that this crate has no random source.
+/// How choices are made that no `pick` makes. It comes in as a parameter, so this crate has no random source.
 pub trait Choices {
     /// The index of one of `candidates` candidates.
     fn choose(&mut self, candidates: usize) -> usize;
@@ -97,7 +97,7 @@ impl<'a> ScenarioEnvironment<'a> {
         index
     }
 
-    /// Of several picks for one variable of one choice the last counts.
+    /// Of several picks for one variable of one choice, the last counts.
     fn picks_for(&mut self, choice: Span) -> Vec<(usize, usize)> {
         let mut chosen: Vec<(usize, usize)> = Vec::new();
         for (index, pick) in self.picks.iter_mut().enumerate() {

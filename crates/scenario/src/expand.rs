@@ -1,4 +1,4 @@
-//! Blocks: `execblock` replaced by the commands it stands for.
+//! Blocks: each `execblock` is replaced by the commands of its block.
 //!
 //! In: the tree of a scenario and a [`Blocks`] that finds others. Out: commands that are neither blocks nor calls of
 //! blocks, each with its file. A block is run where it is defined and again wherever it is called.
@@ -29,7 +29,7 @@ pub(crate) struct Expansion<'a> {
     met: usize,
 }
 
-/// LIMIT: commands after expansion, so that blocks calling blocks cannot grow without end.
+/// LIMIT: commands after expansion, so blocks that call blocks cannot grow without end.
 const COMMANDS: usize = 100_000;
 
 impl<'a> Expansion<'a> {

@@ -1,4 +1,4 @@
-//! Why a formula is not true: the values of what it reads.
+//! Why a formula is not true: the values of the locations and functions that it reads.
 //!
 //! In: an expression and a machine in the state in which it was evaluated. Out: the parts of it that are locations
 //! or derived functions without variables in their arguments, with their values. Of a conjunction only the parts
@@ -93,8 +93,8 @@ impl Explanation<'_> {
     }
 }
 
-/// Whether a term has a value by itself: it reads no variable that is bound outside of it. Bindings inside a term
-/// that is shown are rare, so any variable at all counts.
+/// Whether a term has a value by itself: it reads no variable that is bound outside it. Bindings inside a term that is
+/// shown are rare, so any variable at all counts.
 fn closed(program: &Program, term: TermId) -> bool {
     let mut open = vec![term];
     while let Some(id) = open.pop() {

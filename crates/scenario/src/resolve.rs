@@ -1,7 +1,7 @@
 //! The tree of a scenario → a [`Script`]: fragments checked against the model and lowered into its program.
 //!
 //! In: a scenario's tree, the model and the program of the model it loads, both grown by the fragments. Out: the
-//! script, or the faults; as many of them as there are.
+//! script, or all faults.
 
 use model::{Model, RuleId, RuleKind, RuleNode, Target, Variable, VariableId};
 use program::{Expression, Program};
@@ -18,7 +18,7 @@ pub struct Parsed {
     pub tree: Option<ScenarioFile>,
     /// The file.
     pub file: FileId,
-    /// The path behind `load` and its place.
+    /// The path after `load`, and its place.
     pub model: Option<(String, Span)>,
     /// Faults of the text.
     pub diagnostics: Vec<Diagnostic>,
@@ -42,7 +42,7 @@ fn has_errors(diagnostics: &[Diagnostic]) -> bool {
 /// Resolves a parsed scenario against the model it loads.
 ///
 /// # Errors
-/// The faults found, at least one of them an error. Warnings stand beside a script in the other case.
+/// The faults found, at least one of them an error. If there are only warnings, they come with the script.
 pub fn resolve(
     parsed: &Parsed,
     model: &mut Model,
@@ -246,7 +246,7 @@ fn choices_binding(
     domains: &[String],
 ) -> Vec<(Span, usize, model::DomainId)> {
     let mut found = Vec::new();
-    // Without domains the rule without parameters is meant, if there is one.
+    // Without domains, the rule without parameters is meant, if there is one.
     let plain =
         model.rules.iter().any(|declared| Some(declared.name.as_str()) == rule && declared.parameters.is_empty());
     for (index, declared) in model.rules.iter().enumerate() {

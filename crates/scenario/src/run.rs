@@ -1,8 +1,8 @@
-//! Running a script: groups one after the other, each with its sets, checks and step.
+//! Runs a script: groups one after the other, each with its sets, checks and step.
 //!
-//! INVARIANT: within a group the strict checks come first (they see the inputs of the step just made), then all
-//! sets, then checks and execs in the order of the text, then the step. A failed check lets the others of its group
-//! be done and then ends the run, as any other failure does at once.
+//! INVARIANT: within a group the strict checks come first (they see the inputs of the step just made), then all sets,
+//! then checks and execs in the order of the text, then the step. After a failed check the others of its group are
+//! made, then the run ends; any other failure ends it at once.
 
 use std::sync::Arc;
 
@@ -147,7 +147,7 @@ impl Play<'_> {
             self.machine.forget_inputs();
             return Ok(());
         };
-        // Initial values may ask for what the sets are to give; whether there is an initial state shows with them.
+        // Initial values may ask for what the sets give; whether there is an initial state shows only with them.
         let _ = self.machine.start(&mut self.environment);
         self.environment.mispick = None;
         let shared = self.sets(&first.parts.sets)?;
@@ -214,7 +214,7 @@ impl Play<'_> {
         Ok(())
     }
 
-    /// Where an invariant is found out to be broken: the step, or at the end the last command.
+    /// Where a broken invariant is noticed: the step, or at the end the last command.
     fn span_of(&self, group: &Group) -> Span {
         match &group.step {
             StepKind::Steps { span, .. } | StepKind::Until { span, .. } | StepKind::Trouble { span, .. } => *span,
@@ -279,7 +279,7 @@ impl Play<'_> {
     }
 
     fn exec(&mut self, procedure: ProcedureId, span: Span) -> Going {
-        // The inputs are given, so that it is a change to write undef to one.
+        // The inputs are given, so writing undef to one is a change.
         self.machine.forget_inputs();
         for (location, value) in self.environment.inputs.clone() {
             let set = self.machine.set(&location, value);
@@ -330,7 +330,7 @@ impl Play<'_> {
     }
 
     fn step(&mut self, span: Span) -> Going {
-        // The invariants that read inputs speak of the state before the step; nothing may be prepared while their
+        // The invariants that read inputs are about the state before the step; nothing may be prepared while their
         // inputs are asked for anew.
         self.invariants(true, span)?;
         let prepared = self.machine.prepare(&mut self.environment);

@@ -1,7 +1,7 @@
-//! What a scenario did, step by step, so that one that fails can be seen.
+//! What a scenario did, step by step, to show why it failed.
 //!
-//! In: the machine after each step, and what the environment gave for it. Out: a [`Story`], kept with the verdict where it is
-//! asked for. LIMIT: of a long run the last steps are kept.
+//! In: the machine after each step, and what the environment gave for it. Out: a [`Story`], kept with the verdict if it
+//! is asked for. LIMIT: of a long run only the last steps are kept.
 
 use std::collections::{BTreeMap, VecDeque};
 

@@ -20,7 +20,7 @@ pub struct Verdict {
     pub checks: (u64, u64),
     /// What is odd but not wrong.
     pub remarks: Vec<Remark>,
-    /// What happened, where [`Options::story`](crate::Options::story) asks for it.
+    /// What happened, if [`Options::story`](crate::Options::story) asks for it.
     pub story: Option<Story>,
 }
 
@@ -75,9 +75,9 @@ pub struct Failure {
 pub enum FailureKind {
     /// A check does not hold.
     Check {
-        /// What it should have been: the right side of `a = b`, else true.
+        /// What it should have been: the right side of `a = b`, otherwise true.
         expected: Value,
-        /// What it was: the left side of `a = b`, else false or undef.
+        /// What it was: the left side of `a = b`, otherwise false or undef.
         actual: Value,
         /// The locations and derived functions that the check reads.
         reads: Vec<Reading>,
@@ -100,7 +100,7 @@ pub enum FailureKind {
         /// The scenario's command.
         during: Span,
     },
-    /// A `pick` whose value is no candidate.
+    /// A `pick` whose value is not a candidate.
     Pick {
         /// The choose rule.
         choice: Span,
@@ -112,7 +112,7 @@ pub enum FailureKind {
         /// The bound.
         bound: u64,
     },
-    /// Trouble was expected and did not come, or another came.
+    /// A failure was expected and did not come, or another one came.
     Expected {
         /// Which.
         expected: Expected,

@@ -26,7 +26,7 @@ pub struct ChoiceMade {
     pub values: Vec<Value>,
 }
 
-/// The choices of one recorded step that are still to be made.
+/// The choices of one recorded step that still have to be made.
 pub(crate) type Played = Rc<RefCell<VecDeque<PlayedChoice>>>;
 
 /// What a recorded choice is made again by.
@@ -40,7 +40,7 @@ pub struct PlayedChoice {
     pub values: Vec<Value>,
 }
 
-/// Somebody who is asked for each choice.
+/// A source that is asked for each choice.
 pub trait Chooser {
     /// Which candidate is taken, from 0. An error is a sentence for the user and ends the run.
     ///
@@ -77,10 +77,11 @@ pub enum Choices {
         step: u64,
         /// How many choices the step has made so far.
         made: usize,
-        /// What the first, second, … choice of a step is drawn by; grows with the step that makes the most.
+        /// The keys by which the first, second, … choice of a step is drawn; grows with the step that makes the most
+        /// choices.
         keys: Vec<u64>,
     },
-    /// As somebody has decided: by step, the values of the variables of each choice, in the order of the step.
+    /// As decided beforehand: by step, the values of the variables of each choice, in the order of the step.
     Decided {
         /// By step, from 0, which is the initial state.
         steps: Vec<Vec<Vec<Value>>>,
@@ -89,9 +90,9 @@ pub enum Choices {
         /// How many choices the step has made so far.
         made: usize,
     },
-    /// As somebody answers who is asked each time.
+    /// As a source answers that is asked each time.
     Asked(Asked),
-    /// As a trace has it: how many candidates there were and which was taken, in the order of the step.
+    /// As in a trace: how many candidates there were and which was taken, in the order of the step.
     Recorded(Played),
 }
 
@@ -106,7 +107,7 @@ impl Choices {
         Choices::Decided { steps, step: 0, made: 0 }
     }
 
-    /// Choices by somebody who is asked.
+    /// Choices by a source that is asked.
     pub fn asked(chooser: impl Chooser + 'static) -> Self {
         Choices::Asked(Asked(Rc::new(RefCell::new(chooser))))
     }
@@ -183,7 +184,7 @@ impl Choices {
     }
 }
 
-/// Adds what the next choice is drawn by: how many the step has made before.
+/// Adds the key by which the next choice is drawn: how many the step has made before.
 #[cold]
 fn one_more(keys: &mut Vec<u64>) -> u64 {
     let mut hash = StableHash::new().text("choose");

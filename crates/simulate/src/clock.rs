@@ -1,7 +1,7 @@
 //! The clock of a run: `currTimeSecs` and its like, and the monitored `mCurrTime…` of the time libraries.
 //!
-//! The default advances by a fixed amount each step, so that a run is the same every time; a shell may hand in the
-//! real one. INVARIANT: within a step the default clock stands still.
+//! The default advances by a fixed amount in each step, so a run is the same every time; a shell may hand in the real
+//! one. INVARIANT: within a step the default clock stands still.
 
 use machine::TimeUnit;
 use program::Function;
@@ -23,7 +23,7 @@ pub struct StepClock {
 }
 
 impl StepClock {
-    /// A clock at 0 that each step advances by so many nanoseconds.
+    /// A clock at 0 that each step advances by this many nanoseconds.
     pub fn new(step_ns: u64) -> Self {
         StepClock { step_ns, now_ns: 0 }
     }

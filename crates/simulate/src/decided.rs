@@ -1,4 +1,4 @@
-//! Inputs that somebody has decided beforehand, step by step: a counterexample that is run again.
+//! Inputs that were decided beforehand, step by step: a counterexample that is run again.
 
 use machine::{Location, Value};
 

@@ -12,7 +12,7 @@ use program::{DomainId, DomainKind, FunctionKind, Program};
 use crate::read::type_domain;
 use crate::splitmix::SplitMix;
 
-/// What infinite domains are cut to when inputs are random.
+/// The bounds of infinite domains when inputs are random.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bounds {
     /// Integers and Naturals, both ends included; a Natural is never below 0.
@@ -80,7 +80,7 @@ impl Carriers {
         }
     }
 
-    /// Takes the elements of the domains that never change; those of the others are of the initial state so far.
+    /// Takes the elements of the domains that never change; the others have the elements of the initial state so far.
     pub(crate) fn fill(&mut self, machine: &mut Machine) {
         for domain in self.fixed.iter().chain(&self.growing) {
             if let Ok(elements) = machine.elements(*domain) {

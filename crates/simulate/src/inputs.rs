@@ -1,7 +1,7 @@
 //! Where a run takes its inputs, choices and clock from.
 //!
-//! [`Inputs`] is the machine's [`Environment`]: layers of [`Source`]s, the first that has a value for a location
-//! gives it; a policy for choices; a clock. It notes what it gave, so that the run's record is complete.
+//! [`Inputs`] is the machine's [`Environment`]: layers of [`Source`]s, of which the first that has a value for a
+//! location gives it; a policy for choices; a clock. It notes what it gave, so the run's record is complete.
 
 use machine::{Choice, Draw, Environment, Fault, Location, LocationRef, Machine, TimeUnit, Value};
 use program::{DomainId, Program};
@@ -22,7 +22,7 @@ pub struct Ask<'a> {
     pub location: LocationRef<'a>,
     /// The domain of its values.
     pub codomain: DomainId,
-    /// It is the clock of a time library: whoever has no value for it by name leaves it to the run's clock.
+    /// It is the clock of a time library: a source that has no value for it by name leaves it to the run's clock.
     pub clock: bool,
     /// The elements of the domains that inputs range over.
     pub carriers: &'a Carriers,
@@ -40,8 +40,8 @@ impl Ask<'_> {
 
 /// One source of input values.
 pub trait Source {
-    /// The value, or none if this source has none and the next layer is to be asked. An error is a sentence for
-    /// the user and ends the run.
+    /// The value, or none if this source has none and the next layer must be asked. An error is a sentence for the user
+    /// and ends the run.
     fn input(&mut self, ask: &Ask<'_>) -> Result<Option<Value>, String>;
 
     /// Whether [`Source::writes`] may have any.
@@ -59,7 +59,7 @@ pub trait Source {
         None
     }
 
-    /// The step is over: it counted, or (stepping back) it is to be asked again.
+    /// The step is over: it counted, or (when stepping back) its inputs are asked for again.
     fn after_step(&mut self, _step: u64, _back: bool) {}
 }
 
@@ -95,7 +95,7 @@ impl Default for Inputs {
 }
 
 impl Inputs {
-    /// No source at all: an input that is asked for is an error; the first candidate is chosen.
+    /// No source at all: asking for an input is an error; the first candidate is chosen.
     pub fn new() -> Self {
         Inputs {
             layers: Vec::new(),
@@ -137,7 +137,7 @@ impl Inputs {
         self.times_of = machine.program().functions.iter().map(library_time).collect();
     }
 
-    /// Begins a step: what was noted of the last one is forgotten, what the environment writes is written.
+    /// Begins a step: forgets the notes of the last one, and writes what the environment writes.
     pub(crate) fn begin(
         &mut self,
         step: u64,
@@ -168,7 +168,8 @@ impl Inputs {
         Ok(())
     }
 
-    /// Whether steps may follow each other without [`Inputs::begin`]: nothing is noted, and nobody writes before one.
+    /// Whether steps may follow each other without [`Inputs::begin`]: nothing is noted, and nothing is written before a
+    /// step.
     pub(crate) fn can_pass(&self) -> bool {
         !self.keep && !self.layers.iter().any(|layer| layer.has_writes())
     }

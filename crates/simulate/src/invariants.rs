@@ -1,8 +1,8 @@
-//! The invariants of a run: which are to be evaluated, and what they came to.
+//! The invariants of a run: which ones to evaluate, and their values.
 //!
 //! In: a machine after a step, or before its commit for those that read inputs. Out: violations. An invariant over the
-//! state alone is evaluated only when a step has changed a function that it reads, or a domain has grown: otherwise its
-//! value is what it was. INVARIANT: the verdicts are those of evaluating all of them every time.
+//! state alone is evaluated only if a step has changed a function that it reads, or a domain has grown: otherwise its
+//! value stays the same. INVARIANT: the verdicts are those of evaluating all of them every time.
 
 use std::sync::Arc;
 
@@ -60,7 +60,7 @@ impl Watch {
         self.over_states.iter_mut().for_each(|watched| watched.known = None);
     }
 
-    /// A step was committed, and a domain grew in it or not.
+    /// A step was committed; a domain may have grown in it.
     pub fn note(&mut self, machine: &Machine, grown: bool) {
         if self.over_states.is_empty() {
             return;

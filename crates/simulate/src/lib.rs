@@ -1,9 +1,9 @@
-//! Runs: a machine stepped with inputs and choices from somewhere, until something says stop.
+//! Runs: a machine is stepped with inputs and choices from outside, until something says stop.
 //!
 //! In: a [`program::Program`], [`Inputs`] (layers of sources of input values, a policy for choices, a clock) and
-//! [`Options`]. Out: one [`Record`] at a time from a [`Run`], so that nothing here grows with the number of steps;
-//! the records of a run are its trace, and [`Recorded`] plays one back. It must not know files, terminals or the
-//! real clock: shells hand in what they read, as data or behind [`Source`] and [`Clock`].
+//! [`Options`]. Out: one [`Record`] at a time from a [`Run`], so nothing here grows with the number of steps. The
+//! records of a run are its trace, and [`Recorded`] plays one back. It must not know files, terminals or the real
+//! clock: shells hand in what they read, as data or through [`Source`] and [`Clock`].
 
 mod choose;
 mod clock;

@@ -1,8 +1,9 @@
 //! A named-value file: location → value, by step.
 //!
 //! In: [`Given`] values as a shell read them from YAML or CSV. Out: a [`Source`], or a [`Problem`] for each name or
-//! value that does not fit the model. A value given *from* a step on holds until the file gives another; one given
-//! for a range of steps holds only there and wins over the first kind; of two for the same range the later wins.
+//! value that does not fit the model. A value given *from* a step on holds until the file gives another one. A value
+//! given for a range of steps holds only there, and wins over the first kind. Of two values for the same range, the
+//! later wins.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +15,7 @@ use crate::constants::read_input;
 use crate::inputs::{Ask, Source};
 use crate::read::{Written, read_written};
 
-/// The steps that a value is given for; steps count from 1.
+/// The steps for which a value is given; steps count from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Steps {
     /// From this step on, until another value is given.
@@ -148,7 +149,7 @@ impl Source for Named {
         Ok(self.value(&ask.location.to_location(), ask.step).cloned())
     }
 
-    /// A shared location is written when the file says so; between that it is the machine's to change.
+    /// A shared location is written when the file says so; in between, the machine may change it.
     fn has_writes(&self) -> bool {
         true
     }

@@ -1,4 +1,4 @@
-//! The peer's environment file: one constant a line, in the order in which the machine asks.
+//! The peer's environment file: one constant on each line, in the order in which the machine asks.
 //!
 //! Blank lines and what follows `#` do not count. The file has no names, so a value that does not fit what is asked
 //! for ends the run with the line's number.
@@ -30,7 +30,7 @@ impl Positional {
     }
 }
 
-/// What stands before a `#` outside quotes.
+/// The text before a `#` outside quotes.
 fn without_comment(line: &str) -> &str {
     let mut quoted = false;
     for (at, c) in line.char_indices() {

@@ -1,9 +1,9 @@
 //! Random inputs and choices from a seed.
 //!
 //! The generator is SplitMix64 (Steele, Lea, Flood, *Fast splittable pseudorandom number generators*, OOPSLA 2014).
-//! INVARIANT: what is drawn depends only on the seed, the step and what is drawn for (a location, or the number of
-//! the choice within the step), never on the order of asking. The same seed gives the same run for ever, and adding
-//! an input to a model leaves the values of the others as they were.
+//! INVARIANT: a draw depends only on the seed, the step and its purpose (a location, or the number of the choice within
+//! the step), never on the order of asking. The same seed gives the same run for ever, and adding an input to a model
+//! does not change the values of the others.
 
 use machine::Value;
 

@@ -1,4 +1,4 @@
-//! Text → value, for inputs that are no model text: input files, `--set`, the prompt, traces.
+//! Text → value, for inputs that are not model text: input files, `--set`, the prompt, traces.
 //!
 //! In: a domain and text as [`machine::Show`] would print it, or as people write it in YAML (an Integer where a
 //! Real is meant, a string without quotes). Out: the value, or a sentence that says what was expected.
@@ -25,7 +25,7 @@ pub enum Written {
 /// Reads a value of a domain.
 ///
 /// # Errors
-/// A sentence for the user: the text is no value of the domain.
+/// A sentence for the user: the text is not a value of the domain.
 pub fn read_value(program: &Program, domain: DomainId, text: &str) -> Result<Value, String> {
     let trimmed = text.trim();
     if let Some(value) = read_bare(program, domain, trimmed) {
@@ -109,7 +109,7 @@ fn unknown(program: &Program, name: &str) -> String {
     }
 }
 
-/// Strings and chars may stand without quotes where the whole text is one.
+/// Strings and chars may lack quotes if they are the whole text.
 fn read_bare(program: &Program, domain: DomainId, text: &str) -> Option<Value> {
     use model::Basic;
     match program.domain(type_domain(program, domain)).kind {

@@ -1,4 +1,4 @@
-//! Playing a trace back: its inputs, writes, choices and times, in a run that is compared with it.
+//! Plays a trace back: a run takes its inputs, writes, choices and times, and is compared with it.
 //!
 //! In: the records of a trace, one after the other. Out: the records of the run made now, or [`Parted`] where they
 //! differ, which happens exactly when the model has changed since.
@@ -76,7 +76,7 @@ impl Recorded {
                 self.play(&step.inputs, &step.writes, &step.times, &step.choices);
             }
             Record::Back { .. } => {}
-            // Whoever ended the run from outside is not here to do it again.
+            // What ended the run from outside is not there to do it again.
             Record::End(end @ (crate::End::Interrupted | crate::End::Quit)) => self.run.stop(end.clone()),
             Record::End(_) => {}
         }

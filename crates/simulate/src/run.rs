@@ -1,4 +1,4 @@
-//! A run: steps one after the other, invariants checked where the language says, until something says stop.
+//! A run: steps one after the other, with invariants checked where the language says, until something says stop.
 //!
 //! Order within a step (spec/language.md, section 9): the environment's writes, the update set, the invariants that
 //! read inputs, the commit, the other invariants. INVARIANT: after [`Record::End`] nothing follows; a step that
@@ -126,7 +126,7 @@ impl Run {
         }
     }
 
-    /// Takes the last step back; none where none is kept that could be.
+    /// Takes the last step back; none if none is kept that could be taken back.
     pub fn take_back(&mut self) -> Option<Record> {
         let can = !self.history.is_empty() && !matches!(self.phase, Phase::New);
         can.then(|| {
@@ -174,7 +174,7 @@ impl Run {
         Record::Initial { inputs, choices, times, values, violations }
     }
 
-    /// Makes steps until as many are made as are wanted or the run ends, and keeps no record of them.
+    /// Makes this many steps, or fewer if the run ends, and keeps no record of them.
     pub fn pass(&mut self, steps: u64) -> Passed {
         let mut passed = Passed::default();
         let mut record = StepRecord::default();
@@ -203,7 +203,7 @@ impl Run {
         passed
     }
 
-    /// Whether nothing has to look at the states between steps.
+    /// Whether nothing needs to look at the states between steps.
     fn can_pass(&self) -> bool {
         let Options { until, stop_on_empty, stop_on_trivial, history, .. } = &self.options;
         let ends = until.is_some() || *stop_on_empty || *stop_on_trivial;

@@ -1,7 +1,7 @@
 //! A trace, record by record: what a run took from outside and what it changed.
 //!
-//! INVARIANT: header, inputs, writes, choices and times are enough to make the run again; the rest is there to be
-//! read, and to see where a changed model parts from the trace. Shells own the format of trace files.
+//! INVARIANT: header, inputs, writes, choices and times are enough to make the run again. The rest is for readers, and
+//! shows where a changed model differs from the trace. Shells own the format of trace files.
 
 use machine::{Change, Fault, Location, TimeUnit, Value};
 use syntax::Span;
@@ -61,9 +61,9 @@ pub enum Record {
     },
     /// A step made.
     Step(StepRecord),
-    /// A step begun and not made: what it took from outside before a fault or a violation ended the run.
+    /// A step that was begun and not made: what it took from outside before a fault or a violation ended the run.
     Attempt(StepRecord),
-    /// The last step is undone; this one is the next to be made.
+    /// The last step is undone; this one is made next.
     Back {
         /// The next step.
         step: u64,
@@ -104,7 +104,7 @@ pub struct Violation {
     pub span: Span,
     /// False, or undef.
     pub value: Value,
-    /// It reads inputs, so it speaks of the state before the step together with the step's inputs.
+    /// It reads inputs, so it is about the state before the step together with the step's inputs.
     pub before: bool,
 }
 

@@ -1,7 +1,8 @@
 //! Random inputs by weight: `--weight 'emergency=true:1,false:99'`.
 //!
-//! In: for a function, or for one location of it, values and how often each is to come compared with the others. Values not
-//! named never come. What is drawn depends on seed, step and location alone, as of [`RandomSource`](crate::RandomSource).
+//! In: for a function, or for one of its locations, values and how often each should come compared with the others.
+//! Values that are not named never come. A draw depends on seed, step and location alone, like those of
+//! [`RandomSource`](crate::RandomSource).
 
 use machine::{LocationRef, Value};
 use program::{FunctionId, FunctionKind, Program};

@@ -1,4 +1,5 @@
-//! What tests of several crates need: loaders, the blocks of Markdown pages, solver processes, the repository's files.
+//! Tools for the tests of several crates: loaders, the blocks of Markdown pages, solver processes, the repository's
+//! files.
 //!
 //! It does I/O, which the crates under test must not, so it is a dev-dependency and nothing else. It knows `syntax`, `model`
 //! and `smt` for their traits. The unit tests of those three see another copy of these types: only their integration

@@ -1,7 +1,7 @@
 //! Where tests read imported files from: nowhere, a map of texts, the disk, the pattern library.
 //!
-//! In: an importing file and the path that its import says. Out: the file that the path leads to, under one name however
-//! it is reached. Loaders know names and endings, and nothing of what stands in a file.
+//! In: an importing file and the path that its import says. Out: the file that the path leads to, under one name
+//! however it is reached. Loaders know names and endings, and nothing of a file's contents.
 
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
@@ -11,7 +11,7 @@ use syntax::SourceFile;
 
 use crate::repository;
 
-/// Finds no file: the model imports built-in libraries alone.
+/// Finds no file: the model imports only built-in libraries.
 #[derive(Debug, Clone, Copy)]
 pub struct NoFiles;
 
@@ -65,7 +65,7 @@ impl Loader for Disk {
 /// Files on the disk in which one text is replaced by another.
 #[derive(Debug, Clone)]
 pub struct EditedDisk {
-    /// What is replaced, wherever it stands.
+    /// The text to replace, wherever it stands.
     pub from: String,
     /// What is put there.
     pub to: String,
@@ -89,7 +89,7 @@ impl Loader for EditedDisk {
     }
 }
 
-/// The pattern library and nothing else: the last part of a path names the module, wherever the importing file lies.
+/// Only the pattern library: the last part of a path names the module, wherever the importing file lies.
 #[derive(Debug, Clone, Copy)]
 pub struct Patterns;
 
@@ -101,14 +101,14 @@ impl Loader for Patterns {
     }
 }
 
-/// The path of an import with its ending: `.asm` where none is written.
+/// The path of an import with its ending: `.asm` if none is written.
 fn named(path: &str) -> String {
     let path = path.replace('\\', "/");
     let complete = [".asm", ".avalla", ".chart"].iter().any(|ending| path.ends_with(ending));
     if complete { path } else { path + ".asm" }
 }
 
-/// The path of an import, seen from where the importing file is seen from.
+/// The path of an import, relative to the folder from which the importing file's path starts.
 fn beside(importer: &str, path: &str) -> PathBuf {
     tidied(&Path::new(importer).parent().unwrap_or(Path::new("")).join(named(path)))
 }

@@ -1,4 +1,4 @@
-//! Pages in Markdown and their fenced blocks, which tests take for examples.
+//! Pages in Markdown and their fenced blocks, which tests use as examples.
 //!
 //! In: the path of a page from the root of the repository. Out: its blocks, each with its info string, its text with the
 //! last line end, and the line of its opening fence. Fences are at the beginning of a line; what the words of an info
@@ -18,9 +18,9 @@ pub struct Page {
 /// A fenced block of a page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Block<'p> {
-    /// What stands behind the opening fence.
+    /// The text after the opening fence.
     pub info: &'p str,
-    /// What stands between the fences.
+    /// The text between the fences.
     pub text: &'p str,
     /// The line of the opening fence, from 1.
     pub line: usize,

@@ -1,7 +1,7 @@
 //! The repository that this crate was compiled in: its root, texts of it, all files below a folder.
 //!
-//! In: paths from the root. Out: absolute paths without `..`, sorted, and texts. What a test asks for has to be there: a
-//! missing folder is a panic and no empty list, so that no test passes because it found nothing to look at.
+//! In: paths from the root. Out: absolute paths without `..`, sorted, and texts. What a test asks for must be there: a
+//! missing folder is a panic, not an empty list, so no test passes because it found nothing to look at.
 
 use std::path::{Path, PathBuf};
 

@@ -1,14 +1,14 @@
-//! z3 and cvc5 as processes, and a solver that is not there.
+//! z3 and cvc5 as processes, and a missing solver.
 //!
-//! In: nothing but the path that programs are found on. Out: sessions. A solver that is not installed is left out, which is
-//! said on stderr; the test then has nothing to ask. `make unit` installs both.
+//! In: only the search path of programs. Out: sessions. A solver that is not installed is left out, and stderr says so;
+//! the test then has nothing to ask. `make unit` installs both.
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 use smt::session::{Session, Silence, Solvers, is_answer};
 
-/// A solver that answers nothing: what is decided must be decided without one.
+/// A solver that answers nothing: everything must be decided without one.
 #[derive(Debug, Clone, Copy)]
 pub struct NoSolver;
 
@@ -33,7 +33,8 @@ fn installed(name: &'static str) -> Option<Installed> {
     Some(Installed { name, version: version.to_string() })
 }
 
-/// Those solvers that are installed: z3, and cvc5 unless Horn clauses are to be solved. Says on stderr which one is missing.
+/// The solvers that are installed: z3, and cvc5 unless Horn clauses must be solved. Says on stderr which one is
+/// missing.
 pub fn solvers(horn: bool) -> Vec<Installed> {
     let names: &[&'static str] = if horn { &["z3"] } else { &["z3", "cvc5"] };
     let mut found = Vec::new();

@@ -1,4 +1,4 @@
-//! Files written here, byte by byte, with what a file of a program may have gone through.
+//! Files written here, byte by byte, with the damage that a program's file may have.
 
 use super::*;
 
@@ -36,7 +36,7 @@ fn head() -> Vec<u8> {
     [MAGIC, &about("groundstate", &[("tick_ns", "1000"), ("pace", "real")])].concat()
 }
 
-/// What stands behind the data: the end with the checksum of these, a summary, the footer with its own.
+/// What follows the data: the end with their checksum, a summary, the footer with its own checksum.
 fn ended(data: Vec<u8>) -> Vec<u8> {
     let sum = Checksum::of(&data).to_le_bytes();
     let summary = channel(0, "/task");
@@ -85,7 +85,7 @@ fn pieces_of_any_size_say_what_the_whole_says() {
     }
 }
 
-/// Wherever a file is damaged, that is told; or it is one without an end.
+/// Damage anywhere in a file is reported, or the file counts as one without an end.
 #[test]
 fn a_changed_byte_is_noticed() {
     let whole = whole();

@@ -1,4 +1,4 @@
-//! The reader behind [`super::read_value`]: a cursor over the text, directed by the domain that is expected.
+//! The reader of [`super::read_value`]: a cursor over the text, directed by the expected domain.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ pub(super) struct Scan<'a> {
 
 type Read<T> = Result<T, ()>;
 
-/// Nesting beyond this is refused, so that no text can exhaust the stack.
+/// Deeper nesting is refused, so no text can exhaust the stack.
 const DEPTH: u32 = 200;
 
 impl<'a> Scan<'a> {
@@ -249,7 +249,7 @@ impl<'a> Scan<'a> {
         Ok(Value::Rule(ProcedureId(index as u32)))
     }
 
-    /// A value whose domain is not known: it shows itself.
+    /// A value whose domain is not known: its text shows it.
     fn any(&mut self, domain: DomainId) -> Read<Value> {
         match self.rest.chars().next().ok_or(())? {
             '"' => Ok(Value::string(self.quoted('"')?)),
