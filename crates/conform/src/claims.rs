@@ -1,9 +1,9 @@
 //! What the tasks do in a step: changed locations of the library of patterns → events.
 //!
-//! In: a machine after a step, and what the step changed. Out: [`Claim`]s, each with the number of its component, those of
-//! one component in the order in which a task has them. An event is read off the one location whose change makes it; what
-//! else it says, off the state after the step. A step itself has no order: its updates are made at once. The protocol has
-//! one, which the table of spec/conform.md says: nobody touches an array before he has the lock.
+//! In: a machine after a step, and what the step changed. Out: [`Claim`]s, each with the number of its component, those
+//! of one component in the order in which a task has them. An event follows from the one location whose change makes
+//! it; its other parts follow from the state after the step. A step itself has no order: its updates are made at once.
+//! The protocol has one, which the table of spec/conform.md gives: no task touches an array before it has the lock.
 
 use machine::{Change, LocationRef, Machine, Value};
 use recording::{Event, Kind};
@@ -16,7 +16,7 @@ struct Claiming<'a> {
     vocabulary: &'a Vocabulary,
     machine: &'a Machine,
     change: &'a Change,
-    /// All that the step changed.
+    /// Everything that the step changed.
     all: &'a [Change],
     out: &'a mut Vec<(usize, Claim)>,
 }
@@ -40,7 +40,7 @@ impl Vocabulary {
     }
 }
 
-/// When within a step a task's events have their turn: a phase is done with, and ended, before the next one begins.
+/// The turn of a task's events within a step: a phase is finished and ended before the next one begins.
 fn turn(kind: Kind) -> u8 {
     match kind {
         Kind::Enters | Kind::GivesUp => 0,

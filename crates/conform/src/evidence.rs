@@ -1,4 +1,4 @@
-//! What a parting shows: the recorded events, what the model has instead, the state, the rule.
+//! What a difference shows: the recorded events, what the model has instead, the state, the rule.
 
 use syntax::Span;
 
@@ -24,18 +24,18 @@ pub struct Recorded {
     pub event: Event,
 }
 
-/// Where a program and its model part.
+/// Where a program and its model differ.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Parted {
     /// The tick.
     pub tick: i64,
     /// The component.
     pub task: String,
-    /// What was recorded; none if the model has an event that the program has not.
+    /// What was recorded; none if the model has an event that the program lacks.
     pub event: Option<Event>,
     /// What the model has for the component at this point.
     pub claims: Vec<Claim>,
-    /// Why, where the claims alone do not say it.
+    /// Why, if the claims alone do not say it.
     pub reason: Option<String>,
     /// How many events agreed before.
     pub agreed: usize,
@@ -45,19 +45,19 @@ pub struct Parted {
     pub state: Vec<(String, String)>,
 }
 
-/// What a parting is about: the channels, or whatever else events name.
+/// What a difference is about: the channels, or the other objects of events.
 pub(crate) fn objects<'e>(event: Option<&'e Event>, claims: &'e [Claim]) -> Vec<&'e str> {
     event.into_iter().chain(claims.iter().map(|claim| &claim.event)).map(|event| event.object.as_ref()).collect()
 }
 
-/// Said of an event that the model has in the same step, later or earlier.
+/// Text for an event that the model has in the same step, later or earlier.
 pub(crate) fn out_of_turn(event: Option<&Event>, claims: &[Claim]) -> Option<String> {
     let event = event?;
     let later = claims.iter().any(|claim| claim.event.same(event));
     later.then(|| "the model's task does that in the same step, but not first".to_string())
 }
 
-/// All events up to the stop agree. A recording without any says nothing of the program.
+/// All events up to the stop agree. A recording without events says nothing about the program.
 pub(crate) fn conforms(recording: &Recording, events: usize, steps: u64) -> Verdict {
     match events {
         0 => {

@@ -1,11 +1,11 @@
-//! Whether a running program did what its ground model says: its recorded events, replayed by the machine.
+//! Checks whether a running program did what its ground model says: the machine replays its recorded events.
 //!
-//! In: a checked model over the library of patterns, and a [`Recording`] of the program's events (spec/conform.md), whole or
-//! still being written. Out of a [`Session`]: a [`Verdict`]. What a step of the machine changes says which events the
-//! tasks have in it (`claims`); these and the recorded ones must be the same. In virtual time that follows the model
-//! each tick is a step of the main rule (`timed`); in any other time one task steps at a time, in an order that agrees
-//! with the recorded instants (`untimed`). The meaning of a rule stays in the machine; a run that was not wholly recorded
-//! never conforms.
+//! In: a checked model over the library of patterns, and a [`Recording`] of the program's events (spec/conform.md),
+//! whole or still being written. Out of a [`Session`]: a [`Verdict`]. The changes of a machine's step show which events
+//! the tasks have in it (`claims`); these and the recorded ones must be the same. In virtual time that follows the
+//! model, each tick is a step of the main rule (`timed`). In any other time one task steps at a time, in an order that
+//! agrees with the recorded instants (`untimed`). The meaning of a rule stays in the machine; a run that was not wholly
+//! recorded never conforms.
 
 mod claims;
 mod evidence;
@@ -21,7 +21,7 @@ pub use evidence::{Claim, Parted, Recorded};
 pub use recording::{Event, Kind, Malformed, Reader, Recording, Track};
 pub use session::{Refusal, Session, Way};
 
-/// What came of it.
+/// The result.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Verdict {
     /// All events, until the tasks were asked to stop, are those of a run of the model.
@@ -33,7 +33,7 @@ pub enum Verdict {
         /// How many events came after the tasks had been asked to stop; these are not compared.
         after: usize,
     },
-    /// The program and the model part.
+    /// The program and the model differ.
     Parts(Box<Parted>),
     /// It is not known, from some event on.
     Unknown {

@@ -1,9 +1,9 @@
-//! When the actions that events tell of were taken, as far as the recorded instants say it.
+//! When the recorded actions were taken, as far as the recorded instants say.
 //!
-//! In: a task's events. Out: between which instants each next action lies. An action was taken between the event before it
-//! and the one after it, where an event that is told before the action (asks, releases, sends, stores) narrows the
-//! beginning and one told after it (enters, takes) the end. A beginning and what is done with it are one action; but who is
-//! woken by data was woken before he told that he begins.
+//! In: a task's events. Out: between which instants each next action lies. An action was taken between the event before
+//! it and the one after it. An event that is recorded before its action (asks, releases, sends, stores) narrows the
+//! beginning; one recorded after it (enters, takes) narrows the end. A beginning and what is done with it are one
+//! action. But a task that is woken by data was woken before it recorded that it begins.
 
 use std::sync::Arc;
 
@@ -11,19 +11,19 @@ use recording::{Event, Kind};
 
 use crate::waiting::Waited;
 
-/// LIMIT: so many events of another task are looked at for one that may have come before.
+/// LIMIT: this many events of another task are searched for one that may have come before.
 const NEAR: usize = 64;
 
-/// A task's events, as far as they are known, and where it has come to.
+/// A task's events, as far as they are known, and its position in them.
 #[derive(Debug, Default)]
 pub struct Lane {
     pub events: Vec<Event>,
     pub place: Place,
-    /// Of a task that data wake: its first phase, and the channel that it awaits.
+    /// For a task that data wake: its first phase, and the channel that it awaits.
     pub wakes: Option<(Arc<str>, Arc<str>)>,
 }
 
-/// Where a task has come to.
+/// A task's position.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Place {
     /// Its next event.
@@ -54,14 +54,14 @@ impl Lane {
         self.place.cursor.checked_sub(1).map(|last| &self.events[last])
     }
 
-    /// The channel whose data have to be there before the next event.
+    /// The channel whose data must be there before the next event.
     pub fn awaits(&self) -> Option<&str> {
         let (first, channel) = self.wakes.as_ref()?;
         let begins = self.next().is_some_and(|next| next.kind == Kind::Begins && next.object == *first);
         (begins && !self.place.woken).then_some(channel)
     }
 
-    /// The event by which the task acts next: what comes with a beginning, or else the next one.
+    /// The event of the task's next action: the one that comes with a beginning, otherwise the next one.
     fn acts(&self) -> usize {
         let at = self.place.cursor;
         match (self.events.get(at), self.events.get(at + 1)) {
@@ -106,7 +106,7 @@ impl Lane {
     pub fn may_act_on(&self, channel: &str, until_ns: i64) -> bool {
         let mut before_ns = self.last().map_or(i64::MIN, |before| before.time_ns);
         for event in self.events[self.place.cursor..].iter().take(NEAR) {
-            // An action is taken after the event before it, whenever its own is told.
+            // An action is taken after the event before it, whenever its own event is recorded.
             if before_ns > until_ns {
                 return false;
             }
@@ -121,7 +121,7 @@ impl Lane {
     }
 }
 
-/// Whether no other task has to do with it.
+/// Whether it concerns no other task.
 fn is_local(kind: Kind) -> bool {
     matches!(kind, Kind::Begins | Kind::Ends | Kind::Passes | Kind::Meets | Kind::Misses | Kind::Invalid | Kind::Faults)
 }

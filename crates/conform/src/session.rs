@@ -1,8 +1,9 @@
-//! A recording held to a model, from its head to its end, in the way that suits it.
+//! Compares a recording with a model, from its head to its end, in the way that suits it.
 //!
-//! In: a checked model with its program, and a recording as far as it has come. Out: a [`Verdict`], at once where the run is
-//! over, else as soon as the two part or the run ends. Which way, tick by tick or by the order of events, is decided here:
-//! the first where the run follows the model's ticks, as long as nothing comes that is a matter of order alone.
+//! In: a checked model with its program, and a recording as far as it has come. Out: a [`Verdict`], at once if the run
+//! is over, otherwise as soon as the two differ or the run ends. This module decides between the two ways, tick by tick
+//! or by the order of events. It takes the first if the run follows the model's ticks, as long as no event comes that
+//! is a matter of order alone.
 
 use std::sync::Arc;
 
@@ -36,7 +37,7 @@ impl Way {
     }
 }
 
-/// Why a recording cannot be held to a model.
+/// Why a recording cannot be compared with a model.
 #[derive(Debug)]
 pub enum Refusal {
     /// In words.
@@ -60,13 +61,13 @@ pub struct Session {
     steps: Steps,
     limits: Limits,
     replay: Replay,
-    /// A parting that is told when all is known up to this instant.
+    /// A difference that is reported once everything is known up to this instant.
     suspected_ns: Option<i64>,
-    /// Of each track, how many events are known not to go back in time.
+    /// For each track, how many events are known not to go back in time.
     in_order: Vec<usize>,
 }
 
-/// So long after an action its event may be read from the clock: the task may be interrupted between the two.
+/// The event of an action may get its instant this long after the action: the task may be interrupted between the two.
 const GRACE_NS: i64 = 1_000_000_000;
 
 #[derive(Debug)]
@@ -121,8 +122,8 @@ impl Session {
         Ok(Session { sources, program, steps, limits, replay, suspected_ns: None, in_order: Vec::new() })
     }
 
-    /// Begins anew, for another recording of the same system. What is begun again and again is short: its steps are interpreted,
-    /// since to compile them takes longer.
+    /// Begins anew, for another recording of the same system. Such recordings are short, so their steps are
+    /// interpreted: compiling them would take longer.
     ///
     /// # Errors
     /// It cannot be replayed.
@@ -148,13 +149,13 @@ impl Session {
             }
             *known = track.events.len();
         }
-        // Nothing is known behind a lost event.
+        // Nothing is known after a lost event.
         let more = more && recording.tracks.iter().all(|track| !track.lost);
         let verdict = match &mut self.replay {
             Replay::Timed(replay) => replay.go_on(recording, more)?,
             Replay::Untimed(_) => return self.by_order(recording, more),
         };
-        // What the model has no word for is a matter of order alone.
+        // An event for which the model has no word is a matter of order alone.
         let passed = |recording: &Recording| {
             recording.tracks.iter().flat_map(|track| &track.events).any(|event| event.kind == Kind::Passes)
         };
@@ -171,8 +172,8 @@ impl Session {
         Ok(())
     }
 
-    /// A task without events may have acted and tell it later; the replay went on without it. So a parting is looked at
-    /// anew, with all that came since, before it is told.
+    /// A task without events may have acted and record it later; the replay went on without it. So a difference is
+    /// checked again, with everything that came since, before it is reported.
     fn by_order(&mut self, recording: &Recording, more: bool) -> Result<Option<Verdict>, Refusal> {
         if let Some(instant_ns) = self.suspected_ns {
             let covered = recording.covered_until_ns().is_some_and(|covered| covered > instant_ns);

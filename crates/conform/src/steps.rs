@@ -1,8 +1,8 @@
-//! What a replay needs of a model beside its own main rule: the steps of single tasks, and changes of the configuration.
+//! What a replay needs besides the model's own main rule: the steps of single tasks, and changes of the configuration.
 //!
-//! In: a checked model. Out: procedures, added to its program. The rules are the library's own and stay as they are; only
-//! the configuration, which is state, is changed before a run: where nobody keeps time phases take none, and wait-free
-//! channels, which have no lock and keep the latest datum alone, are shared values.
+//! In: a checked model. Out: procedures, added to its program. The rules are the library's own and stay as they are.
+//! Only the configuration, which is state, is changed before a run. If the replay does not follow ticks, phases take no
+//! time. Wait-free channels, which have no lock and keep only the latest datum, become shared values.
 
 use std::sync::Arc;
 
@@ -14,8 +14,8 @@ use syntax::{Diagnostic, Severity, SourceFile, Sources};
 
 use crate::vocabulary::{Named, Vocabulary};
 
-/// Phases take no time, and a rest comes behind each. A deadline is said of each task, so that its period can be another
-/// while a cycle ends.
+/// Phases take no time, and a rest follows each. Each task gets a deadline of its own, so its period can differ while a
+/// cycle ends.
 const LOOSEN: &str = "par \
      forall $t in Task with isUndef(task_deadline($t)) do task_deadline($t) := task_period($t) \
      forall $p in SchedulePhase with true do time($p) := 0 \
@@ -25,7 +25,7 @@ const LOOSEN: &str = "par \
        endpar \
    endpar";
 
-/// One component steps, whichever is chosen. One rule for all of them is compiled once.
+/// The chosen component steps. One rule for all of them is compiled once.
 const STEP: &str = "choose $c in Scheduler with true do par \
      r_scheduler_execute[$c] \
      forall $s in Semaphore with true do r_sem_arbitrate[$s] \
@@ -37,12 +37,12 @@ pub struct Steps {
     loosen: ProcedureId,
     /// A component, which is chosen, steps.
     step: ProcedureId,
-    /// One a wait-free channel, by its name: it becomes a shared value.
+    /// One for each wait-free channel, by its name: it becomes a shared value.
     cells: Vec<(String, ProcedureId)>,
 }
 
 impl Steps {
-    /// Adds the step of a component to a program, and what makes these channels shared values.
+    /// Adds the step of a component to a program, and the rules that make these channels shared values.
     ///
     /// # Errors
     /// The model lacks what they call.
@@ -52,7 +52,7 @@ impl Steps {
         model: &mut Model,
         program: &mut Program,
     ) -> Result<Steps, Vec<Diagnostic>> {
-        // The rests and the cells are new, which the library, where all phases and values are known, has no need of.
+        // The rests and the cells are new; the library, where all phases and values are known, does not need them.
         for name in ["SchedulePhase", "SharedValue"] {
             if let Some(domain) = model.domain_named(name)
                 && let DomainKind::Abstract { dynamic } = &mut model.domains.get_mut(domain).kind
@@ -82,7 +82,7 @@ impl Steps {
         Ok(Steps { loosen, step, cells: cells? })
     }
 
-    /// The model in its initial state, with the wait-free channels as they are, and what of it is known.
+    /// The model in its initial state, with the wait-free channels as shared values, and what is known of it.
     ///
     /// # Errors
     /// It does not start, or is not made of the library of patterns; in words.
@@ -111,7 +111,7 @@ impl Steps {
         self.step
     }
 
-    /// From now on phases take no time, and a rest comes behind each.
+    /// From now on phases take no time, and a rest follows each.
     ///
     /// # Errors
     /// It is a fault of the model, in words.

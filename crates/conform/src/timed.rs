@@ -14,10 +14,10 @@ use crate::steps::Steps;
 use crate::vocabulary::Vocabulary;
 use recording::{Event, Kind, Recording};
 
-/// The last so many events are shown where the two part.
+/// This many of the last events are shown where the two differ.
 const SHOWN: usize = 12;
 
-/// The model's own run, held against a recording that may still be written.
+/// The model's own run, compared with a recording that may still be written.
 #[derive(Debug)]
 pub struct Replay {
     machine: Machine,
@@ -71,7 +71,7 @@ impl Replay {
         if !recording.is_whole() {
             return unknown(format!("the recording has a gap, or ends early, after tick {end}"));
         }
-        // What tasks do to come to an end is no run of the model.
+        // What tasks do in order to stop is not part of a run of the model.
         let end_ns = end * recording.tick_ns;
         let compared = |events: &[Event]| events.partition_point(|event| event.time_ns < end_ns);
         if tracks.iter().zip(&self.cursors).any(|(events, cursor)| compared(events) != *cursor) {

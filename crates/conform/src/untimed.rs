@@ -1,10 +1,10 @@
-//! Event by event: where phases last as long as they last, one task steps at a time.
+//! Event by event: phases last as long as they do, and one task steps at a time.
 //!
-//! In: the model, and any recording. The model's configuration is changed before the run, its rules are not: phases take no
-//! time, and between two phases there is a rest, so that leaving the one and beginning the next are two steps. The clock
-//! is set to the recorded instant, and so is the time that a cycle has waited where it matters. Then there must be an order
-//! of the tasks' steps, consistent with the recorded times (`order`), in which each step has the events that were recorded;
-//! among actions that overlap every order is tried.
+//! In: the model, and any recording. The model's configuration is changed before the run; its rules are not. Phases
+//! take no time, and between two phases there is a rest, so leaving the one and beginning the next are two steps. The
+//! clock is set to the recorded instant; so is the time that a cycle has waited, if it matters. Then there must be an
+//! order of the tasks' steps, consistent with the recorded times (`order`), in which each step has the events that were
+//! recorded. Among overlapping actions, every order is tried.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -21,18 +21,19 @@ use crate::vocabulary::{Named, Vocabulary};
 use crate::waiting::Pace;
 use recording::{Event, Kind, Recording};
 
-/// LIMIT: so many decisions are kept to go back to.
+/// LIMIT: this many decisions are kept to go back to.
 const KEPT: usize = 64;
 /// More rests than this do not follow each other.
 const RESTS: usize = 3;
-/// The last so many events are shown where the two part.
+/// This many of the last events are shown where the two differ.
 const SHOWN: usize = 12;
 
-/// A run of the model's tasks one by one, held against a recording that may still be written.
+/// A run of the model's tasks one by one, compared with a recording that may still be written.
 ///
-/// While more may come, an action is looked at when all tasks are known beyond its end: by an event of their own, so that a
-/// run that is followed takes the same decisions as one that is read when it is over; or by the recording's word that they
-/// had none, where that may differ in a parting that a later event explains.
+/// While more may come, an action is looked at only when all tasks are known beyond its end. A task is known by an
+/// event of its own; then a followed run takes the same decisions as one that is read when it is over. Or it is known
+/// because the recording says that it had no event; then the decision may differ in a difference that a later event
+/// explains.
 #[derive(Debug)]
 pub struct Replay {
     machine: Machine,
@@ -40,7 +41,7 @@ pub struct Replay {
     step: ProcedureId,
     tick_ns: i64,
     pace: Pace,
-    /// One a component.
+    /// One for each component.
     lanes: Vec<Lane>,
     /// More may come.
     more: bool,
@@ -49,7 +50,7 @@ pub struct Replay {
     stack: VecDeque<Node>,
     /// The last decision waits for more events.
     waits: bool,
-    /// The parting that comes latest.
+    /// The latest difference.
     deepest: Option<Box<Parted>>,
 }
 
@@ -141,7 +142,7 @@ impl Replay {
     /// # Errors
     /// The recording is of another system, in words.
     pub fn go_on(&mut self, recording: &Recording, more: bool) -> Result<Option<Verdict>, String> {
-        // What tasks do to come to an end is no run of the model.
+        // What tasks do in order to stop is not part of a run of the model.
         let known = recording.known_until_ns().unwrap_or(i64::MAX).min(recording.stopped_ns.unwrap_or(i64::MAX));
         for (lane, events) in self.lanes.iter_mut().zip(tracks(&self.vocabulary, recording)?) {
             let own = &mut lane.events;
@@ -177,7 +178,7 @@ impl Replay {
             return Some(Verdict::Parts(parted));
         }
         let unknown = |reason: String| Some(Verdict::Unknown { events: self.agreed, reason });
-        // Where time goes on in every lane, one of them can always go on.
+        // If time goes on in every lane, one of them can always go on.
         if self.lanes.iter().any(|lane| lane.next().is_some()) {
             return unknown("an event was not come to".to_string());
         }
@@ -191,7 +192,7 @@ impl Replay {
         Some(conforms(recording, self.agreed, self.machine.steps()))
     }
 
-    /// A decision among these components, to be gone back to.
+    /// A decision among these components, to which the search can go back.
     fn decide(&mut self, open: Vec<usize>) {
         let mark = self.machine.mark();
         self.stack.push_back(Node { mark, agreed: self.agreed, open, stepped: None });
@@ -201,7 +202,7 @@ impl Replay {
         }
     }
 
-    /// The first way on that is possible; where there is none, back to the last decision that has another.
+    /// Takes the first possible way on; if there is none, goes back to the last decision that has another.
     fn go_one_way(&mut self) -> Option<Verdict> {
         loop {
             let Some(mut node) = self.stack.pop_back() else {
@@ -239,8 +240,8 @@ impl Replay {
         }
     }
 
-    /// Components that may act next, the first one last: those whose action cannot have come after another one's; and when
-    /// the first one has acted at the latest.
+    /// Components that may act next, the first one last: those whose action cannot have come after another one's. Also
+    /// the latest instant at which the first one has acted.
     fn candidates(&self) -> (i64, Vec<usize>) {
         let spans = || self.lanes.iter().map(|lane| lane.span(self.more)).enumerate();
         let first_ns = spans().filter_map(|(_, span)| Some(span?.to_ns)).min().unwrap_or(i64::MAX);
@@ -261,7 +262,7 @@ impl Replay {
         (0..self.lanes.len()).filter(meets).collect()
     }
 
-    /// Makes the steps that the component's next events are of.
+    /// Makes the steps of the component's next events.
     fn advance(&mut self, component: usize) -> Result<(), Stop> {
         let lane = &self.lanes[component];
         let Some(Event { time_ns, kind, .. }) = lane.next() else { unreachable!("a candidate has an event") };
@@ -276,7 +277,7 @@ impl Replay {
             _ => {}
         }
         let tick = time_ns.div_euclid(self.tick_ns).max(lane.place.tick);
-        // At the end of a cycle the exact instant decides: in time, or within the tick too late.
+        // At the end of a cycle the exact instant decides: in time, or too late within the tick.
         if !matches!(kind, Kind::Meets | Kind::Misses) || time_ns.rem_euclid(self.tick_ns) == 0 {
             return self.advance_at(component, tick);
         }
@@ -318,7 +319,7 @@ impl Replay {
         Err(self.parted(component, Vec::new(), "the model's task does not come to an action".to_string()).into())
     }
 
-    /// Holds the events of a step to the recorded ones.
+    /// Compares the events of a step with the recorded ones.
     fn compare(&mut self, component: usize, tick: i64, claims: Vec<(usize, Claim)>) -> Result<(), Stop> {
         let lane = &self.lanes[component];
         let next = &lane.events[lane.place.cursor..];
@@ -345,7 +346,7 @@ impl Replay {
         if enters { Ok(self.is_in_time(component, count)?) } else { Ok(()) }
     }
 
-    /// So many events agree.
+    /// This many events agree.
     fn agree(&mut self, component: usize, count: usize) {
         let Lane { events, place, .. } = &mut self.lanes[component];
         for _ in 0..count {
@@ -357,7 +358,7 @@ impl Replay {
         self.agreed += count;
     }
 
-    /// A lock came within the time that the model's task would have waited, of which the events that agreed last tell.
+    /// A lock came within the time that the model's task would have waited, according to the last events that agreed.
     fn is_in_time(&mut self, component: usize, count: usize) -> Result<(), Box<Parted>> {
         let waited_ns = self.lanes[component].place.waited.at_least_ns;
         if self.would_wait(component, waited_ns)? {
@@ -368,7 +369,7 @@ impl Replay {
         Err(self.gave_up(component, waited_ns))
     }
 
-    /// A task that waits for a lock when the recording ends, and which the model's task would have given up by then.
+    /// A task that waits for a lock when the recording ends, although the model's task would have given it up by then.
     fn still_waiting(&mut self, until_ns: i64) -> Option<Box<Parted>> {
         for component in 0..self.lanes.len() {
             let lane = &self.lanes[component];
@@ -386,7 +387,7 @@ impl Replay {
         None
     }
 
-    /// Whether the model's task waits for so long in a cycle: a tick before it still had time.
+    /// Whether the model's task waits this long in a cycle: a tick before, it still had time.
     fn would_wait(&mut self, component: usize, waited_ns: i64) -> Result<bool, Box<Parted>> {
         if waited_ns <= 0 {
             return Ok(true);
@@ -406,7 +407,7 @@ impl Replay {
         Ok(asked != Value::Boolean(false))
     }
 
-    /// What a derived function of the library says of an element.
+    /// The value of a derived function of the library for an element.
     fn ask(&mut self, named: Named, element: Value) -> Result<Value, Fault> {
         let program = Arc::clone(self.machine.program());
         match &program.function(self.vocabulary.function(named)).definition {
@@ -432,7 +433,7 @@ impl Replay {
         Err(self.parted(component, Vec::new(), reason))
     }
 
-    /// The parting of a task that went on waiting where the model's task gives up.
+    /// The difference of a task that went on waiting where the model's task gives up.
     fn gave_up(&self, component: usize, waited_ns: i64) -> Box<Parted> {
         let lane = &self.lanes[component];
         let object = lane.next().or(lane.last()).map_or_else(Default::default, |event| Arc::clone(&event.object));
@@ -446,7 +447,7 @@ impl Replay {
         self.parted(component, vec![claim], reason)
     }
 
-    /// Each tick that a task waits, the model counts; here the waiting is as long as it was recorded to be.
+    /// The model counts each tick that a task waits; here the waiting lasts as long as recorded.
     fn set_waited(&mut self, component: usize) -> Result<(), Box<Parted>> {
         let lane = &self.lanes[component];
         let Some(event) = lane.next() else { return Ok(()) };
@@ -466,8 +467,8 @@ impl Replay {
         changes.iter().any(|change| change.location.function == moved)
     }
 
-    /// A step of a component. When a cycle `ends` late the model begins the next one in the same step, where the program
-    /// comes to it later; with no end of the period in sight it waits first.
+    /// A step of a component. When a cycle `ends` late, the model begins the next one in the same step, while the
+    /// program begins it later. So the step is made with no end of the period in sight: then the model waits first.
     fn step(&mut self, component: usize, tick: i64, ends: bool) -> Result<Vec<Change>, String> {
         let known = &self.vocabulary.components[component];
         let clock = self.vocabulary.location(Named::Clock, &[]);
@@ -511,7 +512,7 @@ impl Replay {
         }
     }
 
-    /// There was nothing to hand over: the writing phase is passed over, which the program alone decides.
+    /// There was nothing to hand over: the writing phase is skipped. Only the program decides that.
     fn pass(&mut self, component: usize) -> Result<(), Box<Parted>> {
         let lane = &self.lanes[component];
         let Some(event) = lane.next() else { return Ok(()) };
@@ -531,7 +532,7 @@ impl Replay {
         Ok(())
     }
 
-    /// What was to be handed over is not valid: its writing is passed over next.
+    /// The datum is not valid, so its writing is skipped next.
     fn withhold(&mut self, component: usize) -> Result<(), Stop> {
         let lane = &self.lanes[component];
         let at = lane.place.cursor;

@@ -1,8 +1,10 @@
-//! The library of patterns in one model: its functions, the components with their phases, who does what to which channel.
+//! The library of patterns in one model: its functions, the components with their phases, and which component does what
+//! to which channel.
 //!
-//! In: a model's program and initial state. Out: a [`Vocabulary`], by which `claims` reads steps as events and replays find
-//! what they set or ask. Only what library/patterns declares is known here; the application's own functions are not
-//! looked at. Which task an event belongs to follows from the phases: a channel has one producer and one consumer.
+//! In: a model's program and initial state. Out: a [`Vocabulary`], by which `claims` reads steps as events and replays
+//! find what they set or ask. This module knows only what library/patterns declares; it does not look at the
+//! application's own functions. The phases decide to which task an event belongs: a channel has one producer and one
+//! consumer.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -103,7 +105,7 @@ pub struct Component {
 pub struct Vocabulary {
     /// In the order of [`FUNCTIONS`], which is that of [`Named`].
     functions: Vec<FunctionId>,
-    /// By function, which of them it is.
+    /// By function, its place among them.
     named: Vec<Option<Named>>,
     /// In the order of the model.
     pub components: Vec<Component>,
@@ -111,9 +113,9 @@ pub struct Vocabulary {
     pub locks: BTreeMap<Value, Value>,
     /// The component that does this to a channel.
     ends: BTreeMap<(Value, End), usize>,
-    /// What events call each phase, channel and scheduler.
+    /// The name of each phase, channel and scheduler in events.
     objects: BTreeMap<Value, Arc<str>>,
-    /// Those of them that the model calls otherwise.
+    /// The ones that have another name in the model.
     renamed: BTreeMap<Value, Arc<str>>,
     pub literals: Literals,
 }
@@ -140,7 +142,7 @@ impl Vocabulary {
     /// Reads a model's initial state.
     ///
     /// # Errors
-    /// What of the library of patterns it lacks, in words.
+    /// In words, which parts of the library of patterns it lacks.
     pub fn new(program: &Program, machine: &Machine) -> Result<Vocabulary, String> {
         let mut named = vec![None; program.functions.len()];
         let functions = FUNCTIONS.iter().map(|(function, name, arity)| {
@@ -223,13 +225,13 @@ impl Vocabulary {
         self.components.iter().flat_map(|component| &component.phases).filter(works_on).cloned().collect()
     }
 
-    /// From now on that element is called so.
+    /// From now on that element has this name.
     pub fn call(&mut self, element: Value, name: &str) {
         self.objects.insert(element.clone(), name.into());
         self.renamed.insert(element, name.into());
     }
 
-    /// What events call that element.
+    /// The element's name in events.
     pub fn object(&self, machine: &Machine, element: &Value) -> Arc<str> {
         let known = self.objects.get(element).cloned();
         known.unwrap_or_else(|| element.show(machine.program()).to_string().into())
@@ -287,7 +289,7 @@ impl Vocabulary {
         ["WRITING_ON_SB", "SENDING", "STORING"].contains(&action.as_str()).then(|| self.channel(machine, phase))
     }
 
-    /// Of a component that data wake: its first phase, and the channel that it awaits.
+    /// For a component that data wake: its first phase, and the channel that it awaits.
     pub fn wakes(&self, machine: &Machine, component: &Component) -> Option<(Arc<str>, Arc<str>)> {
         let is_synchronous = !self.get(machine, Named::Period, std::slice::from_ref(&component.task)).is_undef();
         let channel = self.channel(machine, &component.waiting);
@@ -306,8 +308,8 @@ impl Vocabulary {
         phases.clone().find(|phase| phase.show(machine.program()).to_string() == name).cloned()
     }
 
-    /// The state around a component: its phase, the lock and the buffer, queue or cell of these names, and who holds or
-    /// wants the lock. Arrays that hold nothing are left out.
+    /// The state around a component: its phase, the lock and the buffer, queue or cell of these names, and which tasks
+    /// hold or want the lock. Arrays that hold nothing are left out.
     pub fn state(&self, machine: &Machine, component: usize, names: &[&str]) -> Vec<(String, String)> {
         let program = machine.program();
         let known = &self.components[component];

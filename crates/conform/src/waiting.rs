@@ -1,17 +1,18 @@
-//! How long a task's cycle has waited, for locks and for room, by its events.
+//! How long a task's cycle has waited for locks and for room, by its events.
 //!
-//! In: the events at which a wait ended. Out: bounds of the waiting, to which the model's watchdog is held: nobody takes a
-//! lock for which its cycle waited longer than the model allows, and nobody gives one up earlier. INVARIANT: what was
-//! waited lies between the two bounds, whatever the clock.
+//! In: the events at which a wait ended. Out: bounds of the waiting, which are compared with the model's watchdog: no
+//! task takes a lock for which its cycle waited longer than the model allows, and none gives one up earlier. INVARIANT:
+//! the time waited lies between the two bounds, whatever the clock.
 
 use recording::{Event, Kind};
 
 /// The time of a recording.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pace {
-    /// Virtual, and each step of the model is a tick: who asks within a tick enters, or gives up, in another one.
+    /// Virtual, and each step of the model is a tick: a task that asks within a tick enters, or gives up, in another
+    /// one.
     Modelled,
-    /// Virtual: it stands still while somebody computes, so that instants are exact.
+    /// Virtual: it stands still while a task computes, so instants are exact.
     Drawn,
     /// A task may be interrupted between an action and its event.
     Real,
@@ -28,7 +29,7 @@ impl Pace {
     }
 }
 
-/// LIMIT: in real time a task is without its processor for no longer between an action and its event.
+/// LIMIT: in real time, a task is without its processor for at most this long between an action and its event.
 pub const INTERRUPTED_NS: i64 = 1_000_000_000;
 
 /// What a cycle has spent waiting.
@@ -44,7 +45,7 @@ pub struct Waited {
 }
 
 impl Waited {
-    /// What was waited with one more event, of which `before` is the one before.
+    /// The time waited with one more event; `before` is the event before it.
     pub fn with(mut self, before: Option<&Event>, event: &Event, pace: Pace, tick_ns: i64) -> Waited {
         if event.kind == Kind::Begins && (event.number != self.cycle || self.began_ns.is_none()) {
             return Waited { cycle: event.number, began_ns: Some(event.time_ns), ..Waited::default() };
@@ -64,8 +65,8 @@ impl Waited {
         self
     }
 
-    /// What may have been gone of the watchdog's time, of a cycle that was due at an instant. In real time a program takes the
-    /// time off by which a cycle begins late; in virtual time it counts as its model does.
+    /// How much of the watchdog's time may have been used up, for a cycle that was due at an instant. In real time a
+    /// program subtracts the time by which a cycle begins late; in virtual time it counts as its model does.
     pub fn spent_ns(&self, due_ns: Option<i64>, pace: Pace) -> i64 {
         let late_ns = match (pace, due_ns, self.began_ns) {
             (Pace::Real, Some(due_ns), Some(began_ns)) => began_ns.saturating_sub(due_ns).max(0),

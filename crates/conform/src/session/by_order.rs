@@ -1,5 +1,5 @@
-//! Recordings written by hand, of the complete controller: what overlaps may have happened in any order, and nobody waits
-//! longer than the model's watchdog lets him.
+//! Recordings of the complete controller, written by hand: overlapping actions may have happened in any order, and no
+//! task waits longer than the model's watchdog allows.
 
 use recording::{Event, Track};
 
@@ -8,7 +8,7 @@ use super::*;
 
 const TICK_NS: i64 = 100_000;
 
-/// The recording with these events, a line each: task, instant, kind, object, and the rest of its words.
+/// The recording with these events, one on each line: task, instant, kind, object, and the rest of its words.
 fn recording(pace: &str, lines: &str) -> Recording {
     let names = ["operator", "camera", "visual_servoing", "robot", "motor", "encoder"];
     let mut tracks: Vec<Track> =
@@ -55,7 +55,7 @@ fn conforms(recording: &Recording) {
     assert!(matches!(verdict, Verdict::Conforms { .. }), "{verdict:#?}");
 }
 
-/// Where the two part, and what the model has instead.
+/// Where the two differ, and what the model has instead.
 #[track_caller]
 fn parts(recording: &Recording, event: &str, model: &str) {
     match verdict(recording) {
@@ -69,7 +69,7 @@ fn parts(recording: &Recording, event: &str, model: &str) {
     }
 }
 
-/// The robot lets go of a lock between 274 and 334; the encoder gives it up between 264 and `gave_up`.
+/// The robot releases a lock between 274 and 334; the encoder gives it up between 264 and `gave_up`.
 fn collision(released: i64, read: i64) -> Recording {
     let lines = format!(
         "robot 50 begins robot_read_vs 0
@@ -100,7 +100,7 @@ fn what_is_told_later_may_have_happened_before() {
     parts(&collision(230, 250), "gives_up encoder_to_robot", "enters encoder_to_robot; writes encoder_to_robot");
 }
 
-/// The encoder holds a lock that the motor has asked for at 1000 ns; then the motor's event `after` so long.
+/// The encoder holds a lock that the motor has asked for at 1000 ns; then comes the motor's event, `after` that time.
 fn contention(pace: &str, after_ns: i64, kind: &str) -> Recording {
     let came = 1_000 + after_ns;
     let mut lines = format!(
@@ -157,7 +157,7 @@ fn the_models_watchdog_bounds_the_waiting() {
     conforms(&contention("real", 9_000 * TICK_NS, "gives_up"));
 }
 
-/// In real time who begins late has so much less time to wait.
+/// In real time a cycle that begins late has that much less time to wait.
 #[test]
 fn a_late_cycle_may_give_up_earlier() {
     let late = |pace: &str, late_ns: i64| {
@@ -182,7 +182,7 @@ fn who_waits_at_the_end_has_not_waited_too_long() {
     conforms(&still);
 }
 
-/// Where the array is touched before the lock is there, and whatever else of a task is told in another order.
+/// The array is touched before the lock is there, and other events of a task in a wrong order.
 #[test]
 fn neighbours_of_a_task_have_their_order() {
     let good = contention("drawn", TICK_NS, "enters");
@@ -201,7 +201,7 @@ fn neighbours_of_a_task_have_their_order() {
     }
 }
 
-/// Behind an event that comes a second late, or goes back in time, the others are looked at all the same.
+/// After an event that comes a second late, or goes back in time, the others are compared all the same.
 #[test]
 fn all_events_are_come_to() {
     let mut late = contention("drawn", TICK_NS, "enters");
@@ -216,7 +216,7 @@ fn all_events_are_come_to() {
     assert!(matches!(session.go_on(&late, false), Err(Refusal::Words(words)) if words.contains("time goes back")));
 }
 
-/// Nothing is handed over that is not passed over, and only writings are.
+/// Nothing is handed over in a skipped writing, and only writings are skipped.
 #[test]
 fn what_is_passed_over_is_a_writing() {
     let passing = |lines: &str| {

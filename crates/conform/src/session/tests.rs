@@ -1,5 +1,5 @@
-//! What the model itself does, written down as a recording, conforms; with one event changed it does not; and whoever reads
-//! along hears the same as who reads the whole.
+//! A recording of what the model itself does conforms; with one event changed it does not; and reading along gives the
+//! same verdict as reading the whole.
 
 use machine::Closed;
 use recording::Track;
@@ -27,7 +27,7 @@ fn recorded(pace: &str) -> Recording {
     recorded_for(pace, TICKS)
 }
 
-/// So many ticks of it.
+/// This many ticks of it.
 pub(super) fn recorded_for(pace: &str, ticks: i64) -> Recording {
     let (_, _, program) = model();
     let mut machine = Machine::new(Arc::new(program.clone()), Limits::default());
@@ -64,7 +64,7 @@ pub(super) fn whole(recording: &Recording) -> Verdict {
     verdict.expect("nothing more comes")
 }
 
-/// Hears of each task's events a few at a time, the tasks in turn, and says when the verdict came.
+/// Reads each task's events a few at a time, the tasks in turn, and says when the verdict came.
 fn along(recording: &Recording, at_once: usize) -> (Verdict, bool) {
     let mut heard = Recording { stopped_ns: None, ended: false, ..recording.clone() };
     heard.tracks.iter_mut().for_each(|track| track.events.clear());
@@ -108,7 +108,7 @@ fn who_reads_along_hears_what_the_whole_says() {
     }
 }
 
-/// The model's tasks act at once; told in their order, what they do is also a run of single steps.
+/// The model's tasks act at once; written in their order, their actions are also a run of single steps.
 #[test]
 fn by_the_order_of_events_too() {
     let good = recorded("real");
@@ -125,7 +125,7 @@ fn by_the_order_of_events_too() {
     }
 }
 
-/// A task that has nothing to tell holds nobody up, if the recording says that it had nothing.
+/// A task without events delays no other, if the recording says that it had none.
 #[test]
 fn the_horizon_stands_for_events_of_the_silent() {
     let mut wrong = recorded("real");
