@@ -28,7 +28,7 @@ impl Interpreter<'_> {
                         None => return Err(Fault::NotEnumerable),
                     },
                     None if dynamic => {}
-                    // The elements of an abstract domain may be declared into a subset of it one by one.
+                    // The elements of an abstract domain may be declared one by one in a subset of it.
                     None if is_abstract(self.model, base) && !elements.is_empty() => {}
                     None => return Err(Fault::NotEnumerable),
                 }

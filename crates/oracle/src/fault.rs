@@ -1,6 +1,6 @@
 //! Why a step has no next state: either a term has no value or the update set is not consistent.
 //!
-//! The kinds are the language's (spec/faults), and so are their names; places and call chains are left to the machine.
+//! The kinds and their names are the language's (spec/faults); places and call chains are left to the machine.
 
 use crate::state::{Clash, Location, UpdateSet};
 use crate::value::Value;
@@ -9,7 +9,7 @@ use crate::value::Value;
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[allow(missing_docs, reason = "each is described in spec/faults under its name")]
 pub enum Fault {
-    /// All of them: the language leaves open which one is told.
+    /// All of them: the language leaves open which one is reported.
     Clash(Vec<Clash>),
     OutOfDomain {
         location: Location,
@@ -57,11 +57,11 @@ impl Fault {
     }
 }
 
-/// The evaluation of a rule that came to a fault, and what it had yielded until then.
+/// The evaluation of a rule that met a fault, and what it had yielded until then.
 ///
-/// The book leaves `yields` undefined where a part has no value, and calls an update set inconsistent only when it is
-/// complete. Which of the two is told when both are there is the language's matter: the one met first, from left to
-/// right. So the updates yielded before the fault are kept until their unit is known.
+/// The book leaves `yields` undefined if a part has no value, and calls an update set inconsistent only when it is
+/// complete. If both occur, the language reports the one met first, from left to right. So the updates yielded before
+/// the fault are kept until their unit is known.
 #[derive(Debug, Clone)]
 pub struct Stop {
     /// What happened.
@@ -84,7 +84,7 @@ pub fn join(updates: UpdateSet, more: Result<UpdateSet, Stop>) -> Result<UpdateS
     }
 }
 
-/// The update set of a unit that is fired on its own (a step, a part of a sequence, a turbo call): it has to be
+/// The update set of a unit that is fired on its own (a step, a part of a sequence, a turbo call): it must be
 /// consistent.
 pub fn consistent(result: Result<UpdateSet, Stop>) -> Result<UpdateSet, Fault> {
     let (updates, fault) = match result {

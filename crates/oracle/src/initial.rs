@@ -2,7 +2,7 @@
 //!
 //! Initial values are values in the initial state. An initialiser may read other initialised functions, so each is
 //! evaluated when it is first needed; one that needs itself is a fault. A function whose arguments cannot be enumerated
-//! is given its initial values when they are read: they are then still those of the initial state.
+//! gets its initial values when they are read: they are then still those of the initial state.
 
 use model::{DomainId, DomainKind, FunctionId, FunctionKind, Init, InitialFunction, Model};
 
@@ -121,7 +121,7 @@ pub(crate) fn default_init(model: &Model) -> Option<&Init> {
     model.default_init.map(|index| &model.inits[index])
 }
 
-/// The initial values of a function. Those of a monitored one say nothing of a run: the environment gives its values.
+/// The initial values of a function. Those of a monitored one do not matter in a run: the environment gives its values.
 pub(crate) fn initial_function(model: &Model, function: FunctionId) -> Option<&InitialFunction> {
     if model.function(function).kind == FunctionKind::Monitored {
         return None;

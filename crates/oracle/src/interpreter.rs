@@ -1,8 +1,8 @@
 //! What the evaluation of one step carries along besides the state and the variable assignment.
 //!
-//! The book's ⟦t⟧ and `yields` have the state 𝔄 and the assignment ζ as their only parameters. Four things it keeps
-//! outside stand here: the inputs of this step (monitored functions are read once a step), the chooser, the reserve
-//! from which `extend` takes its elements, and bounds, so that what does not end is told.
+//! The book's ⟦t⟧ and `yields` have the state 𝔄 and the assignment ζ as their only parameters. Four things that it
+//! keeps outside are here: the inputs of this step (monitored functions are read once a step), the chooser, the reserve
+//! from which `extend` takes its elements, and bounds, so that an endless evaluation is reported.
 
 use std::collections::BTreeMap;
 
@@ -19,7 +19,7 @@ pub struct Assignment {
     values: BTreeMap<VariableId, Value>,
     /// The agent whose program is run.
     pub agent: Option<Value>,
-    /// The location in the place of `result`, or why it has none.
+    /// The location that replaces `result`, or why there is none.
     pub result: Option<Result<Location, Fault>>,
 }
 
@@ -41,7 +41,7 @@ impl Assignment {
         extended
     }
 
-    /// The assignment of nothing but parameters to values; `self` goes on to denote the same agent.
+    /// The assignment of parameters, and nothing else, to values; `self` still denotes the same agent.
     pub fn parameters(&self, parameters: &[VariableId], values: Vec<Value>) -> Assignment {
         Assignment { values: parameters.iter().copied().zip(values).collect(), agent: self.agent.clone(), result: None }
     }

@@ -3,8 +3,8 @@
 //!
 //! In: a [`model::Model`] without errors, an [`Environment`]. Out: states, update sets, faults. It is slow on purpose:
 //! a state is a map, a substate is a copy, a macro call is a substitution, an update set is a list. It shares no code
-//! with the machine and knows neither it nor the IR; that the two agree is what `tests/agreement.rs` checks, on models
-//! that [`generate`] makes and [`mod@reduce`] makes small.
+//! with the machine, and knows neither it nor the IR. `tests/agreement.rs` checks that the two agree, on models that
+//! [`generate`] makes and [`mod@reduce`] makes small.
 
 mod builtin;
 mod domain;

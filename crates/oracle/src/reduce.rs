@@ -1,17 +1,17 @@
-//! Makes a text that shows something smaller, as long as it shows it.
+//! Makes a text smaller, as long as it still shows what it should show.
 //!
-//! In: a [`Piece`] and a test that says whether a text still shows it. Out: one in which no single piece can be replaced
-//! by a smaller one of its sort any more. A text that is no model any more does not show it, so the reducer needs to
-//! know nothing of the language (A. Zeller, R. Hildebrandt, IEEE TSE 28(2), 2002, on trees).
+//! In: a [`Piece`] and a test that says whether a text still shows it. Out: one in which no single piece can be
+//! replaced by a smaller one of its sort any more. A text that is no longer a model does not show it, so the reducer
+//! need not know the language (A. Zeller, R. Hildebrandt, IEEE TSE 28(2), 2002, on trees).
 
 use crate::generate::Piece;
 
-/// The smallest that was found within so many trials.
+/// The smallest that was found within this many trials.
 pub fn reduce(mut piece: Piece, mut trials: usize, mut shows: impl FnMut(&str) -> bool) -> Piece {
     loop {
         let before = piece.to_string().len();
         let mut index = 0;
-        // From the top, so that what is large goes first; the tree shrinks under the walk.
+        // From the top, so large pieces go first; the tree shrinks during the walk.
         while let Some(path) = piece.paths().get(index).cloned() {
             for smaller in piece.at(&path).smaller() {
                 if trials == 0 {

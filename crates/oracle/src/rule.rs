@@ -1,8 +1,8 @@
-//! yields(R, 𝔄, ζ, U): the update set a rule yields in a state under an assignment (Börger & Stärk 2003, table 2.2
-//! for basic ASMs, section 4.1 for turbo ASMs), one case a rule.
+//! yields(R, 𝔄, ζ, U): the update set a rule yields in a state under an assignment (Börger & Stärk 2003, table 2.2 for
+//! basic ASMs, section 4.1 for turbo ASMs), one case for each kind of rule.
 //!
 //! The calculus is written as a function: it returns U, or stops where no rule of the calculus applies because a term
-//! has no value. Whether U is consistent is asked where U is fired: at the end of the step and of each substep.
+//! has no value. Whether U is consistent is checked where U is fired: at the end of the step and of each substep.
 
 use std::ops::ControlFlow;
 
@@ -130,7 +130,7 @@ impl Interpreter<'_> {
                 for rule in locals.iter().map(|(_, rule)| rule).chain([body.as_ref()]) {
                     updates = self.then(updates, rule, &inner, zeta)?;
                 }
-                // U \ Updates(f): what was local is not seen outside (section 4.1.2).
+                // U \ Updates(f): local updates are not seen outside (section 4.1.2).
                 Ok(functions.into_iter().fold(updates, UpdateSet::without))
             }
             RuleKind::Error => panic!("the oracle runs models without faults only"),
@@ -168,9 +168,9 @@ impl Interpreter<'_> {
         }
     }
 
-    /// The update of a location to a value, which has to be in the codomain.
+    /// The update of a location to a value, which must be in the codomain.
     fn update(&mut self, location: Location, value: Value, state: &State) -> Yield {
-        // Of a domain of tuples or collections what is inside is not looked at.
+        // In a domain of tuples or collections, the parts of a value are not checked.
         if let crate::state::Symbol::Function(function) = location.symbol
             && let codomain = self.model.function(function).codomain
             && matches!(self.model.domains.kind(codomain), DomainKind::Basic(_) | DomainKind::Concrete { .. })
@@ -181,8 +181,8 @@ impl Interpreter<'_> {
         Ok(UpdateSet::one(location, value))
     }
 
-    /// A number is drawn for each variable that ranges over all of a kind, if no guard has to be searched for it; gives
-    /// the other binders.
+    /// A number is drawn for each variable that ranges over all numbers of a kind, if no guard must be searched for;
+    /// gives the other binders.
     fn numbers_drawn(
         &mut self,
         binders: &[Binder],
@@ -291,8 +291,8 @@ impl Interpreter<'_> {
         function.library && function.name == "result"
     }
 
-    /// l ← r(t₁,…,tₙ): what r yields with l in the place of `result` (section 4.1.2). What runs through a rule value or as an
-    /// agent's program writes `result` itself, and l is written at the end.
+    /// l ← r(t₁,…,tₙ): what r yields with l in the place of `result` (section 4.1.2). A rule that runs through a rule
+    /// value, or as an agent's program, writes `result` itself, and l is written at the end.
     fn returned(&mut self, target: &Target, call: &Call, state: &State, zeta: &Assignment) -> Yield {
         let values = self.values(&call.arguments, state, zeta)?;
         let kind = match target {

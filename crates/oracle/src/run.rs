@@ -1,7 +1,7 @@
 //! Runs: the initial state, and one step after the other (Börger & Stärk 2003, definition 2.4.6).
 //!
-//! A step fires the update set that the main rule yields. After a fault the state is the one before the step, but what
-//! the environment wrote to shared locations when asked stays.
+//! A step fires the update set that the main rule yields. After a fault the state is the one before the step; but what
+//! the environment wrote to shared locations when it was asked stays.
 
 use std::collections::BTreeMap;
 

@@ -1,7 +1,7 @@
 //! Locations, states, updates and update sets (Börger & Stärk 2003, section 2.4).
 //!
-//! A state is the finite map of its locations to values; a location that is not in it was never given one, and its value
-//! is undef. The universes are part of the state as the book has it, by their characteristic functions:
+//! A state is the finite map of its locations to values; a location that is not in it never got one, and its value is
+//! undef. The universes are part of the state as the book has it, by their characteristic functions:
 //! `Domain(D)(x) = true`.
 
 use std::collections::BTreeMap;
@@ -100,7 +100,7 @@ pub struct Clash {
 
 /// A set of updates (definition 2.4.4).
 ///
-/// It is a set: that its updates stand in the order in which they were yielded matters to nobody.
+/// It is a set: the order of its updates, in which they were yielded, does not matter.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct UpdateSet(Vec<(Location, Value)>);
 

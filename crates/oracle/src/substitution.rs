@@ -167,7 +167,7 @@ impl<'a> Substitution<'a> {
                 Some(TermKind::Apply { function, arguments }) => {
                     Target::Location { function: *function, arguments: arguments.clone(), span: *span }
                 }
-                // The parameter of a rule that was itself called by value names no location.
+                // The parameter of a rule that was itself called by value does not name a location.
                 _ => Target::Parameter(*variable, *span),
             },
         }

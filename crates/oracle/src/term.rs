@@ -97,7 +97,7 @@ impl Interpreter<'_> {
         terms.iter().map(|term| self.value(term, state, zeta)).collect()
     }
 
-    /// A formula where the rule or term needs it to be true or false.
+    /// A formula that must be true or false for the rule or term.
     pub fn guard(&mut self, formula: &Term, state: &State, zeta: &Assignment) -> Result<bool, Fault> {
         match self.value(formula, state, zeta)? {
             Value::Boolean(truth) => Ok(truth),
@@ -230,7 +230,7 @@ impl Interpreter<'_> {
         Ok(value)
     }
 
-    /// All ζ[x₁ ↦ a₁]…[xₙ ↦ aₙ] with aᵢ in the range of xᵢ, the leftmost slowest, until the visitor breaks off.
+    /// All ζ[x₁ ↦ a₁]…[xₙ ↦ aₙ] with aᵢ in the range of xᵢ, the leftmost slowest, until the visitor stops.
     pub fn each(
         &mut self,
         binders: &[Binder],
@@ -303,7 +303,7 @@ impl Interpreter<'_> {
     }
 }
 
-/// The library functions that undef is an argument of like any other value.
+/// The library functions that take undef as an argument like any other value.
 const TOTAL: [&str; 10] =
     ["eq", "neq", "equality", "isDef", "isUndef", "not", "toString", "print", "program", "getAgent"];
 
@@ -321,7 +321,7 @@ fn constant(literal: &Literal) -> Value {
     }
 }
 
-/// A collection of these elements; those of a map are pairs, and of equal keys the last counts.
+/// A collection of these elements. Those of a map are pairs; of equal keys, the last counts.
 fn collection(kind: CollectionKind, elements: Vec<Value>) -> Value {
     match kind {
         CollectionKind::Set => Value::Set(elements.into_iter().collect()),

@@ -2,8 +2,8 @@
 //!
 //! In: a [`Spec`], then in each state the terms whose text changed. Out: the report, to which the shell adds what it
 //! knows from elsewhere. A tick is a step: what the state after the t-th step shows (t from 0) went on in tick t, and
-//! what changed in it happened at the beginning of tick t. Work in a tick does not depend on the number of ticks seen;
-//! memory grows with the ticks shown only, see [`ReportBuilder::show_ticks`].
+//! what changed in it happened at the beginning of tick t. The work for a tick does not depend on the number of ticks
+//! seen. Memory grows only with the ticks shown, see [`ReportBuilder::show_ticks`].
 
 mod buffer;
 mod chart;
@@ -23,7 +23,7 @@ use chart::ChartWatch;
 use reading::{Readings, Slot};
 use task::TaskWatch;
 
-/// LIMIT: lanes show so many ticks unless told otherwise; figures always cover the whole run.
+/// LIMIT: lanes show this many ticks by default; figures always cover the whole run.
 pub const SHOWN_TICKS: u64 = 50_000;
 
 /// Collects a run.
@@ -71,7 +71,7 @@ impl ReportBuilder {
         ReportBuilder { spec, readings, tick, shown, begun, activities, tasks, buffers, queues, series, flow, charts }
     }
 
-    /// Lets the lanes show so many ticks of the run.
+    /// Lets the lanes show this many ticks of the run.
     pub fn show_ticks(mut self, ticks: u64) -> ReportBuilder {
         self.shown = ticks.max(1);
         self
@@ -90,7 +90,8 @@ impl ReportBuilder {
         self.readings.set(term, value);
     }
 
-    /// The values set are those of the initial state. Without it the first step counts as such as well.
+    /// The values set are those of the initial state. Without this call, the first step also counts as the initial
+    /// state.
     pub fn begin(&mut self) {
         let moment = Moment { readings: &self.readings, tick: 0, shown: true };
         self.tasks.iter_mut().for_each(|task| task.begin(&moment));
@@ -136,7 +137,7 @@ impl ReportBuilder {
             }
         }
         if let Some((slots, flow)) = &mut self.flow {
-            // From the sink backwards: what a hop hands on in the step in which it gets something new is the old one.
+            // From the sink backwards: in the step in which a hop gets a new datum, it hands on the old one.
             for (hop, slot) in slots.iter().enumerate().rev() {
                 if let Some(datum) = self.readings.changed(*slot).then(|| self.readings.integer(*slot)).flatten() {
                     flow.reach(hop, datum, tick, self.shown);

@@ -1,4 +1,4 @@
-//! The way of each datum through the tasks: when which hop got it, and how long each leg took.
+//! The way of each datum through the tasks: when each hop got it, and how long each leg took.
 //!
 //! A datum is known by an Integer that is unique in a run (the tick of its origin, a sequence number). It reaches a
 //! hop in the step that makes the hop's term equal to it. INVARIANT: times of a journey never decrease.
@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use crate::tally::Tally;
 
-/// LIMIT: so many data are followed at a time; the oldest is given up for a new one.
+/// LIMIT: this many data are followed at a time; the oldest is given up for a new one.
 const UNDER_WAY: usize = 1024;
 
 /// All journeys of a run.
@@ -23,7 +23,7 @@ pub struct Flow {
     pub legs: Vec<Tally>,
     /// From source to sink.
     pub whole: Tally,
-    /// The journeys in the order of their begin, as far as lanes are shown.
+    /// The journeys in the order of their beginning, as far as lanes are shown.
     pub journeys: Vec<Journey>,
     under_way: BTreeMap<i64, Journey>,
 }
@@ -41,8 +41,8 @@ impl Flow {
         Flow { noun, reached: vec![0; hops.len()], hops, legs, ..Flow::default() }
     }
 
-    /// The datum reached the hop at this tick; journeys that begin before tick `shown` are kept for drawing. Data
-    /// that did not come through all hops before are not followed.
+    /// The datum reached the hop at this tick; journeys that begin before tick `shown` are kept for drawing. Data that
+    /// did not pass all hops before are not followed.
     pub(crate) fn reach(&mut self, hop: usize, datum: i64, tick: u64, shown: u64) {
         if hop == 0 {
             self.reached[0] += 1;
@@ -70,13 +70,13 @@ impl Flow {
         self.settle(done.map(|(datum, _)| *datum).collect(), shown);
     }
 
-    /// These go no further: they arrived, or a later one overtook them.
+    /// These journeys have ended: they arrived, or a later one overtook them.
     fn settle(&mut self, done: Vec<i64>, shown: u64) {
         let done = done.into_iter().filter_map(|datum| self.under_way.remove(&datum));
         self.journeys.extend(done.filter(|journey| journey.times[0] < shown));
     }
 
-    /// The run is over: what is under way stays where it is.
+    /// The run is over: data under way stay where they are.
     pub(crate) fn finish(&mut self, shown: u64) {
         let rest = self.under_way.keys().copied().collect();
         self.settle(rest, shown);

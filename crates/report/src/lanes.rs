@@ -1,7 +1,7 @@
-//! Where each lane of the timeline lies: the one layout that the still drawing and the script of the page share.
+//! The place of each lane of the timeline: the one layout that the still drawing and the script of the page share.
 //!
 //! In: a report. Out: lanes from top to bottom with their strips, all lengths in CSS pixels, y from the top of the
-//! first lane. INVARIANT: lanes do not overlap, nor do the strips of a lane, nor headings and lanes.
+//! first lane. INVARIANT: lanes do not overlap. Neither do the strips of a lane, nor headings and lanes.
 
 use crate::report::{Buffer, Report, Series, Task};
 use crate::track::{Curve, Track};
@@ -33,7 +33,7 @@ pub(crate) struct Lane<'a> {
     pub y: f64,
     pub height: f64,
     pub strips: Vec<Strip<'a>>,
-    /// Thin lines across the lane, in front of it or behind it, and their meaning.
+    /// Thin lines across the lane, in the foreground or in the background, and their meaning.
     pub lines: &'a [u64],
     pub line: LineKind,
     /// Crosses: deadlines missed.
@@ -66,7 +66,7 @@ pub(crate) struct Strip<'a> {
 #[derive(Debug)]
 pub(crate) struct Graph<'a> {
     pub curve: &'a Curve,
-    /// The value at the top, and the one at the bottom: 0, or the least where that is below.
+    /// The value at the top, and the one at the bottom: 0, or the least value if that is lower.
     pub top: i64,
     pub low: i64,
     /// Room above the top, for the bound's label: no value is drawn there.
@@ -154,7 +154,7 @@ impl<'a> Graph<'a> {
     /// A series with a scale that holds all its values.
     pub fn of_series(report: &Report, series: &'a Series) -> Graph<'a> {
         let greatest = series.values.greatest().map_or(1, |(greatest, _)| greatest);
-        // A bound far above everything seen would press the curve flat; it is then told, not drawn.
+        // A bound far above all values would press the curve flat; it is then written, not drawn.
         let bound = series.bound.filter(|bound| *bound <= greatest.max(1).saturating_mul(3));
         let low = series.values.least().unwrap_or(0).min(bound.unwrap_or(0)).min(0);
         let top = greatest.max(bound.unwrap_or(0)).max(low + 1).max(if low < 0 { 0 } else { 1 });

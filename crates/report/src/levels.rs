@@ -1,6 +1,6 @@
-//! How long a value stood at each of its levels: counts of ticks by level, negative ones too.
+//! How long a value stood at each of its levels: counts of ticks by level, also negative ones.
 //!
-//! As [`Tally`](crate::Tally) for lengths; means and quantiles come from the counts, so they are exact.
+//! Like [`Tally`](crate::Tally) for lengths. Means and quantiles come from the counts, so they are exact.
 
 use std::collections::BTreeMap;
 
@@ -42,7 +42,7 @@ impl Levels {
         if ticks == 0 { 0.0 } else { total as f64 / ticks as f64 }
     }
 
-    /// The level that is not exceeded in so many of a hundred ticks.
+    /// The level that is not exceeded in this many of a hundred ticks.
     pub fn percentile(&self, percent: u64) -> Option<i64> {
         let wanted = (self.counts.values().sum::<u64>() * percent).div_ceil(100).max(1);
         let mut seen = 0;

@@ -1,9 +1,9 @@
 //! A validated run as one page: timeline, deadlines, waiting, age of data, scenarios, coverage.
 //!
-//! In: a [`Spec`] that says which terms of a model make which lane ([`read_specification`] reads one), their values state by state ([`ReportBuilder`]), and
-//! what a shell adds from elsewhere; or the recorded events of a program ([`ProgramRun`]). Out: [`render_html`] and
-//! [`render_program`], a page in a single file that needs nothing else; [`render_svg`], a still picture; [`summarise`] and
-//! [`summarise_program`], the same in short for a terminal.
+//! In: a [`Spec`] that says which terms of a model make which lane ([`read_specification`] reads one), their values
+//! state by state ([`ReportBuilder`]), and data that a shell adds from elsewhere; or the recorded events of a program
+//! ([`ProgramRun`]). Out: [`render_html`] and [`render_program`], a page in a single file that needs nothing else;
+//! [`render_svg`], a still picture; [`summarise`] and [`summarise_program`], the same in short for a terminal.
 //!
 //! It must not know what a task or a buffer of any model is called, how a model is executed, or a file; the same
 //! report gives the same bytes.

@@ -1,6 +1,6 @@
 //! Text and numbers as they stand in markup.
 //!
-//! INVARIANT: what comes from a model reaches a page through [`Text`] only, so that no name can become markup.
+//! INVARIANT: text from a model reaches a page only through [`Text`], so no name can become markup.
 
 use std::fmt;
 

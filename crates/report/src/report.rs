@@ -1,6 +1,6 @@
 //! A validated run, ready to be shown: lanes, figures, verdicts.
 //!
-//! In: what [`ReportBuilder`](crate::ReportBuilder) saw of a run, and what a shell adds: scenarios, coverage,
+//! In: what [`ReportBuilder`](crate::ReportBuilder) saw of a run, and data that a shell adds: scenarios, coverage,
 //! invariants, facts of the run. Out: the one type that every drawing, table and summary reads. Plain data: nothing
 //! here knows how it is shown.
 
@@ -27,7 +27,7 @@ pub struct Report {
     pub shown: u64,
     /// How many ticks the first view shows.
     pub window: u64,
-    /// What the tasks can be seen to do, in the order of the legend.
+    /// The activities of tasks, in the order of the legend.
     pub activities: Vec<Kind>,
     /// The tasks.
     pub tasks: Vec<Task>,
@@ -45,7 +45,7 @@ pub struct Report {
     pub chart_style: String,
     /// The invariants, and whether each held in every state. Added by the shell.
     pub invariants: Vec<Invariant>,
-    /// Why the run ended before its time, if it did. Added by the shell.
+    /// Why the run ended early, if it did. Added by the shell.
     pub stopped: Option<String>,
     /// The scenarios run beside it. Added by the shell.
     pub scenarios: Vec<Scenario>,
@@ -70,7 +70,7 @@ pub struct Task {
     pub shares: Vec<u64>,
     /// Every waiting, by its length.
     pub waits: Tally,
-    /// Release to completion, of every completed cycle of a task with releases; else completion to completion.
+    /// Release to completion, for every completed cycle of a task with releases; otherwise completion to completion.
     pub cycles: Tally,
     /// Cycles completed.
     pub completed: Option<u64>,
@@ -176,7 +176,7 @@ pub struct Invariant {
     pub name: String,
     /// Where it is declared.
     pub position: String,
-    /// `None`: it held in every state; else where it did not.
+    /// `None`: it held in every state; otherwise where it did not.
     pub violated: Option<String>,
 }
 

@@ -1,8 +1,8 @@
 //! The report specification: which terms of a model make which lane.
 //!
-//! Nothing here knows a robot, a task library or a file format: somebody reads the specification from a file, evaluates
-//! its [`Spec::terms`] in each state, and hands their values to a [`ReportBuilder`](crate::ReportBuilder) as text.
-//! Every field that is optional may stay away; what it would show is then left out.
+//! Nothing here knows a robot, a task library or a file format. The caller reads the specification from a file,
+//! evaluates its [`Spec::terms`] in each state, and hands their values to a [`ReportBuilder`](crate::ReportBuilder) as
+//! text. An optional field may be missing; what it would show is then left out.
 
 use crate::tone::Tone;
 
@@ -60,7 +60,7 @@ pub struct LightsSpec {
     pub term: TermText,
     /// Without it being true, it is nowhere.
     pub when: Option<TermText>,
-    /// For each value the part that is lit, and what that is in words.
+    /// For each value, the part that is lit, and its name in words.
     pub parts: Vec<PartSpec>,
 }
 
@@ -95,7 +95,7 @@ pub struct TaskSpec {
     pub caption: String,
     /// What it is doing.
     pub activity: TermText,
-    /// Its period in ticks, read in the first state; where it is undef, release and deadlines do not count.
+    /// Its period in ticks, read in the first state; if it is undef, release and deadlines do not count.
     pub period: Option<TermText>,
     /// The tick at which its present period began; the period is its deadline.
     pub release: Option<TermText>,
@@ -118,15 +118,15 @@ pub struct BufferSpec {
     pub to: String,
     /// How many arrays it has, read in the first state; without it, as many as are seen.
     pub arrays: Option<TermText>,
-    /// The array that is being written just now, undef when none.
+    /// The array that is being written just now; undef if none.
     pub writing: Option<TermText>,
-    /// The array that is being read just now, undef when none.
+    /// The array that is being read just now; undef if none.
     pub reading: Option<TermText>,
     /// The array the next writing goes to.
     pub write_index: Option<TermText>,
     /// The array the next reading comes from.
     pub read_index: Option<TermText>,
-    /// Who is inside the lock, undef when nobody is.
+    /// The task inside the lock; undef if there is none.
     pub lock: Option<TermText>,
     /// How often the arrays were swapped.
     pub swaps: Option<TermText>,
@@ -195,7 +195,7 @@ pub struct HopSpec {
 }
 
 impl Spec {
-    /// Every term that has to be evaluated, each text once, in the order of the specification.
+    /// Every term that must be evaluated, each text once, in the order of the specification.
     pub fn terms(&self) -> Vec<TermText> {
         let mut terms: Vec<&TermText> = Vec::new();
         for task in &self.tasks {
@@ -234,7 +234,7 @@ impl Spec {
         distinct
     }
 
-    /// What in the specification itself cannot be right, one sentence each.
+    /// What cannot be right in the specification itself, one sentence each.
     pub fn faults(&self) -> Vec<String> {
         let mut faults = Vec::new();
         let mut names: Vec<&str> = Vec::new();

@@ -1,8 +1,8 @@
 //! The file format of report specifications: YAML → [`Spec`], each term with its place.
 //!
-//! Whether the terms fit a model is not known here, nor what the charts hold. Tasks, buffers and queues are given as `each`, a
-//! mapping of names in the model to what is told of them, and `terms`, in which `{}` stands for that name; an entry of `each`
-//! may give a term of its own, or `~` for none.
+//! This module does not know whether the terms fit a model, nor what the charts hold. Tasks, buffers and queues are
+//! given as `each`, a mapping from names in the model to their entries, and `terms`, in which `{}` stands for that
+//! name; an entry of `each` may give a term of its own, or `~` for none.
 
 use std::collections::BTreeMap;
 
@@ -25,7 +25,7 @@ pub fn specification_fault(span: Span, message: impl Into<String>) -> Diagnostic
 pub struct Specification {
     /// What it shows, without the charts.
     pub spec: Spec,
-    /// Where each term stands; one that comes several times stands where it comes first.
+    /// Where each term stands; for a term that comes several times, where it comes first.
     pub places: BTreeMap<String, Span>,
     /// The charts that are to be read and drawn.
     pub charts: Vec<Wanted>,
@@ -38,9 +38,9 @@ pub struct Wanted {
     pub file: String,
     /// Where it is named.
     pub span: Span,
-    /// What is put in for the parameters of its machines: names in the model, and for people.
+    /// The values of its machines' parameters: names in the model, and for people.
     pub each: Vec<(String, String)>,
-    /// The machines to be shown; none: all, always at work.
+    /// The machines to show; none: all of them, always at work.
     pub machines: Vec<WantedMachine>,
 }
 
@@ -266,7 +266,7 @@ impl Reader {
         activities
     }
 
-    /// The lanes of a group; `told` are the keys of an entry that are no terms.
+    /// The lanes of a group; `told` are the keys of an entry that are not terms.
     fn lanes<'a>(&mut self, node: Option<&'a Node>, told: &[&str], terms: &[&str]) -> Vec<Lane<'a>> {
         let group = self.fields(node, &["each", "terms", "counters"]);
         let shared = self.fields(group.get("terms"), terms);
@@ -390,7 +390,7 @@ impl Reader {
                 self.refuse(item.span, "the hop has no `value`: name the term that tells which datum it works on");
                 continue;
             };
-            // The file names tasks as the model does, the page as people do.
+            // The file uses the model's names of tasks; the page uses the names for people.
             let named = match each.map(|node| &node.shape) {
                 Some(Shape::Map(entries)) => Fields(entries).get(&id),
                 _ => None,
@@ -422,6 +422,6 @@ fn nanoseconds(text: &str) -> Option<u64> {
         _ => return None,
     };
     let time = text[..digits].parse::<f64>().ok()? * unit;
-    // Below a nanosecond, or beyond what a run could last, it is a slip.
+    // Below a nanosecond, or beyond what a run could last, it is a mistake.
     (1.0..1e18).contains(&time).then_some(time.round() as u64)
 }

@@ -60,7 +60,7 @@ impl Tally {
         self.counts.keys().next_back().map(|value| (*value, self.greatest_at))
     }
 
-    /// The value that so many of a hundred do not exceed.
+    /// The value that this many of a hundred do not exceed.
     pub fn percentile(&self, percent: u64) -> Option<u64> {
         let wanted = (self.count() * percent).div_ceil(100).max(1);
         let mut seen = 0;
@@ -70,7 +70,7 @@ impl Tally {
         })
     }
 
-    /// The counts in so many bins of equal width: `(first value, counts)` with the width of a bin.
+    /// The counts in this many bins of equal width: `(first value, counts)` with the width of a bin.
     pub fn bins(&self, most: u64) -> (u64, u64, Vec<u64>) {
         let (Some(least), Some((greatest, _))) = (self.least(), self.greatest()) else { return (0, 1, Vec::new()) };
         let width = nice_width((greatest - least + 1).div_ceil(most.max(1)));

@@ -1,9 +1,9 @@
 //! Ticks as time for people.
 //!
-//! In: a number of ticks. Out: text such as `38.4 ms`. One unit is chosen for a whole report, so that figures can be
-//! compared at a glance, with as many decimals as one tick needs. A model without a notion of time counts steps.
+//! In: a number of ticks. Out: text such as `38.4 ms`. A whole report uses one unit, so figures can be compared at a
+//! glance, with as many decimals as one tick needs. A model without a notion of time counts steps.
 
-/// How long a tick is, and so in which unit times are shown.
+/// How long a tick is, and therefore in which unit times are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TimeBase {
     tick_ns: Option<u64>,
@@ -13,7 +13,7 @@ pub struct TimeBase {
 const THIN: char = '\u{202f}';
 
 impl TimeBase {
-    /// A tick lasts so many nanoseconds.
+    /// A tick lasts this many nanoseconds.
     pub fn new(tick_ns: u64) -> TimeBase {
         TimeBase { tick_ns: Some(tick_ns.max(1)) }
     }
@@ -97,7 +97,7 @@ pub fn count(n: u64) -> String {
     grouped(n as f64, 0)
 }
 
-/// A number with so many decimals, its whole part in groups of three.
+/// A number with this many decimals, its whole part in groups of three.
 fn grouped(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let (whole, fraction) = text.split_once('.').map_or((text.as_str(), ""), |(whole, rest)| (whole, rest));

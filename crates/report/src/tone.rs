@@ -1,8 +1,8 @@
 //! Colours by meaning.
 //!
 //! A [`Tone`] is what a span means to the eye; a report specification gives one to each value. The palette follows
-//! Okabe and Ito, so that people who confuse red and green still tell the tones apart, and meaning never hangs on
-//! colour alone: tones also differ in height, and words stand where there is room.
+//! Okabe and Ito, so people who confuse red and green can still tell the tones apart. Meaning never depends on colour
+//! alone: tones also differ in height, and words stand where there is room.
 //!
 //! INVARIANT: every tone has one CSS class, its name, in every drawing.
 
@@ -25,7 +25,7 @@ pub enum Tone {
     Message,
     /// Anything else.
     Other,
-    /// Waiting for somebody else: what a reader looks for first.
+    /// Waiting for another task: a reader looks for this first.
     Wait,
     /// The place where the next reading will happen.
     ReadPlace,
@@ -75,7 +75,7 @@ impl Tone {
         }
     }
 
-    /// The tone for the n-th value that no specification speaks of.
+    /// The tone for the n-th value that no specification mentions.
     pub fn by_order(n: usize) -> Tone {
         [Tone::Work, Tone::Read, Tone::Write, Tone::Hold, Tone::Message, Tone::Other][n % 6]
     }

@@ -92,8 +92,8 @@ pub struct Segment {
 
 /// A value over time, kept without loss in as few segments as it allows.
 ///
-/// A number stands still until it changes: each segment is level. Only a time runs on between two ticks: a curve made by
-/// [`Curve::of_time`] takes ±1 in a tick for a slope.
+/// A number stands still until it changes: each segment is level. Only a time runs on between two ticks: a curve made
+/// by [`Curve::of_time`] takes ±1 in a tick as a slope.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Curve {
     segments: Vec<Segment>,
@@ -141,9 +141,9 @@ impl Curve {
 
     /// The straight pieces as `(start, value at the start, end, value at the end)`.
     ///
-    /// The value of a tick is the one at its end, when its step is done. A ramp therefore is level in its first tick, of
-    /// whose begin it says nothing, and rises from that tick's end on. INVARIANT: both ends of a piece are values that the
-    /// curve was given.
+    /// The value of a tick is the one at its end, when its step is done. A ramp is therefore level in its first tick,
+    /// because it says nothing about that tick's beginning, and rises from the tick's end on. INVARIANT: both ends of a
+    /// piece are values that the curve was given.
     pub fn pieces(&self) -> impl Iterator<Item = (u64, i64, u64, i64)> + '_ {
         self.segments.iter().enumerate().flat_map(|(index, segment)| {
             let end = self.segments.get(index + 1).map_or(self.end, |next| next.start);

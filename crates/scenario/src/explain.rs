@@ -17,7 +17,7 @@ pub struct Reading {
     pub value: Value,
 }
 
-/// LIMIT: so many readings say enough.
+/// LIMIT: this many readings say enough.
 const READINGS: usize = 8;
 
 /// The two sides of an equation.

@@ -1,4 +1,4 @@
-//! What a scenario came to.
+//! The result of a scenario.
 
 use machine::{Fault, Value};
 use syntax::Span;

@@ -42,7 +42,7 @@ fn set(name: &str, values: &[Value]) -> Option<Value> {
 
 type Counts = BTreeMap<Value, u64>;
 
-/// The bag whose counts are those of two bags, put together.
+/// The bag whose counts come from the counts of two bags.
 fn together(a: &Counts, b: &Counts, how: fn(u64, u64) -> u64) -> Counts {
     let count = |of: &Counts, element: &Value| of.get(element).copied().unwrap_or(0);
     let counts = a.keys().chain(b.keys()).map(|element| (element.clone(), how(count(a, element), count(b, element))));
@@ -65,7 +65,7 @@ fn bag(name: &str, values: &[Value]) -> Option<Value> {
     })
 }
 
-/// A set and a bag: the set counts each element once. What they have in common is of the first one's kind.
+/// A set and a bag: the set counts each element once. Their common part is of the first one's kind.
 fn mixed(name: &str, values: &[Value]) -> Option<Value> {
     let as_bag = |set: &BTreeSet<Value>| set.iter().map(|element| (element.clone(), 1)).collect::<Counts>();
     Some(match (name, values) {
@@ -94,7 +94,7 @@ fn map(name: &str, values: &[Value]) -> Option<Value> {
     })
 }
 
-/// The sum of numbers, from the least on; the zero of the domain for no number.
+/// The sum of numbers, from the least on; without numbers, the zero of the domain.
 fn sum(model: &Model, domain: DomainId, elements: &[Value]) -> Outcome {
     let zero = Double::new(0.0).expect("a number");
     let mut total = match model.domains.type_domain(domain) {

@@ -1,7 +1,7 @@
 //! The standard library as functions on values (spec/standard-library.md): the static part of every state.
 //!
-//! In: a library function and the values of its arguments, of which those that must not be undef are not. Out: a value,
-//! or a fault where the function has none. A name may stand for several functions; the kinds of the values tell which.
+//! In: a library function and the values of its arguments; those that must not be undef are not undef. Out: a value, or
+//! a fault if the function has none. A name may stand for several functions; the kinds of the values select one.
 
 mod collection;
 mod number;

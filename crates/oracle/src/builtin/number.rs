@@ -69,7 +69,7 @@ fn integer_binary(name: &str, a: i64, b: i64) -> Option<Outcome> {
     })
 }
 
-/// The product of so many times the base.
+/// The product of this many times the base.
 fn power(base: i64, exponent: i64) -> Outcome {
     if exponent < 0 {
         return Err(Fault::BadOperand(format!("the exponent {exponent} is negative")));
@@ -220,7 +220,7 @@ fn bounded(elements: &[Value], bound: usize) -> Result<(), Fault> {
     if elements.len() > bound { Err(Fault::Limit) } else { Ok(()) }
 }
 
-/// How many decimals the shortest way to write the number has.
+/// The number of decimals in the number's shortest notation.
 fn decimals(number: f64) -> usize {
     number.to_string().split_once('.').map_or(0, |(_, decimals)| decimals.len())
 }

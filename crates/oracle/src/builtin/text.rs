@@ -11,7 +11,7 @@ pub(super) fn apply(model: &Model, name: &str, values: &[Value]) -> Option<Outco
     let string = |text: String| Some(Ok(Value::String(text)));
     let bad = || Fault::BadOperand(format!("{name} of {values:?}"));
     match (name, values) {
-        // Where to print is not the machine's; the value is 1.
+        // Printing is not the machine's task; the value is 1.
         ("print", _) => Some(Ok(Value::Integer(1))),
         ("toString", [Value::String(text)]) => string(text.clone()),
         ("toString", [Value::Char(char)]) => string(char.to_string()),

@@ -1,4 +1,4 @@
-//! What the generators of terms and rules share: the random source, the signature so far, and scopes.
+//! The common part of the generators of terms and rules: the random source, the signature so far, and scopes.
 
 use super::piece::{Piece, Sort};
 use super::random::Random;
@@ -33,7 +33,7 @@ pub(super) struct Scope {
     pub locals: Vec<Function>,
     /// The place is within a rule that the agents run.
     pub agent: bool,
-    /// The place is within the main rule: what runs rules by their values runs no end of them elsewhere.
+    /// The place is within the main rule: elsewhere, rules that run rule values could run without end.
     pub main: bool,
     /// The place is within a turbo rule: it may have local functions.
     pub turbo: bool,
@@ -76,7 +76,7 @@ pub(super) struct Builder {
     pub signature: Signature,
     /// How many loop counters there are.
     pub counters: usize,
-    /// The functions that an initial value may read: seldom one that reads it in turn.
+    /// The functions that an initial value may read: rarely one that reads it in turn.
     pub initialised: Vec<String>,
     /// How many local functions.
     pub locals: usize,
@@ -91,7 +91,7 @@ pub(super) fn leaf(domain: &Type, text: impl Into<String>) -> Piece {
 }
 
 impl Builder {
-    /// A variable's name that is not in scope; names come again in disjoint scopes.
+    /// A variable's name that is not in scope; names recur in disjoint scopes.
     pub fn name(&mut self, scope: &Scope) -> String {
         let names = ["$a", "$b", "$c", "$d", "$e", "$f", "$g", "$h", "$j", "$k", "$l", "$m", "$n", "$p", "$q"];
         let free: Vec<&str> =
@@ -101,7 +101,7 @@ impl Builder {
             .map_or_else(|| format!("$v{}", scope.variables.len()), |name| name.to_string())
     }
 
-    /// A type without structure; of those that can be enumerated only, if wanted.
+    /// A type without structure; if wanted, only one that can be enumerated.
     pub fn simple(&mut self, enumerable: bool) -> Type {
         let choice = if enumerable { self.random.below(6) } else { self.random.below(12) };
         match choice {

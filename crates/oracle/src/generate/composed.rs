@@ -5,7 +5,7 @@ use super::piece::Piece;
 use super::signature::Type;
 
 impl Builder {
-    /// A term made of smaller ones by what the type offers.
+    /// A term made of smaller ones by the operations of its type.
     pub fn composed(&mut self, scope: &Scope, wanted: &Type, depth: u32) -> Piece {
         match wanted {
             Type::Boolean => self.formula(scope, depth),

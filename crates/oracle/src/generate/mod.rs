@@ -1,8 +1,8 @@
-//! Random models, as text: well-typed mostly, some of which clash or fault when they run.
+//! Random models, as text: mostly well-typed; some of them clash or fault when they run.
 //!
-//! In: a seed and a size. Out: a [`Piece`] that prints as an AsmetaL model and can be made smaller. The models use what
-//! the language has: domains of all kinds, functions of all kinds, macro rules called by name (location parameters
-//! too), turbo rules with results and local functions, rule values, agents, invariants, all rules nested in each other.
+//! In: a seed and a size. Out: a [`Piece`] that prints as an AsmetaL model and can be made smaller. The models use the
+//! whole language: domains of all kinds, functions of all kinds, macro rules called by name (with location parameters),
+//! turbo rules with results and local functions, rule values, agents, invariants, all rules nested in each other.
 
 mod builder;
 mod composed;

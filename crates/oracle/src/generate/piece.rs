@@ -1,13 +1,14 @@
-//! A generated text as a tree of pieces, each of a sort: what the reducer cuts at.
+//! A generated text as a tree of pieces, each of a sort; the reducer cuts at these pieces.
 //!
-//! INVARIANT: a piece may stand wherever another of its sort does, as far as the grammar is concerned. So a text is made
-//! smaller by putting a part of a piece, or the least text of its sort, in its place, without knowing the language.
+//! INVARIANT: a piece may stand wherever another of its sort does, as far as the grammar is concerned. So a text can be
+//! made smaller without knowing the language: a piece is replaced by a part of itself, or by the least text of its
+//! sort.
 
 use std::fmt;
 
 use super::signature::Type;
 
-/// What may stand in whose place.
+/// Which pieces may replace each other.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Sort {
     /// Nothing else: the whole text, a binder.

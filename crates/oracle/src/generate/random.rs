@@ -25,7 +25,7 @@ impl Random {
         (self.bits() % bound as u64) as usize
     }
 
-    /// True in so many cases of a hundred.
+    /// True in this many cases of a hundred.
     pub fn percent(&mut self, chance: usize) -> bool {
         self.below(100) < chance
     }

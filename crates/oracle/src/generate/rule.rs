@@ -159,7 +159,7 @@ impl Builder {
         rule(&format!("extend {} with {name} do §", CARRIERS[domain].name), vec![body])
     }
 
-    /// A loop over a counter of its own, or now and then one without.
+    /// A loop over a counter of its own, or occasionally one without.
     fn repeated(&mut self, scope: &Scope, depth: u32) -> Piece {
         let body = self.rule(scope, depth - 1);
         if self.random.percent(10) {

@@ -145,7 +145,7 @@ impl Type {
         }
     }
 
-    /// The least term of the type; none if there may be none.
+    /// The least term of the type; none if it may have none.
     pub fn least(&self) -> Option<String> {
         Some(match self {
             Type::Boolean => "true".to_string(),

@@ -1,4 +1,4 @@
-//! Watches one buffer: which array is written and read, where the indexes stand, who is inside the lock.
+//! Watches one buffer: which array is written and read, where the indexes stand, which task is inside the lock.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::tally::Tally;
 use crate::tone::Tone;
 use crate::track::{Kind, Track};
 
-/// LIMIT: so many arrays get a row of their own.
+/// LIMIT: this many arrays get a row of their own.
 const ROWS: usize = 16;
 
 /// The kinds of a row, by index.

@@ -1,4 +1,4 @@
-//! The present values of the terms, read from their text once, when it changes.
+//! The present values of the terms, read from their text only when it changes.
 //!
 //! INVARIANT: `changed` says whether a term has another value than before the last `settle`.
 
@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Slot(usize);
 
-/// A value: its text's number, and the number it is if it is one. Equal readings are equal texts.
+/// A value: the number of its text, and its numeric value if it has one. Equal readings are equal texts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Reading {
     word: u32,
@@ -54,7 +54,7 @@ impl Readings {
 
     /// A text as a value.
     pub fn read(&mut self, text: &str) -> Reading {
-        // Numbers are told apart by their value, so that a clock does not fill the table of words.
+        // Numbers are told apart by their value, so a clock does not fill the table of words.
         if let Ok(integer) = text.parse() {
             return Reading { word: u32::MAX, integer: Some(integer) };
         }

@@ -19,7 +19,7 @@ pub(super) struct TaskWatch {
     skipped: Option<Slot>,
     /// Value → index of its activity.
     known: Vec<(Reading, u16)>,
-    /// A period has begun whose cycle is not completed.
+    /// A period has begun, and its cycle is not completed.
     open: bool,
     /// Ticks waited so far.
     waiting: u64,
@@ -66,7 +66,7 @@ impl TaskWatch {
         let period = self.period.and_then(|slot| moment.readings.integer(slot));
         self.task.period = period.and_then(|ticks| u64::try_from(ticks).ok()).filter(|ticks| *ticks > 0);
         if self.period.is_some() && self.task.period.is_none() {
-            // Of this kind others have periods; it has none, so neither releases nor deadlines.
+            // Other tasks of this kind have periods; this one has none, so it has neither releases nor deadlines.
             (self.release, self.met, self.missed) = (None, None, None);
         }
         self.note_release(moment);
@@ -114,7 +114,7 @@ impl TaskWatch {
         }
     }
 
-    /// A cycle ends in the step that counts it; its release is the one of the state before.
+    /// A cycle ends in the step that counts it; its release is that of the state before.
     fn note_completion(&mut self, moment: &Moment) {
         let grew = |slot: Option<Slot>| {
             slot.is_some_and(|slot| {

@@ -1,6 +1,6 @@
 //! The charts of the page: pictures in which the script lights where each machine is at a moment of the run.
 //!
-//! Without the script the pictures stand as they are, and a table tells how long each machine was where.
+//! Without the script the pictures do not change, and a table shows how long each machine was in each place.
 
 use crate::html::section;
 use crate::markup::{Text, put};

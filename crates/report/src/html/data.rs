@@ -53,7 +53,7 @@ pub(super) fn run_data(report: &Report) -> String {
     out
 }
 
-/// Where something was in a picture: its parts, and its spans, whose letters are these parts.
+/// Where something was in a picture: its parts, and its spans, whose letters name these parts.
 fn put_lights(out: &mut String, lights: &Lights, index: usize) {
     put!(out, "{}{{\"n\":{},\"parts\":[", comma(index), Json(&lights.name));
     for (index, (part, kind)) in lights.parts.iter().zip(&lights.track.kinds).enumerate() {

@@ -1,4 +1,4 @@
-//! The head of the page: what ran, whether all is well, and the five figures that matter.
+//! The head of the page: what ran, whether it is as it should be, and the five figures that matter.
 
 use crate::html::go;
 use crate::markup::{Text, put};

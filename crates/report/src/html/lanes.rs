@@ -9,7 +9,7 @@ use crate::tone::Tone;
 
 /// Width of the still drawings.
 const WIDTH: f64 = 1120.0;
-/// LIMIT: the run to scroll through ends after so many spans.
+/// LIMIT: the run to scroll through ends after this many spans.
 const SPANS: usize = 60_000;
 
 /// Writes the section.
@@ -47,7 +47,7 @@ pub(super) fn timeline_section(out: &mut String, report: &Report) {
 
 fn legend(out: &mut String, report: &Report) {
     let mut activities: Vec<(String, &str)> = Vec::new();
-    // What nobody ever does needs no key.
+    // An activity that never occurs needs no key.
     let done = |index: usize| report.tasks.iter().any(|task| task.shares.get(index).is_some_and(|ticks| *ticks > 0));
     for (_, kind) in report.activities.iter().enumerate().filter(|(index, _)| done(*index)) {
         let outline = if kind.tone == Tone::Idle { " outlined" } else { "" };

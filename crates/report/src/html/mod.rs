@@ -1,8 +1,8 @@
 //! The page: one file, style and script inside, nothing fetched.
 //!
 //! Everything can be read without the script: the first window of the timeline as a still drawing, the whole run to
-//! scroll through, every figure in a table. The script adds zooming, moving and reading off. The markup is well-formed
-//! XML as well, but for the doctype and what stands in `style` and `script`.
+//! scroll through, every figure in a table. The script adds zooming, moving and reading off. The markup is also
+//! well-formed XML, except for the doctype and the contents of `style` and `script`.
 
 mod charts;
 mod data;
@@ -71,7 +71,7 @@ fn open(out: &mut String, title: &str, style: &str) {
     put!(out, "<style>\n{}{}{style}</style>\n</head>\n<body>\n", include_str!("page.css"), svg_css());
 }
 
-/// The lanes as data, and what draws other windows of them.
+/// The lanes as data, and the script that draws other windows of them.
 fn scripts(out: &mut String, data: &str, more: &str) {
     put!(out, "<script type=\"application/json\" id=\"run\">\n{data}</script>\n");
     put!(out, "<script>\n{}{}{more}</script>\n", include_str!("draw.js"), include_str!("explore.js"));

@@ -1,7 +1,7 @@
 //! The page of a program's runs: verdicts, what the camera saw, error, set-points, timeline, wake-ups, age, deadlines.
 //!
-//! In: a [`Program`]. Out: a page as [`render_html`](crate::render_html) makes of a model's run: one file, nothing fetched.
-//! The first run is shown in detail; of all runs the figures stand side by side.
+//! In: a [`Program`]. Out: a page like the one that [`render_html`](crate::render_html) makes of a model's run: one
+//! file, nothing fetched. The first run is shown in detail; the figures of all runs stand side by side.
 
 use crate::html::{data, lanes, section, verdicts};
 use crate::markup::{Base64, Text, put};
@@ -155,7 +155,7 @@ fn joints(out: &mut String, world: &ClosedLoop) {
     out.push_str("</div>\n</section>\n");
 }
 
-/// What tells the runs apart in a picture; one alone needs no telling.
+/// How a picture tells the runs apart; a single run needs no such mark.
 fn key(out: &mut String, program: &Program) {
     if program.runs.len() < 2 {
         return;
@@ -190,7 +190,7 @@ fn spread(out: &mut String, program: &Program, name: &str, caption: &str, axis: 
     out.push_str("</tbody></table></figure>\n");
 }
 
-/// The one value of all runs, where there is only one: nothing to be drawn.
+/// The common value of all runs, if there is only one; then there is nothing to draw.
 fn always(tallies: &[&Tally]) -> Option<u64> {
     let least = tallies.iter().filter_map(|tally| tally.least()).min()?;
     let most = tallies.iter().filter_map(|tally| tally.greatest()).map(|(most, _)| most).max()?;
@@ -209,7 +209,7 @@ fn wake_ups(out: &mut String, program: &Program) {
         |tallies: &[&Tally]| tallies.iter().all(|tally| tally.greatest().is_none_or(|(most, _)| most == 0));
     let timed: Vec<&TaskTiming> =
         first.tasks.iter().filter(|task| of(&task.name).iter().any(|t| !t.is_empty())).collect();
-    // Where nobody ever was late there is nothing to be drawn; the table of deadlines says so.
+    // If no task ever was late there is nothing to draw; the table of deadlines says so.
     if timed.iter().all(|task| never_late(&of(&task.name))) {
         return;
     }

@@ -1,7 +1,7 @@
 //! How old data are when they are read.
 //!
-//! In: a recording. Out: for each channel the [`ChannelAge`]: at every reading that finds a datum, new or seen before, the time
-//! since its producer began to write it, or sent it. INVARIANT: a datum is known by channel and number.
+//! In: a recording. Out: for each channel the [`ChannelAge`]: for every reading that finds a datum, new or seen before,
+//! the time since its producer began to write it, or sent it. INVARIANT: a datum is known by channel and number.
 
 use std::collections::BTreeMap;
 
@@ -9,14 +9,14 @@ use recording::{Kind, Recording};
 
 use crate::program::{ChannelAge, length};
 
-/// Ages by channel. Channels nobody reads have none.
+/// Ages by channel. Channels that no task reads have none.
 pub(super) fn channels(recording: &Recording) -> Vec<ChannelAge> {
     let mut written: BTreeMap<(&str, u64), i64> = BTreeMap::new();
     let mut producers: BTreeMap<&str, &str> = BTreeMap::new();
     for track in &recording.tracks {
         for event in &track.events {
             if matches!(event.kind, Kind::Writes | Kind::Sends | Kind::Stores) {
-                // A datum that was begun again, the one before not having been handed over, keeps its number.
+                // If a writing begins again because the datum before was not handed over, the datum keeps its number.
                 written.insert((&event.object, event.number), recording.instant_ns(event));
                 producers.insert(&event.object, &track.task);
             }

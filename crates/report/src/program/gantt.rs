@@ -1,8 +1,8 @@
 //! What each task did at each moment of a recorded run, as the lanes of a [`Report`].
 //!
-//! In: a recording. Out: lanes of tasks, each a [`Track`] of its phases. What a phase is told by what happens in it: one with
-//! readings reads, one with writings writes, one without either elaborates. INVARIANT: the intervals of a task are in order
-//! and do not overlap.
+//! In: a recording. Out: lanes of tasks, each a [`Track`] of its phases. The events in a phase decide what it is: a
+//! phase with readings reads, one with writings writes, one without either elaborates. INVARIANT: the intervals of a
+//! task are in order and do not overlap.
 
 use std::collections::BTreeMap;
 
@@ -65,7 +65,7 @@ pub(super) fn lanes(recording: &Recording, timing: &[TaskTiming], span_ns: u64) 
         })
         .collect();
     let waits = tasks.iter().any(|task| !task.waits.is_empty());
-    // What never happens needs no place in the legend; kinds keep their numbers.
+    // A kind that never occurs needs no place in the legend; kinds keep their numbers.
     let mut activities = kinds;
     if !waits {
         activities.pop();
@@ -173,7 +173,7 @@ fn activities(recording: &Recording) -> BTreeMap<&str, Activity> {
     found
 }
 
-/// By channel, who was inside its lock and when, in order.
+/// By channel, which task was inside its lock and when, in order.
 fn held(recording: &Recording) -> BTreeMap<&str, Vec<(i64, i64, &str)>> {
     let mut found: BTreeMap<&str, Vec<(i64, i64, &str)>> = BTreeMap::new();
     for track in &recording.tracks {
@@ -295,7 +295,7 @@ mod tests {
             found.iter().map(|i| (i.from_ns / 1_000_000, i.to_ns / 1_000_000, i.activity)).collect::<Vec<_>>()
         };
         assert_eq!(of(0), [(0, 3, Activity::Reads), (3, 5, Activity::Elaborates)]);
-        // Asked at 2, the other one left at 3; then it is at its own work.
+        // It asked at 2, and the other one left at 3; then it is at its own work.
         assert_eq!(of(1), [(1, 2, Activity::Writes), (2, 3, Activity::Waits), (3, 6, Activity::Writes)]);
     }
 

@@ -1,8 +1,8 @@
-//! What a running program did, ready to be shown: its tasks' timing, the age of data, what a closed loop came to.
+//! What a running program did, ready to be shown: its tasks' timing, the age of data, the result of a closed loop.
 //!
-//! In: a [`Recording`] of its events ([`ProgramRun::of`]), and what a shell adds: the verdict on them, what the controlled
-//! world did ([`ClosedLoop`]). Out: plain data, which [`render_program`](crate::render_program) shows. All lengths of time
-//! are in nanoseconds and exact.
+//! In: a [`Recording`] of its events ([`ProgramRun::of`]), and data that a shell adds: the verdict on them, what the
+//! controlled world did ([`ClosedLoop`]). Out: plain data, which [`render_program`](crate::render_program) shows. All
+//! lengths of time are in nanoseconds and exact.
 
 mod age;
 mod gantt;
@@ -52,10 +52,10 @@ pub struct ProgramRun {
     pub closed_loop: Option<ClosedLoop>,
 }
 
-/// How a recording stands to the model.
+/// How a recording compares with the model.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Held {
-    /// True: it conforms. False: the two part. None: not known.
+    /// True: it conforms. False: the two differ. None: not known.
     pub conforms: Option<bool>,
     /// In a sentence.
     pub words: String,
@@ -78,9 +78,9 @@ pub struct TaskTiming {
     pub missed: Option<u64>,
     /// Accesses given up by the watchdog.
     pub skips: u64,
-    /// From when a cycle was due, or began where nothing says when it was due, to its end.
+    /// From when a cycle was due (or began, if nothing says when it was due) to its end.
     pub responses: Tally,
-    /// From when a cycle was due, or its data were there while the task rested, to its begin.
+    /// From when a cycle was due, or its data were there while the task rested, to its beginning.
     pub wake_ups: Tally,
 }
 
@@ -93,7 +93,7 @@ pub struct ChannelAge {
     pub from: String,
     /// Who reads.
     pub to: String,
-    /// From the begin of a datum's writing to each of its readings.
+    /// From the beginning of a datum's writing to each of its readings.
     pub ages: Tally,
 }
 
@@ -102,7 +102,7 @@ pub struct ChannelAge {
 pub struct ClosedLoop {
     /// How it ended, in a sentence.
     pub end: String,
-    /// Whether the last goal was reached, or what had to happen instead; none: that is not judged.
+    /// Whether the last goal was reached, or the required reaction happened instead; none: that is not judged.
     pub reached: Option<bool>,
     /// Width and height of an image in pixels.
     pub image: (f64, f64),
@@ -110,13 +110,13 @@ pub struct ClosedLoop {
     pub goals_s: Vec<f64>,
     /// Below this error a goal is reached.
     pub bound: Option<f64>,
-    /// The norm of the features' error: seconds, and the error where there is one.
+    /// The norm of the features' error: seconds, and the error if there is one.
     pub error: Vec<(f64, Option<f64>)>,
     /// What the camera saw.
     pub views: Vec<View>,
     /// The joints.
     pub joints: Vec<Joint>,
-    /// How old the image behind what a task used was.
+    /// How old the image was from which the task's data came.
     pub image_ages: Vec<(String, Tally)>,
 }
 
@@ -159,7 +159,7 @@ impl ProgramRun {
         }
     }
 
-    /// How long it was, in words; of a long one the part of a cycle that is left over at the end is not told.
+    /// How long it was, in words; for a long run, without the part of a cycle that is left over at the end.
     pub(crate) fn span(&self) -> String {
         const TENTH_NS: u64 = 100_000_000;
         let exact = self.span_ns < 10 * TENTH_NS;
@@ -183,7 +183,7 @@ impl Program {
     }
 }
 
-/// Said of a run whose recording is not whole.
+/// Text for a run whose recording is not whole.
 pub(crate) const LOSSY: &str = "events are missing in the recording; the figures are of those before";
 
 /// A length of time that is no negative one.

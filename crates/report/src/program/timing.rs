@@ -1,8 +1,8 @@
 //! When the cycles of each task were due, began and ended.
 //!
-//! In: a recording. Out: [`TaskTiming`]s. A cycle of a synchronous task is due at its offset and a period after another;
-//! an asynchronous task is due when its producer lets go of the data that it awaits, if it rested then: what comes while it is
-//! at work wakes nobody.
+//! In: a recording. Out: [`TaskTiming`]s. A cycle of a synchronous task is due at its offset and a period after
+//! another; an asynchronous task is due when its producer lets go of the data that it awaits, if it rested then: data
+//! that come while it works do not wake it.
 
 use recording::{Kind, Recording, Track};
 
@@ -32,7 +32,7 @@ fn task(recording: &Recording, track: &Track) -> TaskTiming {
             Some(rhythm) => Some(rhythm.offset_ns + rhythm.period_ns.saturating_mul(cycle.number as i64)),
             None => {
                 let come = arrivals.partition_point(|time| *time <= cycle.begun_ns);
-                // The first that came while it rested is what it woke for.
+                // It woke for the first datum that came while it rested.
                 arrivals[..come].iter().copied().skip_while(|time| *time < rested_ns).find(|_| true)
             }
         };
@@ -61,7 +61,7 @@ fn arrivals(recording: &Recording, reader: &Track, channel: &str) -> Vec<i64> {
     times
 }
 
-/// A cycle: done is when its last phase ended, or when the deadline was looked at; none: it was cut off.
+/// A cycle: it is done when its last phase ended, or when the deadline was checked; none: it was cut off.
 struct Cycle {
     number: u64,
     begun_ns: i64,
@@ -137,7 +137,7 @@ mod tests {
             events: vec![
                 event(5, "releases", "frames", 0),
                 event(8, "releases", "other", 0),
-                // While the reader is at work: nobody wakes.
+                // While the reader is at work: it does not wake.
                 event(40, "releases", "frames", 0),
                 event(90, "releases", "frames", 0),
                 event(95, "releases", "frames", 0),

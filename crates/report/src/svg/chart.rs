@@ -29,7 +29,7 @@ pub(crate) fn histogram(tally: &Tally, time: TimeBase, tone: &str, title: &str) 
     let mut out = String::new();
     open(&mut out, "histogram", width, height, title);
     let most = bins.iter().copied().max().unwrap_or(1).max(1);
-    // From zero when that is not far: lengths are then compared by eye.
+    // From zero if that is not far: lengths are then compared by eye.
     let lead = if first / step <= 4 { first / step } else { 0 };
     let slots = (lead + bins.len() as u64).max(6) as f64;
     let pitch = (width / slots).min(36.0);
@@ -62,7 +62,7 @@ pub(crate) fn histogram(tally: &Tally, time: TimeBase, tone: &str, title: &str) 
     out
 }
 
-/// Each leg of a flow and the whole way: from the least to the greatest time a line, the mean a dot.
+/// Each leg of a flow and the whole way: a line from the least to the greatest time, and a dot for the mean.
 pub(crate) fn legs(flow: &Flow, time: TimeBase) -> String {
     let rows: Vec<(String, &Tally, &str)> = flow
         .legs

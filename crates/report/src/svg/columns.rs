@@ -1,8 +1,7 @@
 //! How time divides among the tones, column by column, where single spans would be finer than the eye.
 //!
-//! Columns begin at multiples of their length, so that moving the window does not change them; the columns of a task
-//! with a short period hold whole periods, so that the pattern of the task and that of the columns do not interfere.
-//! SYNC(drawing)
+//! Columns begin at multiples of their length, so moving the window does not change them. The columns of a task with a
+//! short period hold whole periods, so the pattern of the task and that of the columns do not interfere. SYNC(drawing)
 
 use crate::svg::view::View;
 use crate::tone::Tone;

@@ -1,7 +1,7 @@
-//! How often a length of time occurs, of several runs in one picture: the first one as bars, the others as outlines.
+//! How often a length of time occurs, for several runs in one picture: the first one as bars, the others as outlines.
 //!
-//! The scale is linear, or by decades where the greatest lies far above what is usual; unit and bins are the same for all
-//! runs, heights are shares of each run's own count.
+//! The scale is linear, or by decades if the greatest value lies far above the usual ones; unit and bins are the same
+//! for all runs, heights are shares of each run's own count.
 
 use crate::markup::{Px, Text, put};
 use crate::svg::scale::{Scale, label};
@@ -23,10 +23,10 @@ const FEWEST: u64 = 8;
 const FINEST: u64 = 2_000;
 /// Bins of a decade.
 const PER_DECADE: u32 = 6;
-/// A greatest value so many times the median makes decades.
+/// The scale is by decades if the greatest value is this many times the median.
 const FAR: u64 = 10;
 
-/// The unit in which lengths up to this one are told, and its nanoseconds.
+/// The unit for lengths up to this one, and its nanoseconds.
 pub(crate) fn unit(most_ns: u64) -> (&'static str, f64) {
     match most_ns {
         0..2_000 => ("ns", 1.0),
@@ -69,10 +69,10 @@ fn edges(tallies: &[&Tally]) -> (Vec<f64>, bool) {
         let edge = |index: u32| 10f64.powf(f64::from(first) + f64::from(index) / f64::from(PER_DECADE));
         return ((0..=count).map(edge).collect(), true);
     }
-    // From zero where that is not far, so that lengths are compared by eye.
+    // From zero if that is not far, so lengths can be compared by eye.
     let least = tallies.iter().filter_map(|tally| tally.least()).min().unwrap_or(0);
     let from = if least < most / 2 { 0 } else { least };
-    // No finer than its labels can tell: lengths that hardly differ have few bins in the middle of the scale.
+    // No finer than its labels: lengths that hardly differ have few bins in the middle of the scale.
     let width = nice((most - from + 1).div_ceil(BINS).max(most / FINEST));
     let (first, count) = (from / width, most / width + 1 - from / width);
     let room = FEWEST.saturating_sub(count);
@@ -86,7 +86,7 @@ fn nice(least: u64) -> u64 {
     powers.flat_map(|power| [1, 2, 5].map(|factor| power.saturating_mul(factor))).find(|w| *w >= least).unwrap_or(least)
 }
 
-/// What share of the values lies in each bin; what lies below the first edge is put into the first bin.
+/// The share of the values in each bin; values below the first edge go into the first bin.
 fn shares(tally: &Tally, edges: &[f64]) -> Vec<f64> {
     let mut shares = vec![0.0; edges.len().saturating_sub(1)];
     let all = tally.count().max(1) as f64;
@@ -157,7 +157,7 @@ pub(crate) fn distribution(tallies: &[&Tally], title: &str, axis: &str) -> Strin
         put!(out, "<path class=\"run{index}\" d=\"{path}\"/>\n");
     }
     put!(out, "<path class=\"base\" d=\"M{} {BASE}H{}\"/>\n<g class=\"ticks\">", Px(LEFT), Px(pixels.1));
-    // What lies below the first edge stands in the first bin.
+    // Values below the first edge are in the first bin.
     let below = tallies.iter().any(|tally| tally.least().is_some_and(|least| (least as f64) < edges[0]));
     for (index, value) in x.ticks(46.0).into_iter().enumerate() {
         let text = format!("{}{}", if below && index == 0 { "\u{2264}\u{202f}" } else { "" }, label(value));

@@ -6,7 +6,7 @@ use crate::svg::view::View;
 use crate::time::TimeBase;
 use crate::track::Curve;
 
-/// More pieces a pixel than this are drawn by their extremes.
+/// With more pieces in a pixel than this, their extremes are drawn.
 const FINE: f64 = 2.0;
 
 /// A straight piece within a view: x and value of both ends.
@@ -92,7 +92,7 @@ pub(crate) fn graph(out: &mut String, graph: &Graph, view: &View, y: f64, height
 mod tests {
     use super::*;
 
-    /// The corners of a line, whose place is the value itself.
+    /// The corners of a line; their place is the value itself.
     fn corners(line: &str) -> Vec<(f64, f64)> {
         let corner = |pair: &str| {
             let (x, y) = pair.split_once(' ').expect("two numbers");
@@ -151,7 +151,7 @@ mod tests {
                 if crowded || of_time {
                     continue;
                 }
-                // Within a tick the line lies level at the tick's value, or there is none.
+                // Within a tick the line is level at the tick's value, or there is no line.
                 let corners = corners(&line);
                 for tick in from..to {
                     let x = view.x(tick) + view.scale() / 2.0;

@@ -1,8 +1,8 @@
 //! Drawings as SVG text: the timeline of a window, the overview of a run, small charts.
 //!
-//! In: a report. Out: markup whose look comes from CSS classes only, so that light, dark and print differ in the
-//! style sheet alone. The script of the page draws other windows of the same lanes in the same way; SYNC(drawing):
-//! `strip.rs`, `axis.rs`, `graph.rs` and `timeline.rs` here, `draw.js` there.
+//! In: a report. Out: markup whose look comes only from CSS classes, so light, dark and print differ only in the style
+//! sheet. The script of the page draws other windows of the same lanes in the same way; SYNC(drawing): `strip.rs`,
+//! `axis.rs`, `graph.rs` and `timeline.rs` here, `draw.js` there.
 
 mod axis;
 mod chart;
@@ -51,7 +51,7 @@ pub(crate) fn svg_css() -> String {
     format!("{}{}", include_str!("drawing.css"), tone_css())
 }
 
-/// The timeline of a window as a picture of its own, light or dark as the reader's system is.
+/// The timeline of a window as a picture of its own, light or dark like the reader's system.
 ///
 /// ```
 /// let mut builder = report::ReportBuilder::new(report::Spec::default());

@@ -1,4 +1,4 @@
-//! The whole run in a strip: how busy each task was, and where anybody waited. The script lays a window over it.
+//! The whole run in a strip: how busy each task was, and where a task waited. The script lays a window over it.
 
 use crate::lanes::Graph;
 use crate::markup::{Px, put};
@@ -21,7 +21,7 @@ const SHADES: usize = 4;
 /// The strip's own width; the page stretches it.
 pub(crate) const WIDTH: f64 = 1000.0;
 
-/// The strip as an element: a row for each task, and the first value over time. The first view is marked by a frame.
+/// The strip as an element: a row for each task, and the first value over time. A frame marks the first view.
 pub(crate) fn overview(report: &Report) -> String {
     let view = View::plain(0, report.shown.max(1), WIDTH);
     let rows = report.tasks.len() as f64 * (ROW + GAP);

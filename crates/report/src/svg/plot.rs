@@ -72,7 +72,7 @@ fn line(points: impl Iterator<Item = (f64, Option<f64>)>, x: &Scale, y: &Scale) 
     let mut column: Vec<(f64, f64)> = Vec::new();
     let mut joined = false;
     let flush = |path: &mut String, column: &mut Vec<(f64, f64)>, joined: &mut bool| {
-        // Of a column its first and last point, and its extremes, in their order.
+        // For each column its first and last point, and its extremes, in their order.
         let by = |better: fn(f64, f64) -> bool| {
             (0..column.len()).reduce(|best, at| if better(column[at].1, column[best].1) { at } else { best })
         };
@@ -102,7 +102,7 @@ fn line(points: impl Iterator<Item = (f64, Option<f64>)>, x: &Scale, y: &Scale) 
     path
 }
 
-/// The norm of the error, by decades, with the goals and what counts as reached.
+/// The norm of the error, by decades, with the goals and the bound below which a goal counts as reached.
 pub(crate) fn error_norm(world: &ClosedLoop) -> String {
     let frame = Frame { width: 1120.0, height: 250.0, left: 52.0, right: 16.0, top: 24.0, bottom: 26.0 };
     let values = || world.error.iter().filter_map(|(_, error)| *error).filter(|error| *error > 0.0);
@@ -142,7 +142,7 @@ pub(crate) fn error_norm(world: &ClosedLoop) -> String {
     out
 }
 
-/// A joint: where it was to be, and below it, paler and broader, where it was.
+/// A joint: where it should have been, and below that, paler and broader, where it was.
 pub(crate) fn joint(joint: &Joint) -> String {
     let frame = Frame { width: 340.0, height: 140.0, left: 52.0, right: 14.0, top: 10.0, bottom: 26.0 };
     let values = || joint.set.iter().chain(&joint.measured).map(|(_, value)| *value);

@@ -32,7 +32,7 @@ impl Scale {
         self.start + share * (self.end - self.start)
     }
 
-    /// Round values to label, at least so many pixels apart; of decades all or every second one, …
+    /// Round values to label, at least this many pixels apart; of decades all or every second one, …
     pub fn ticks(&self, apart: f64) -> Vec<f64> {
         let room = ((self.end - self.start).abs() / apart).max(1.0);
         if self.log {
@@ -49,7 +49,7 @@ impl Scale {
     }
 }
 
-/// A number as it stands at an axis: no needless zeros, small powers of ten as such.
+/// A number as it appears at an axis: no needless zeros, small powers of ten as such.
 pub(crate) fn label(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();

@@ -49,7 +49,7 @@ impl View {
         self.x(tick.clamp(self.start, self.end))
     }
 
-    /// Those of some ticks in order that lie in the window; none when they would be closer than so many pixels.
+    /// Those of some ticks in order that lie in the window; none if they would be closer than this many pixels.
     pub fn visible<'a>(&self, ticks: &'a [u64], least: f64) -> &'a [u64] {
         let from = ticks.partition_point(|tick| *tick < self.start);
         let to = ticks.partition_point(|tick| *tick <= self.end);

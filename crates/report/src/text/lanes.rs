@@ -51,7 +51,7 @@ pub(super) fn lanes(out: &mut String, report: &Report, options: &SummaryOptions)
     out.push('\n');
 }
 
-/// The next of 1, 2, 5, 10, … so that columns begin at round times; the lanes then end where the line does.
+/// The next of 1, 2, 5, 10, … so columns begin at round times; the lanes then end where the line does.
 fn round(least: u64) -> u64 {
     let powers = (0..18).map(|power| 10u64.pow(power));
     powers.flat_map(|power| [1, 2, 5].map(|factor| factor * power)).find(|per| *per >= least).unwrap_or(least.max(1))

@@ -1,7 +1,7 @@
 //! The report in short, for a terminal: verdict, lanes, tables, all in plain lines of text.
 //!
-//! A lane's block is as high as the task is busy in its column; a cross stands where it waited. Colour, when wanted,
-//! tells what it did most. A buffer's lane shows which array is on the reader's side.
+//! The height of a lane's block shows how busy the task is in its column; a cross stands where it waited. Colour, if
+//! wanted, shows what it did most. A buffer's lane shows which array is on the reader's side.
 
 mod lanes;
 mod program;
@@ -60,7 +60,7 @@ pub fn summarise(report: &Report, options: &SummaryOptions) -> String {
     verdicts(&mut lines, report);
     out.push_str(&lines.render("", true));
     verdict(&mut out, report, options);
-    // Narrow blanks are one column wide everywhere only as ordinary ones.
+    // Only ordinary blanks are one column wide everywhere, so narrow ones become ordinary.
     out.replace('\u{202f}', " ")
 }
 

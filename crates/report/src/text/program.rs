@@ -50,7 +50,7 @@ pub fn summarise_program(program: &Program, options: &RunSummary) -> String {
     out.replace('\u{202f}', " ")
 }
 
-/// The columns: of responses and wake-ups what 99 of 100 do not exceed, and the worst.
+/// The columns: for responses and wake-ups, what 99 of 100 do not exceed, and the worst.
 const HEAD: [&str; 9] =
     ["task", "period", "activations", "missed", "skipped", "response p99", "worst", "wake-up p99", "worst"];
 
