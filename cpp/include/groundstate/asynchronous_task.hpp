@@ -1,8 +1,8 @@
 // An asynchronous task: woken by data, one cycle each time there is something to do.
 //
-// Whatever it awaits raises its `trigger()`: a swinging buffer or a message queue by `wakes`. It then asks `available`,
-// which says whether there is something to do, and steps until there is not. It never polls. Waiting for data is its
-// rest, and has no bound; waiting for locks within a cycle has the watchdog's.
+// What it awaits raises its `trigger()`: a swinging buffer or a message queue does so by `wakes`. The task then asks
+// `available` whether there is something to do, and steps until there is not. It never polls. Waiting for data is its
+// rest, and has no bound; waiting for locks within a cycle has the watchdog's bound.
 #pragma once
 
 #include <cassert>
@@ -18,8 +18,8 @@ class AsynchronousTask {
   public:
     using Available = std::function<bool()>;
 
-    /// `patience_ns`, not 0, is the time that one cycle may spend waiting. A step takes what made `available` true,
-    /// or it is called again at once. Who: whoever builds the system. Allocates: yes.
+    /// `patience_ns`, not 0, is the time that one cycle may spend waiting. A step must take what made `available` true;
+    /// otherwise it is called again at once. Who: the builder of the system. Allocates: yes.
     AsynchronousTask(C& clock, std::string name, std::int64_t patience_ns, Available available, Step step,
                      const Schedule& schedule = {})
         : clock_{clock},
@@ -33,18 +33,18 @@ class AsynchronousTask {
 
     ~AsynchronousTask() { stop(); }
 
-    /// What wakes the task. Who: whoever builds the system, before the tasks start.
+    /// What wakes the task. Who: the builder of the system, before the tasks start.
     Signal<C>& trigger() noexcept { return trigger_; }
 
     /// No cycle begins before the origin: tasks started with one origin begin together.
-    /// Who: the owner, once. Allocates: yes. Throws: std::system_error if there is no thread to be had.
+    /// Who: the owner, once. Allocates: yes. Throws: std::system_error if no thread can be started.
     void start(std::int64_t origin_ns = 0) {
         thread_.start([this, origin_ns] { run(origin_ns); });
     }
 
-    /// No cycle begins any more. Who: everybody. Blocks: no.
+    /// No cycle begins any more. Who: any thread. Blocks: no.
     void ask_to_stop() noexcept {
-        // SYNC(stop): relaxed, before the signal: who is woken by it sees it.
+        // SYNC(stop): relaxed, before the signal: a thread that the signal wakes sees it.
         stop_.store(true, std::memory_order_relaxed);
         trigger_.raise();
     }
@@ -55,7 +55,7 @@ class AsynchronousTask {
         thread_.join();
     }
 
-    /// Who: everybody. Blocks: no.
+    /// Who: any thread. Blocks: no.
     const Statistics& statistics() const noexcept { return statistics_; }
     const Watchdog& watchdog() const noexcept { return watchdog_; }
     const TaskThread<C>& thread() const noexcept { return thread_; }

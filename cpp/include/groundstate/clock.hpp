@@ -1,10 +1,10 @@
 // Time and waiting, in nanoseconds.
 //
 // A Clock tells the time, sleeps until an instant, and waits while a word keeps its value. The runtime waits in no
-// other way, so that what runs in real time runs unchanged in virtual time (virtual_clock.hpp): every class below
-// takes its clock as a parameter. MonotonicClock is the one of a running robot: CLOCK_MONOTONIC, clock_nanosleep, and
-// the futex of Linux, which is what POSIX lacks: a wait for a word, on an absolute monotonic instant, that costs the
-// waker nothing while nobody waits.
+// other way, so a program for real time runs unchanged in virtual time (virtual_clock.hpp): every class below takes its
+// clock as a parameter. A running robot uses MonotonicClock: CLOCK_MONOTONIC, clock_nanosleep, and the futex of Linux.
+// POSIX has no such wait for a word, until an absolute monotonic instant, that costs the waker nothing while no thread
+// waits.
 #pragma once
 
 #include <cerrno>
@@ -33,15 +33,15 @@ constexpr std::int64_t later_ns(std::int64_t start_ns, std::int64_t span_ns) noe
     return span_ns >= never_ns - start_ns ? never_ns : start_ns + span_ns;
 }
 
-/// What tells the time and waits.
+/// A clock tells the time and waits.
 ///
 ///     now_ns()                       the time since some beginning; never goes back
 ///     sleep_until_ns(instant)        returns at the instant or after it
 ///     wait_while(word, seen, until)  returns when the word has changed, at the instant, or for no reason at all: the
 ///                                    caller looks again at what it waits for
-///     wake(word)                     after a change of the word: those who wait for it go on
-///     enter(rank), leave()           the calling thread begins and ends to live by this clock; of those who are ready
-///                                    at one instant of virtual time the least rank goes first
+///     wake(word)                     after a change of the word: threads that wait for it go on
+///     enter(rank), leave()           the calling thread begins and ends to live by this clock; of the threads ready at
+///                                    one instant of virtual time, the one with the least rank goes first
 ///
 /// All may be called by any thread. None allocates.
 template <class C>
@@ -54,8 +54,8 @@ concept Clock = requires(C& clock, const C& face, Word& word, std::uint32_t seen
     { clock.leave() } noexcept;
 };
 
-/// Linux's futex. An instant is given to the kernel in the form that the call's number asks for: where `long` has 32 bits and
-/// the C library's time 64, the call of old would take half an instant for a whole one.
+/// Linux's futex. The kernel gets an instant in the form that the call's number asks for: where `long` has 32 bits and
+/// the C library's time has 64, the old call would take half an instant for a whole one.
 class Futex {
   public:
     static constexpr std::int64_t second_ns = 1'000'000'000;
@@ -106,7 +106,7 @@ class MonotonicClock {
 
     /// Blocks: at most until the instant.
     void wait_while(Word& word, std::uint32_t seen, std::int64_t until_ns) noexcept {
-        // The result is not looked at: a wait may end for no reason.
+        // The result is ignored: a wait may end for no reason.
         Futex::call(word, FUTEX_WAIT_BITSET_PRIVATE, seen, until_ns, FUTEX_BITSET_MATCH_ANY);
     }
 
@@ -120,7 +120,7 @@ class MonotonicClock {
     void leave() noexcept {}
 
   private:
-    // A template, so that no compiler calls the cast useless where both types are one.
+    // A template, so that no compiler calls the cast useless where both types are the same.
     template <class Time = decltype(timespec::tv_sec)>
     static timespec split(std::int64_t instant_ns) noexcept {
         return {.tv_sec = static_cast<Time>(instant_ns / Futex::second_ns), .tv_nsec = instant_ns % Futex::second_ns};

@@ -1,7 +1,7 @@
-// Counters that one thread advances and every thread may look at.
+// Counters that one thread advances and every thread may read.
 //
-// Statistics never cost a control task a locked instruction: there is one writer, so a load and a store do for an
-// increment. Each value is whole; several of them together are a snapshot only while their writer rests.
+// Statistics never cost a control task a locked instruction: there is one writer, so a load and a store are enough for
+// an increment. Each value is whole; several of them together are a snapshot only while their writer rests.
 #pragma once
 
 #include <atomic>
@@ -28,7 +28,7 @@ class Counter {
         }
     }
 
-    /// Who: everybody. Blocks: no.
+    /// Who: any thread. Blocks: no.
     std::int64_t value() const noexcept { return value_.load(std::memory_order_relaxed); }
 
   private:

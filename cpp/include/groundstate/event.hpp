@@ -1,7 +1,8 @@
 // The events of a running program, as spec/conform.md lists them, and the ring that takes them from a task to the writer.
 //
-// A task puts events of fixed size into a ring of its own; nobody waits for anybody, nothing is allocated. When the ring
-// is full an event is lost, but its number in the task's order is used up: the gap tells everybody who reads the log.
+// A task puts events of fixed size into a ring of its own. No thread waits for another, and nothing is allocated. If
+// the ring is full an event is lost, but its number in the task's order is used up: every reader of the log sees the
+// gap.
 #pragma once
 
 #include <array>
@@ -47,7 +48,7 @@ struct Event {
 /// The events of one task on their way to the writer.
 class EventRing {
   public:
-    /// LIMIT: so many events may wait for the writer.
+    /// LIMIT: this many events may wait for the writer.
     static constexpr std::size_t capacity = 4096;
 
     /// Who: the task. Blocks: no. Allocates: no. False: the ring is full.

@@ -1,8 +1,8 @@
 // Images in memory that belongs to the caller.
 //
 // A Frame is the array of a swinging buffer: its size and format are part of its type, so it needs no allocation and no
-// pointer. A FrameView is how a camera is shown such memory, or any other: where the pixels begin, how far one row lies
-// from the next, and what shape they have. Neither knows a camera or an image library.
+// pointer. A FrameView shows a camera such memory, or any other: where the pixels begin, how far one row lies from the
+// next, and what shape they have. Neither knows a camera or an image library.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace groundstate {
 
-/// What a pixel consists of: one byte of brightness, or three bytes in the order said.
+/// What a pixel consists of: one byte of brightness, or three bytes in the named order.
 enum class PixelFormat : std::uint8_t { mono8, bgr8, rgb8 };
 
 constexpr int bytes_per_pixel(PixelFormat format) noexcept { return format == PixelFormat::mono8 ? 1 : 3; }
@@ -28,7 +28,7 @@ struct FrameShape {
     friend constexpr bool operator==(const FrameShape&, const FrameShape&) noexcept = default;
 };
 
-/// Pixels in somebody's memory, `Byte` being `std::uint8_t` or `const std::uint8_t`. Rows go from top to bottom.
+/// Pixels in the caller's memory; `Byte` is `std::uint8_t` or `const std::uint8_t`. Rows go from top to bottom.
 template <class Byte>
 struct BasicFrameView {
     Byte* pixels = nullptr;

@@ -1,4 +1,4 @@
-// Numbers for the frames of a camera that does not number them: by when they were taken.
+// Numbers for the frames of a camera that does not number them, from the times at which they were taken.
 //
 // A driver that overwrites frames, or hands on only some, seldom says so; but a camera that takes one each period has
 // taken round(gap / period) of them between two stamps. A period that is not known, or a clock that jumps, makes every
@@ -21,7 +21,7 @@ class FrameNumbers {
         const std::int64_t gap_ns = sequence_ == 0 ? 0 : taken_ns - stamp_ns_;
         const std::int64_t taken = period_ns_ > 0 ? (gap_ns + period_ns_ / 2) / period_ns_ : 1;
         sequence_ += taken > 1 ? static_cast<std::uint64_t>(taken) : 1;
-        // A stamp that does not rise is the driver's fault; order is kept all the same.
+        // A stamp that does not rise is the driver's fault; the order is kept all the same.
         stamp_ns_ = sequence_ == 1 || gap_ns > 0 ? taken_ns : stamp_ns_ + 1;
         return sequence_;
     }

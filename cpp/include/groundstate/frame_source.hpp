@@ -1,10 +1,11 @@
-// Where images come from: the one concept behind every camera, recording and simulation.
+// Where images come from: the one concept for every camera, recording and simulation.
 //
-// A source is opened with a shape, and from then on fills memory of that shape: the caller's own, in place, which in a
-// robot is the array of a swinging buffer. What may become of a grab is a value, not an exception: the world fails in
-// these ways and in no others. The sources themselves are the adapters (../../../adapters); this file knows no library.
+// A source is opened with a shape, and from then on fills memory of that shape, in place. The memory is the caller's;
+// in a robot it is the array of a swinging buffer. The outcome of a grab is a value, not an exception: the world fails
+// in these ways and in no others. The sources themselves are the adapters (../../../adapters); this file knows no
+// library.
 //
-// What holds of every source, and the conformance suite (adapters/conformance) tests:
+// The conformance suite (adapters/conformance) tests what holds for every source:
 //   ordered     the numbers of frames rise, their stamps never go back;
 //   accounted   number of a frame = frames delivered + frames lost, at the moment of its delivery;
 //   whole       after anything but `frame` the memory's content means nothing, and nothing beside it was written;
@@ -52,7 +53,7 @@ struct [[nodiscard]] Grab {
     explicit operator bool() const noexcept { return outcome == Outcome::frame; }
 };
 
-/// What became of every frame, and of every grab without one; each number is whole.
+/// The outcomes of all frames, and of all grabs without one; each number is whole.
 struct FrameAccount {
     std::int64_t delivered = 0;    ///< frames given to the caller
     std::int64_t lost = 0;         ///< frames taken and not given, for whatever reason
@@ -61,10 +62,10 @@ struct FrameAccount {
     std::int64_t timeouts = 0;     ///< grabs that said `timeout`
 };
 
-/// The counters behind a FrameAccount. Who: `tell` the one thread that grabs, `account` everybody.
+/// The counters of a FrameAccount. Who: `tell` the one thread that grabs, `account` any thread.
 class FrameLedger {
   public:
-    /// Enters a grab, and completes a frame by how many were lost before it. Blocks: no. Allocates: no.
+    /// Counts a grab, and completes a frame by the number lost before it. Blocks: no. Allocates: no.
     Grab tell(Grab grab) noexcept {
         switch (grab.outcome) {
             case Outcome::frame:
@@ -152,15 +153,15 @@ class [[nodiscard]] Opened {
     OpenFailure failure_{};
 };
 
-/// What gives images. All but `account` is for one thread at a time, the one that grabs.
+/// A source of images. All but `account` is for one thread at a time, the one that grabs.
 ///
 ///     shape()               the shape of every frame
 ///     grab(into, watchdog)  fills the memory with a frame that was not delivered yet, waiting for it at most as long as
 ///                           the watchdog's budget lasts. The memory is of the source's shape, with whatever stride
 ///     account()             what became of the frames so far; for every thread
 ///
-/// A source does not copy but from the driver's memory to the caller's. It does not allocate in `grab`, unless its
-/// adapter says where its library does. It closes in its destructor.
+/// A source copies only from the driver's memory to the caller's. It does not allocate in `grab`, unless its adapter
+/// says where its library does. Its destructor closes it.
 template <class S>
 concept FrameSource = requires(S& source, const S& idle, FrameView into, Watchdog& watchdog) {
     { idle.shape() } noexcept -> std::same_as<FrameShape>;

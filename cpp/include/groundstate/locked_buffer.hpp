@@ -1,18 +1,19 @@
 // The paper's swinging buffer (section V-B, Figures 8 to 10): N >= 2 arrays and a lock for the indexes.
 //
-// One of the two, the master, swaps the indexes, and only inside the lock; it works on its array without the lock,
-// since nobody else moves the index. The other one, the slave, keeps the lock while it works on its array, so that no
+// One of the two, the master, swaps the indexes, and only inside the lock. It works on its array without the lock,
+// since no other task moves the index. The other one, the slave, keeps the lock while it works on its array, so that no
 // array is swapped away under its hands.
 //
 //                  writes                           reads
 //     master       array, then lock, swap, release  lock, swap, release, then array
 //     slave        lock, array, release             lock, array, release
 //
-// When the watchdog ends first: a master's datum stays pending for its next swap, a master reads the old array, a slave
-// leaves the action out. The protocol is that of library/patterns/{SwingingBuffer,PatternMachines}.asm: the index read
-// becomes the index written, which goes on to the next array of the ring; a swap without a pending datum does nothing.
+// If the watchdog ends first, a master's datum stays pending for its next swap, a master reads the old array, and a
+// slave leaves the action out. The protocol is that of library/patterns/{SwingingBuffer,PatternMachines}.asm: the index
+// read becomes the index written, which goes on to the next array of the ring; a swap without a pending datum does
+// nothing.
 //
-// SYNC(permit): plain members are shared under the lock alone; its release and acquire (pair_lock.hpp) order them.
+// SYNC(permit): plain members are shared only under the lock; its release and acquire (pair_lock.hpp) order them.
 #pragma once
 
 #include <array>
@@ -24,7 +25,7 @@
 
 namespace groundstate {
 
-/// Who swaps the indexes: of two synchronous tasks the slower one; else the asynchronous one.
+/// Which side swaps the indexes: of two synchronous tasks the slower one, otherwise the asynchronous one.
 enum class Master { writer, reader };
 
 /// A swinging buffer of `N` arrays of `T` between one producer and one consumer, of which one is the master.
@@ -40,7 +41,7 @@ class LockedBuffer {
     LockedBuffer(const LockedBuffer&) = delete;
     LockedBuffer& operator=(const LockedBuffer&) = delete;
 
-    /// Gives every array what it needs, so that nothing is allocated later. Who: before the tasks start.
+    /// Gives every array what it needs, so nothing is allocated later. Who: the builder, before the tasks start.
     template <class F>
     void prepare(F&& each) {
         for (Array<T>& array : arrays_) {
@@ -48,19 +49,19 @@ class LockedBuffer {
         }
     }
 
-    /// The signal is raised when there is something new to read. Who: before the tasks start.
+    /// The signal is raised when there is something new to read. Who: the builder, before the tasks start.
     void wakes(Signal<C>& trigger) noexcept { trigger_ = &trigger; }
 
-    /// The array that the next writing is to, to prepare the datum in place before. What is left there without being
-    /// written and published is handed over to nobody.
-    /// Who: the producer, if it is the master: nobody else moves the index. Blocks: no.
+    /// The array of the next writing, for preparing the datum in place beforehand. A datum left there without being
+    /// written and published is never handed over.
+    /// Who: the producer, if it is the master: no other task moves the index. Blocks: no.
     T& own() noexcept
         requires(master == Master::writer)
     {
         return arrays_[index_write_].datum;
     }
 
-    /// Begins to write. The datum is as it was left there N swaps ago.
+    /// Begins to write. The datum is the one left there N swaps ago.
     /// Who: the producer. Blocks: a master no; a slave until its watchdog. Allocates: no.
     Writing<LockedBuffer> write(Watchdog& watchdog) noexcept {
         if (!writing_.begin()) {
@@ -127,7 +128,7 @@ class LockedBuffer {
         return offered_.load(std::memory_order_relaxed) != received_.load(std::memory_order_relaxed);
     }
 
-    /// Who: everybody. Blocks: no.
+    /// Who: any thread. Blocks: no.
     Account account() const noexcept {
         return {.written = written_.value(),
                 .handed_over = handed_over_.value(),
@@ -186,7 +187,7 @@ class LockedBuffer {
             }
             swap();
         }
-        // SYNC(offer): relaxed, before the signal: who is woken by it sees it (SYNC(sleeper)).
+        // SYNC(offer): relaxed, before the signal: a thread that the signal wakes sees it (SYNC(sleeper)).
         offered_.store(array.sequence, std::memory_order_relaxed);
         give_back(Side::producer);
         wake();
@@ -233,7 +234,8 @@ class LockedBuffer {
         observer_.swaps(index_read_, index_write_, arrays_[index_read_].sequence);
     }
 
-    // Behind the array read lie those handed over before, up to the one that is written, the next in the ring.
+    // Before the array that is read lie those handed over earlier, back to the one that is written, the next in the
+    // ring.
     const T* earlier(std::size_t back) const noexcept {
         const Array<T>& array = arrays_[(index_read_ + N - back % N) % N];
         return back + 2 <= N && array.sequence != 0 ? &array.datum : nullptr;

@@ -1,9 +1,10 @@
-// A writer of MCAP files, the container of the robotics field (https://mcap.dev/spec): what Foxglove and Rerun open.
+// A writer of MCAP files, the container of the robotics field (https://mcap.dev/spec), which Foxglove and Rerun open.
 //
 // Uncompressed chunks with their message indexes, then the summary: schemas, channels, statistics, chunk and metadata
-// indexes, offsets. Room for the summary is kept free: when the disk is full, what still fits of the last chunk is written,
-// and the file is ended as any other. A file that nobody ended holds whole chunks, perhaps a part of one, and no summary;
-// readers that go through it from the front find all chunks. Numbers are little endian, as the machines this runs on.
+// indexes, offsets. Room for the summary is kept free. If the disk is full, the part of the last chunk that still fits
+// is written, and the file is ended like any other. A file that was not ended holds whole chunks, perhaps a part of
+// one, and no summary; readers that read it from the front find all chunks. Numbers are little endian, like those of
+// the machines on which this runs.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +32,7 @@ class McapFile {
   public:
     using Map = std::vector<std::pair<std::string, std::string>>;
 
-    /// Creates the file. What fails is told by `error`.
+    /// Creates the file. `error` says what failed.
     explicit McapFile(const std::string& path) : file_{open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)} {
         if (file_ < 0) {
             error_ = errno;
@@ -42,7 +43,7 @@ class McapFile {
         text(header.content, "groundstate");
     }
 
-    /// Whether a file of that path can be opened: 0, or the system's number of what stands against it. No path is fine.
+    /// Whether a file of that path can be opened: 0, or the system's number of the obstacle. An empty path is fine.
     static int probe(const std::string& path) noexcept {
         const int file = path.empty() ? -1 : open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
         const int error = path.empty() || file >= 0 ? 0 : errno;
@@ -109,7 +110,8 @@ class McapFile {
         metadata_.push_back(std::move(index));
     }
 
-    /// A message. It is in the file after the next `flush`, or when its chunk is full; when the disk is full, never.
+    /// A message. It is in the file after the next `flush`, or when its chunk is full; if the disk is full, it never
+    /// is.
     void message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time_ns, std::string_view data) {
         if (error() != 0) {
             return;
@@ -212,7 +214,7 @@ class McapFile {
             number(footer.content, std::uint32_t{0});
         }
         put(magic);
-        // Gives back what was kept free. If that fails, the file is as good.
+        // Gives back the room kept free. If that fails, the file is just as good.
         if (error_ == 0 && kept_ > offset_) {
             static_cast<void>(!ftruncate(file_, static_cast<off_t>(offset_)));
         }
@@ -250,7 +252,8 @@ class McapFile {
         return head.append(content);
     }
 
-    // Leaves of the chunk what there is room for beside the summary. Less than all: the disk is full, and the log ends.
+    // Keeps the part of the chunk that has room beside the summary. If that is less than all, the disk is full, and the
+    // log ends.
     void fit() {
         while (!chunk_.empty() && !keep_free(chunk_.size() + around_chunk() + summary_size())) {
             full_ = errno;
@@ -258,14 +261,14 @@ class McapFile {
         }
     }
 
-    // Room on the disk for so many bytes more; false: there is none. Where the file system promises nothing, it is seen when
-    // they are written.
+    // Room on the disk for this many more bytes; false: there is none. If the file system promises nothing, it is seen
+    // when they are written.
     bool keep_free(std::uint64_t bytes) noexcept {
         constexpr std::uint64_t ahead = 1024 * 1024;
         if (error_ != 0) {
             return true;
         }
-        // What the process may write, which the file system does not look at when it keeps room.
+        // How much the process may write; the file system ignores that when it keeps room.
         rlimit limit{};
         if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && offset_ + bytes > limit.rlim_cur) {
             errno = EFBIG;
@@ -287,7 +290,7 @@ class McapFile {
         return errno != ENOSPC && errno != EDQUOT && errno != EFBIG;
     }
 
-    // What stands around the messages of the chunk: its head, and its indexes.
+    // The bytes around the messages of the chunk: its head, and its indexes.
     std::uint64_t around_chunk() const noexcept {
         std::uint64_t size = 64;
         for (const auto& [channel, index] : indexes_) {
@@ -296,7 +299,7 @@ class McapFile {
         return size;
     }
 
-    // What will stand behind the last chunk, at the most.
+    // How many bytes follow the last chunk, at most.
     std::uint64_t summary_size() const noexcept {
         constexpr std::uint64_t records_at_the_end = 8192;
         std::uint64_t size = records_at_the_end + 128 + 10 * indexes_.size();
@@ -308,7 +311,7 @@ class McapFile {
         return size;
     }
 
-    // Leaves the first messages of the chunk, as many as take no more than so many bytes.
+    // Keeps the first messages of the chunk, as many as fit into this many bytes.
     void cut(std::size_t most) {
         indexes_.clear();
         std::size_t end = 0;
@@ -392,7 +395,7 @@ class McapFile {
 
     static constexpr std::uint32_t no_bytes = 0xffffffff;
 
-    // Of these bytes behind those of `sum`; the complement is what the format stores.
+    // The checksum of these bytes after those of `sum`; the format stores the complement.
     static std::uint32_t checksum(std::uint32_t sum, std::string_view bytes) noexcept {
         static constexpr auto table = [] {
             std::array<std::uint32_t, 256> entries{};

@@ -1,9 +1,9 @@
 // Messages in their order, each of them once: a bounded queue between one sender and one receiver.
 //
 // The protocol of library/patterns/MessageQueue.asm: the sender alone writes `sent`, the receiver alone `taken`; the
-// length is the difference. What happens when it is full is the sender's to say: `try_send` is refused, and that is
-// counted; `send` waits for room while its watchdog has time, and is then refused. Nothing is overwritten. Data of
-// which only the newest matter belong into a swinging buffer; several senders take a queue each.
+// length is the difference. The sender decides what happens if the queue is full. `try_send` is refused, and that is
+// counted; `send` waits for room while its watchdog has time, and is then refused. Nothing is overwritten. If only the
+// newest datum matters, use a swinging buffer. For several senders, use one queue for each.
 // library/runtime/QueueSteps.asm is this file and signal.hpp step by atomic step.
 #pragma once
 
@@ -31,7 +31,7 @@ class MessageQueue {
     MessageQueue(const MessageQueue&) = delete;
     MessageQueue& operator=(const MessageQueue&) = delete;
 
-    /// The signal is raised for every message. Who: whoever builds the system, before the tasks start.
+    /// The signal is raised for every message. Who: the builder of the system, before the tasks start.
     void wakes(Signal<C>& trigger) noexcept { trigger_ = &trigger; }
 
     /// Appends a message, or refuses it if the queue is full; a refused one stays as it is. Who: the sender. Blocks: no.
@@ -41,7 +41,7 @@ class MessageQueue {
     {
         return try_append(message);
     }
-    /// The same of a message that is moved, as those that cannot be copied are.
+    /// The same for a message that is moved, such as one that cannot be copied.
     bool try_send(T&& message) noexcept(std::is_nothrow_move_assignable_v<T>) { return try_append(std::move(message)); }
 
     /// Appends a message; waits for room until the watchdog's budget is used up, then refuses it.
@@ -84,7 +84,7 @@ class MessageQueue {
         return sent_.load(std::memory_order_relaxed) - taken_.load(std::memory_order_acquire) == Capacity;
     }
 
-    // Who: everybody. Block: no.
+    // Who: any thread. Block: no.
     std::int64_t sent() const noexcept { return static_cast<std::int64_t>(sent_.load(std::memory_order_relaxed)); }
     std::int64_t taken() const noexcept { return static_cast<std::int64_t>(taken_.load(std::memory_order_relaxed)); }
     std::int64_t refused() const noexcept { return refused_.value(); }

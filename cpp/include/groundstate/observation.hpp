@@ -50,7 +50,7 @@ class TaskContext {
     }
     void at_rest() noexcept { progress_ns_.set(never_ns); }
 
-    // Who: everybody.
+    // Who: any thread.
     /// The instant of the last progress; `never_ns` while the task rests.
     std::int64_t progress_ns() const noexcept { return progress_ns_.value(); }
     std::uint16_t phase() const noexcept { return static_cast<std::uint16_t>(phase_.value()); }

@@ -1,10 +1,10 @@
-// Who is told what happens in a channel, as template policy: `Unobserved` costs nothing, not even a branch.
+// The observer of what happens in a channel, as template policy: `Unobserved` costs nothing, not even a branch.
 //
-// A channel calls its observer before an action of its protocol becomes visible to the other side (asks, releases, sends,
-// stores), and after one that took something over (enters, takes, loads). So two events of different tasks that hang
-// together have times in the order in which they happened. The calls come from the thread of the side that acts; none
-// may throw. The observer of a generated system (observation.hpp) records them, and lets them take their time where a
-// run in virtual time follows the ticks of the model.
+// A channel calls its observer before an action of its protocol becomes visible to the other side (asks, releases,
+// sends, stores), and after one that took something over (enters, takes, loads). So if one event of a task depends on
+// one of another, their times are in the order in which they happened. The calls come from the thread of the acting
+// side; none may throw. The observer of a generated system (observation.hpp) records them, and lets them take their
+// time where a run in virtual time follows the ticks of the model.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace groundstate {
 /// The two ends of a channel.
 enum class Side : std::uint8_t { producer, consumer };
 
-/// Faults of a channel that tests put in, to see that they are found (tests/ and `groundstate conform`).
+/// Faults of a channel that tests put in, to check that they are found (tests/ and `groundstate conform`).
 enum class Fault : std::uint8_t { none, lock_not_taken, index_not_swapped, stale_read, watchdog_ignored };
 
 /// Sees nothing.

@@ -1,16 +1,17 @@
-// How long things take in a run: in real time as long as they take, in virtual time what the model says.
+// How long things take in a run: in real time as long as they do, in virtual time as long as the model says.
 //
-// Computing takes no virtual time, so a generated task says how long each phase lasts. `Pace::modelled` follows the model
-// tick by tick: a step of the model is a tick, all tasks step at once, and what a step does is seen by others in the
-// next one. To get the same from threads that go one after the other, a tick is divided:
+// Computing takes no virtual time, so a generated task says how long each phase lasts. `Pace::modelled` follows the
+// model tick by tick: a step of the model is a tick, all tasks step at once, and the others see in the next step what a
+// task does in this one. To get the same from threads that run one after the other, a tick is divided:
 //
 //     0    the step: phases begin, granted locks are entered, indexes are swapped, data are read
 //     1/4  what is released in this step                       3/8  an asynchronous task looks whether data are there
 //     7/16 a slave's writing that begins is there to be awaited
-//     1/2  who asks for a lock in this step, the more urgent first   5/8  messages are taken   3/4  sent, and stored
+//     1/2  locks asked for in this step, the more urgent first       5/8  messages are taken   3/4  sent, and stored
 //
-// `Pace::drawn` lets each phase last a part of its modelled time, drawn from a seed, or now and then far longer; locks take
-// no time. It is for looking at other orders of events. INVARIANT: nothing here is seen by the program but the passing of time.
+// With `Pace::drawn` each phase lasts a part of its modelled time, drawn from a seed, or occasionally far longer; locks
+// take no time. It is for trying other orders of events. INVARIANT: the program sees nothing of this but the passing of
+// time.
 #pragma once
 
 #include <cstdint>
@@ -60,12 +61,13 @@ class TaskPace<VirtualClock> {
 
     /// Before a lock is asked for; the more urgent of two goes first.
     void ask(bool urgent) noexcept { reach(sixteenths(), urgent ? 8 : 9); }
-    /// After the lock was granted, or given up: that is seen in the next step.
+    /// After the lock was granted, or given up: the others see that in the next step.
     void enter() noexcept { reach(16, 0); }
     /// The index section of a master is a step.
     void managed() noexcept { reach(16, 0); }
     void release() noexcept { reach(sixteenths(), 4); }
-    /// As a slave begins to write: whether its reader, who swaps, awaits that already; he sees it in the next step.
+    /// When a slave begins to write: whether its reader, which swaps, awaits that already; the reader sees it in the
+    /// next step.
     bool offer() noexcept {
         reach(sixteenths(), 7);
         return is_modelled();
@@ -91,7 +93,7 @@ class TaskPace<VirtualClock> {
     }
     void end_cycle() noexcept { ended_ = step(); }
 
-    /// A phase, or an access, lasts so many ticks; a step at the least.
+    /// A phase, or an access, lasts this many ticks, but at least a step.
     void spend(std::int64_t ticks) noexcept {
         if (is_modelled()) {
             clock_.sleep_until_ns((step() + std::max<std::int64_t>(ticks, 1)) * pacing_.tick_ns);

@@ -1,10 +1,11 @@
-// The lock between two tasks: nobody waits for it beyond his watchdog, and whoever holds it is as urgent as whoever waits.
+// The lock between two tasks: no task waits for it beyond its watchdog, and the holder is as urgent as the task that
+// waits.
 //
-// In real time it is Linux's futex with priority inheritance: while the urgent one waits, the other runs at his priority,
-// and no third task of a priority between holds up both. The system hands it over to the one that waits, so that with two
-// users it comes in the order of asking, as library/patterns/Semaphore.asm has it. Without contention it is one exchange
-// either way, and no call of the system. By any other clock it is a semaphore with one permit (semaphore.hpp): virtual time
-// has no priorities that could be inverted.
+// In real time it is Linux's futex with priority inheritance: while the urgent task waits, the other runs at its
+// priority, and no third task of a priority between delays both. The system hands the lock over to the one that waits,
+// so with two users it comes in the order of asking, as in library/patterns/Semaphore.asm. Without contention it takes
+// one exchange either way, and no system call. By any other clock it is a semaphore with one permit (semaphore.hpp):
+// virtual time has no priorities that could be inverted.
 #pragma once
 
 #include <algorithm>
@@ -29,8 +30,8 @@ class PairLock<MonotonicClock> {
     PairLock(const PairLock&) = delete;
     PairLock& operator=(const PairLock&) = delete;
 
-    /// Takes it, or gives up when the watchdog's budget is used up, which the watchdog counts. Who: each of the two, who
-    /// does not hold it; if he does, he is refused. Blocks: at most for the budget. Allocates: no. Worst case without
+    /// Takes it, or gives up when the watchdog's budget is used up, which the watchdog counts. Who: the one of the two
+    /// that does not hold it; the holder is refused. Blocks: at most for the budget. Allocates: no. Worst case without
     /// contention: one exchange; the time is read only to wait.
     [[nodiscard]] bool acquire(int, Watchdog& watchdog) noexcept {
         if (is_taken()) {
@@ -50,9 +51,10 @@ class PairLock<MonotonicClock> {
         return granted;
     }
 
-    /// Who: whoever holds it. Blocks: no. Allocates: no. Worst case: one exchange, and one system call if the other waits.
+    /// Who: the task that holds it. Blocks: no. Allocates: no. Worst case: one exchange, and one system call if the
+    /// other waits.
     void release() noexcept {
-        // SYNC(hand): release, for the way by the system, which is no atomic operation of this program's.
+        // SYNC(hand): release, for the way through the system, which is not an atomic operation of this program.
         handed_.store(handed_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
         std::uint32_t own = thread();
         // SYNC(permit): release; pairs with the exchange in is_taken().
@@ -68,7 +70,7 @@ class PairLock<MonotonicClock> {
         if (!holder_.compare_exchange_strong(nobody, thread(), std::memory_order_acquire, std::memory_order_relaxed)) {
             return false;
         }
-        // The holder before may have released by the system, for somebody who has given up waiting since.
+        // The last holder may have released through the system, for a task that has given up waiting since.
         take_over();
         return true;
     }
@@ -91,7 +93,7 @@ class PairLock<MonotonicClock> {
                 error = wait(FUTEX_LOCK_PI_PRIVATE, later_ns(today_ns, left_ns));
             }
             if (error == ENOSYS) {
-                // A system without such locks at all: it is looked at again and again.
+                // A system without such locks at all: the lock is polled.
                 clock_.sleep_until_ns(std::min(instant_ns, clock_.now_ns() + 50'000));
                 error = is_taken() ? 0 : clock_.now_ns() < instant_ns ? EAGAIN : ETIMEDOUT;
             }
@@ -106,7 +108,7 @@ class PairLock<MonotonicClock> {
     // The system's number of an error, or 0.
     int wait(int operation, std::int64_t instant_ns) noexcept { return Futex::call(holder_, operation, 0, instant_ns, 0); }
 
-    // The system's number of the calling thread, by which it knows the holder.
+    // The system's number of the calling thread; it identifies the holder.
     static std::uint32_t thread() noexcept {
         thread_local const auto number = static_cast<std::uint32_t>(syscall(SYS_gettid));
         return number;

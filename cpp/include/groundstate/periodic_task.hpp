@@ -1,10 +1,10 @@
-// A synchronous task: one cycle a period, on a grid that does not drift.
+// A synchronous task: one cycle in each period, on a grid that does not drift.
 //
-// The grid is origin + offset + n * period, whenever the cycles really begin. A cycle is due on the grid and met its
-// deadline if it is done by then (the end of its period, unless set). A cycle that begins late does not move the
-// grid: the next one is due when it always was, at once if need be, as in library/patterns/{Task,Scheduler}.asm. A
-// task that is overloaded for long would so lag behind for ever; `Late::skip` leaves out the periods that have begun
-// meanwhile, and counts them.
+// The grid is origin + offset + n * period, whenever the cycles really begin. A cycle is due on the grid, and meets its
+// deadline if it is done by then (by the end of its period, unless set). A cycle that begins late does not move the
+// grid: the next one is due when it always was, at once if necessary, as in library/patterns/{Task,Scheduler}.asm. A
+// task that is overloaded for long would lag for ever; `Late::skip` leaves out the periods that have begun meanwhile,
+// and counts them.
 #pragma once
 
 #include <cassert>
@@ -13,10 +13,10 @@
 
 namespace groundstate {
 
-/// What a task does that is behind by whole periods.
+/// What a task does that is late by whole periods.
 enum class Late { catch_up, skip };
 
-/// When the cycles of a task are due, and what they take.
+/// When the cycles of a task are due, and how long they take.
 struct Period {
     std::int64_t period_ns = 0;
     std::int64_t offset_ns = 0;
@@ -25,11 +25,11 @@ struct Period {
     Late late = Late::catch_up;
 };
 
-/// A task whose step is called once a period.
+/// A task whose step is called once in each period.
 template <Clock C>
 class PeriodicTask {
   public:
-    /// Who: whoever builds the system. Allocates: yes.
+    /// Who: the builder of the system. Allocates: yes.
     PeriodicTask(C& clock, std::string name, const Period& period, Step step, const Schedule& schedule = {})
         : clock_{clock},
           period_{period},
@@ -44,12 +44,12 @@ class PeriodicTask {
     ~PeriodicTask() { stop(); }
 
     /// The first cycle is due at the origin plus the offset. Tasks started with one origin keep step.
-    /// Who: the owner, once. Allocates: yes. Throws: std::system_error if there is no thread to be had.
+    /// Who: the owner, once. Allocates: yes. Throws: std::system_error if no thread can be started.
     void start(std::int64_t origin_ns) {
         thread_.start([this, origin_ns] { run(origin_ns + period_.offset_ns); });
     }
 
-    /// No cycle begins any more. Who: everybody. Blocks: no.
+    /// No cycle begins any more. Who: any thread. Blocks: no.
     void ask_to_stop() noexcept {
         // SYNC(stop): relaxed: nothing is handed over. The clock compares the word in one step with falling asleep.
         stop_.store(1, std::memory_order_relaxed);
@@ -62,7 +62,7 @@ class PeriodicTask {
         thread_.join();
     }
 
-    /// Who: everybody. Blocks: no.
+    /// Who: any thread. Blocks: no.
     const Statistics& statistics() const noexcept { return statistics_; }
     const Watchdog& watchdog() const noexcept { return watchdog_; }
     const TaskThread<C>& thread() const noexcept { return thread_; }

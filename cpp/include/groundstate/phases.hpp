@@ -1,10 +1,10 @@
 // The phases of a generated task, each the work of one pattern machine of library/patterns: read, write, send, receive,
 // store, load, elaborate.
 //
-// A phase records its beginning and end, and spends in virtual time what the model says. Which of two forms a reading or
-// writing has follows from the roles: the master of a buffer, and both sides of a wait-free one, work in the channel's
-// own array; a slave, who holds the lock while it works there, carries the datum over in its phase and elaborates on
-// its own copy, for the pattern's index section must stay short.
+// A phase records its beginning and end, and in virtual time takes as long as the model says. The roles decide which of
+// two forms a reading or writing has. The master of a buffer, and both sides of a wait-free one, work in the channel's
+// own array. A slave holds the lock while it works there; so it copies the datum in its phase and elaborates on its own
+// copy, because the pattern's index section must stay short.
 #pragma once
 
 #include <optional>
@@ -35,7 +35,7 @@ class Phases {
   public:
     Phases(TaskContext<C>& task, const Cycle& cycle) noexcept : task_{task}, cycle_{cycle} {}
 
-    /// The component's own work: what `step` gives says whether there is something to hand over.
+    /// The component's own work: `step` returns whether there is something to hand over.
     template <class Step>
     bool elaborate(Phase phase, Step&& step) {
         begin(phase);
@@ -58,7 +58,7 @@ class Phases {
         end(phase);
     }
 
-    /// Reads a copy, holding the lock. Where the watchdog ends first, the one before stays, no longer fresh.
+    /// Reads a copy, holding the lock. If the watchdog ends first, the datum before stays, no longer fresh.
     template <class Buffer, class T>
     void read_copy(Phase phase, Buffer& buffer, T& copy, Seen<T>& seen) {
         begin(phase);
@@ -92,7 +92,7 @@ class Phases {
         end(phase);
     }
 
-    /// Brings what was prepared in `staged` into the channel's array, holding the lock.
+    /// Moves what was prepared in `staged` into the channel's array, holding the lock.
     template <class Buffer, class T>
     void write_copy(Phase phase, Buffer& buffer, T& staged, std::uint16_t channel, bool ready) {
         if (!may_write(phase, channel, ready, [&]() -> const T& { return staged; })) {
@@ -107,7 +107,7 @@ class Phases {
         end(phase);
     }
 
-    /// Sends what was prepared in `staged`; a full queue is waited for within the watchdog.
+    /// Sends what was prepared in `staged`; waits for room in a full queue within the watchdog.
     template <class Queue, class T>
     void send(Phase phase, Queue& queue, Message<T>& staged, std::uint16_t channel, bool ready) {
         if (!may_write(phase, channel, ready, [&]() -> const T& { return staged.datum; })) {
@@ -124,7 +124,7 @@ class Phases {
         end(phase);
     }
 
-    /// Takes the oldest message; where there is none, the one before stays, no longer fresh.
+    /// Takes the oldest message; if there is none, the one before stays, no longer fresh.
     template <class Queue, class T>
     void receive(Phase phase, Queue& queue, std::optional<Message<T>>& last, Seen<T>& seen) {
         begin(phase);

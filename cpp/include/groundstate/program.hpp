@@ -5,8 +5,8 @@
 //     robot --real 3 --realtime 20               three seconds in real time, SCHED_FIFO from priority 20 on
 //     robot --patience 2                         a task hangs if it makes no progress for 2 s (virtual time: 10, real: 0.5)
 //
-// Exit status: 0 the run came to its end; 1 a task failed or hung, which is told; 2 wrong usage; 3 the run came to its end,
-// but data were not valid and so not handed over, or the log is not whole: both are told.
+// Exit status: 0 the run reached its end; 1 a task failed or hung; 2 wrong usage; 3 the run reached its end, but data
+// were not valid and so not handed over, or the log is not whole. A message says what failed.
 #pragma once
 
 #include <cstdio>
@@ -112,8 +112,8 @@ RunAccount account_of(const System& system, Ending ending) {
     return account;
 }
 
-/// Tells how a run ended, and of each task what is known of its cycles. The exit status: 1 if a task failed, 3 if something
-/// is missing all the same, or 0.
+/// Prints how a run ended, and what is known of the cycles of each task. The exit status: 1 if a task failed, 3 if
+/// something is missing all the same, or 0.
 inline int tell(const RunAccount& account) {
     const char* name = account.system.c_str();
     const Ending& outcome = account.ending;
@@ -150,8 +150,8 @@ inline int tell(const RunAccount& account) {
     return 1;
 }
 
-/// Runs a system for so long. What is known of a run with a task that hung is told, and the program ends there, with
-/// exit status 1: the task's thread still uses the system, and all that its hooks refer to.
+/// Runs a system for this long. If a task hung, prints what is known of the run and ends the program there, with exit
+/// status 1: the task's thread still uses the system, and everything that its hooks refer to.
 template <class System>
 RunAccount run_to_account(System& system, std::int64_t span_ns) {
     Ending outcome = system.run(span_ns);
@@ -165,7 +165,7 @@ RunAccount run_to_account(System& system, std::int64_t span_ns) {
     return account;
 }
 
-/// Runs a system with its hooks as the command line says. The value is main's.
+/// Runs a system with its hooks as the command line says. Returns the value for main.
 template <template <class> class System, class Hooks>
 int run_program(int count, char** words, const Hooks& hooks) {
     const CommandLine line = read_command_line(count, words);

@@ -1,6 +1,6 @@
 // What the operating system may grant a control task: SCHED_FIFO, a processor of its own, memory that stays.
 //
-// A process without the right to it still runs, only less punctually; so nothing here fails, and everything says what
+// A process without the permission still runs, only less punctually. So nothing here fails, and everything reports what
 // it got. Ask with `ulimit -r -l`, or give the program CAP_SYS_NICE and CAP_IPC_LOCK.
 #pragma once
 
@@ -26,8 +26,8 @@ struct alignas(8) Granted {
     Grant processor = Grant::not_asked;
 };
 
-/// Keeps all memory of the process, present and to come, from being paged out. Where so much memory may be locked and no
-/// more, it is refused: what is allocated later, the stack of a thread for one, would be refused instead.
+/// Keeps all memory of the process, present and future, from being paged out. If the memory that may be locked is
+/// limited, this is refused: otherwise later allocations, such as the stack of a thread, would be refused instead.
 /// Who: once, at the start. Blocks: while the memory is brought in.
 inline Grant lock_memory() noexcept {
     rlimit limit{};

@@ -1,9 +1,10 @@
 // The log of a run: events from the rings of the tasks, written as MCAP by a thread of its own.
 //
-// A topic a task, a message an event, as JSON with a schema, so that every viewer of MCAP files shows them. When the file
-// cannot be written any more, the disk being full, the log ends and the robot goes on: `error` tells why. What a
-// metadata record "end" says (how many events each task had, when the run was stopped) tells a reader whether the log
-// is whole. A record "stop" stands before the first event of a task that was asked to stop, for who reads along.
+// Each task has a topic, and each event is a message: JSON with a schema, so every viewer of MCAP files shows them. If
+// the file cannot be written any more (the disk is full), the log ends and the robot goes on: `error` says why. A
+// metadata record "end" says how many events each task had, and when the run was stopped; from it a reader knows
+// whether the log is whole. For programs that read along, a record "stop" comes before the first event of a task that
+// was asked to stop.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +22,8 @@
 
 namespace groundstate {
 
-/// What a task does whose ring is full: in real time it loses events; in virtual time, which stands still meanwhile, it
-/// waits for the writer.
+/// What a task does if its ring is full: in real time it loses events; in virtual time, which stands still meanwhile,
+/// it waits for the writer.
 enum class WhenFull { lose, wait };
 
 /// The events of one task.
@@ -30,7 +31,7 @@ class TaskLog {
   public:
     explicit TaskLog(WhenFull when_full) noexcept : when_full_{when_full} {}
 
-    /// Records an event; `now` gives its instant. Who: the task. Blocks: no, unless told to wait. Allocates: no. Worst
+    /// Records an event; `now` gives its instant. Who: the task. Blocks: no, unless set to wait. Allocates: no. Worst
     /// case: one store of 32 bytes into the ring.
     template <class Now>
     void record(Event event, Now&& now) noexcept {
@@ -46,11 +47,11 @@ class TaskLog {
             }
             std::this_thread::yield();
         }
-        // SYNC(stamping): release: who sees this finds the event in the ring.
+        // SYNC(stamping): release: a thread that sees this finds the event in the ring.
         stamping_.store(false, std::memory_order_release);
     }
 
-    /// Who: everybody. Blocks: no.
+    /// Who: any thread. Blocks: no.
     std::int64_t lost() const noexcept { return lost_.value(); }
 
   private:
@@ -83,13 +84,13 @@ class Recorder {
     Recorder& operator=(const Recorder&) = delete;
     ~Recorder() { finish({}); }
 
-    /// Who: whoever builds the system.
+    /// Who: the builder of the system.
     TaskLog& log(std::size_t task) noexcept { return *logs_[task]; }
 
-    /// Tells that the tasks will be asked to stop. Who: the owner, before he asks them. Blocks: no.
+    /// Announces that the tasks will be asked to stop. Who: the owner, before asking them. Blocks: no.
     //
-    // Pairs with the load in `tell_stop`: an event of a task that was asked is pushed after this store, and popped after
-    // that; so whoever pops it sees the store, and writes the record first.
+    // Pairs with the load in `tell_stop`: an event of a task that was asked is pushed after this store, and popped
+    // after that. So the thread that pops it sees the store, and writes the record first.
     void stopping(std::int64_t stopped_ns) noexcept { stopped_ns_.store(stopped_ns, std::memory_order_release); }
 
     /// Writes what is left, and the end of the file. Who: the owner, when no task records any more.
@@ -109,8 +110,8 @@ class Recorder {
         error_.store(file_.error(), std::memory_order_relaxed);
     }
 
-    // Who: everybody. Block: no.
-    /// The system's number of what went wrong with the file, or 0.
+    // Who: any thread. Block: no.
+    /// The system's number of the file's error, or 0.
     int error() const noexcept { return error_.load(std::memory_order_relaxed); }
     std::int64_t lost() const noexcept {
         std::int64_t lost = 0;
@@ -143,10 +144,11 @@ class Recorder {
         }
     }
 
-    // Brings the file up to date, and says up to when it is: who follows it knows of a task without events that it had
-    // none, and not that they are still to come. An instant is looked at two milliseconds later. A task that has read
-    // the clock before it has raised its flag by then, for what waits in a processor is written within microseconds, and
-    // a task that is interrupted has it written; if the flag is down again, the event is in the ring.
+    // Brings the file up to date, and says up to which instant it is. A reader that follows it then knows that a task
+    // without events had none, and not that they are still to come. An instant is used two milliseconds later. A task
+    // that has read the clock before it has raised its flag by then: a write that waits in a processor is done within
+    // microseconds, and the flag of an interrupted task is written. If the flag is down again, the event is in the
+    // ring.
     void tell_horizon() {
         const std::int64_t now_ns = now_();
         std::this_thread::sleep_for(std::chrono::milliseconds{2});

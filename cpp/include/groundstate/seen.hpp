@@ -1,8 +1,9 @@
 // What a component sees of a channel when it elaborates, and which data may be handed over at all.
 //
-// `bool valid(const T&)`, found by argument-dependent lookup, is the user's word on a type: a datum that is not valid (a
-// NaN in a velocity) is not published; it is counted and recorded, and the consumer keeps what it has. Types without
-// such a function are always valid; of floating-point numbers those that are finite.
+// With `bool valid(const T&)`, found by argument-dependent lookup, the user decides which data of a type are valid. A
+// datum that is not valid (a NaN in a velocity) is not published; it is counted and recorded, and the consumer keeps
+// what it has. Without such a function, floating-point numbers are valid if they are finite, and all other types always
+// are.
 #pragma once
 
 #include <cmath>
@@ -38,8 +39,8 @@ bool is_valid(const T& datum) noexcept {
     }
 }
 
-/// Brings a datum from one place to another that nobody else uses: a copy of what is plain memory, else a swap, so that
-/// what the two have allocated stays with them.
+/// Brings a datum from one place to another that nothing else uses: plain memory is copied, other data are swapped, so
+/// that what the two have allocated stays with them.
 template <class T>
 void move_over(T& from, T& to) noexcept {
     if constexpr (std::is_trivially_copyable_v<T>) {

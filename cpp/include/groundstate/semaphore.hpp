@@ -1,15 +1,15 @@
-// A counting semaphore: first come, first served, and nobody waits beyond its watchdog.
+// A counting semaphore: first come, first served, and no user waits beyond its watchdog.
 //
-// The protocol of library/patterns/Semaphore.asm. All of the state, permits and line, is one word, so that each
-// operation is one atomic step. A release hands its permit over to the first in line: a later request never overtakes
-// an earlier one, and nobody starves. Who gives up leaves the line, unless the permit is already his; then he has it.
+// The protocol of library/patterns/Semaphore.asm. The whole state, permits and line, is one word, so each operation is
+// one atomic step. A release hands its permit over to the first in line: a later request never overtakes an earlier
+// one, and no user starves. A user that gives up leaves the line, unless it already has the permit; then it keeps it.
 // library/runtime/PermitLine.asm is this file step by atomic step.
 //
 //     | byte 0  | byte 1          | ... | byte 7         |
-//     | permits | first in line   |     | last in line   |     0 stands for nobody, u + 1 for user u
+//     | permits | first in line   |     | last in line   |     0 stands for no user, u + 1 for user u
 //
-// INVARIANT: while a permit is free, nobody is in line.
-// LIMIT: seven users; no priority inheritance (pair_lock.hpp has it, for two). The watchdog is what bounds an inversion.
+// INVARIANT: while a permit is free, no user is in line. LIMIT: seven users; no priority inheritance (pair_lock.hpp has
+// it, for two). The watchdog bounds an inversion.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ class Semaphore {
     Semaphore& operator=(const Semaphore&) = delete;
 
     /// Takes a permit, or gives up when the watchdog's budget is used up, which the watchdog counts.
-    /// Who: the user of that number, 0 to 6, and he alone. Blocks: at most for the budget. Allocates: no.
+    /// Who: only the user of that number, 0 to 6. Blocks: at most for the budget. Allocates: no.
     /// Worst case without contention: one atomic exchange; the time is read only to wait.
     [[nodiscard]] bool acquire(int user, Watchdog& watchdog) noexcept {
         assert(user >= 0 && user < users);
@@ -53,8 +53,8 @@ class Semaphore {
     }
 
     /// Gives the permit to the first in line, or back. One release too many is counted and changes nothing.
-    /// Who: whoever has a permit. Blocks: no. Allocates: no. Worst case: one exchange for each user that asks at the
-    /// same time, and one system call if somebody waits.
+    /// Who: a user that has a permit. Blocks: no. Allocates: no. Worst case: one exchange for each user that asks at
+    /// the same time, and one system call if a task waits.
     void release() noexcept {
         std::uint64_t state = state_.load(std::memory_order_relaxed);
         for (;;) {
@@ -64,8 +64,8 @@ class Semaphore {
                 return;
             }
             const std::uint64_t released = line == 0 ? state + 1 : (line >> 8) << 8;
-            // SYNC(permit): release. All that was done with the permit happens before what the next holder does: he
-            // sees this exchange, or a later one of its release sequence (they are all exchanges), by an acquire.
+            // SYNC(permit): release. Everything done with the permit happens before what the next holder does: it sees
+            // this exchange, or a later one of its release sequence (they are all exchanges), by an acquire.
             if (state_.compare_exchange_weak(state, released, std::memory_order_release, std::memory_order_relaxed)) {
                 if (line != 0) {
                     call(std::size_t{(line & 0xff) - 1});
@@ -75,15 +75,15 @@ class Semaphore {
         }
     }
 
-    /// Who: everybody. Blocks: no.
+    /// Who: any thread. Blocks: no.
     int permits() const noexcept { return static_cast<int>(state_.load(std::memory_order_relaxed) & 0xff); }
-    /// Releases by somebody who had no permit: a fault of the program. Who: everybody. Blocks: no.
+    /// Releases by a user that had no permit: a fault of the program. Who: any thread. Blocks: no.
     std::int64_t illegal_releases() const noexcept { return illegal_.load(std::memory_order_relaxed); }
 
   private:
     enum class Answer { granted, in_line, refused };
 
-    // The user's place in line as a shift of the state; 64 if he is not in line.
+    // The user's place in line as a shift of the state; 64 if it is not in line.
     static int place_of(std::uint64_t state, int user) noexcept {
         int shift = 8;
         while (shift < 64 && ((state >> shift) & 0xff) != static_cast<std::uint64_t>(user) + 1) {
@@ -117,14 +117,14 @@ class Semaphore {
         }
     }
 
-    // He is served when he is out of the line: only a release takes him out, or he himself.
+    // A user is served when it is out of the line: only a release takes it out, or the user itself.
     bool stand_in_line(int user, std::int64_t until_ns) noexcept {
         Word& calls = calls_[static_cast<std::size_t>(user)].count;
         for (;;) {
-            // SYNC(call): acquire. If this sees the call, the next line sees that he was taken out of the line; if
-            // not, the wait below ends at once or is woken, for the count is no longer the one seen.
+            // SYNC(call): acquire. If this sees the call, the next line sees that the user was taken out of the line.
+            // If not, the wait below ends at once or is woken, because the count is no longer the one seen.
             const std::uint32_t seen = calls.load(std::memory_order_acquire);
-            // SYNC(permit): acquire, pairs with the exchange in release() that took him out of the line.
+            // SYNC(permit): acquire, pairs with the exchange in release() that took the user out of the line.
             if (place_of(state_.load(std::memory_order_acquire), user) == 64) {
                 return true;
             }
@@ -152,7 +152,7 @@ class Semaphore {
     }
 
     void call(std::size_t user) noexcept {
-        // SYNC(call): release, after he was taken out of the line.
+        // SYNC(call): release, after the user was taken out of the line.
         calls_[user].count.fetch_add(1, std::memory_order_release);
         clock_.wake(calls_[user].count);
     }

@@ -1,10 +1,10 @@
-// The swinging buffer: several arrays between one producer and one consumer, of which each works on its own, in place.
+// The swinging buffer: several arrays between one producer and one consumer; each works on its own array, in place.
 //
-// Nothing is copied; only indexes change hands. Two forms stand behind one interface:
+// Nothing is copied; only indexes change hands. Two forms have one interface:
 //
 //     LockedBuffer    the paper's (section V-B): the master swaps the indexes under a short lock, the slave holds the
 //                     lock while it works on its array, each until its watchdog        locked_buffer.hpp
-//     WaitFreeBuffer  one atomic exchange hands over the latest datum; nobody waits    wait_free_buffer.hpp
+//     WaitFreeBuffer  one atomic exchange hands over the latest datum; no waiting      wait_free_buffer.hpp
 //
 // This file owns what they share: the account, the datum with its number and time, and the two accesses. What holds of
 // both, as in library/patterns/SwingingBuffer.asm:
@@ -22,7 +22,7 @@
 
 namespace groundstate {
 
-/// What became of every datum; each number is whole, and they agree while producer and consumer rest.
+/// The outcomes of all data. Each number is whole, and they agree while producer and consumer rest.
 struct Account {
     std::int64_t written = 0;      ///< published by the producer
     std::int64_t handed_over = 0;  ///< made visible to the consumer
@@ -45,11 +45,12 @@ struct alignas(64) Array {
     std::int64_t stamp_ns = 0;
 };
 
-/// Whether one side of a buffer is at its array. That side's thread alone uses it.
+/// Whether one side of a buffer is at its array. Only that side's thread uses it.
 class Access {
   public:
-    /// Begins an access. A second one at once is a fault of the program: it would hand an array over, or take it back, that the
-    /// first still uses. An assertion says so; without assertions the second one is refused, and counted.
+    /// Begins an access. A second one at the same time is a fault of the program: it would hand over, or take back, an
+    /// array that the first one still uses. An assertion catches it; without assertions the second access is refused
+    /// and counted.
     [[nodiscard]] bool begin() noexcept {
         assert(!open_ && "two accesses at once on one side of a swinging buffer: end the first one before");
         return !std::exchange(open_, true);
@@ -61,7 +62,7 @@ class Access {
 };
 
 /// The producer's access to its array; false if the watchdog ended before the lock came. An access that ends without
-/// being published hands nothing over: the datum may be half written. One at a time.
+/// publishing hands nothing over: the datum may be half written. One at a time.
 template <class Buffer>
 class [[nodiscard]] Writing {
   public:
@@ -131,22 +132,22 @@ class [[nodiscard]] Reading {
         return &array_->datum;
     }
 
-    // When there is nothing to read, `fresh` alone may be asked.
+    // If there is nothing to read, only `fresh` may be called.
 
     /// The datum was not there at the reading before.
     bool fresh() const noexcept { return fresh_; }
-    /// Its number, from 1 on; the gap to the number before tells how many were not seen.
+    /// Its number, from 1 on; the gap to the number before is the number of data not seen.
     std::uint64_t sequence() const noexcept { return array_->sequence; }
     std::int64_t stamp_ns() const noexcept { return array_->stamp_ns; }
 
     /// An earlier datum, still in place, or null: LockedBuffer keeps those of the last N - 2 swaps before this one,
-    /// WaitFreeBuffer those of the last N - 3 new readings. A tracker so compares two images without a copy.
+    /// WaitFreeBuffer those of the last N - 3 new readings. So a tracker can compare two images without a copy.
     const Datum* previous(std::size_t back) const noexcept { return buffer_->earlier(back); }
 
   private:
     friend Buffer;
     Reading() noexcept = default;
-    // The array is null if there is nothing to read; the access has to be ended all the same.
+    // The array is null if there is nothing to read; the access must be ended all the same.
     Reading(Buffer& buffer, const Array<Datum>* array, bool fresh) noexcept
         : buffer_{&buffer}, array_{array}, fresh_{fresh} {}
 

@@ -1,11 +1,12 @@
 // A system of generated tasks: started together, supervised, stopped safely.
 //
-// In: the plan, and the tasks as units. Out: an Ending that says whether the run came to its end, or which task failed,
-// in which cycle, and why. A hook that throws ends its task alone; the supervisor notices, stops the others, and calls
-// the components' safe_stop() in the order of the plan. A hook that never returns cannot be ended: the task is reported
-// as hung when it makes no progress for so many of its periods, the others are stopped safely, and its thread is left
-// alone; the program has to end then without waiting for it (program.hpp does). Virtual time stands still while a hook
-// computes: there a guard looks at the wall clock, and takes the turn away from a task that has had it for too long.
+// In: the plan, and the tasks as units. Out: an Ending that says whether the run reached its end, or which task failed,
+// in which cycle, and why. A hook that throws ends only its own task; the supervisor notices, stops the others, and
+// calls the components' safe_stop() in the order of the plan. A hook that never returns cannot be ended. The task is
+// reported as hung when it makes no progress for a number of its periods; the others are stopped safely, and its thread
+// is left alone. The program must then end without waiting for it (program.hpp does). Virtual time stands still while a
+// hook computes: there a guard looks at the wall clock, and takes the turn away from a task that has had it for too
+// long.
 #pragma once
 
 #include <algorithm>
@@ -40,7 +41,7 @@ struct TaskPlan {
     const char* awaits = "";  ///< the channel whose data wake an asynchronous task
 };
 
-/// What a chart says of a system; all names are literals.
+/// What a chart says about a system; all names are literals.
 struct SystemPlan {
     const char* name = "";
     std::int64_t tick_ns = 1;
@@ -120,8 +121,8 @@ class SystemBase {
     SystemBase& operator=(const SystemBase&) = delete;
     virtual ~SystemBase() = default;
 
-    /// Runs all tasks for so long, or until one fails. Who: the owner, once; in virtual time from a thread that has not
-    /// entered the clock, which expects a thread more than there are tasks. Blocks. Allocates.
+    /// Runs all tasks for this long, or until one fails. Who: the owner, once; in virtual time from a thread that has
+    /// not entered the clock, which expects one thread more than there are tasks. Blocks. Allocates.
     Ending run(std::int64_t span_ns) {
         Ending outcome;
         for (std::size_t i = 0; i < units_.size() && outcome; ++i) {
@@ -160,7 +161,7 @@ class SystemBase {
         return outcome;
     }
 
-    // Who: everybody. Block: no.
+    // Who: any thread. Block: no.
     const SystemPlan& plan() const noexcept { return plan_; }
     const Unit& unit(std::size_t task) const noexcept { return *units_[task]; }
     const TaskContext<C>& context(std::size_t task) const noexcept { return *contexts_[task]; }
@@ -201,7 +202,7 @@ class SystemBase {
         return {.realtime = {.priority = options_.priority == 0 ? 0 : options_.priority + urgency, .processor = -1},
                 .rank = plan.rank,
                 .grain_ns = contexts_[number]->pace.is_modelled() ? plan_.tick_ns : 1,
-                // Virtual time follows the model, whose watchdog knows of no lateness.
+                // Virtual time follows the model, whose watchdog knows no lateness.
                 .counts_lateness = !is_virtual,
                 // The supervisor tells, and stops the others.
                 .failed = [](const std::string&, const std::exception_ptr&) {}};
@@ -222,7 +223,7 @@ class SystemBase {
         }
     }
 
-    /// A cycle of a task: its phases, with progress told and a failure recorded.
+    /// A cycle of a task: its phases, with progress counted and a failure recorded.
     template <class Body>
     void cycle(std::size_t number, const Cycle& cycle, Body&& body) {
         TaskContext<C>& own = task(number);
@@ -251,7 +252,7 @@ class SystemBase {
     static constexpr int first_rank = -1;
     static constexpr std::int64_t check_ns = 10'000'000;
 
-    // There may be no thread to be had. In virtual time those that started wait for all, and are left alone.
+    // It may be impossible to start a thread. In virtual time those that started wait for all, and are left alone.
     bool start_units(std::int64_t origin_ns, Ending& outcome) {
         for (std::size_t i = 0; i < units_.size(); ++i) {
             try {
@@ -303,7 +304,7 @@ class SystemBase {
         }
     }
 
-    // In virtual time a thread that looks at the wall clock; it ends when what is returned goes out of scope.
+    // In virtual time, a thread that looks at the wall clock; it ends when the returned object goes out of scope.
     auto start_guard() {
         if constexpr (is_virtual) {
             return std::jthread{[this](const std::stop_token& stop) { guard(stop); }};
@@ -312,15 +313,15 @@ class SystemBase {
         }
     }
 
-    // As long as turns are given, all is well. If not, whoever has the turn hangs; or, while the tasks are to end and
-    // nobody has it, all that are left do: time goes on no more for them.
+    // As long as turns are given, all is well. If not, the thread that has the turn hangs. Or, if the tasks are ending
+    // and no thread has the turn, all those left hang: time no longer goes on for them.
     void guard(const std::stop_token& stop) {
         std::mutex mutex;
         std::condition_variable_any woken;
         std::unique_lock lock{mutex};
         std::uint64_t turns = clock_.turns();
         const std::int64_t pause_ns = std::min<std::int64_t>(options_.guard_ns / 4 + 1, 100'000'000);
-        // What is counted is how often it looked, not the time: a program that was stopped meanwhile does not hang.
+        // It counts how often it looked, not the time: a program that was stopped meanwhile does not hang.
         std::int64_t still_ns = 0;
         while (!woken.wait_for(lock, stop, std::chrono::nanoseconds{pause_ns}, [&] { return stop.stop_requested(); })) {
             still_ns = clock_.turns() == turns ? still_ns + pause_ns : 0;
@@ -425,7 +426,7 @@ class SystemBase {
         }
     }
 
-    // What a reader of the log needs to say when a cycle was due.
+    // The data from which a reader of the log computes when a cycle was due.
     void tell_timing(const TaskPlan& task, McapFile::Map& about) const {
         const std::string name = task.name;
         const auto tell = [&](const char* what, std::int64_t ticks) {

@@ -1,8 +1,8 @@
 // What periodic and asynchronous tasks have in common: a thread, its settings, its statistics, and how it ends.
 //
 // A task is built, started once, and stopped. Its step is called in cycles, always by the task's own thread. A step
-// that throws ends the task, which keeps the exception and tells whoever its schedule names; the others go on. All that is allocated is allocated before
-// the first cycle. The statistics are those of library/patterns/Task.asm.
+// that throws ends the task, which keeps the exception and calls the function in its schedule; the others go on.
+// Everything is allocated before the first cycle. The statistics are those of library/patterns/Task.asm.
 #pragma once
 
 #include <array>
@@ -28,15 +28,16 @@ struct Cycle {
 
 using Step = std::function<void(const Cycle&)>;
 
-/// How a task is scheduled. In virtual time of those ready at one instant the one with the least rank goes first.
+/// How a task is scheduled. In virtual time, of the tasks ready at one instant, the one with the least rank goes first.
 struct Schedule {
     Realtime realtime{};
     int rank = 0;
     std::int64_t grain_ns = 1;  ///< what times are whole multiples of: a tick, where virtual time follows a model's
-    /// A cycle that begins late has so much less time to wait. The models count from its beginning instead.
+    /// A cycle that begins late has that much less time to wait. The models count from its beginning instead.
     bool counts_lateness = true;
-    /// Told when a step throws, which ends the task. Who: the task, as its last action; the clock of virtual time goes on when
-    /// it returns. It may ask other tasks to stop. If nobody is to be told, standard error is.
+    /// Called when a step throws, which ends the task. Who: the task, as its last action; the clock of virtual time
+    /// goes on when it returns. It may ask other tasks to stop. If there is no such function, standard error gets a
+    /// message.
     std::function<void(const std::string& task, std::exception_ptr failure)> failed{};
 };
 
@@ -74,10 +75,10 @@ class TaskThread {
     TaskThread(const TaskThread&) = delete;
     TaskThread& operator=(const TaskThread&) = delete;
 
-    /// The owner asks the body to end before; here is only waited for it.
+    /// The owner asks the body to end beforehand; this only waits for it.
     ~TaskThread() { join(); }
 
-    /// Who: the owner, once. Throws: std::system_error if there is no thread to be had.
+    /// Who: the owner, once. Throws: std::system_error if no thread can be started.
     template <class Body>
     void start(Body body) {
         state_.store(TaskState::running, std::memory_order_relaxed);
@@ -119,19 +120,19 @@ class TaskThread {
         }
     }
 
-    /// Who: everybody. Blocks: no. Once it says stopped or faulted, `failure` may be asked.
+    /// Who: any thread. Blocks: no. Once it says stopped or faulted, `failure` may be asked.
     TaskState state() const noexcept {
         return state_.load(std::memory_order_acquire);  // SYNC(end)
     }
 
-    /// What the step threw. Who: everybody, after the task has ended.
+    /// What the step threw. Who: any thread, after the task has ended.
     std::exception_ptr failure() const noexcept { return failure_; }
-    /// What the operating system granted; known before the first cycle. Who: everybody. Blocks: no.
+    /// What the operating system granted; known before the first cycle. Who: any thread. Blocks: no.
     Granted granted() const noexcept { return granted_.load(std::memory_order_relaxed); }
     const std::string& name() const noexcept { return name_; }
 
   private:
-    // What `failed` throws itself has nobody left to go to.
+    // An exception of `failed` itself has no caller left to go to.
     void tell_failure() noexcept {
         if (schedule_.failed) {
             schedule_.failed(name_, failure_);

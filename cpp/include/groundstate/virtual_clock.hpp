@@ -1,12 +1,13 @@
 // Virtual time: the same tasks, without the wall clock, and the same run each time.
 //
-// Of the threads that have entered exactly one runs; the others stand in line or wait. When the running one sleeps or
-// waits, the next goes on: first whoever is ready, in the order of ranks; when nobody is, time jumps to the earliest
-// instant somebody sleeps until. Computing takes no time, only sleeping does. A run thus depends on ranks and instants
-// alone, never on the machine.
+// Of the threads that have entered, exactly one runs; the others stand in line or wait. When the running one sleeps or
+// waits, the next goes on: first the ready ones, in the order of ranks. If none is ready, time jumps to the earliest
+// instant until which a thread sleeps. Only sleeping takes time; computing does not. A run thus depends on ranks and
+// instants alone, never on the machine.
 //
-// For tests and simulation; it locks, and is not meant for a control loop in real time. A thread sleeps until its turn on a
-// word of its own, and whoever gives the turn wakes that thread alone: two system calls, which are most of what a run costs.
+// For tests and simulation; it locks, and is not meant for a control loop in real time. A thread sleeps until its turn
+// on a word of its own, and the thread that gives the turn wakes only that one. These two system calls are most of what
+// a run costs.
 #pragma once
 
 #include <algorithm>
@@ -22,13 +23,13 @@
 
 namespace groundstate {
 
-/// A clock that stands still while somebody works, and jumps when all sleep.
+/// A clock that stands still while a thread works, and jumps when all sleep.
 class VirtualClock {
   public:
-    /// LIMIT: so many threads can live by one clock.
+    /// LIMIT: this many threads can live by one clock.
     static constexpr std::size_t seats = 32;
 
-    /// Time stands still until so many threads have entered; so it does not matter in which order they start.
+    /// Time stands still until this many threads have entered, so it does not matter in which order they start.
     explicit VirtualClock(std::size_t expected = 0) noexcept : expected_{expected} {}
 
     VirtualClock(const VirtualClock&) = delete;
@@ -75,12 +76,12 @@ class VirtualClock {
         hand_over(guard, next());
     }
 
-    /// How often somebody was given the turn. Who: everybody. Blocks: no.
+    /// How often a thread was given the turn. Who: any thread. Blocks: no.
     std::uint64_t turns() const noexcept { return turns_.load(std::memory_order_relaxed); }
 
-    /// Takes the turn away from whoever has it, for good: the others go on, and that thread waits for ever at its next
-    /// call. Its rank; nothing if nobody has the turn, or somebody of a lesser rank. Who: a guard that has seen no other
-    /// turn for too long.
+    /// Takes the turn away for good from the thread that has it: the others go on, and that thread waits for ever at
+    /// its next call. Returns its rank; nothing if no thread has the turn, or one of a lesser rank. Who: a guard that
+    /// has seen no other turn for too long.
     std::optional<int> evict(int least_rank) noexcept {
         std::unique_lock guard{mutex_};
         for (Seat& seat : seats_) {
@@ -129,7 +130,7 @@ class VirtualClock {
         std::terminate();
     }
 
-    // Who has the turn now, if it is another one than before.
+    // The thread that has the turn now, if it is another one than before.
     Seat* stand_up(Seat& seat) noexcept {
         seat.state = State::empty;
         --present_;
@@ -165,7 +166,7 @@ class VirtualClock {
         }
     }
 
-    // Without the mutex, so that whoever is woken does not run into it. The count was raised with it.
+    // Without the mutex, so that the woken thread does not run into it. The count was raised with it.
     void hand_over(std::unique_lock<std::mutex>& guard, Seat* next) noexcept {
         guard.unlock();
         if (next != nullptr) {
@@ -173,7 +174,7 @@ class VirtualClock {
         }
     }
 
-    // INVARIANT: at most one seat runs. Gives the turn to the next one, if nobody has it; that one has to be woken.
+    // INVARIANT: at most one seat runs. Gives the turn to the next one, if none has it; that one must be woken.
     Seat* next() noexcept {
         started_ = started_ || present_ >= expected_;
         Seat* first = nullptr;
@@ -195,7 +196,7 @@ class VirtualClock {
         return first;
     }
 
-    // Who is ready goes on now, before those who sleep until this very instant.
+    // A ready thread goes on now, before those that sleep until this very instant.
     static std::int64_t instant_of(const Seat& seat) noexcept {
         return seat.state == State::ready ? -1 : seat.until_ns;
     }

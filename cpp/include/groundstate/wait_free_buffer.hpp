@@ -1,13 +1,12 @@
-// The swinging buffer in which nobody waits: N >= 3 arrays, and one word that says which of them holds the latest
-// datum.
+// The swinging buffer without waiting: N >= 3 arrays, and one word that says which of them holds the latest datum.
 //
-// Of the arrays the producer has one, the consumer N - 2, and one lies between them. To publish, the producer
-// exchanges its array for the one between; to read, the consumer exchanges its oldest one for it, if it is new. As
-// each of the two goes away with what the exchange gave it, every array has one holder at any moment: this is what
-// library/runtime/LatestValue.asm states, for every interleaving.
+// The producer has one of the arrays, the consumer N - 2, and one lies between them. To publish, the producer exchanges
+// its array for the one between. To read, the consumer exchanges its oldest one for it, if it is new. Each of the two
+// leaves with the array that the exchange gave it, so every array has one holder at any moment.
+// library/runtime/LatestValue.asm states this for every interleaving.
 //
-// Both sides take a bounded number of their own steps, whatever the other one does; there is no master, no lock,
-// nothing to give up, and the watchdog that the interface asks for is not looked at.
+// Both sides take a bounded number of their own steps, whatever the other one does. There is no master, no lock and
+// nothing to give up, and the watchdog that the interface asks for is ignored.
 #pragma once
 
 #include <array>
@@ -19,7 +18,7 @@
 
 namespace groundstate {
 
-/// A swinging buffer of `N` arrays of `T` between one producer and one consumer, of which neither waits.
+/// A swinging buffer of `N` arrays of `T` between one producer and one consumer; neither waits.
 template <class T, std::size_t N, Clock C, class Observer = Unobserved>
 class WaitFreeBuffer {
     static_assert(N >= 3 && N <= 128, "one array to write, one to read, and one between them");
@@ -36,7 +35,7 @@ class WaitFreeBuffer {
     WaitFreeBuffer(const WaitFreeBuffer&) = delete;
     WaitFreeBuffer& operator=(const WaitFreeBuffer&) = delete;
 
-    /// Gives every array what it needs, so that nothing is allocated later. Who: before the tasks start.
+    /// Gives every array what it needs, so nothing is allocated later. Who: the builder, before the tasks start.
     template <class F>
     void prepare(F&& each) {
         for (Array<T>& array : arrays_) {
@@ -44,11 +43,11 @@ class WaitFreeBuffer {
         }
     }
 
-    /// The signal is raised when there is something new to read. Who: before the tasks start.
+    /// The signal is raised when there is something new to read. Who: the builder, before the tasks start.
     void wakes(Signal<C>& trigger) noexcept { trigger_ = &trigger; }
 
-    /// The array that the next writing is to, to prepare the datum in place before. What is left there without being
-    /// written and published is handed over to nobody. Who: the producer. Blocks: no.
+    /// The array of the next writing, for preparing the datum in place beforehand. A datum left there without being
+    /// written and published is never handed over. Who: the producer. Blocks: no.
     T& own() noexcept { return arrays_[written_array_].datum; }
 
     /// Begins to write, in place; the datum is an earlier one. Always succeeds, one writing at a time.
@@ -80,7 +79,7 @@ class WaitFreeBuffer {
         if constexpr (!std::is_same_v<Observer, Unobserved>) {
             observer_.loads(read_.value() != 0 ? arrays_[held_[newest_]].sequence : 0, fresh);
         }
-        // The array itself is not looked at: it may still be in the cache of the producer's processor.
+        // The array itself is not touched: it may still be in the cache of the producer's processor.
         return {*this, read_.value() != 0 ? &arrays_[held_[newest_]] : nullptr, fresh};
     }
 
@@ -91,7 +90,7 @@ class WaitFreeBuffer {
         return (between_.load(std::memory_order_relaxed) & fresh_mark) != 0;
     }
 
-    /// Who: everybody. Blocks: no.
+    /// Who: any thread. Blocks: no.
     Account account() const noexcept {
         return {.written = written_.value(),
                 .handed_over = written_.value(),
@@ -156,7 +155,7 @@ class WaitFreeBuffer {
     // INVARIANT: written_array_, between_ and held_ name each array once.
     alignas(64) std::atomic<Index> between_{1};
 
-    // What the producer uses lies together, and so does what the consumer uses.
+    // The producer's data lie together, and so do the consumer's.
     alignas(64) C& clock_;
     Signal<C>* trigger_ = nullptr;
     Index written_array_ = 0;

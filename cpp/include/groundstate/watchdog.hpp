@@ -1,8 +1,9 @@
 // The bound on a task's waiting, as in the paper's Figures 9 and 10 and `thereIsTime` in library/patterns/Task.asm.
 //
-// A cycle may spend so much time waiting that its work still fits into the period: budget = period - elaboration.
-// Every wait of the cycle draws on the same budget, and so does a late beginning; when it is used up, the wait is given up, the action left out,
-// and that is counted. A budget is always finite: no operation of the runtime waits without end.
+// A cycle may wait only as long as its work still fits into the period: budget = period - elaboration. Every wait of
+// the cycle draws on the same budget, and so does a late beginning. When the budget is used up, the wait is given up
+// and the action left out, and that is counted. A budget is always finite: no operation of the runtime waits without
+// end.
 #pragma once
 
 #include <cassert>
@@ -15,14 +16,14 @@ namespace groundstate {
 /// The time that a task may still spend waiting in this cycle.
 class Watchdog {
   public:
-    /// The time that one cycle may spend waiting; 0 tries once and never waits.
-    /// A wait takes whole grains off the budget, where a grain is a tick of a model that is followed in virtual time.
+    /// The time that one cycle may spend waiting; 0 tries once and never waits. A wait takes whole grains off the
+    /// budget; a grain is a tick of a model that is followed in virtual time.
     explicit Watchdog(std::int64_t budget_ns, std::int64_t grain_ns = 1) noexcept
         : budget_ns_{budget_ns}, grain_ns_{grain_ns} {
         assert(budget_ns >= 0 && budget_ns < never_ns && grain_ns > 0);
     }
 
-    /// A new cycle has the whole budget again, but for the time that it began late. Who: the task. Blocks: no.
+    /// A new cycle has the whole budget again, minus the time by which it began late. Who: the task. Blocks: no.
     void restart(std::int64_t late_ns = 0) noexcept {
         waited_ns_ = 0;
         spent_ns_ = late_ns;
@@ -42,10 +43,10 @@ class Watchdog {
         longest_wait_ns_.raise_to(waited_ns_);
     }
 
-    /// An action was left out, since waiting any longer would cost the deadline. Who: the task. Blocks: no.
+    /// An action was left out, because waiting any longer would miss the deadline. Who: the task. Blocks: no.
     void skip() noexcept { skipped_.add(); }
 
-    // Who: everybody. Block: no.
+    // Who: any thread. Block: no.
     std::int64_t budget_ns() const noexcept { return budget_ns_; }
     std::int64_t total_wait_ns() const noexcept { return total_wait_ns_.value(); }
     /// The longest waiting of one cycle.

@@ -1,6 +1,6 @@
 // Library functions on bags, on a set and a bag, and the conversions and sums of all three kinds of collections.
 //
-// Where a bag is asked for a set may stand, each of its elements once.
+// A set may stand for a bag, with each of its elements once.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,7 @@ namespace detail {
     return Value::integer(static_cast<std::int64_t>(std::min(count, most)));
 }
 
-/// How often each element of either occurs in the combination of both, by how often it does in each.
+/// How often each element of either occurs in the combination of both, from its counts in each.
 template <typename Both>
 [[nodiscard]] Counts combined_counts(const Value& left, const Value& right, Site site, Both both) {
     if (!is_countable(left) || !is_countable(right)) refuse(site, left, right);
@@ -98,7 +98,7 @@ template <typename Both>
     if (items.empty()) return zero;
     Value total = items.front();
     for (std::size_t i = 1; i < items.size(); ++i) {
-        // Here a summand is no operand: what is no number makes the collection a bad one.
+        // Here a summand is not an operand: an element that is not a number makes the collection a bad one.
         if (!as_parts(total) || !as_parts(items[i])) refuse(site, collection);
         if (total.is(Kind::integer) && items[i].is(Kind::integer)) {
             total = int_add(total, items[i], site);

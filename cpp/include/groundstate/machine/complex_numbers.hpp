@@ -1,4 +1,4 @@
-// Complex arithmetic. Integers and Reals stand for Complex numbers wherever those are asked for.
+// Complex arithmetic. Integers and Reals stand for Complex numbers wherever those are expected.
 #pragma once
 
 #include "reals.hpp"
@@ -84,7 +84,7 @@ template <typename Operation>
     });
 }
 
-/// A number where the model expects a Complex; anything else is as it is.
+/// A number where the model expects a Complex; anything else is unchanged.
 [[nodiscard]] inline Value coerce_complex(const Value& value) {
     const std::optional<double> number = detail::as_number(value);
     return number ? Value::complex(*number, 0.0) : value;

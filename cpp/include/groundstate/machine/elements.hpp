@@ -1,8 +1,9 @@
-// The elements of a dynamic domain: those there are, and those the running step makes by `extend`.
+// The elements of a dynamic domain: the existing ones, and those that the running step makes by `extend`.
 //
-// Elements are numbered from 0 on. What a step makes is seen by membership tests at once, by those who range over the
-// domain from the next part of the enclosing `seq` on, by everybody when the step is committed. It takes part in units
-// and sequences as locations do (locations.hpp). `Capacity`: how many there can be, 0 if as many as there is memory.
+// Elements are numbered from 0 on. Membership tests see at once what a step makes; binders that range over the domain
+// see it from the next part of the enclosing `seq` on; and everything sees it once the step is committed. It takes part
+// in units and sequences as locations do (locations.hpp). `Capacity`: how many there can be, 0 if as many as there is
+// memory.
 #pragma once
 
 #include <cstdint>

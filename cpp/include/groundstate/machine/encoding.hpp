@@ -222,7 +222,7 @@ class Decoder {
     return std::move(encoder.text);
 }
 
-/// Takes a value off the front of a text. A text that is none is a fault of the environment, at no place.
+/// Takes a value off the front of a text. A text that is not a value is a fault of the environment, without a place.
 [[nodiscard]] inline Value decode(std::string_view& text) { return detail::Decoder{text}.take(); }
 
 }  // namespace groundstate::machine

@@ -1,11 +1,12 @@
 // Why a step could not be made: faults of the model at run time, in generated code.
 //
-// A fault is the model's, never ours; spec/faults/ has a page for each kind. `fail` reports one from wherever it is met,
-// `attempt` is where a step catches it, and undoes what it did.
+// A fault is the model's, never ours; spec/faults/ has a page for each kind. `fail` reports one from anywhere;
+// `attempt` catches it for a step, and undoes what the step did.
 //
 // With exceptions a fault is thrown. Without them (-fno-exceptions, code generated with --bare) it jumps back to
-// `attempt`. LIMIT: such a jump runs no destructors; it is defined because bare code has trivially destructible objects
-// alone between `attempt` and `fail`, so no dynamic values. GROUNDSTATE_SINGLE_THREADED says that one thread makes steps.
+// `attempt`. LIMIT: such a jump runs no destructors; it is defined because bare code has only trivially destructible
+// objects between `attempt` and `fail`, and so no dynamic values. GROUNDSTATE_SINGLE_THREADED says that one thread
+// makes steps.
 #pragma once
 
 #include <cstdint>
@@ -68,7 +69,8 @@ enum class FaultKind : std::uint32_t {
 /// The number of a place in the model's text; a table of the generated code knows its file, line and column.
 using Site = std::uint32_t;
 
-/// A fault and its place. Of an inconsistent update `site` is the first rule and `other` the second; else both are the same.
+/// A fault and its place. For an inconsistent update, `site` is the first rule and `other` the second; otherwise both
+/// are the same.
 struct Fault {
     FaultKind kind = FaultKind::none;
     Site site = 0;
@@ -131,7 +133,7 @@ template <typename Action>
     detail::Landing* const outer = detail::landing;
     detail::landing = &here;
     if (setjmp(here.place) == 0) action();
-    // Compilers hold that what a call writes that never returns cannot be read: here it can, by all callers of this.
+    // Compilers assume that nothing can read what a call writes that never returns. Here all callers of this can.
     asm volatile("" : : "r"(&action) : "memory");
     detail::landing = outer;
     return {here.kind, here.site, here.other};
@@ -139,7 +141,7 @@ template <typename Action>
 
 #endif
 
-/// The same; what was done is undone after a fault, and before an exception that is no fault passes.
+/// The same; undoes its work after a fault, and before an exception that is not a fault passes.
 template <typename Action, typename Undo>
 [[nodiscard, gnu::always_inline]] inline Fault attempt(Action&& action, Undo&& undo) {
 #if defined(__cpp_exceptions)
@@ -161,7 +163,7 @@ template <typename Action, typename Undo>
 /// Ends the step at one place.
 [[noreturn]] inline void fail(FaultKind kind, Site site) { fail(kind, site, site); }
 
-/// Does beforehand what may not be needed: whoever needs it does it again, and meets the model's fault then.
+/// Does beforehand what may not be needed: code that needs it does it again, and then meets the model's fault.
 template <typename Action>
 void prepare(Action&& action) {
     const Fault fault = attempt(action);

@@ -37,7 +37,7 @@ class Inputs {
         return answers_.at(number).value;
     }
 
-    /// The answer of that step; none if nobody asked in it, or in a later one somebody did.
+    /// The answer of that step; none if it was not asked for in that step, or was asked for in a later one.
     template <class... Arguments>
     const Cell* answer(std::uint64_t step, const Arguments&... arguments) const {
         const std::uint32_t number = answers_.find(arguments...);
@@ -48,11 +48,11 @@ class Inputs {
     Locations<Answer<Cell>, Sparse, 1, Dimensions...> answers_;
 };
 
-/// The locations of a shared function: asked for as long as nobody gave them a value.
+/// The locations of a shared function: asked for as long as they have no value.
 template <class Cell, class Sparse, std::size_t Capacity, class... Dimensions>
 class SharedLocations {
   public:
-    /// The value; of one that never had any what `first()` gives: the initial value or the environment's.
+    /// The value; for a location that never had one, what `first()` gives: the initial value or the environment's.
     template <class First, class... Arguments>
     Cell read(Site site, First&& first, const Arguments&... arguments) {
         const std::uint32_t number = locations.number(site, arguments...);
@@ -70,7 +70,8 @@ class SharedLocations {
         locations.update(site, std::move(value), arguments...);
     }
 
-    /// Applies the step's updates; tells how many there were. What was updated is not asked for again, even if it is undef.
+    /// Applies the step's updates; returns how many there were. An updated location is not asked for again, even if it
+    /// is undef.
     std::size_t commit() {
         locations.each_update([&](std::uint32_t number) { give(number); });
         return locations.commit();

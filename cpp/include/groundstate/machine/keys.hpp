@@ -1,7 +1,8 @@
 // The arguments of locations that no array holds, numbered as they come up.
 //
 // In: tuples of arguments. Out: numbers from 0 on, in the order of first use, never given back. `Growing` keeps as many
-// as there is memory, `AtMost<N>` N of them in place, `Nowhere` none: of a function whose array holds all there is.
+// as there is memory, `AtMost<N>` keeps N of them in place, `Nowhere` none: for a function whose array holds all
+// locations.
 #pragma once
 
 #include <array>
@@ -69,7 +70,7 @@ struct Nowhere {
     };
 };
 
-/// Capacity other locations at most. Found one after the other: for a few.
+/// At most Capacity other locations. They are searched one after the other: for a few.
 template <std::size_t Capacity>
 struct AtMost {
     template <class Key>

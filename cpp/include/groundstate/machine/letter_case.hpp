@@ -11,7 +11,7 @@
 
 namespace groundstate::machine::detail {
 
-/// Puts the other case of a letter, or the letter, behind a text.
+/// Appends the other case of a letter, or the letter, to a text.
 template <std::size_t R, std::size_t E>
 void append_mapped(std::string& text, char32_t letter, const CaseRun (&runs)[R], const CaseExpansion (&expansions)[E]) {
     const auto expansion = std::lower_bound(std::begin(expansions), std::end(expansions), letter,

@@ -1,11 +1,12 @@
-// The library functions of the language on dynamic values, one a builtin of crates/program/src/builtin.rs.
+// The library functions of the language on dynamic values, one for each builtin of crates/program/src/builtin.rs.
 //
-// What each computes, and where it is not defined, is spec/standard-library.md's; crates/machine/src/builtin/ is the
-// definition that these agree with. Each is named by its builtin in small letters, takes the operands, then the place in
-// the model's text where the term stands; those that print take the model's names before that. A fault ends the step by
-// `fail`.
+// spec/standard-library.md says what each computes, and where it is not defined; crates/machine/src/builtin/ is the
+// definition with which these agree. Each has the name of its builtin in small letters, takes the operands, then the
+// place in the model's text where the term stands; those that print take the model's names before that. A fault ends
+// the step by `fail`.
 //
-// Not here, as they are no functions of values alone: chooseone, pre, program, print, the clock, temporal operators.
+// Not here, because they are not functions of values alone: chooseone, pre, program, print, the clock, temporal
+// operators.
 #pragma once
 
 #include "agents.hpp"

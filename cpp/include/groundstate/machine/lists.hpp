@@ -1,8 +1,8 @@
 // Sequences of literals or elements of a small domain: the lines before locks, the phases of a plan.
 //
 // An item is its ordinal, in a byte; 255 is undef. Up to 15 of them stand in two machine words, which compilers hold in
-// registers; longer lists are on the heap and shared until one of them changes. Bare code has no heap: there a list of more
-// is the fault of a limit. What is equal as sequences of values is equal as lists.
+// registers; longer lists are on the heap and shared until one of them changes. Bare code has no heap: there a longer
+// list is the fault of a limit. Lists are equal exactly when they are equal as sequences of values.
 #pragma once
 
 #include <algorithm>
@@ -69,7 +69,7 @@ class List {
     /// The same of a list that is known to hold no undef.
     T at(std::size_t place) const noexcept { return from_ordinal<T>(static_cast<std::uint32_t>(code_at(place))); }
 
-    /// The first place of an item; size() or more if it is none.
+    /// The first place of an item; size() or more if it is not in the list.
     std::size_t find(const Maybe<T>& wanted) const noexcept { return find_code(wanted.defined ? ordinal(wanted.value) : undef_code); }
     std::size_t find(const T& wanted) const noexcept { return find_code(ordinal(wanted)); }
 
@@ -214,9 +214,10 @@ class List {
     std::uint64_t high_ = 0;
 };
 
-// What binders range over. A list that has a place of its own is not copied: nobody changes it meanwhile.
+// What binders range over. A list that has a place of its own is not copied: nothing changes it meanwhile.
 
-/// The items of a list: Maybe<T>, or plain ones of a list that holds no undef. `Held` is the list or a reference to it.
+/// The items of a list: Maybe<T>, or plain ones for a list that holds no undef. `Held` is the list or a reference to
+/// it.
 template <class T, class Held, bool solid>
 class ListItems {
   public:

@@ -2,10 +2,10 @@
 //
 // A *unit* is a rule whose updates must agree among themselves: the whole step, one part of a `seq`, the body of a
 // turbo call. Units nest; their updates are consecutive suffixes of one log. `where_` says at which place of the log a
-// location's last update stands, so a clash is found in constant time and nothing has to be cleared between steps.
-// The updates of a finished part of a `seq` are applied at once and the log keeps what they overwrote; when the `seq`
-// ends they are taken back and their net effect joins the enclosing unit. So reading is one array access, in a `seq`
-// too (Börger & Stärk 2003, definitions 2.4.5 and 4.1.1; crates/machine/src/update.rs).
+// location's last update stands, so a clash is found in constant time, and nothing must be cleared between steps. The
+// updates of a finished part of a `seq` are applied at once and the log keeps what they overwrote; when the `seq` ends
+// they are taken back and their net effect joins the enclosing unit. So reading is one array access, in a `seq` too
+// (Börger & Stärk 2003, definitions 2.4.5 and 4.1.1; crates/machine/src/update.rs).
 //
 // Locations over small domains are *dense*: an array whose index is computed from the arguments. All others, and
 // arguments outside the array, are *sparse*: numbered as they come up. INVARIANT: number ↔ location is one to one, and
@@ -58,7 +58,7 @@ struct Anywhere {
     static constexpr T value(std::size_t) noexcept { return T{}; }
 };
 
-/// What another dimension covers, and undef, which has the last place.
+/// The values of another dimension, and undef, which has the last place.
 template <class Dimension>
 struct OrUndef {
     using Type = typename Dimension::Type;
@@ -128,7 +128,7 @@ std::tuple<Argument<typename Dimensions::Type>...> arguments_at(std::size_t plac
     }(std::index_sequence_for<Dimensions...>{});
 }
 
-/// One update: what a location becomes and which rule says so. Applied, it holds what it overwrote.
+/// One update: the new value of a location, and its rule. Once applied, it holds the value that it overwrote.
 template <class Cell>
 struct Update {
     std::uint32_t location = 0;
@@ -138,7 +138,7 @@ struct Update {
     Cell value{};
 };
 
-/// Where a unit or a sequence began, to be given back at its end.
+/// Where a unit or a sequence began; it is given back at its end.
 struct Mark {
     std::uint32_t outer = 0;  ///< where the enclosing unit begins
     std::uint32_t from = 0;
@@ -178,7 +178,7 @@ class Locations {
         }
     }
 
-    /// The same; a location that comes up for the first time gets a number.
+    /// The same; a location that occurs for the first time gets a number.
     template <class... Arguments>
     std::uint32_t number(Site site, const Arguments&... arguments) {
         const std::uint32_t found = find(arguments...);
@@ -202,7 +202,7 @@ class Locations {
         return found == none ? Cell{} : values_[found];
     }
 
-    /// The same of arguments that are known to have a place in the array.
+    /// The same for arguments that are known to have a place in the array.
     template <class... Arguments>
     const Cell& get(const Arguments&... arguments) const {
         return values_[place_of<Dimensions...>(arguments...)];
@@ -359,7 +359,7 @@ class Locations {
         unit_ = 0;
     }
 
-    /// Puts the state before the step in place of the intermediate one, or back again.
+    /// Exchanges the intermediate state for the one before the step, or back.
     void swap_original(bool back) {
         const std::size_t count = log_.size();
         for (std::size_t step = 0; step < count; ++step) {

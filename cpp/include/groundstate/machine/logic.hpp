@@ -1,7 +1,7 @@
 // Library functions on any value and on Booleans: equality, definedness, Kleene's connectives.
 //
 // Equality is total. `and_`, `or_`, `not_`, `implies` are Kleene's: undef is "not known". Here both operands have been
-// evaluated; generated code leaves the right one out where the left one decides. Those that are named like a word of C++
+// evaluated; generated code leaves the right one out if the left one decides. Those that are named like a word of C++
 // end in `_`.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace groundstate::machine {
 
 namespace detail {
 
-/// One truth value decides, whichever operand has it; else undef prevails.
+/// One truth value decides, whichever operand has it; otherwise undef prevails.
 [[nodiscard]] inline Value connected(const Value& left, const Value& right, bool deciding) noexcept {
     const Value decision = Value::boolean(deciding);
     if (left == decision || right == decision) return decision;

@@ -1,7 +1,7 @@
-// A scalar that may be undef, and what a guard and an operand ask of it.
+// A scalar that may be undef, and its use as a guard and as an operand.
 //
-// Only terms that may be undef have this type; what the generator can see to be defined is a plain T. Equality is
-// total, undef equals undef; everything else that meets undef is a fault (spec/language.md).
+// Only terms that may be undef have this type; a term that the generator knows to be defined is a plain T. Equality is
+// total, and undef equals undef; in every other use, undef is a fault (spec/language.md).
 #pragma once
 
 #include <compare>
@@ -9,7 +9,7 @@
 
 #include "fault.hpp"
 
-// A lambda that is called on the spot is part of the code around it.
+// A lambda that is called at once is part of the code around it.
 #define GROUNDSTATE_CALLED __attribute__((always_inline))
 
 namespace groundstate::machine {
@@ -18,7 +18,7 @@ namespace groundstate::machine {
 struct Undef {};
 inline constexpr Undef undef{};
 
-/// A value of T, or undef. `value` is T{} where it is undef, so that equality and order may compare it blindly.
+/// A value of T, or undef. `value` is T{} if it is undef, so equality and order may compare it without a test.
 template <class T>
 struct Maybe {
     T value{};
@@ -31,7 +31,7 @@ struct Maybe {
     friend constexpr bool operator==(const Maybe&, const Maybe&) = default;
 };
 
-/// The value itself: where a term is compared with itself, which compilers would warn of.
+/// The value itself: for comparing a term with itself, of which compilers would warn.
 template <class T>
 constexpr const T& itself(const T& value) noexcept {
     return value;
@@ -66,7 +66,7 @@ constexpr bool holds(const Maybe<bool>& value, Site site) {
 }
 constexpr bool holds(bool value, Site) noexcept { return value; }
 
-// Kleene's connectives; the right operand is evaluated only where it matters.
+// Kleene's connectives; the right operand is evaluated only if it matters.
 
 template <class Right>
 constexpr Maybe<bool> conjunction(Maybe<bool> left, Right right) {

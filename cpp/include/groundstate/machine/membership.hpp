@@ -1,7 +1,8 @@
-// Whether a value may be written to a function: the check made with each update, and of what the environment gives.
+// Whether a value may be written to a function: this is checked for each update, and for each value from the
+// environment.
 //
-// Each gives the value back, so that it stands around it; undef is in every domain. What is checked beyond the type is
-// that of crates/machine/src/membership.rs.
+// Each check returns the value, so it can be written around it; undef is in every domain. What is checked beyond the
+// type is that of crates/machine/src/membership.rs.
 #pragma once
 
 #include <cstdint>
@@ -57,7 +58,7 @@ constexpr T between(T value, std::int64_t low, std::int64_t high, Site site) {
     return detail::member(std::move(value), site, [=](std::int64_t number) { return low <= number && number <= high; });
 }
 
-/// Whether a value stands in a table.
+/// Whether a value is in a table.
 template <class T, class Table>
 constexpr bool among(const T& value, const Table& table) {
     for (const auto& item : table) {
@@ -68,7 +69,7 @@ constexpr bool among(const T& value, const Table& table) {
     return false;
 }
 
-/// A value that stands in a table.
+/// A value that is in a table.
 template <class T, class Table>
 constexpr T within(T value, const Table& table, Site site) {
     return detail::member(std::move(value), site, [&](const auto& item) { return among(item, table); });

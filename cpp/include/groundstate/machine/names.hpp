@@ -1,4 +1,4 @@
-// The names of a model that values are printed by: literals, elements, rules. A table of the generated code.
+// The names of a model by which values are printed: literals, elements, rules. It is a table of the generated code.
 #pragma once
 
 #include <span>

@@ -36,8 +36,8 @@ struct Decimal {
     return result;
 }
 
-/// Of a finite number other than zero the shortest digits that read back as the same double; of those the nearest, and
-/// of two as near the greater.
+/// For a finite number other than zero, the shortest digits that read back as the same double; of those the nearest,
+/// and of two as near the greater.
 [[nodiscard]] inline Decimal decimal(double number) {
     std::array<char, 128> buffer{};
     const double magnitude = std::fabs(number);
@@ -48,8 +48,8 @@ struct Decimal {
         return parted({buffer.data(), static_cast<std::size_t>(end - buffer.data())});
     };
     Decimal result = written();
-    // The library gives the even one of two as near. Then the exact digits are these, a 5, and zeros; 60 are enough, as
-    // no double comes so near to a number of 18 digits without being that.
+    // Of two equally near ones, the library gives the even one. Then the exact digits are these, a 5, and zeros; 60 are
+    // enough, as no double comes so near to a number of 18 digits without being that.
     const std::size_t count = result.digits.size();
     if (count < 15) return result;
     const std::string exact = written(static_cast<int>(count) + 60).digits;
@@ -58,7 +58,7 @@ struct Decimal {
     return result;
 }
 
-/// Puts a Real behind a text: always with a point or an exponent.
+/// Appends a Real to a text: always with a point or an exponent.
 inline void append_real(std::string& text, double number) {
     if (number < 0) text.push_back('-');
     if (std::isinf(number)) {

@@ -1,4 +1,5 @@
-// What all library functions share: the fault of an operand they are not defined on, and the limit of collections.
+// The common part of all library functions: the fault of an operand on which they are not defined, and the limit of
+// collections.
 #pragma once
 
 #include <cstdint>

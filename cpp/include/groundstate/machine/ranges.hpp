@@ -1,4 +1,4 @@
-// What binders range over without a collection being built: integers, literals and elements in their order.
+// Ranges of binders without building a collection: integers, literals and elements in their order.
 #pragma once
 
 #include <array>
@@ -137,7 +137,7 @@ auto listed(const Carrier& carrier) {
     return all;
 }
 
-/// What a choice is made among: `Capacity` candidates at most, 0 if that is not known.
+/// The candidates of a choice: at most `Capacity`, 0 if that is not known.
 template <class T, std::size_t Capacity>
 class Candidates {
   public:

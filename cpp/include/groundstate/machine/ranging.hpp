@@ -1,4 +1,4 @@
-// Collections as terms build them and binders range over them: displays, ranges, elements, products, subsets.
+// Collections that terms build and binders range over: displays, ranges, elements, products, subsets.
 //
 // The twin of the terms of crates/machine/src/evaluate.rs and of enumerate.rs. Orders are canonical: of several binders or
 // components the leftmost varies slowest.
@@ -51,7 +51,7 @@ namespace detail {
     const double size = std::floor(product((high - low) / step, 1.0 + 1e-12) + 1e-9);
     Values numbers;
     if (size < 0) return numbers;
-    // Of an endless range more than the limit, of one between infinities of one sign a single number.
+    // For an endless range more than the limit; for one between infinities of one sign, a single number.
     const double steps = std::isnan(size) ? 0.0 : std::min(size, 1e18);
     check_size(static_cast<std::uint64_t>(steps), site);
     for (std::uint64_t i = 0; i <= static_cast<std::uint64_t>(steps); ++i) {
@@ -77,7 +77,7 @@ namespace detail {
     detail::refuse(site, low, high, by);
 }
 
-/// The elements that a binder ranges over, in their order. Those of a set or sequence are not copied.
+/// The elements over which a binder ranges, in their order. Those of a set or sequence are not copied.
 class Members {
   public:
     /// Of a set or sequence.
@@ -93,7 +93,7 @@ class Members {
     Value collection_;
 };
 
-/// Of a bag each element as often as it occurs, of a map the pairs of key and value.
+/// For a bag, each element as often as it occurs; for a map, the pairs of key and value.
 [[nodiscard]] inline Members iterable(const Value& collection, Site site) {
     switch (collection.kind()) {
         case Kind::set:
@@ -112,7 +112,7 @@ class Members {
     }
 }
 
-/// The elements of a product domain, by those of its components.
+/// The elements of a product domain, from those of its components.
 [[nodiscard]] inline Values tuples(const std::vector<Values>& components, Site site) {
     std::uint64_t size = 1;
     for (const Values& component : components) {

@@ -1,7 +1,7 @@
 // Real arithmetic, the order of numbers and characters, and conversions between Integer and Real.
 //
-// Integers stand for Reals wherever Reals are asked for. A result that is no number is a fault; infinity is a Real.
-// The host's `double` has to be IEEE 754's, and its rules kept: no -ffast-math.
+// Integers stand for Reals wherever Reals are expected. A result that is not a number is a fault; infinity is a Real.
+// The host's `double` must be IEEE 754's, and its rules must be kept: no -ffast-math.
 #pragma once
 
 #include <cmath>
@@ -35,7 +35,7 @@ template <typename Operation>
     return Value::real(operation(*x, *y, site));
 }
 
-/// A product rounded by itself: compilers may fuse it with a sum, where the machine rounds twice.
+/// A product rounded by itself: compilers might fuse it with a sum, but the machine rounds twice.
 [[nodiscard]] inline double product(double a, double b) noexcept {
     const volatile double rounded = a * b;
     return rounded;
@@ -107,7 +107,7 @@ template <typename Operation>
 [[nodiscard]] inline Value int_to_real(const Value& a, Site site) { return Value::real(detail::number_of(a, site)); }
 [[nodiscard]] inline Value nat_to_real(const Value& a, Site site) { return Value::real(detail::number_of(a, site)); }
 
-/// An Integer where the model expects a Real; anything else is as it is.
+/// An Integer where the model expects a Real; anything else is unchanged.
 [[nodiscard]] inline Value coerce_real(const Value& value) noexcept {
     return value.is(Kind::integer) ? Value::real(static_cast<double>(value.as_integer())) : value;
 }

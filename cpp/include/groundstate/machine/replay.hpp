@@ -1,9 +1,9 @@
-// A generated machine driven from a text: for comparing its states with those of the model.
+// Drives a generated machine from a text, to compare its states with those of the model.
 //
-// In, line by line: `in NAME (ARGUMENTS) VALUE`, `choose INDEX`, `number VALUE`, `time UNIT VALUE` give the answers of the
-// coming step; `step` makes it, the first one the initial state. Out: after each the locations that have a value, sorted,
-// as `NAME (ARGUMENTS) VALUE`, after `? ` where an argument is undef, then a line `.`; or `fault KIND SITE` and the end. Values are written as by `encode`
-// (encoding.hpp).
+// In, line by line: `in NAME (ARGUMENTS) VALUE`, `choose INDEX`, `number VALUE`, `time UNIT VALUE` give the answers of
+// the next step; `step` makes it, the first one the initial state. Out: after each, the locations that have a value,
+// sorted, as `NAME (ARGUMENTS) VALUE`, after `? ` if an argument is undef, then a line `.`; or `fault KIND SITE` and
+// the end. Values are written as by `encode` (encoding.hpp).
 #pragma once
 
 #include <algorithm>
@@ -113,7 +113,7 @@ void print_state(const Machine& machine, std::ostream& out) {
     out << ".\n";
 }
 
-/// Drives a machine by what stands in a stream. `Environment` is made of a `Script`.
+/// Drives a machine by the contents of a stream. `Environment` is made of a `Script`.
 template <class Machine, class Environment>
 int replay(std::istream& in, std::ostream& out) {
     Script script;

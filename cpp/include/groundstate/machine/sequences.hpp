@@ -1,4 +1,4 @@
-// Library functions on sequences and products. Positions count from 0; outside of them is a fault.
+// Library functions on sequences and products. Positions count from 0; a position outside is a fault.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace detail {
     return value.items();
 }
 
-/// The first and the last element are those of sequences that have some.
+/// Only sequences that are not empty have a first and a last element.
 [[nodiscard]] inline const Values& not_empty(const Value& value, Site site) {
     const Values& items = sequence(value, site);
     if (items.empty()) fail(FaultKind::bad_operand, site);
@@ -117,7 +117,7 @@ namespace detail {
     return detail::index_of(Kind::seq, seq, element, site);
 }
 
-/// At a position, or behind the last.
+/// At a position, or after the last.
 [[nodiscard]] inline Value insert_at(const Value& seq, const Value& index, const Value& element, Site site) {
     if (!seq.is(Kind::seq) || !index.is(Kind::integer)) detail::refuse(site, seq, index, element);
     const std::size_t at = detail::position(index, seq.items().size() + 1, site);
@@ -164,7 +164,7 @@ namespace detail {
     return detail::index_of(Kind::tuple, tuple, element, site);
 }
 
-/// The component that a pattern of variables binds: no function of the library, but a term of its own, which calls
+/// The component that a pattern of variables binds: not a function of the library, but a term of its own, which calls
 /// everything undefined that is no tuple.
 [[nodiscard]] inline Value project(const Value& tuple, std::uint32_t index, Site site) {
     if (!tuple.is(Kind::tuple)) fail(FaultKind::undefined_operand, site);

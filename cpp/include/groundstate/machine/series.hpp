@@ -1,5 +1,5 @@
-// A row of values: of a fixed capacity, in place, or growing on the heap. Generated code takes the first wherever it
-// knows a bound; `--bare` code has nothing else.
+// A row of values: of a fixed capacity, in place, or growing on the heap. Generated code uses the first form wherever
+// it knows a bound; `--bare` code uses only that form.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace groundstate::machine {
 
-/// `Capacity` values at most; 0: as many as there is memory.
+/// At most `Capacity` values; 0: as many as there is memory.
 template <class T, std::size_t Capacity>
 class Series {
   public:

@@ -1,4 +1,4 @@
-// A 64-bit number as a size, on machines where sizes have fewer bits, too.
+// A 64-bit number as a size, also on machines where sizes have fewer bits.
 #pragma once
 
 #include <cstddef>

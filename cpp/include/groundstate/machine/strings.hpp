@@ -1,4 +1,4 @@
-// Library functions on strings. Positions count Unicode scalar values from 0; outside of them is a fault.
+// Library functions on strings. Positions count Unicode scalar values from 0; a position outside is a fault.
 #pragma once
 
 #include <string_view>
@@ -18,7 +18,7 @@ namespace detail {
     return value.as_string();
 }
 
-/// `b`, `ib`, `a+ib`, `a-ib`, without white space; parts left out are 0, of `i` itself 1.
+/// `b`, `ib`, `a+ib`, `a-ib`, without white space; missing parts are 0, that of `i` itself is 1.
 [[nodiscard]] inline std::optional<ComplexParts> read_complex(std::string_view text) noexcept {
     const auto part = [](std::string_view digits, double otherwise) {
         return digits.empty() ? std::optional{otherwise} : read_real(digits);
@@ -37,7 +37,7 @@ namespace detail {
     return ComplexParts{*real, *imaginary};
 }
 
-/// The integer that a text writes, with an `n` for Naturals behind it or none.
+/// The integer in a text; an `n` for Naturals may follow it.
 [[nodiscard]] inline std::int64_t written_integer(const Value& value, Site site) {
     std::string_view text = trimmed(text_of(value, site));
     while (!text.empty() && text.back() == 'n') text.remove_suffix(1);
@@ -48,7 +48,7 @@ namespace detail {
 
 }  // namespace detail
 
-/// The value as it is printed; a string or character as it is.
+/// The value as it is printed; a string or character unchanged.
 [[nodiscard]] inline Value to_string(const Value& value, const Names& names, Site site) {
     if (value.is(Kind::string)) return detail::checked(value, site);
     if (!value.is(Kind::character)) return detail::checked(Value::string(show(value, names)), site);

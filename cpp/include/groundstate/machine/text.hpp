@@ -16,7 +16,7 @@ namespace groundstate::machine {
 
 namespace detail {
 
-/// Puts values behind a text.
+/// Appends values to a text.
 class Printer {
   public:
     explicit Printer(const Names& names) noexcept : names_{names} {}

@@ -1,6 +1,6 @@
-// Text as Unicode scalar values: UTF-8 there and back, what counts as white space.
+// Text as Unicode scalar values: from and to UTF-8, and which of them are white space.
 //
-// In: UTF-8 that is valid; strings of values are. Strings are indexed by scalar values, as the language has it.
+// In: UTF-8 that is valid; strings of values are. Strings are indexed by scalar values, as in the language.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // Units and sequences over several functions: what `seq`, the loops and turbo calls do to the update set.
 //
-// A rule of the generated code names the functions that it may update; no other is touched. A fault in the middle needs
+// A rule of the generated code names the functions that it may update; it touches no other. A fault in the middle needs
 // no ending: the step rolls all functions back.
 #pragma once
 

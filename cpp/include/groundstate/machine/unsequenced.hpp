@@ -6,8 +6,8 @@
 // be (crates/generate/src/model/form.rs); whatever it cannot prove has the form Locations, which takes all.
 //
 // All but the last keep what they know of a running step in a `Next`, which `begin` gives and `commit` takes. It is a
-// local variable of the step, so that compilers hold it in registers; a step that fails just leaves it. What `commit`
-// gives is other than 0 where the step has updated something.
+// local variable of the step, so compilers hold it in registers; a step that fails just leaves it. `commit` returns a
+// number other than 0 if the step has updated something.
 #pragma once
 
 #include <array>
@@ -22,10 +22,10 @@
 
 namespace groundstate::machine {
 
-/// Whether updates of one step may clash; where they cannot, nobody looks for it.
+/// Whether updates of one step may clash; if they cannot, no check is made.
 enum class Clashes : bool { impossible, possible };
 
-/// What all forms have in common whose locations are numbered by their place in an array. `Form` has `cell(place)`.
+/// The common part of all forms whose locations are numbered by their place in an array. `Form` has `cell(place)`.
 template <class Form, class Cell, class... Dimensions>
 class Placed {
   public:
@@ -158,7 +158,7 @@ class FewLocations : public Placed<FewLocations<clashes, Cell, Dimensions...>, C
     std::array<Site, clashes == Clashes::possible ? size : 0> rules_{};
 };
 
-/// As Locations, without looking for clashes. INVARIANT: a step updates each location with one value at most.
+/// Like Locations, without looking for clashes. INVARIANT: a step updates each location with at most one value.
 template <class Cell, class Sparse, std::size_t Capacity, class... Dimensions>
 class DisjointLocations : public Locations<Cell, Sparse, Capacity, Dimensions...> {
   public:
@@ -169,7 +169,7 @@ class DisjointLocations : public Locations<Cell, Sparse, Capacity, Dimensions...
 };
 
 /// Two arrays: the values of this state and of the next one. INVARIANT: a step that updates one location updates all.
-/// `Capacity` is its size, or 0 if it stands on the heap.
+/// `Capacity` is its size, or 0 if it is on the heap.
 template <class Cell, std::size_t Capacity, class... Dimensions>
 class WholeArray : public Placed<WholeArray<Cell, Capacity, Dimensions...>, Cell, Dimensions...> {
   public:

@@ -1,8 +1,8 @@
 // Values: the elements of the universes, as generated code holds those that have no C++ type of their own.
 //
-// The twin of crates/machine/src/value.rs. A value is 16 bytes: small ones stand in it, compound ones are shared and
-// never changed, so that a copy is two words and a count. The order is the machine's canonical one: by kind, then by
-// contents; of collections lexicographic, of strings by bytes.
+// The twin of crates/machine/src/value.rs. A value is 16 bytes: small ones stand in it; compound ones are shared and
+// never changed, so a copy is two words and a count. The order is the machine's canonical one: by kind, then by
+// contents; lexicographic for collections, by bytes for strings.
 //
 // INVARIANT: a set's elements are sorted and distinct; so are a bag's elements and a map's keys; no count is 0; no Real
 // is NaN or negative zero; a string is UTF-8.
@@ -70,8 +70,8 @@ class Shared {
 
     /// True for the last one.
     bool leave() const noexcept {
-        // SYNC(value-sharing): what others read happens before their leaving (release), and that before what the last one
-        // frees (acquire). Joining needs no order: who joins has a share already.
+        // SYNC(value-sharing): what others read happens before they leave (release), and that before what the last one
+        // frees (acquire). Joining needs no order: a thread that joins has a share already.
         return uses_.fetch_sub(1, std::memory_order_acq_rel) == 1;
     }
 
@@ -94,7 +94,7 @@ struct Compound final : Shared {
 
 }  // namespace detail
 
-/// A value. Who: everybody; values that share a compound may be used by several threads, one value may not.
+/// A value. Who: any thread; several threads may use values that share a compound, but not the same value.
 class Value {
   public:
     /// undef
@@ -169,7 +169,7 @@ class Value {
     /// The map of these entries; of equal keys the last counts.
     [[nodiscard]] static Value map(Entries entries);
 
-    // The same of what is sorted and distinct already, no count 0.
+    // The same for elements that are sorted and distinct already, with no count 0.
 
     [[nodiscard]] static Value sorted_set(Values elements) { return compound(Kind::set, std::move(elements)); }
     [[nodiscard]] static Value sorted_bag(Counts counts) { return compound(Kind::bag, std::move(counts)); }

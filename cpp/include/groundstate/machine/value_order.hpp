@@ -12,7 +12,7 @@ namespace groundstate::machine {
 
 namespace detail {
 
-/// Doubles that are not NaN, and zero is one: so the order of numbers is the total order.
+/// Doubles are not NaN, and there is one zero, so the order of numbers is the total order.
 [[nodiscard]] inline std::strong_ordering order(double a, double b) noexcept {
     return a < b ? std::strong_ordering::less : a > b ? std::strong_ordering::greater : std::strong_ordering::equal;
 }

@@ -1,7 +1,7 @@
-// All locations of a function in one machine word: few of them, whose values take a few bits each.
+// All locations of a function in one machine word: there are few of them, and their values take a few bits each.
 //
-// A philosopher's fork is held by one of five or nobody: three bits, and five forks are fifteen. Such a function is read
-// with a shift and a mask, a step's next values are one more word, and to commit them is one assignment.
+// One of five philosophers holds a fork, or none: that takes three bits, and five forks take fifteen. Such a function
+// is read with a shift and a mask; a step's next values are one more word, and committing them is one assignment.
 //
 // A *code* says how a value is written as a number below `count`. INVARIANT: no other value is ever put or updated; the
 // generator has proved it (crates/generate/src/model/storage.rs).
