@@ -110,7 +110,7 @@ impl Declare<'_> {
 
     fn define(&mut self, name: String, id: DomainId, span: Span) -> Option<DomainId> {
         match self.names.domains.get(&name) {
-            // A type variable of an imported library is no obstacle to a domain of that name.
+            // A type variable of an imported library is not an obstacle to a domain of that name.
             Some(first) if *first != Domains::ANY && !matches!(self.model.domains.kind(*first), DomainKind::Any) => {
                 let first = self.model.domains.get(*first).span;
                 self.faults.push(fault::name::duplicate_domain(span, first, &name));

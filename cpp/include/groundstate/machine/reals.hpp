@@ -91,7 +91,7 @@ template <typename Operation>
     return detail::reals(a, b, site, [](double x, double y, Site at) { return real_power(x, y, at); });
 }
 
-/// Of a negative number it is no number.
+/// Of a negative number it is not a number.
 [[nodiscard]] inline Value sqrt(const Value& a, Site site) {
     return Value::real(square_root(detail::number_of(a, site), site));
 }

@@ -44,7 +44,7 @@ pub(crate) fn without_contents(span: Span, name: &str, base: &str) -> Diagnostic
     .with_help(format!("define it: `domain {name} = {{…}}` in the definitions section"))
 }
 
-/// Contents that are no set of elements of the base.
+/// Contents that are not a set of elements of the base.
 pub(crate) fn contents(span: Span, name: &str, base: &str, found: &str) -> Diagnostic {
     Diagnostic::error("domain-contents", span, format!("`{name}` is a subset of {base}, but its contents are {found}"))
         .because(format!("a set of {base} is expected"))

@@ -24,7 +24,7 @@ pub(crate) fn update_domain(span: Span, target: &str, mismatch: &Mismatch, decla
         .with_help(mismatch.help())
 }
 
-/// A value of the wrong domain for something that is no location.
+/// A value of the wrong domain for something that is not a location.
 pub(crate) fn value_domain(span: Span, what: &str, mismatch: &Mismatch) -> Diagnostic {
     let Mismatch { expected, found, .. } = mismatch;
     Diagnostic::error("update-domain", span, format!("{what} takes {expected}, but this is {found}"))

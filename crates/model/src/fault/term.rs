@@ -116,7 +116,7 @@ pub(crate) fn case_never_matches(span: Span, found: &str, subject: Span, expecte
     .with_help(format!("give a case of domain {expected}, or remove it"))
 }
 
-/// Ranging over a term that is no collection.
+/// Ranging over a term that is not a collection.
 pub(crate) fn not_a_collection(span: Span, found: &str) -> Diagnostic {
     Diagnostic::error(
         "not-a-collection",

@@ -92,7 +92,7 @@ pub(crate) fn unterminated_character(span: Span) -> Diagnostic {
         .with_help("close it with `'`, as in `'a'` or `'\\n'`; a text of several characters stands in \"…\"")
 }
 
-/// A backslash with a letter that is no escape.
+/// A backslash with a letter that is not an escape.
 pub(crate) fn unknown_escape(span: Span, letter: char) -> Diagnostic {
     Diagnostic::error("unknown-escape", span, format!("`\\{letter}` is no escape"))
         .because(r#"the escapes are \n \t \b \r \f \\ \' \" , \ and one to three octal digits, and \uXXXX"#)

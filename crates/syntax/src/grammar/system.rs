@@ -48,7 +48,7 @@ fn item(p: &mut Parser<'_>) {
 fn quantity(p: &mut Parser<'_>) {
     p.start(QUANTITY);
     if p.eat(REAL) || p.expect(INTEGER, "as a length of time") {
-        // The next line is another item, and a word that goes on here is no unit.
+        // The next line is another item, and a word that goes on here is not a unit.
         if p.on_new_line() || p.at(EOF) || keyword(p, &[OFFSET_KW, DEADLINE_KW]).is_some() {
             let found = p.missing();
             p.fault(fault::expected_unit(found));
