@@ -127,14 +127,14 @@ pub enum TermKind {
         /// The condition; true if absent.
         condition: Option<Box<Term>>,
     },
-    /// `if … elseif … else … endif`; undef where no branch is taken.
+    /// `if … elseif … else … endif`; undef if no branch is taken.
     If {
         /// Guards and terms in order.
         branches: Vec<(Term, Term)>,
         /// Where no guard holds.
         otherwise: Option<Box<Term>>,
     },
-    /// `switch … endswitch`; undef where no case matches.
+    /// `switch … endswitch`; undef if no case matches.
     Switch {
         /// The term compared.
         subject: Box<Term>,

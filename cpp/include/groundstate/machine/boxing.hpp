@@ -60,7 +60,7 @@ struct ListOf<List<T>> {
     using Item = T;
 };
 
-/// The scalar or list of scalars that a value holds; undef where it is undef, a fault where it is of another kind.
+/// The scalar or list of scalars that a value holds; undef if it is undef, a fault if it is of another kind.
 template <class T>
 Maybe<T> unbox(const Value& value, Site site) {
     if (value.is_undef()) {

@@ -195,7 +195,7 @@ class Locations {
         }
     }
 
-    /// The value of a location, undef where it never had one.
+    /// The value of a location, undef if it never had one.
     template <class... Arguments>
     Cell read(const Arguments&... arguments) const {
         const std::uint32_t found = find(arguments...);

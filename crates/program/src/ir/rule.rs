@@ -165,7 +165,7 @@ pub enum Runs {
 }
 
 impl Rule {
-    /// What it runs beside the rules that stand in it.
+    /// What it runs besides the rules that stand in it.
     pub fn runs(&self) -> Runs {
         match self {
             Rule::Call { procedure, .. } | Rule::TurboCall { procedure, .. } | Rule::Return { procedure, .. } => {
