@@ -4,6 +4,8 @@
 
 use std::fmt::Write;
 
+use palette::{Paper, painted};
+
 use crate::measure::{SMALL, TEXT, TITLE};
 
 /// Light or dark.
@@ -17,51 +19,6 @@ pub enum Theme {
     Dark,
 }
 
-/// A figure's colours: fill and line, and both where the figure is lit.
-struct Ink {
-    fill: &'static str,
-    line: &'static str,
-    lit: &'static str,
-}
-
-/// Colours: paper, ink, and those of each figure.
-struct Palette {
-    paper: &'static str,
-    ink: &'static str,
-    faint: &'static str,
-    line: &'static str,
-    /// Text on what is lit.
-    on_lit: &'static str,
-    circle: Ink,
-    hexagon: Ink,
-    rectangle: Ink,
-    block: Ink,
-}
-
-const LIGHT: Palette = Palette {
-    paper: "#ffffff",
-    ink: "#1c2227",
-    faint: "#566069",
-    line: "#3c464f",
-    on_lit: "#ffffff",
-    circle: Ink { fill: "#e8f1fa", line: "#1769aa", lit: "#1769aa" },
-    hexagon: Ink { fill: "#fcf4dc", line: "#96701a", lit: "#96701a" },
-    rectangle: Ink { fill: "#f3f5f7", line: "#3c464f", lit: "#3c464f" },
-    block: Ink { fill: "#f0eaf7", line: "#6d4c99", lit: "#6d4c99" },
-};
-
-const DARK: Palette = Palette {
-    paper: "#14181c",
-    ink: "#e4e7ea",
-    faint: "#9aa5ae",
-    line: "#b3bcc4",
-    on_lit: "#0c1013",
-    circle: Ink { fill: "#17293a", line: "#58aee8", lit: "#58aee8" },
-    hexagon: Ink { fill: "#332a12", line: "#d2b044", lit: "#d2b044" },
-    rectangle: Ink { fill: "#22282e", line: "#b3bcc4", lit: "#b3bcc4" },
-    block: Ink { fill: "#2a2138", line: "#b493e0", lit: "#b493e0" },
-};
-
 const SANS: &str = "Helvetica,Arial,Arimo,'Liberation Sans',sans-serif";
 const MONO: &str = "ui-monospace,Menlo,Consolas,Cousine,'Liberation Mono',monospace";
 
@@ -69,14 +26,14 @@ const MONO: &str = "ui-monospace,Menlo,Consolas,Cousine,'Liberation Mono',monosp
 pub fn css(theme: Theme, under: &str) -> String {
     let mut css = String::new();
     forms(&mut css, under);
+    let mut sheet = String::new();
+    colours(&mut sheet, under);
     match theme {
-        Theme::Light => colours(&mut css, under, &LIGHT),
-        Theme::Dark => colours(&mut css, under, &DARK),
+        Theme::Light => css.push_str(&painted(&sheet, Paper::Light)),
+        Theme::Dark => css.push_str(&painted(&sheet, Paper::Dark)),
         Theme::Auto => {
-            colours(&mut css, under, &LIGHT);
-            css.push_str("@media(prefers-color-scheme:dark){");
-            colours(&mut css, under, &DARK);
-            css.push('}');
+            css.push_str(&painted(&sheet, Paper::Light));
+            let _ = write!(css, "@media(prefers-color-scheme:dark){{{}}}", painted(&sheet, Paper::Dark));
         }
     }
     css
@@ -105,32 +62,31 @@ fn forms(css: &mut String, under: &str) {
     }
 }
 
-fn colours(css: &mut String, under: &str, palette: &Palette) {
-    let Palette { paper, ink, faint, line, on_lit, .. } = palette;
+/// The rules about colour, with the names that the palette has for them.
+fn colours(css: &mut String, under: &str) {
     let _ = write!(
         css,
-        "{under}.paper{{fill:{paper}}}{under}text{{fill:{ink}}}{under}.link,{under}.faint{{fill:{faint}}}\
-         {under}.arrow{{stroke:{line}}}{under}.tip{{fill:{line}}}"
+        "{under}.paper{{fill:$paper}}{under}text{{fill:$ink}}{under}.link,{under}.faint{{fill:$soft}}\
+         {under}.arrow{{stroke:$line}}{under}.tip{{fill:$line}}"
     );
+    // The class, its fill, its line; where it is lit, the line fills it.
     let figures = [
-        ("state", &palette.circle),
-        ("guard", &palette.hexagon),
-        ("action", &palette.rectangle),
-        ("instance", &palette.block),
-        ("component", &palette.circle),
-        ("channel", &palette.hexagon),
-        ("device", &palette.rectangle),
+        ("state", "state", "write"),
+        ("guard", "guard", "guard-line"),
+        ("action", "action", "line"),
+        ("instance", "instance", "instance-line"),
+        ("component", "state", "write"),
+        ("channel", "guard", "guard-line"),
+        ("device", "action", "line"),
     ];
-    for (class, ink) in figures {
-        let Ink { fill, line, lit } = ink;
-        let _ = write!(css, "{under}.{class}{{fill:{fill};stroke:{line}}}");
+    for (class, fill, line) in figures {
+        let _ = write!(css, "{under}.{class}{{fill:${fill};stroke:${line}}}");
         if !under.is_empty() {
             // Only a page lights shapes.
-            let _ = write!(css, "{under}.lit>.{class}{{fill:{lit}}}{under}.lit>.{class}.inner{{stroke:{on_lit}}}");
+            let _ = write!(css, "{under}.lit>.{class}{{fill:${line}}}{under}.lit>.{class}.inner{{stroke:$on-lit}}");
         }
     }
     if !under.is_empty() {
-        let _ =
-            write!(css, "{under}.lit>.row{{fill:{}}}{under}.lit>text:not(.link){{fill:{on_lit}}}", palette.circle.lit);
+        let _ = write!(css, "{under}.lit>.row{{fill:$write}}{under}.lit>text:not(.link){{fill:$on-lit}}");
     }
 }

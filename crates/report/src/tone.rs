@@ -1,7 +1,7 @@
 //! Colours by meaning.
 //!
-//! A [`Tone`] is what a span means to the eye; a report specification gives one to each value. The palette follows
-//! Okabe and Ito, so people who confuse red and green can still tell the tones apart. Meaning never depends on colour
+//! A [`Tone`] is what a span means to the eye; a report specification gives one to each value. Its colours are in the palette,
+//! which people who confuse red and green can tell apart. Meaning never depends on colour
 //! alone: tones also differ in height, and words stand where there is room.
 //!
 //! INVARIANT: every tone has one CSS class, its name, in every drawing.
@@ -31,12 +31,6 @@ pub enum Tone {
     ReadPlace,
     /// The place where the next writing will happen.
     WritePlace,
-}
-
-/// Fill and ink on light and on dark paper.
-struct Paint {
-    light: (&'static str, &'static str),
-    dark: (&'static str, &'static str),
 }
 
 impl Tone {
@@ -91,39 +85,35 @@ impl Tone {
         }
     }
 
-    fn paint(self) -> Paint {
-        let (light, dark) = match self {
-            Tone::Idle => (("none", "#1c2227"), ("none", "#e4e7ea")),
-            Tone::Work => (("#b4c6da", "#26405c"), ("#40597a", "#d6e2f0")),
-            Tone::Read => (("#12967a", "#ffffff"), ("#2fb796", "#06211a")),
-            Tone::Write => (("#1769aa", "#ffffff"), ("#58aee8", "#06192a")),
-            Tone::Hold => (("#e8bb45", "#3a2a00"), ("#d2b044", "#1f1600")),
-            Tone::Message => (("#a768a4", "#ffffff"), ("#c78cc4", "#26102a")),
-            Tone::Other => (("#8b8f94", "#ffffff"), ("#868c93", "#0c0e10")),
-            Tone::Wait => (("#d4500c", "#ffffff"), ("#ff6f2e", "#2b0f00")),
-            Tone::ReadPlace => (("#c8ecc0", "#0b5a49"), ("#285033", "#9ed8c8")),
-            Tone::WritePlace => (("#d3d3ff", "#0f4570"), ("#3a3486", "#a5cdf0")),
-        };
-        Paint { light, dark }
+    /// What the palette calls its fill; nothing is drawn for an idle task.
+    fn fill(self) -> Option<&'static str> {
+        match self {
+            Tone::Idle => None,
+            Tone::Wait => Some("late"),
+            tone => Some(tone.name()),
+        }
     }
 }
 
-/// The style sheet of the tones: `.work` fills, `.on-work` is ink on it.
+/// The style sheet of the tones, with names of colours: `.work` fills, `.on-work` is ink on it.
 pub(crate) fn tone_css() -> String {
-    let mut light = String::new();
-    let mut dark = String::new();
+    let mut sheet = String::new();
     for tone in Tone::ALL {
-        let (name, paint) = (tone.name(), tone.paint());
-        for (out, (fill, ink)) in [(&mut light, paint.light), (&mut dark, paint.dark)] {
-            let _ = write!(out, ".{name}{{fill:{fill};background-color:{}}}", fill.replace("none", "transparent"));
-            let _ = writeln!(out, ".on-{name}{{fill:{ink}}}");
-        }
+        let name = tone.name();
+        let _ = match tone.fill() {
+            Some(fill) => {
+                writeln!(sheet, ".{name}{{fill:${fill};background-color:${fill}}}.on-{name}{{fill:$on-{fill}}}")
+            }
+            None => writeln!(sheet, ".{name}{{fill:none;background-color:transparent}}.on-{name}{{fill:$ink}}"),
+        };
     }
-    format!("{light}@media (prefers-color-scheme: dark) {{\n{dark}}}\n")
+    sheet
 }
 
 #[cfg(test)]
 mod tests {
+    use palette::Paper;
+
     use super::*;
 
     /// A colour where equal distances look equally far apart (OKLab).
@@ -146,8 +136,10 @@ mod tests {
     #[test]
     fn tones_are_told_apart_on_light_and_on_dark_paper() {
         let drawn: Vec<Tone> = Tone::ALL.into_iter().filter(|tone| *tone != Tone::Idle).collect();
-        for (paper, fill) in [("#ffffff", 0), ("#14181b", 1)] {
-            let colour = |tone: Tone| [tone.paint().light.0, tone.paint().dark.0][fill];
+        for side in [Paper::Light, Paper::Dark] {
+            let named = |name: &str| palette::colour(name).expect("a colour of the palette").on(side);
+            let colour = |tone: Tone| named(tone.fill().expect("it is drawn"));
+            let paper = named("paper");
             let apart = |one: &str, other: &str| {
                 let (one, other) = (seen(one), seen(other));
                 one.iter().zip(other).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()

@@ -8,7 +8,7 @@ use super::{File, Finding};
 
 /// The layers, lower ones first: a crate may use crates of the layers below its own.
 const LAYERS: &[&[&str]] = &[
-    &["syntax"],
+    &["syntax", "palette"],
     &["model"],
     &["program"],
     &["machine", "smt"],

@@ -1,9 +1,10 @@
 // Locations that no `seq` and no turbo rule updates, so that the step is their only unit: cheaper than Locations.
 //
 // `Location` is a function without arguments, `FewLocations` one with 64 locations at most, `Word` (word.hpp) one whose
-// values all fit in a machine word. `WholeArray` are locations that a step updates all or not at all, `DisjointLocations`
-// those of which a step never updates one twice with different values. The generator proves which of them a function can
-// be (crates/generate/src/model/form.rs); whatever it cannot prove has the form Locations, which takes all.
+// values all fit in a machine word. `WholeArray` holds locations of which a step updates all or none,
+// `DisjointLocations` those of which a step never updates one twice with different values. The generator proves which
+// of them a function can be (crates/generate/src/model/form.rs). If it can prove nothing, the function has the form
+// Locations, which fits all.
 //
 // All but the last keep what they know of a running step in a `Next`, which `begin` gives and `commit` takes. It is a
 // local variable of the step, so compilers hold it in registers; a step that fails just leaves it. `commit` returns a

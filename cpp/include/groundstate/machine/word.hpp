@@ -3,8 +3,8 @@
 // One of five philosophers holds a fork, or none: that takes three bits, and five forks take fifteen. Such a function
 // is read with a shift and a mask; a step's next values are one more word, and committing them is one assignment.
 //
-// A *code* says how a value is written as a number below `count`. INVARIANT: no other value is ever put or updated; the
-// generator has proved it (crates/generate/src/model/storage.rs).
+// A *code* defines how a value is written as a number below `count`. INVARIANT: no other value is ever put or updated;
+// the generator has proved it (crates/generate/src/model/storage.rs).
 #pragma once
 
 #include <algorithm>

@@ -60,6 +60,11 @@ pub fn render_html(report: &Report) -> String {
     out
 }
 
+/// The style sheet of every page.
+fn page_css() -> String {
+    format!("{}{}", palette::both(include_str!("colours.css")), include_str!("page.css"))
+}
+
 /// The head of a page, up to its body.
 fn open(out: &mut String, title: &str, style: &str) {
     out.push_str("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n");
@@ -68,7 +73,7 @@ fn open(out: &mut String, title: &str, style: &str) {
         "<meta name=\"color-scheme\" content=\"light dark\"/>\n<meta name=\"generator\" content=\"Groundstate\"/>\n",
     );
     put!(out, "<title>{}</title>\n", Text(title));
-    put!(out, "<style>\n{}{}{style}</style>\n</head>\n<body>\n", include_str!("page.css"), svg_css());
+    put!(out, "<style>\n{}{}{style}</style>\n</head>\n<body>\n", page_css(), svg_css());
 }
 
 /// The lanes as data, and the script that draws other windows of them.

@@ -48,7 +48,8 @@ impl Default for SvgOptions {
 
 /// The style sheet of every drawing.
 pub(crate) fn svg_css() -> String {
-    format!("{}{}", include_str!("drawing.css"), tone_css())
+    let colours = format!("{}{}", include_str!("colours.css"), tone_css());
+    format!("{}{}", include_str!("drawing.css"), palette::both(&colours))
 }
 
 /// The timeline of a window as a picture of its own, light or dark like the reader's system.
