@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use syntax::Diagnostic;
 
-use crate::chart::{Arrow, End, Machine, Shape, ShapeId, ShapeKind};
+use crate::chart::{Arrow, Control, End, Machine, Shape, ShapeId, ShapeKind};
 use crate::fault;
 
 /// Shapes by their name, for faults about values.
@@ -162,6 +162,11 @@ fn circle_from(
 
 fn unreachable(machine: &Machine, faults: &mut Vec<Diagnostic>) {
     let mut open = vec![if machine.is_pattern { Some(End::Enter) } else { machine.initial().map(End::Shape) }];
+    // A location of the specification is set by other rules, too: they may lead to any of the control states.
+    if let Some(Control::Linked(_)) = machine.control {
+        let states = machine.numbered().filter(|(_, shape)| matches!(shape.kind, ShapeKind::State { .. }));
+        open.extend(states.map(|(id, _)| Some(End::Shape(id))));
+    }
     let mut seen: BTreeSet<End> = BTreeSet::new();
     while let Some(end) = open.pop().flatten() {
         if seen.insert(end) {
