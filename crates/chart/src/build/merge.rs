@@ -29,7 +29,7 @@ pub(super) fn into(text: &str, chart: &Chart, parts: &Parts) -> Result<(String, 
     };
     let definitions = section(&root, DEFINITIONS);
     let mut edits = Vec::new();
-    imports(&root, parts, &mut edits);
+    imports(&root, chart, parts, &mut edits);
     items(&signature, &parts.declarations, &mut edits);
     if parts.owns {
         forgotten(&signature, parts, &mut edits);
@@ -64,10 +64,12 @@ fn section(root: &SyntaxNode, kind: SyntaxKind) -> Option<SyntaxNode> {
     root.children().find(|node| node.kind() == kind)
 }
 
-fn imports(root: &SyntaxNode, parts: &Parts, edits: &mut Vec<Edit>) {
+/// A chart that was extracted imports the model that it is built into again.
+fn imports(root: &SyntaxNode, chart: &Chart, parts: &Parts, edits: &mut Vec<Edit>) {
     let there: Vec<SyntaxNode> = root.children().filter(|node| node.kind() == IMPORT).collect();
     let has = |path: &String| there.iter().any(|node| node.text().to_string().trim_end().ends_with(path.as_str()));
-    let missing = parts.imports.iter().filter(|path| !has(path));
+    let own = |path: &String| path.trim_start_matches("./").trim_end_matches(".asm") == chart.name;
+    let missing = parts.imports.iter().filter(|path| !has(path) && !own(path));
     let text: String = missing.map(|path| format!("\nimport {}", quoted(path))).collect();
     let name = root.children().find(|node| node.kind() == MACHINE_NAME);
     if let Some(before) = there.last().or(name.as_ref()) {
