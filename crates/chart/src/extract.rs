@@ -2,19 +2,26 @@
 //!
 //! In: a checked model. Out: a [`Chart`] with a machine for each rule that tests and sets a control location (an enum
 //! value or undef) in whatever nesting of `if`, `switch`, `let` and macro calls; and why other rules that set one are no
-//! machines. Building the chart gives rules of the same behaviour. Equal tails of paths share their shapes.
+//! machines. Equal tails of paths share their shapes.
+//!
+//! INVARIANT: the chart, as it is written, has no faults, and its rules do what the model's do ([`agrees`] asks).
+
+mod agrees;
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use model::{Call, DomainKind, FunctionId, Literal, Model, RuleId, RuleKind, TermKind};
 
 use crate::chart::{Arrow, Chart, Control, End, Machine, Parameter, Shape, ShapeId, ShapeKind, WORDS};
+use crate::defined::always_defined;
 use crate::link::Link;
 use crate::read::spoken;
 use crate::symbolic::{Depth, Effect, Explorer, Guarded, Path, Reason, consistent};
 
 /// LIMIT: guards, actions and states of one machine.
 const MAX_SHAPES: usize = 1000;
+/// What a control location has that has no value.
+const UNDEF: &str = "undef";
 
 /// What is found in a model.
 #[derive(Debug)]
@@ -23,6 +30,8 @@ pub struct Extracted {
     pub chart: Chart,
     /// Rules that set a control location and are not in control-state form, and why.
     pub others: Vec<(String, String)>,
+    /// Rules that are machines over further locations, and these: a chart has one machine of a rule.
+    pub further: Vec<(String, String)>,
 }
 
 /// Extracts the machines of a model's own rules; of one rule alone, if it is named.
@@ -32,7 +41,8 @@ pub struct Extracted {
 /// their own, unless they are named.
 pub fn extract(model: &Model, only: Option<&str>, control: Option<&str>) -> Extracted {
     let chart = Chart { name: model.name.clone(), ..Chart::default() };
-    let mut found = Extracted { chart, others: Vec::new() };
+    let mut found = Extracted { chart, others: Vec::new(), further: Vec::new() };
+    let mut judge = agrees::Judge::new(model);
     let mut left: Vec<(RuleId, FunctionId, String)> = Vec::new();
     for (index, rule) in model.rules.iter().enumerate() {
         let own = rule.span.file == model.root && !rule.turbo;
@@ -43,7 +53,10 @@ pub fn extract(model: &Model, only: Option<&str>, control: Option<&str>) -> Extr
         let wanted = |function: FunctionId| control.is_none_or(|name| model.function(function).name == name);
         for (function, location) in controls(model, id).into_iter().filter(|(function, _)| wanted(*function)) {
             match machine(model, id, function, &location, control.is_none()) {
-                Ok(Some(machine)) => found.chart.machines.push(machine),
+                Ok(Some(machine)) => match judge.refusal(&machine, id, function, &location) {
+                    None => found.chart.machines.push(machine),
+                    Some(reason) => found.others.push((rule.name.clone(), reason)),
+                },
                 Ok(None) => left.push((id, function, location)),
                 Err(reason) => found.others.push((rule.name.clone(), told(reason))),
             }
@@ -52,14 +65,36 @@ pub fn extract(model: &Model, only: Option<&str>, control: Option<&str>) -> Extr
     if only.is_none() {
         without_parts(model, &mut found.chart.machines);
     }
-    mixed(model, left, &mut found.chart.machines);
+    mixed(model, left, &mut judge, &mut found);
+    one_each(&mut found);
     found
+}
+
+/// Leaves one machine of each rule, that of the location that the text sets first, and each machine a name of its own.
+fn one_each(found: &mut Extracted) {
+    let mut rules: BTreeSet<String> = BTreeSet::new();
+    let mut names: BTreeSet<String> = BTreeSet::new();
+    let further = &mut found.further;
+    found.chart.machines.retain_mut(|machine| {
+        let rule = rule_of(machine).to_string();
+        if !rules.insert(rule.clone()) {
+            let location = match &machine.control {
+                Some(Control::Linked(link)) => link.text.clone(),
+                _ => String::new(),
+            };
+            further.push((rule, location));
+            return false;
+        }
+        machine.name = unused(&machine.name, "rule", |name| names.contains(name));
+        names.insert(machine.name.clone());
+        true
+    });
 }
 
 /// Machines among rules that also do something whatever the state is: one for each rule that has none, that is no part of a
 /// machine and has none as a part.
-fn mixed(model: &Model, left: Vec<(RuleId, FunctionId, String)>, machines: &mut Vec<Machine>) {
-    let strict: Vec<String> = machines.iter().map(|machine| rule_of(machine).to_string()).collect();
+fn mixed(model: &Model, left: Vec<(RuleId, FunctionId, String)>, judge: &mut agrees::Judge<'_>, found: &mut Extracted) {
+    let strict: Vec<String> = found.chart.machines.iter().map(|machine| rule_of(machine).to_string()).collect();
     let parts: BTreeSet<String> = strict.iter().flat_map(|name| called(model, name)).collect();
     let mut more: Vec<Machine> = Vec::new();
     for (id, function, location) in left {
@@ -74,13 +109,17 @@ fn mixed(model: &Model, left: Vec<(RuleId, FunctionId, String)>, machines: &mut 
         if let Ok(Some(machine)) = machine(model, id, function, &location, false) {
             // One control state and no other is none.
             let states = machine.shapes.iter().filter(|shape| matches!(shape.kind, ShapeKind::State { .. }));
-            if states.count() > 1 || machine.is_pattern {
-                more.push(machine);
+            if states.count() < 2 && !machine.is_pattern {
+                continue;
+            }
+            match judge.refusal(&machine, id, function, &location) {
+                None => more.push(machine),
+                Some(reason) => found.others.push((name.clone(), reason)),
             }
         }
     }
     without_parts(model, &mut more);
-    machines.extend(more);
+    found.chart.machines.extend(more);
 }
 
 /// Takes out machines that are parts of others: rules for one control state that another machine of the same control
@@ -181,6 +220,13 @@ pub(crate) fn values(model: &Model, function: FunctionId) -> Option<Vec<String>>
     }
 }
 
+/// Those of them that a location of the function can have.
+pub(crate) fn origins(model: &Model, function: FunctionId) -> Vec<String> {
+    let values = values(model, function).unwrap_or_default();
+    let defined = !values.is_empty() && always_defined(model, function);
+    values.into_iter().skip(usize::from(defined)).collect()
+}
+
 /// The locations that a rule sets to a literal or undef, in the order of the text.
 pub(crate) fn controls(model: &Model, rule: RuleId) -> Vec<(FunctionId, String)> {
     let mut found: Vec<(FunctionId, String)> = Vec::new();
@@ -222,19 +268,22 @@ fn machine(
         return Ok(None);
     }
     let declared = model.rule(rule);
-    let undef = steps.remove(0).1;
+    let undef = if always_defined(model, function) { Vec::new() } else { steps[0].1.clone() };
+    steps.remove(0);
     let initial = initial_value(model, function);
     // Entered when undef; what starts in a state and never leaves is never undef.
     let leaves = |guarded: &Guarded| matches!(&guarded.effect, Effect::Update { value, .. } if value == "undef");
     let left = steps.iter().flat_map(|(_, effects)| effects).any(|found| is_update_of(found, control) && leaves(found));
-    let is_pattern = undef.iter().any(|guarded| is_update_of(guarded, control)) && (left || initial.is_none());
+    let begins = initial.as_deref().is_some_and(|value| value != UNDEF);
+    let is_pattern = undef.iter().any(|guarded| is_update_of(guarded, control)) && (left || !begins);
     let mut graph = Graph { control, nodes: Vec::new(), index: BTreeMap::new() };
-    let enter = if is_pattern { graph.tree(&open(&undef), "undef")? } else { None };
+    let enter = if is_pattern { graph.trees(&undef, UNDEF)? } else { Vec::new() };
     let mut starts = Vec::new();
     for (value, effects) in &steps {
-        if let Some(node) = graph.tree(&open(effects), value)? {
-            starts.push((value.clone(), node));
-        }
+        starts.extend(graph.trees(effects, value)?.into_iter().map(|node| (value.clone(), node)));
+    }
+    if !is_pattern {
+        starts.extend(graph.trees(&undef, UNDEF)?.into_iter().map(|node| (UNDEF.to_string(), node)));
     }
     let parameters = declared.parameters.iter().map(|id| {
         let variable = &declared.variables[id.0 as usize];
@@ -259,7 +308,7 @@ fn machine(
         steps: true,
         span: declared.span,
     };
-    graph.shapes(&mut machine, enter, &starts, initial.as_deref());
+    graph.shapes(&mut machine, &enter, &starts, initial.as_deref());
     Ok((!machine.arrows.is_empty()).then_some(machine))
 }
 
@@ -277,11 +326,14 @@ fn is_update_of(guarded: &Guarded, control: &str) -> bool {
     matches!(&guarded.effect, Effect::Update { location, .. } if location == control)
 }
 
-/// The literal that the default initial state gives to a control function.
+/// The literal, or undef, that a control function begins with in the default initial state.
 fn initial_value(model: &Model, function: FunctionId) -> Option<String> {
     let init = &model.inits[model.default_init?];
-    let given = init.functions.iter().find(|given| given.function == function)?;
+    let Some(given) = init.functions.iter().find(|given| given.function == function) else {
+        return Some(UNDEF.to_string());
+    };
     match &given.definition.body.kind {
+        TermKind::Literal(Literal::Undef) => Some(UNDEF.to_string()),
         TermKind::Literal(Literal::Enum(domain, index)) => match model.domains.kind(*domain) {
             DomainKind::Enum { literals } => literals.get(*index as usize).cloned(),
             _ => None,
@@ -299,10 +351,6 @@ fn name_of(text: &str) -> String {
 
 /// An effect, with the tests before it that are still to be made.
 type Open<'e> = (Path, &'e Guarded);
-
-fn open(effects: &[Guarded]) -> Vec<Open<'_>> {
-    effects.iter().map(|guarded| (guarded.path.clone(), guarded)).collect()
-}
 
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 enum Node {
@@ -332,13 +380,23 @@ impl Graph<'_> {
         Ok(self.nodes.len() - 1)
     }
 
-    /// The decisions and actions of some effects; nothing where there is none.
-    fn tree(&mut self, effects: &[Open<'_>], origin: &str) -> Result<Option<usize>, Reason> {
+    /// The decisions and actions of some effects; nothing where there is none. There are several only where one case sets
+    /// the control location to several values: such updates clash, and so do the paths.
+    fn trees(&mut self, effects: &[Guarded], origin: &str) -> Result<Vec<usize>, Reason> {
+        let effects: Vec<Open<'_>> = effects.iter().map(|guarded| (guarded.path.clone(), guarded)).collect();
+        let mut found = Vec::new();
+        while let Some(tree) = self.tree(&effects, origin, found.len())? {
+            found.push(tree);
+        }
+        Ok(found)
+    }
+
+    fn tree(&mut self, effects: &[Open<'_>], origin: &str, layer: usize) -> Result<Option<usize>, Reason> {
         if effects.is_empty() {
             return Ok(None);
         }
         let Some((path, _)) = effects.iter().find(|(path, _)| !path.is_empty()) else {
-            return self.leaf(effects, origin).map(Some);
+            return self.leaf(effects, origin, layer);
         };
         let atom = path[0].0.clone();
         let side = |wanted: bool| -> Vec<Open<'_>> {
@@ -346,52 +404,69 @@ impl Graph<'_> {
             fits.map(|(path, guarded)| (path.iter().filter(|(known, _)| *known != atom).cloned().collect(), *guarded))
                 .collect()
         };
-        let (yes, no) = (self.tree(&side(true), origin)?, self.tree(&side(false), origin)?);
+        let (yes, no) = (self.tree(&side(true), origin, layer)?, self.tree(&side(false), origin, layer)?);
         match (yes, no) {
             (yes, no) if yes == no => Ok(yes),
             (yes, no) => self.node(Node::Guard(atom, yes, no)).map(Some),
         }
     }
 
-    fn leaf(&mut self, effects: &[Open<'_>], origin: &str) -> Result<usize, Reason> {
-        let mut target = origin.to_string();
+    /// What is done in one case; in a further layer, only the further value of the control location.
+    fn leaf(&mut self, effects: &[Open<'_>], origin: &str, layer: usize) -> Result<Option<usize>, Reason> {
+        let mut targets: Vec<&str> = Vec::new();
         let mut actions: Vec<String> = Vec::new();
         for (_, guarded) in effects {
             match &guarded.effect {
-                Effect::Update { location, value, .. } if location == self.control => target.clone_from(value),
+                Effect::Update { location, value, .. } if location == self.control => {
+                    if !targets.contains(&value.as_str()) {
+                        targets.push(value);
+                    }
+                }
                 Effect::Update { location, value, .. } => actions.push(format!("{location} := {value}")),
                 Effect::Rule(text) => actions.push(text.clone()),
             }
         }
-        let mut next = self.node(Node::Target(target))?;
+        let target = targets.get(layer).copied().or((layer == 0).then_some(origin));
+        let Some(target) = target else { return Ok(None) };
+        let mut next = self.node(Node::Target(target.to_string()))?;
         let mut seen = BTreeSet::new();
-        for action in actions.into_iter().rev() {
+        for action in actions.into_iter().rev().filter(|_| layer == 0) {
             if seen.insert(action.clone()) {
                 next = self.node(Node::Action(action, next))?;
             }
         }
-        Ok(next)
+        Ok(Some(next))
     }
 
     /// The shapes and arrows of a machine.
-    fn shapes(&self, machine: &mut Machine, enter: Option<usize>, starts: &[(String, usize)], initial: Option<&str>) {
+    fn shapes(&self, machine: &mut Machine, enter: &[usize], starts: &[(String, usize)], initial: Option<&str>) {
         let mut ends: BTreeMap<usize, End> = BTreeMap::new();
-        let mut states: BTreeMap<String, ShapeId> = BTreeMap::new();
+        let mut states: BTreeMap<&str, ShapeId> = BTreeMap::new();
         let targets = self.nodes.iter().filter_map(|node| match node {
-            Node::Target(value) if value != "undef" => Some(value.as_str()),
+            Node::Target(value) => Some(value.as_str()),
             _ => None,
         });
-        let values: Vec<&str> = starts.iter().map(|(value, _)| value.as_str()).chain(targets).collect();
-        let first = initial.or(values.first().copied());
+        // The state in which the model begins, also where this rule does nothing in it.
+        let begins = initial.filter(|_| !machine.is_pattern);
+        let starting: Vec<&str> = starts.iter().map(|(value, _)| value.as_str()).collect();
+        let unknown = begins.filter(|value| !starting.contains(value));
+        let values = unknown.into_iter().chain(starting).chain(targets);
+        // Outside of a pattern its control location is undef; a machine has a state for that.
+        let values: Vec<&str> = values.filter(|value| !machine.is_pattern || *value != UNDEF).collect();
+        let first = begins.or(values.first().copied());
         for value in &values {
-            if !states.contains_key(*value) {
+            if !states.contains_key(value) {
                 let kind = ShapeKind::State { initial: !machine.is_pattern && first == Some(value) };
-                states.insert((*value).to_string(), add(machine, kind, &camel(value), &sentence(value), value));
+                let (name, text) = match *value {
+                    UNDEF => ("undefined".to_string(), "Undefined".to_string()),
+                    literal => (camel(literal), sentence(literal)),
+                };
+                states.insert(value, add(machine, kind, &name, &text, value));
             }
         }
         for (index, node) in self.nodes.iter().enumerate() {
             let end = match node {
-                Node::Target(value) => states.get(value).map_or(End::Exit, |id| End::Shape(*id)),
+                Node::Target(value) => states.get(value.as_str()).map_or(End::Exit, |id| End::Shape(*id)),
                 Node::Guard(atom, ..) => {
                     let name = name_of(atom.trim_start_matches("not "));
                     End::Shape(add(machine, ShapeKind::Guard, &name, &said(atom, &name), atom))
@@ -411,9 +486,9 @@ impl Graph<'_> {
                 machine.arrows.push(Arrow { from, branch, to: ends[&to], span });
             }
         };
-        lead(End::Enter, None, enter);
+        enter.iter().for_each(|node| lead(End::Enter, None, Some(*node)));
         for (value, node) in starts {
-            lead(End::Shape(states[value]), None, Some(*node));
+            lead(End::Shape(states[value.as_str()]), None, Some(*node));
         }
         for (index, node) in self.nodes.iter().enumerate() {
             match node {
@@ -453,18 +528,21 @@ fn is_closed(text: &str) -> bool {
     false
 }
 
-fn add(machine: &mut Machine, kind: ShapeKind, name: &str, text: &str, link: &str) -> ShapeId {
-    let taken = |name: &str| WORDS.contains(&name) || machine.shapes.iter().any(|shape| shape.name == name);
-    let mut unique = if name.is_empty() || name.starts_with(|c: char| !c.is_alphabetic()) {
-        "shape".into()
-    } else {
-        name.to_string()
-    };
+/// A name that is not taken, and no word of charts; another one where it cannot be a name.
+fn unused(name: &str, other: &str, taken: impl Fn(&str) -> bool) -> String {
+    let name = if name.starts_with(|c: char| c.is_alphabetic()) { name } else { other };
+    let taken = |name: &str| WORDS.contains(&name) || taken(name);
+    let mut unique = name.to_string();
     let mut count = 2;
     while taken(&unique) {
         unique = format!("{name}{count}");
         count += 1;
     }
+    unique
+}
+
+fn add(machine: &mut Machine, kind: ShapeKind, name: &str, text: &str, link: &str) -> ShapeId {
+    let unique = unused(name, "shape", |name| machine.shapes.iter().any(|shape| shape.name == name));
     let is_application = is_closed(link.trim_start_matches(|c: char| c.is_ascii_alphanumeric() || c == '_'));
     let link = Link { text: link.to_string(), name: name_of(link), is_application, span: machine.span };
     machine.shapes.push(Shape {

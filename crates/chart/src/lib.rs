@@ -10,6 +10,7 @@ pub mod import;
 
 mod chart;
 mod check;
+mod defined;
 mod dump;
 mod export;
 mod extract;

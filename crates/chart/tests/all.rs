@@ -3,6 +3,7 @@
 
 mod agreement;
 mod exchange;
+mod extracted;
 mod pages;
 mod regenerate;
 mod systems;

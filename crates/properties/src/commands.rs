@@ -71,7 +71,7 @@ fn of_model(bytes: &[u8]) -> usize {
     let source = world::source(&world::text(bytes));
     let checked = groundstate::check(source.clone(), &mut Models::default());
     told(&checked.sources, &checked.diagnostics);
-    let loaded = match groundstate::load(source, &mut Models::default()) {
+    let loaded = match groundstate::load(source.clone(), &mut Models::default()) {
         Ok(loaded) => loaded,
         Err(faulty) => {
             told(&faulty.sources, &faulty.diagnostics);
@@ -80,7 +80,7 @@ fn of_model(bytes: &[u8]) -> usize {
     };
     let mut stages = 2;
     program::dump(&loaded.program);
-    charts_of(&loaded);
+    charts_of(&loaded, &source);
     let program = Arc::clone(&loaded.program);
     let mut started = Machine::new(Arc::clone(&program), world::limits());
     let _ = started.start(&mut Closed);
@@ -139,16 +139,22 @@ fn explored(loaded: &Loaded, program: &Arc<program::Program>) -> usize {
     stages
 }
 
-/// The charts of a model's rules, written down and read again.
-fn charts_of(loaded: &Loaded) {
+/// The charts of a model's rules, written down, read again, and held to the model.
+fn charts_of(loaded: &Loaded, source: &SourceFile) {
     let found = chart::extract(&loaded.model, None, None);
-    if !found.chart.machines.is_empty() {
-        let text = chart::write(&found.chart);
-        let parse = syntax::parse_chart(FileId(0), &text);
-        let (_, faults) = chart::read(FileId(0), &parse);
-        assert!(!groundstate::has_errors(&faults), "the chart that is extracted is at fault: {text}");
-        drawn(&found.chart);
+    if found.chart.machines.is_empty() {
+        return;
     }
+    let text = chart::write(&found.chart);
+    let parse = syntax::parse_chart(FileId(0), &text);
+    let (chart, faults) = chart::read(FileId(0), &parse);
+    assert!(!groundstate::has_errors(&faults), "the chart that is extracted is at fault: {text}");
+    let probed = chart::probed(&chart, &source.text).expect("the model has no faults");
+    let checked = groundstate::check(SourceFile::new(source.name.clone(), probed.text.clone()), &mut Models::default());
+    let faults = chart::check(&chart, &probed, &checked, &mut NoSolver);
+    let errors: Vec<&Diagnostic> = faults.iter().filter(|fault| fault.severity == syntax::Severity::Error).collect();
+    assert!(errors.is_empty(), "the chart that is extracted does not agree with its model: {errors:#?}\n{text}");
+    drawn(&found.chart);
 }
 
 /// All of `chart`, and `generate cpp` of systems.

@@ -20,7 +20,7 @@ use syntax::{Diagnostic, Severity, Span, SyntaxKind};
 
 use crate::build::{call, machine_rule, rule_name, state_value};
 use crate::chart::{Chart, Control, Machine, ShapeKind};
-use crate::extract::{controls, values};
+use crate::extract::{controls, origins};
 use crate::fault::{self, Sides};
 use crate::flow::{Origin, transitions};
 use crate::read::flat;
@@ -194,7 +194,7 @@ fn one(chart: &Chart, machine: &Machine, probe: &str, model: &Model, faults: &mu
     let location =
         controls(model, probe).into_iter().find(|(id, _)| Some(model.function(*id).name.as_str()) == control);
     let (function, location, origins) = match location {
-        Some((id, location)) => (id, location, values(model, id).unwrap_or_default()),
+        Some((id, location)) => (id, location, origins(model, id)),
         None => (FunctionId(u32::MAX), String::new(), vec![String::new()]),
     };
     for origin in origins {
@@ -231,7 +231,8 @@ struct Side<'c> {
 
 impl Side<'_> {
     fn compare(&self, drawn: &[Guarded], written: &[Guarded], faults: &mut Vec<Diagnostic>) {
-        let (in_chart, in_rule) = (self.by_effect(drawn), self.by_effect(written));
+        let (in_chart, in_rule) =
+            (by_effect(drawn, self.control, self.origin), by_effect(written, self.control, self.origin));
         let keys: BTreeSet<&str> = in_chart.keys().chain(in_rule.keys()).map(String::as_str).collect();
         for key in keys {
             let nothing = (Vec::new(), None);
@@ -289,22 +290,32 @@ impl Side<'_> {
         });
         state.map_or(machine.span, |(_, shape)| shape.span)
     }
+}
 
-    /// What is done, each under the paths on which it is; staying where the machine is counts as nothing.
-    fn by_effect(&self, effects: &[Guarded]) -> BTreeMap<String, (Vec<Path>, Option<Span>)> {
-        let mut found: BTreeMap<String, (Vec<Path>, Option<Span>)> = BTreeMap::new();
-        for guarded in effects {
-            let key = match &guarded.effect {
-                Effect::Update { location, value, .. } if location == self.control && value == self.origin => continue,
-                Effect::Update { location, value, .. } => format!("{location} := {value}"),
-                Effect::Rule(text) => text.clone(),
-            };
-            let entry = found.entry(key).or_default();
-            entry.0.push(guarded.path.clone());
-            entry.1.get_or_insert(guarded.span);
-        }
-        found
+/// Effects by what they do.
+type ByEffect = BTreeMap<String, (Vec<Path>, Option<Span>)>;
+
+/// What is done, each under the paths on which it is; staying where the machine is counts as nothing.
+fn by_effect(effects: &[Guarded], control: &str, origin: &str) -> ByEffect {
+    let mut found = ByEffect::new();
+    for guarded in effects {
+        let key = match &guarded.effect {
+            Effect::Update { location, value, .. } if location == control && value == origin => continue,
+            Effect::Update { location, value, .. } => format!("{location} := {value}"),
+            Effect::Rule(text) => text.clone(),
+        };
+        let entry = found.entry(key).or_default();
+        entry.0.push(guarded.path.clone());
+        entry.1.get_or_insert(guarded.span);
     }
+    found
+}
+
+/// Whether two rules do the same in one control state.
+pub(crate) fn same(one: &[Guarded], other: &[Guarded], control: &str, origin: &str) -> bool {
+    let (one, other) = (by_effect(one, control, origin), by_effect(other, control, origin));
+    let paths = |side: &ByEffect, key: &str| side.get(key).map_or(Vec::new(), |(paths, _)| paths.clone());
+    one.keys().chain(other.keys()).all(|key| difference(&paths(&one, key), &paths(&other, key)).is_none())
 }
 
 /// A case in which one side does something and the other does not, and whether it is the chart that does: both sides,

@@ -44,6 +44,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     for (rule, reason) in &found.others {
         shell.note(&format!("{rule} is no machine: {reason}"))?;
     }
+    for (rule, location) in &found.further {
+        shell.note(&format!("{rule} is drawn over another location; `--control` draws it over {location}"))?;
+    }
     if found.chart.machines.is_empty() {
         shell.note("no rule is in control-state form")?;
         return Ok(Exit::Model);

@@ -1,0 +1,278 @@
+//! What is extracted is a chart without faults that agrees with its model, and with what is built of it; what is not drawn
+//! is told.
+
+use chart::{Chart, Extracted, Known, build, dump, extract, probed, read, write};
+use expect_test::{Expect, expect};
+use model::{Checked, Loader, check};
+use syntax::{Diagnostic, FileId, Severity, SourceFile, parse_chart};
+use testkit::{Disk, NoSolver, Texts, repository};
+
+fn errors(faults: &[Diagnostic]) -> Vec<&Diagnostic> {
+    faults.iter().filter(|fault| fault.severity == Severity::Error).collect()
+}
+
+fn checked(source: SourceFile, loader: &mut dyn Loader) -> Checked {
+    let checked = check(source, loader);
+    let errors = errors(&checked.diagnostics);
+    assert!(errors.is_empty(), "{errors:#?}\n{}", checked.sources.file(checked.model.root).text);
+    checked
+}
+
+/// Extracts the machines of a model, and holds their chart to it in every way that there is; the chart as it is read back.
+fn kept(source: &SourceFile, loader: &mut dyn Loader) -> (Extracted, Chart) {
+    let model = checked(source.clone(), loader).model;
+    let mut extracted = extract(&model, None, None);
+    if extracted.chart.machines.is_empty() {
+        let chart = extracted.chart.clone();
+        return (extracted, chart);
+    }
+    let own = source.name.rsplit('/').next().unwrap_or(&source.name).to_string();
+    extracted.chart.imports.push(own);
+    let text = write(&extracted.chart);
+    let (chart, faults) = read(FileId(0), &parse_chart(FileId(0), &text));
+    assert_eq!(errors(&faults), Vec::<&Diagnostic>::new(), "{text}");
+    agrees(&chart, &source.name, &source.text, loader);
+    // What is built into the model does the same, and has the same chart.
+    let beside = source.name.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/")) + "Imports.asm";
+    let known = Known::imported(&chart, &beside, loader).unwrap_or_else(|unknown| panic!("{unknown:#?}"));
+    let built = build(&chart, &known, Some(&source.text)).expect("the model has no faults");
+    assert_eq!(built.to_write, Vec::<String>::new(), "{text}");
+    let again = checked(SourceFile::new(source.name.clone(), built.text.clone()), loader);
+    agrees(&chart, &source.name, &built.text, loader);
+    assert_eq!(extract(&again.model, None, None).chart.machines.len(), chart.machines.len(), "{}", built.text);
+    (extracted, chart)
+}
+
+fn agrees(chart: &Chart, name: &str, text: &str, loader: &mut dyn Loader) {
+    let probed = probed(chart, text).expect("the model has no faults");
+    let checked = checked(SourceFile::new(name, probed.text.clone()), loader);
+    let faults = chart::check(chart, &probed, &checked, &mut NoSolver);
+    assert_eq!(errors(&faults), Vec::<&Diagnostic>::new(), "{}\n{text}", write(chart));
+}
+
+#[test]
+fn every_model_of_this_repository() {
+    let mut machines = 0;
+    for folder in ["library", "examples", "bench/models"] {
+        for file in repository::files(folder, &["asm"]) {
+            let source = Disk::read(&file).expect("the model is there");
+            machines += kept(&source, &mut Disk).1.machines.len();
+        }
+    }
+    assert!(machines > 20, "only {machines}");
+}
+
+/// The chart of a model's own rules, and what is told of the others.
+fn found(signature: &str, rules: &str, init: &str) -> String {
+    let text = format!(
+        "asm M\nimport StandardLibrary\nsignature:\n enum domain Mode = {{IDLE | BUSY | DONE}}\n controlled mode: Mode\n {signature}\n\
+         definitions:\n {rules}\n main rule r_Main = skip\ndefault init s0: {init}"
+    );
+    let mut files = Texts::of([("M.asm", text.as_str())]);
+    let (extracted, chart) = kept(&SourceFile::new("M.asm", text.clone()), &mut files);
+    let mut out: String =
+        dump(&chart).lines().filter(|line| !line.starts_with("chart")).map(|line| format!("{line}\n")).collect();
+    extracted.others.iter().for_each(|(rule, reason)| out += &format!("{rule}: {reason}\n"));
+    extracted.further.iter().for_each(|(rule, location)| out += &format!("{rule}: over {location}, too\n"));
+    out
+}
+
+fn shows(signature: &str, rules: &str, init: &str, expected: &Expect) {
+    expected.assert_eq(&found(signature, rules, init));
+}
+
+#[test]
+fn a_machine_that_begins_where_its_rule_does_nothing() {
+    let rule = "rule r_press = switch mode case BUSY: mode := DONE endswitch";
+    shows(
+        "",
+        rule,
+        "function mode = IDLE",
+        &expect![[r#"
+        import M.asm
+
+        machine press() "Press"
+          control {mode}
+          initial state idle "Idle" {IDLE}
+          state busy "Busy" {BUSY}
+          state done "Done" {DONE}
+          busy --[]/--> done
+    "#]],
+    );
+}
+
+#[test]
+fn a_machine_that_unsets_its_control_location() {
+    shows(
+        "",
+        "rule r_deposit = if mode = BUSY then mode := undef endif",
+        "",
+        &expect![[r#"
+        import M.asm
+
+        machine deposit() "Deposit"
+          control {mode}
+          initial state undefined "Undefined" {undef}
+          state busy "Busy" {BUSY}
+          busy --[]/--> undefined
+    "#]],
+    );
+    // What enters it when it is undef, too, is a pattern.
+    let rule = "rule r_fetch = if isUndef(mode) then mode := BUSY elseif mode = BUSY then mode := undef endif";
+    shows(
+        "",
+        rule,
+        "function mode = IDLE",
+        &expect![[r#"
+        import M.asm
+
+        pattern fetch() "Fetch"
+          control {mode}
+          state busy "Busy" {BUSY}
+          enter --[]/--> busy
+          busy --[]/--> exit
+    "#]],
+    );
+}
+
+#[test]
+fn what_is_done_without_a_value() {
+    let rule = "rule r_all = if mode = BUSY then mode := IDLE else n := 1 endif";
+    shows(
+        "controlled n: Integer",
+        rule,
+        "",
+        &expect![[r#"
+        import M.asm
+
+        machine all() "All"
+          control {mode}
+          state idle "Idle" {IDLE}
+          state busy "Busy" {BUSY}
+          state done "Done" {DONE}
+          initial state undefined "Undefined" {undef}
+          action n "n := 1" {n := 1}
+          action n2 "n := 1" {n := 1}
+          action n3 "n := 1" {n := 1}
+          idle --[]/n--> idle
+          busy --[]/--> idle
+          done --[]/n2--> done
+          undefined --[]/n3--> undefined
+    "#]],
+    );
+    shows(
+        "controlled n: Integer",
+        rule,
+        "function mode = BUSY",
+        &expect![[r#"
+        import M.asm
+
+        machine all() "All"
+          control {mode}
+          state idle "Idle" {IDLE}
+          initial state busy "Busy" {BUSY}
+          state done "Done" {DONE}
+          action n "n := 1" {n := 1}
+          action n2 "n := 1" {n := 1}
+          idle --[]/n--> idle
+          busy --[]/--> idle
+          done --[]/n2--> done
+    "#]],
+    );
+}
+
+#[test]
+fn updates_that_clash_are_paths_that_clash() {
+    let inputs = "monitored a: Boolean monitored b: Boolean controlled n: Integer";
+    let rule = "rule r_clash = if mode = BUSY then par if a then mode := IDLE endif if b then mode := DONE endif n := 3 endpar endif";
+    shows(
+        inputs,
+        rule,
+        "function mode = BUSY",
+        &expect![[r#"
+        import M.asm
+
+        machine clash() "Clash"
+          control {mode}
+          initial state busy "Busy" {BUSY}
+          state idle "Idle" {IDLE}
+          state done "Done" {DONE}
+          action n "n := 3" {n := 3}
+          action n2 "n := 3" {n := 3}
+          action n3 "n := 3" {n := 3}
+          guard b "B" {b}
+          guard a "A" {a}
+          guard b2 "B" {b}
+          guard a2 "A" {a}
+          busy --[a]/n--> idle
+          busy --[not a and b]/n2--> done
+          busy --[not a and not b]/n3--> busy
+          busy --[a2 and b2]/--> done
+    "#]],
+    );
+}
+
+#[test]
+fn a_rule_has_one_machine() {
+    let rule = "rule r_swap = if mode = BUSY and second = BUSY then par mode := IDLE second := DONE endpar endif";
+    shows(
+        "controlled second: Mode",
+        rule,
+        "function mode = BUSY function second = BUSY",
+        &expect![[r#"
+        import M.asm
+
+        machine swap() "Swap"
+          control {mode}
+          initial state busy "Busy" {BUSY}
+          state idle "Idle" {IDLE}
+          action second "second := DONE" {second := DONE}
+          guard second2 "second = BUSY" {second = BUSY}
+          busy --[second2]/second--> idle
+        r_swap: over second, too
+    "#]],
+    );
+}
+
+#[test]
+fn names_that_are_words_of_charts() {
+    let inputs = "monitored chart: Boolean monitored at: Boolean monitored tick: Boolean monitored of: Boolean";
+    let rules = "rule r_machine = if mode = BUSY then if tick and of then mode := IDLE else if chart or at then \
+                 mode := DONE endif endif endif rule r_r_state = if mode = IDLE then mode := BUSY endif \
+                 rule r_state = if mode = DONE then mode := BUSY endif";
+    shows(
+        inputs,
+        rules,
+        "function mode = BUSY",
+        &expect![[r#"
+        import M.asm
+
+        machine machine2() "Machine"
+          control {mode}
+          initial state busy "Busy" {BUSY}
+          state idle "Idle" {IDLE}
+          state done "Done" {DONE}
+          guard at "At" {at}
+          guard chart "Chart" {chart}
+          guard of "Of" {of}
+          guard tick "Tick" {tick}
+          busy --[tick and of]/--> idle
+          busy --[tick and not of and chart]/--> done
+          busy --[tick and not of and not chart and at]/--> done
+          busy --[not tick and chart]/--> done
+          busy --[not tick and not chart and at]/--> done
+
+        machine state2() "State"
+          control {mode}
+          initial state busy "Busy" {BUSY}
+          state idle "Idle" {IDLE}
+          idle --[]/--> busy
+
+        machine state3() "State"
+          control {mode}
+          initial state busy "Busy" {BUSY}
+          state done "Done" {DONE}
+          done --[]/--> busy
+    "#]],
+    );
+}
