@@ -49,9 +49,14 @@ pub struct Transition {
 /// LIMIT: the most transitions of one machine that are looked at; paths that split and join again double each time.
 pub const MAX_TRANSITIONS: usize = 10_000;
 
-/// The transitions of a machine, those of one origin in the order of its arrows.
+/// LIMIT: the most stops on all of them; ways of a chart with errors may split and lead nowhere.
+const MAX_STOPS: usize = 100 * MAX_TRANSITIONS;
+
+/// The transitions of a machine, those of one origin in the order of its arrows. A way that comes back to itself, which is an
+/// error, is none.
 pub fn transitions(chart: &Chart, machine: &Machine) -> Vec<Transition> {
     let mut found = Vec::new();
+    let mut budget = MAX_STOPS;
     for origin in origins(chart, machine) {
         let start = match origin {
             Origin::Enter => End::Enter,
@@ -60,9 +65,10 @@ pub fn transitions(chart: &Chart, machine: &Machine) -> Vec<Transition> {
         for arrow in machine.out_of(start) {
             let mut open: Vec<Way> = vec![(arrow.to, arrow.span, Vec::new())];
             while let Some(way) = open.pop() {
-                if found.len() >= MAX_TRANSITIONS {
+                if found.len() >= MAX_TRANSITIONS || budget == 0 {
                     return found;
                 }
+                budget -= 1;
                 follow(chart, machine, origin, way, &mut open, &mut found);
             }
         }
@@ -90,6 +96,7 @@ fn follow(
         },
     };
     match (target, end) {
+        (None, End::Shape(id)) if stops.iter().any(|(stop, _)| *stop == id) => {}
         (Some(target), _) => found.push(Transition {
             origin,
             guards: stops.iter().filter_map(|(id, branch)| Some((*id, (*branch)?))).collect(),

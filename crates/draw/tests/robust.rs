@@ -99,3 +99,12 @@ fn damaged_charts() {
     }
     assert!(whole * 30 > each * files.len(), "only {whole} of the damaged charts were whole");
 }
+
+#[test]
+fn a_way_in_a_circle_is_shown_and_ends() {
+    let text = "chart C machine m control c initial state idle guard ready action work \
+                idle -> ready yes -> idle ready no -> work -> ready endmachine";
+    let (chart, faults) = read(FileId(0), &parse_chart(FileId(0), text));
+    assert_eq!(faults.iter().map(|fault| fault.id).collect::<Vec<_>>(), ["circular-path"]);
+    assert!(chart::dump(&chart).contains("idle --[ready]/--> idle"), "{}", chart::dump(&chart));
+}
