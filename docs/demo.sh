@@ -1,10 +1,12 @@
 #!/bin/sh
 # The main job, end to end, on the paper's own case study: from the model to a robot's program that is held to it. Called by
-# `make demo`. What the program takes beside g++ is installed (Debian packages).
+# `make demo`. What the program takes beside g++ is installed (Debian packages). The tool and the program are compiled at the
+# same time: the program's generated code lies in the repository, and step 3 shows that it is what the chart gives.
 set -eu
 groundstate=${GROUNDSTATE:-target/debug/groundstate}
-cargo=${CARGO:-cargo}
+compile=${COMPILE:-cargo build --locked --package cli}
 study=examples/visual_servoing
+log=out/robot/build.log
 begin=$(date +%s)
 
 # A heading, bold where it is looked at.
@@ -13,25 +15,26 @@ fail() {
     echo "docs/demo.sh: $*" >&2
     exit 1
 }
-# progress COMMAND…: its output shortened to a line every few seconds; all of it if it fails.
-progress() {
-    log=out/robot/build.log
-    "$@" >"$log" 2>&1 &
-    worker=$!
-    waited=0
-    while kill -0 $worker 2>/dev/null; do
-        sleep 1
-        waited=$((waited + 1))
-        [ $((waited % 10)) != 0 ] || tail -n 1 "$log" | cut -c 1-100
-    done
-    wait $worker || { cat "$log"; return 1; }
+# The robot's program and what it takes, as `make robot` builds it. Behind the tool, for which all else waits.
+build_robot() {
+    sh cpp/install.sh cmake ninja-build libgtest-dev libeigen3-dev liborocos-kdl-dev libcli11-dev \
+        libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev &&
+        cmake -S examples -B target/cpp/robot -G Ninja -DGROUNDSTATE_WITHOUT_VISP=ON &&
+        exec nice ninja -C target/cpp/robot visual_servoing
 }
 
 say "From a ground model to a robot that is held to it. First the tool and the robot's program are compiled, which takes some
 minutes; then the controller runs as a model, as a program in virtual time, and in real time, and two pages show what it did."
 
-say "0  Compile the tool"
-$cargo build --locked --package cli
+say "0  Compile the tool; beside it, install what the robot's program takes and compile that ($log)"
+rm -rf out/robot
+mkdir -p out/robot/virtual out/robot/real
+build_robot >"$log" 2>&1 &
+builder=$!
+trap 'kill $builder 2>/dev/null || true' EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM
+$compile
 
 say "1  Check the pattern library and the applications"
 "$groundstate" check library/patterns examples
@@ -40,21 +43,22 @@ say "2  Run the complete controller for one simulated second (10 000 ticks of 0.
 mkdir -p out
 "$groundstate" report $study/CompleteController.asm --steps 10000 --scenarios library/patterns --scenarios examples -o out/report.html
 
-say "3  Generate the controller's tasks from its chart, compile them with the robot"
-sh cpp/install.sh cmake ninja-build libgtest-dev libeigen3-dev liborocos-kdl-dev libcli11-dev \
-    libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev
-rm -rf out/robot
-mkdir -p out/robot/virtual out/robot/real
+say "3  Generate the controller's tasks from its chart: they are those that the robot's program was compiled with"
 cp -R $study/robot out/robot/program
 "$groundstate" generate cpp $study/ControllerSystem.chart -o out/robot/program
 cmp out/robot/program/generated/controller_system.hpp $study/robot/generated/controller_system.hpp ||
     fail "$study/robot/generated is not what the chart gives; generate it anew"
-# As `make robot` builds it.
-compile() {
-    cmake -S examples -B target/cpp/robot -G Ninja -DGROUNDSTATE_WITHOUT_VISP=ON &&
-        cmake --build target/cpp/robot --target visual_servoing
+# What is left of its compiling, a line every few seconds.
+waited=0
+while kill -0 $builder 2>/dev/null; do
+    sleep 1
+    waited=$((waited + 1))
+    [ $((waited % 5)) != 0 ] || tail -n 1 "$log" | cut -c 1-100
+done
+wait $builder || {
+    cat "$log"
+    fail "the robot's program cannot be compiled"
 }
-progress compile || fail "the robot's program cannot be compiled"
 robot=target/cpp/robot/visual_servoing/robot/visual_servoing
 echo "$robot"
 

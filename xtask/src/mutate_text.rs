@@ -21,8 +21,8 @@ use crate::{Failure, Outcome, repository};
 
 /// As much stack as the tool's own thread has.
 const STACK: usize = 256 << 20;
-/// One mutant takes milliseconds; whoever takes this long has no end.
-const NO_END: Duration = Duration::from_secs(60);
+/// One mutant takes milliseconds, or seconds; whoever takes this long has no end, also where others use the processors.
+const NO_END: Duration = Duration::from_secs(600);
 /// Of so many mutants one is of a report specification, for which a process is started.
 const OF_REPORTS: u64 = 40;
 
