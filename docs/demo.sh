@@ -15,6 +15,7 @@ fail() {
     echo "docs/demo.sh: $*" >&2
     exit 1
 }
+
 # The robot's program and what it takes, as `make robot` builds it. Behind the tool, for which all else waits.
 build_robot() {
     sh cpp/install.sh cmake ninja-build libgtest-dev libeigen3-dev liborocos-kdl-dev libcli11-dev \
@@ -59,6 +60,7 @@ wait $builder || {
     cat "$log"
     fail "the robot's program cannot be compiled"
 }
+trap - EXIT
 robot=target/cpp/robot/visual_servoing/robot/visual_servoing
 echo "$robot"
 
