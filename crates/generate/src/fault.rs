@@ -7,7 +7,7 @@ pub const IDS: &[&str] = &["not-generated"];
 
 /// A part of a system of which no code is made.
 pub(crate) fn not_generated(span: Span, what: String, reason: &str, help: &str) -> Diagnostic {
-    Diagnostic::error("not-generated", span, what).because(reason.to_string()).with_help(help.to_string())
+    Diagnostic::error("not-generated", span, what).here(reason.to_string()).with_help(help.to_string())
 }
 
 /// A part of a model of which no code is made.

@@ -15,7 +15,7 @@ const CALLS: usize = 4;
 /// A part of a model that solvers have no place for.
 pub fn diagnose_outside(outside: &verify::solver::Outside) -> Diagnostic {
     Diagnostic::error("outside-solver", outside.span, format!("{} has no place in what solvers are told", outside.what))
-        .because("not told to solvers")
+        .here("not told to solvers")
         .with_help("let the states be explored: `--engine explicit`, or `bdd`")
 }
 
@@ -26,10 +26,10 @@ pub fn diagnose_fault(fault: &Fault, program: &Program) -> Diagnostic {
         FaultKind::InconsistentUpdate { location, first, second } => {
             let location = location.show(program).to_string();
             let side = |value: &Value| format!("{location} becomes {} here", value.show(program).briefly());
-            let clash = Diagnostic::error(fault.kind.id(), second.span, message).because(side(&second.value));
+            let clash = Diagnostic::error(fault.kind.id(), second.span, message).here(side(&second.value));
             if first.span == second.span {
                 // One rule, run twice: what it was run with tells the two apart.
-                clash.because(format!(
+                clash.here(format!(
                     "{location} becomes {} and {} here",
                     first.value.show(program).briefly(),
                     second.value.show(program).briefly()
@@ -38,7 +38,7 @@ pub fn diagnose_fault(fault: &Fault, program: &Program) -> Diagnostic {
                 clash.with_label(first.span, side(&first.value))
             }
         }
-        _ => Diagnostic::error(fault.kind.id(), fault.span, message).because(reason(&fault.kind)),
+        _ => Diagnostic::error(fault.kind.id(), fault.span, message).here(reason(&fault.kind)),
     };
     let mut seen: Vec<Span> = vec![diagnostic.primary.span];
     for call in &fault.calls {

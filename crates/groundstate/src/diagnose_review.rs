@@ -24,32 +24,32 @@ pub fn diagnose_finding(finding: &Finding, review: &Review, program: &Program) -
     match &finding.matter {
         Matter::Clash(other) => {
             let diagnostic = Diagnostic::error("inconsistent-update", span, "two updates of one step clash");
-            let diagnostic = diagnostic.because("one of the two").with_label(*other, "the other one");
+            let diagnostic = diagnostic.here("one of the two").with_label(*other, "the other one");
             diagnostic.with_help("let one rule alone write the location in a step, or put the two in a `seq`")
         }
         Matter::NoBranch => {
             warning("incomplete-conditional", "no branch of this rule is taken in some state".to_string())
-                .because("runs, and none of its guards holds")
+                .here("runs, and none of its guards holds")
                 .with_help("if nothing is to happen then, `else skip` says so; else a case is missing")
         }
         Matter::NeverRuns => warning("unreachable-rule", never("runs this rule"))
-            .because("never runs")
+            .here("never runs")
             .with_help("if it should run, its guard or what leads to it is wrong; else remove it"),
         Matter::NeverCalled(name) => warning("unreachable-rule", format!("nothing that runs calls {name}"))
-            .because("never runs")
+            .here("never runs")
             .with_help("call it, or remove it"),
         Matter::RunsInFaults => {
             warning("unreachable-rule", "this rule runs in steps alone that cannot be made".to_string())
-                .because("whatever runs it ends in a fault")
+                .here("whatever runs it ends in a fault")
                 .with_help("`groundstate verify` shows the fault")
         }
         Matter::AlwaysTrivial => warning("trivial-update", never("is changed by this update"))
-            .because("always writes the value that is there")
+            .here("always writes the value that is there")
             .with_help("remove it, or see whether it should write something else"),
         Matter::Unused(domain, values) => {
             let name = &program.domain(*domain).name;
             warning("unused-element", never(&format!("has a location with {} of {name}", named(values, program))))
-                .because("has elements that nothing ever is")
+                .here("has elements that nothing ever is")
                 .with_help("remove them, or see why nothing becomes one of them")
         }
         Matter::NeverTaken(function, values) => {
@@ -59,19 +59,19 @@ pub fn diagnose_finding(finding: &Finding, review: &Review, program: &Program) -
                 "value-never-taken",
                 never(&format!("gives {} the value {}", function.name, named(values, program))),
             )
-            .because(format!("could be declared over less than {domain}"))
+            .here(format!("could be declared over less than {domain}"))
             .with_help("declare it over a smaller domain, or see why it never takes the value")
         }
         Matter::NeverUpdated(function, locations) => {
             let name = &program.function(*function).name;
             warning("never-updated", format!("no rule updates {}", places(name, locations, program)))
-                .because("keeps its initial value")
+                .here("keeps its initial value")
                 .with_help("declare it static, or see why nothing updates it")
         }
         Matter::NeverRead(function, locations) => {
             let name = &program.function(*function).name;
             warning("never-read", format!("no rule reads {}", places(name, locations, program)))
-                .because("has no influence on a run")
+                .here("has no influence on a run")
                 .with_help("remove it; if it is there for others to read, declare it `out`")
         }
     }

@@ -60,9 +60,9 @@ impl Diagnostic {
         Diagnostic { severity: Severity::Warning, ..Diagnostic::error(id, span, message) }
     }
 
-    /// Says what is seen at the primary place: the reason.
-    pub fn because(mut self, reason: impl Into<String>) -> Self {
-        self.primary.text = reason.into();
+    /// Says what is seen at the primary place. It adds to the message, never repeats it.
+    pub fn here(mut self, seen: impl Into<String>) -> Self {
+        self.primary.text = seen.into();
         self
     }
 

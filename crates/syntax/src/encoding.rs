@@ -34,7 +34,7 @@ impl Foreign {
             more => format!(", and so were {more} bytes more"),
         };
         Diagnostic::warning("not-utf8", Span { file, start, end }, message)
-            .because(format!("read as `{letter}`, as in Windows-1252{all}"))
+            .here(format!("read as `{letter}`, as in Windows-1252{all}"))
             .with_help("save the file as UTF-8")
     }
 }

@@ -117,7 +117,7 @@ mod tests {
         let mut sources = Sources::default();
         let file = sources.add(SourceFile::new("a.asm", text));
         let span = |range: &Range<u32>| Span { file, start: range.start, end: range.end };
-        let mut fault = Diagnostic::error("an-id", span(&places[0]), "a message").because("here").with_help("do it");
+        let mut fault = Diagnostic::error("an-id", span(&places[0]), "a message").here("here").with_help("do it");
         for place in &places[1..] {
             fault = fault.with_label(span(place), "and there");
         }

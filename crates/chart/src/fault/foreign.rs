@@ -7,35 +7,35 @@ const ID: &str = "foreign-notation";
 /// The text is no such document.
 pub(crate) fn malformed(span: Span, message: &str) -> Diagnostic {
     Diagnostic::error(ID, span, format!("this is no SCXML: {message}"))
-        .because("here reading ends")
+        .here("here reading ends")
         .with_help("a document of State Chart XML has the element `scxml` around its states")
 }
 
 /// Something that charts have nothing for, and that cannot be left out.
 pub(crate) fn no_counterpart(span: Span, what: &str, help: &str) -> Diagnostic {
     Diagnostic::error(ID, span, format!("charts have nothing for {what}"))
-        .because("left out, the chart would mean something else")
+        .here("left out, the chart would mean something else")
         .with_help(help.to_string())
 }
 
 /// Something that is left out.
 pub(crate) fn left_out(span: Span, what: &str, help: &str) -> Diagnostic {
     Diagnostic::warning(ID, span, format!("{what} is not taken over"))
-        .because("charts have nothing for it")
+        .here("charts have nothing for it")
         .with_help(help.to_string())
 }
 
 /// Something in another language than AsmetaL, which is kept as the text of a shape.
 pub(crate) fn kept_as_text(span: Span, what: &str, name: &str) -> Diagnostic {
     Diagnostic::warning(ID, span, format!("{what} becomes `{name}`, which is to be refined"))
-        .because("it is not AsmetaL")
+        .here("it is not AsmetaL")
         .with_help(format!("write `{name}` in the specification, or link the shape to what it stands for"))
 }
 
 /// A second state of an id.
 pub(crate) fn second_state(span: Span, id: &str, first: Span) -> Diagnostic {
     Diagnostic::error(ID, span, format!("a second state with the id `{id}`"))
-        .because("transitions could not tell the two apart")
+        .here("transitions could not tell the two apart")
         .with_label(first, "the first one")
         .with_help("give each state an id of its own")
 }
@@ -43,6 +43,6 @@ pub(crate) fn second_state(span: Span, id: &str, first: Span) -> Diagnostic {
 /// A transition to a state that there is not.
 pub(crate) fn unknown_target(span: Span, id: &str) -> Diagnostic {
     Diagnostic::error(ID, span, format!("there is no state `{id}`"))
-        .because("a transition leads there")
+        .here("a transition leads there")
         .with_help("correct the target; in a `parallel`, states of other regions cannot be targets")
 }

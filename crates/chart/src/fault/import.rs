@@ -7,28 +7,28 @@ const ID: &str = "chart-import";
 /// There is no such file, or it cannot be read.
 pub(crate) fn not_found(span: Span, path: &str, reason: &str) -> Diagnostic {
     Diagnostic::error(ID, span, format!("the chart \"{path}\" cannot be read"))
-        .because(reason.to_string())
+        .here(reason.to_string())
         .with_help("paths of imports start at the folder of the file they stand in")
 }
 
 /// A chart that leads back to itself.
 pub(crate) fn circular(span: Span, circle: &[&str]) -> Diagnostic {
     Diagnostic::error(ID, span, format!("the charts import each other: {}", circle.join(" → ")))
-        .because("this import closes the circle")
+        .here("this import closes the circle")
         .with_help("move the patterns that both use into a chart of their own")
 }
 
 /// A second import of a chart.
 pub(crate) fn twice(span: Span, path: &str) -> Diagnostic {
     Diagnostic::warning(ID, span, format!("the chart \"{path}\" is imported twice"))
-        .because("its patterns are known already")
+        .here("its patterns are known already")
         .with_help("remove one of the imports")
 }
 
 /// Two patterns of one name, from two charts.
 pub(crate) fn ambiguous(span: Span, name: &str, second: Span, first: Span) -> Diagnostic {
     Diagnostic::error(ID, span, format!("two imported patterns are called `{name}`"))
-        .because("an instance could not tell the two apart")
+        .here("an instance could not tell the two apart")
         .with_label(first, "the first one")
         .with_label(second, "the second one")
         .with_help("rename one of them, or import only one of the charts")
@@ -37,7 +37,7 @@ pub(crate) fn ambiguous(span: Span, name: &str, second: Span, first: Span) -> Di
 /// A module that the chart imports is at fault.
 pub(crate) fn no_model(span: Span, found: &Diagnostic, chart: Option<&str>) -> Diagnostic {
     let fault =
-        Diagnostic::error(ID, span, found.message.clone()).because("the links of the chart may name what it declares");
+        Diagnostic::error(ID, span, found.message.clone()).here("the links of the chart may name what it declares");
     match chart {
         Some(path) => fault.with_help(format!(
             "the model of an imported chart is built first: `groundstate chart build {path}.chart`"

@@ -43,28 +43,28 @@ pub const IDS: &[&str] = &[
 /// A way over guards and actions that comes back to itself.
 pub(crate) fn circular_path(span: Span, name: &str) -> Diagnostic {
     Diagnostic::error("circular-path", span, format!("the path comes back to `{name}` without a control state"))
-        .because("all guards and actions of a path fire in one step, so this step would never end")
+        .here("all guards and actions of a path fire in one step, so this step would never end")
         .with_help("put a control state on the way")
 }
 
 /// A machine with an instance of itself.
 pub(crate) fn contains_itself(span: Span, over: &[String]) -> Diagnostic {
     Diagnostic::error("circular-path", span, format!("the pattern contains itself: {}", over.join(" → ")))
-        .because("entering it would never end")
+        .here("entering it would never end")
         .with_help("lead a path back to a control state instead")
 }
 
 /// No control variable, or two.
 pub(crate) fn no_control(span: Span, machine: &str) -> Diagnostic {
     Diagnostic::error("control-variable", span, format!("`{machine}` has control states and no control variable"))
-        .because("the control states are the values of a variable")
+        .here("the control states are the values of a variable")
         .with_help("write `control NAME` to have one made, or `control {f($x)}` for a location of the specification")
 }
 
 /// A second control variable.
 pub(crate) fn second_control(span: Span, first: Span) -> Diagnostic {
     Diagnostic::error("control-variable", span, "a second control variable")
-        .because("a machine has one")
+        .here("a machine has one")
         .with_label(first, "the first one")
         .with_help("remove one, or split the machine in two")
 }
@@ -72,14 +72,14 @@ pub(crate) fn second_control(span: Span, first: Span) -> Diagnostic {
 /// A shape from which nothing goes on.
 pub(crate) fn dead_end(span: Span, kind: &str, name: &str) -> Diagnostic {
     Diagnostic::error("dead-end", span, format!("no arrow leads on from the {kind} `{name}`"))
-        .because("a path ends at a control state or, in a pattern, at `exit`")
+        .here("a path ends at a control state or, in a pattern, at `exit`")
         .with_help(format!("write a path `{name} -> …` on to a control state"))
 }
 
 /// Two things of one name.
 pub(crate) fn duplicate(span: Span, what: &str, name: &str, first: Span) -> Diagnostic {
     Diagnostic::error("duplicate-shape", span, format!("a second {what} `{name}`"))
-        .because("paths and layouts could not tell the two apart")
+        .here("paths and layouts could not tell the two apart")
         .with_label(first, "the first one")
         .with_help("rename one of them")
 }
@@ -87,7 +87,7 @@ pub(crate) fn duplicate(span: Span, what: &str, name: &str, first: Span) -> Diag
 /// Two ways on from an action.
 pub(crate) fn forked_path(span: Span, kind: &str, name: &str, first: Span) -> Diagnostic {
     Diagnostic::error("forked-path", span, format!("a second arrow out of the {kind} `{name}`"))
-        .because("a path goes on in one way; only control states start several")
+        .here("a path goes on in one way; only control states start several")
         .with_label(first, "the first arrow leads here")
         .with_help("test a guard to choose between the two, or start both paths at the control state")
 }
@@ -95,21 +95,21 @@ pub(crate) fn forked_path(span: Span, kind: &str, name: &str, first: Span) -> Di
 /// An arrow out of a guard that says neither yes nor no.
 pub(crate) fn bare_guard(span: Span, name: &str) -> Diagnostic {
     Diagnostic::error("guard-exit", span, format!("the arrow out of the guard `{name}` says neither yes nor no"))
-        .because("a guard has two exits")
+        .here("a guard has two exits")
         .with_help(format!("write `{name} yes -> …` or `{name} no -> …`"))
 }
 
 /// `yes` or `no` behind something else than a guard.
 pub(crate) fn needless_exit(span: Span, name: &str) -> Diagnostic {
     Diagnostic::error("guard-exit", span, format!("`{name}` is no guard"))
-        .because("only guards have the exits yes and no")
+        .here("only guards have the exits yes and no")
         .with_help("remove `yes` or `no`, or declare the shape as a guard")
 }
 
 /// None or several initial states.
 pub(crate) fn no_initial(span: Span, machine: &str) -> Diagnostic {
     Diagnostic::error("initial-state", span, format!("`{machine}` has no initial state"))
-        .because("a machine starts in one of its control states")
+        .here("a machine starts in one of its control states")
         .with_help("write `initial state NAME` for one of them")
 }
 
@@ -117,11 +117,11 @@ pub(crate) fn no_initial(span: Span, machine: &str) -> Diagnostic {
 pub(crate) fn needless_initial(span: Span, first: Option<Span>) -> Diagnostic {
     match first {
         Some(first) => Diagnostic::error("initial-state", span, "a second initial state")
-            .because("a machine starts in one of its control states")
+            .here("a machine starts in one of its control states")
             .with_label(first, "the first one")
             .with_help("remove `initial` from one of them"),
         None => Diagnostic::error("initial-state", span, "a pattern has no initial state")
-            .because("a pattern is entered by its arrow, when its control variable is undef")
+            .here("a pattern is entered by its arrow, when its control variable is undef")
             .with_help("remove `initial`, and write a path `enter -> …`"),
     }
 }
@@ -130,7 +130,7 @@ pub(crate) fn needless_initial(span: Span, first: Option<Span>) -> Diagnostic {
 pub(crate) fn arguments(span: Span, pattern: &str, wanted: usize, given: usize, declared: Span) -> Diagnostic {
     let count = if wanted == 1 { "1 argument".to_string() } else { format!("{wanted} arguments") };
     Diagnostic::error("instance-arguments", span, format!("`{pattern}` takes {count}, {given} given"))
-        .because("an instance gives each parameter of its pattern a term")
+        .here("an instance gives each parameter of its pattern a term")
         .with_label(declared, "the pattern")
         .with_help(format!("give {count}"))
 }
@@ -138,7 +138,7 @@ pub(crate) fn arguments(span: Span, pattern: &str, wanted: usize, given: usize, 
 /// A second control state with the same value.
 pub(crate) fn same_value(span: Span, value: &str, first: Span) -> Diagnostic {
     Diagnostic::error("machine-state", span, format!("a second control state with the value `{value}`"))
-        .because("the machine could not tell the two apart")
+        .here("the machine could not tell the two apart")
         .with_label(first, "the first one")
         .with_help("link each control state to a value of its own")
 }
@@ -146,7 +146,7 @@ pub(crate) fn same_value(span: Span, value: &str, first: Span) -> Diagnostic {
 /// `enter` or `exit` where they cannot stand.
 pub(crate) fn misplaced_exit(span: Span, word: &str, reason: &str) -> Diagnostic {
     Diagnostic::error("misplaced-exit", span, format!("`{word}` cannot stand here"))
-        .because(reason)
+        .here(reason)
         .with_help("only patterns are entered and left: a path starts at `enter` and ends at `exit`")
 }
 
@@ -158,21 +158,21 @@ pub(crate) fn unknown(span: Span, what: &str, name: &str, known: &[&str]) -> Dia
         None => format!("declare it, or use one of: {}", known.join(", ")),
     };
     Diagnostic::error("unknown-shape", span, format!("there is no {what} `{name}`"))
-        .because("nothing of this name is declared here")
+        .here("nothing of this name is declared here")
         .with_help(help)
 }
 
 /// A shape to which no path leads.
 pub(crate) fn unreachable(span: Span, kind: &str, name: &str) -> Diagnostic {
     Diagnostic::warning("unreachable-shape", span, format!("no path leads to the {kind} `{name}`"))
-        .because("nothing ever comes here")
+        .here("nothing ever comes here")
         .with_help("lead a path to it, or remove it")
 }
 
 /// A link that leads nowhere, or to something of another kind.
 pub(crate) fn broken_link(span: Span, message: &str, help: Option<&str>) -> Diagnostic {
     let fault = Diagnostic::error("broken-link", span, format!("a link is broken: {message}"))
-        .because("the specification is asked for this");
+        .here("the specification is asked for this");
     fault.with_help(help.unwrap_or("correct the link, or write what it names"))
 }
 
@@ -204,7 +204,7 @@ pub(crate) fn chart_differs(
     };
     let (who, other) = if chart_does { ("the chart", "the rule") } else { ("the rule", "the chart") };
     let message = format!("{state}{who} does `{effect}`{where_}, {other} does not");
-    let mut fault = Diagnostic::error("chart-differs", sides.state, message).because("the chart's control state");
+    let mut fault = Diagnostic::error("chart-differs", sides.state, message).here("the chart's control state");
     if let Some(transition) = sides.transition {
         fault = fault.with_label(transition, "the chart's transition of this case ends here");
     }
@@ -215,7 +215,7 @@ pub(crate) fn chart_differs(
 
 /// A system and its model that do not mean the same: where in the chart, what, and where in the model.
 pub(crate) fn system_differs(place: Span, message: String, model: Option<(Span, &str)>) -> Diagnostic {
-    let fault = Diagnostic::error("system-differs", place, message).because("the chart's");
+    let fault = Diagnostic::error("system-differs", place, message).here("the chart's");
     let fault = match model {
         Some((span, label)) => fault.with_label(span, label),
         None => fault,
@@ -226,7 +226,7 @@ pub(crate) fn system_differs(place: Span, message: String, model: Option<(Span, 
 /// A chart of which nothing can be built.
 pub(crate) fn empty_chart(span: Span) -> Diagnostic {
     Diagnostic::error("empty-chart", span, "the chart has no machine and no system: there is nothing to build")
-        .because("a model is built from these")
+        .here("a model is built from these")
         .with_help("write a `machine`, a `pattern` or a `system`")
 }
 
@@ -237,14 +237,14 @@ pub(crate) fn no_patterns(span: Span, missing: &str) -> Diagnostic {
         span,
         format!("no import of the chart brings the patterns: `{missing}` is declared nowhere"),
     )
-    .because("a system is built of the library of patterns")
+    .here("a system is built of the library of patterns")
     .with_help("import it: `import …/library/patterns/ControlTask`, as a path from the chart's folder")
 }
 
 /// Two parts of a chart of which one name is made.
 pub(crate) fn made_twice(span: Span, what: &str, name: &str, first: Span) -> Diagnostic {
     Diagnostic::error("made-name", span, format!("a second {what} `{name}` would be made"))
-        .because("of this name")
+        .here("of this name")
         .with_label(first, "the first one is made of this")
         .with_help(format!("rename one of them, or link it to what it stands for: `{{…}}` instead of `{name}`"))
 }
@@ -252,14 +252,14 @@ pub(crate) fn made_twice(span: Span, what: &str, name: &str, first: Span) -> Dia
 /// A cycle that cannot be done in time, with what it consists of.
 pub(crate) fn long_cycle(span: Span, name: &str, sum: &str, until: &str) -> Diagnostic {
     Diagnostic::warning("long-cycle", span, format!("every cycle of `{name}` misses {until}: it takes {sum}"))
-        .because("the phases take longer than there is time")
+        .here("the phases take longer than there is time")
         .with_help("shorten its phases, or let it have more time")
 }
 
 /// A rule that cannot be compared.
 pub(crate) fn not_control_state(span: Span, name: &str, place: Option<Span>) -> Diagnostic {
     let fault = Diagnostic::error("not-control-state", span, format!("the rule `{name}` is not in control-state form"))
-        .because("its control variable must be set to literals or undef, in parallel rules, `if`, `switch` and `let`");
+        .here("its control variable must be set to literals or undef, in parallel rules, `if`, `switch` and `let`");
     let fault = match place {
         Some(place) => fault.with_label(place, "here it is set in another way"),
         None => fault,
@@ -271,55 +271,55 @@ pub(crate) fn not_control_state(span: Span, name: &str, place: Option<Span>) -> 
 pub(crate) fn to_refine(span: Span, name: &str, by: Option<&str>) -> Diagnostic {
     let what = by.map_or_else(String::new, |by| format!(" by `{by}`"));
     let fault = Diagnostic::error("to-refine", span, format!("`{name}` is still to be refined{what}"));
-    Diagnostic { severity: syntax::Severity::Note, ..fault }.because("drawn dashed")
+    Diagnostic { severity: syntax::Severity::Note, ..fault }.here("drawn dashed")
 }
 
 /// A channel that is not used as its ends say.
 pub(crate) fn channel_ends(span: Span, name: &str, reason: &str) -> Diagnostic {
     Diagnostic::error("channel-ends", span, format!("the channel `{name}` does not fit: {reason}"))
-        .because("its sender writes it once a cycle, its receiver reads it once")
+        .here("its sender writes it once a cycle, its receiver reads it once")
         .with_help("correct the channel, or the phases of its two ends")
 }
 
 /// A buffer whose master cannot be told.
 pub(crate) fn channel_master(span: Span, name: &str) -> Diagnostic {
     Diagnostic::error("channel-master", span, format!("the master of the buffer `{name}` must be said"))
-        .because("it is the slower of two synchronous components, or the asynchronous one of a mixed pair")
+        .here("it is the slower of two synchronous components, or the asynchronous one of a mixed pair")
         .with_help("write `master NAME` behind the number of arrays, with one of its two ends")
 }
 
 /// An unknown unit of time.
 pub(crate) fn unknown_unit(span: Span, unit: &str) -> Diagnostic {
     Diagnostic::error("time-unit", span, format!("`{unit}` is no unit of time"))
-        .because("a length of time has a unit")
+        .here("a length of time has a unit")
         .with_help("write `ns`, `us`, `ms` or `s`")
 }
 
 /// A length that is no whole number of ticks.
 pub(crate) fn no_whole_ticks(span: Span) -> Diagnostic {
     Diagnostic::error("time-unit", span, "this is no whole number of ticks")
-        .because("the model goes on by one tick a step")
+        .here("the model goes on by one tick a step")
         .with_help("write another length, or a shorter `tick`")
 }
 
 /// A part of a system that is not built.
 pub(crate) fn not_built(span: Span, what: &str) -> Diagnostic {
     Diagnostic::error("not-built", span, format!("{what} cannot be built"))
-        .because("the next cycle begins at the end of the period, and would have to wait")
+        .here("the next cycle begins at the end of the period, and would have to wait")
         .with_help("let the deadline be the period, or make the period longer")
 }
 
 /// A name of the chart from which no name of a function can be made.
 pub(crate) fn made_name(span: Span, name: &str) -> Diagnostic {
     Diagnostic::error("made-name", span, format!("`{name}` cannot be the name of a function"))
-        .because("a function of this name is made in the specification")
+        .here("a function of this name is made in the specification")
         .with_help("choose a name that starts with a small letter and is no keyword, or link it")
 }
 
 /// A control variable to be made that an import has already.
 pub(crate) fn made_already(span: Span, name: &str) -> Diagnostic {
     Diagnostic::error("made-name", span, format!("an import declares `{name}` already"))
-        .because("a control variable of this name is made in the specification")
+        .here("a control variable of this name is made in the specification")
         .with_help(format!("choose another name, or link it: `control {{{name}}}`"))
 }
 
@@ -329,7 +329,7 @@ pub(crate) fn overlapping_paths(first: (Span, &str), second: (Span, &str), from:
     let (second, other) = second;
     let message = format!("from `{from}`, paths lead to `{one}` and to `{other}` in one step: {}", listed(state));
     Diagnostic::warning("overlapping-paths", second, message)
-        .because("the second path")
+        .here("the second path")
         .with_label(first, "the first path")
         .with_help("lead the second path through the `no` of the first one's guard, or make sure that both never hold")
 }
@@ -337,13 +337,13 @@ pub(crate) fn overlapping_paths(first: (Span, &str), second: (Span, &str), from:
 /// A state in which a machine stays where it is, although it has a choice of guards.
 pub(crate) fn uncovered_case(span: Span, from: &str, state: &[String]) -> Diagnostic {
     let message = format!("from `{from}`, no path is open: {}", listed(state));
-    note(Diagnostic::error("uncovered-case", span, message).because("the machine waits here"))
+    note(Diagnostic::error("uncovered-case", span, message).here("the machine waits here"))
 }
 
 /// Something about paths that cannot be told.
 pub(crate) fn undecided_paths(span: Span, from: &str, what: &str, reason: &str) -> Diagnostic {
     let message = format!("from `{from}`, it is not known whether the paths {what}: {reason}");
-    note(Diagnostic::error("undecided-paths", span, message).because("the paths from here"))
+    note(Diagnostic::error("undecided-paths", span, message).here("the paths from here"))
 }
 
 fn note(fault: Diagnostic) -> Diagnostic {

@@ -7,7 +7,7 @@ use super::Mismatch;
 /// A definition, in the definitions section, of a function that is neither static nor derived.
 pub(crate) fn define_dynamic(span: Span, name: &str, kind: &str, declared: Span) -> Diagnostic {
     Diagnostic::error("define-dynamic-function", span, format!("the {kind} function `{name}` cannot be defined"))
-        .because("only static and derived functions have a definition")
+        .here("only static and derived functions have a definition")
         .with_label(declared, format!("declared {kind} here"))
         .with_help(format!("declare `{name}` derived; or give its initial value in an init section"))
 }
@@ -33,7 +33,7 @@ pub(crate) fn no_declaration(
 /// A static function with a concrete meaning but without definition.
 pub(crate) fn undefined(span: Span, name: &str, kind: &str) -> Diagnostic {
     Diagnostic::warning("undefined-function", span, format!("the {kind} function `{name}` has no definition"))
-        .because("a run stops where it is evaluated")
+        .here("a run stops where it is evaluated")
         .with_help(format!("define it: `function {name}… = …` in the definitions section"))
 }
 
@@ -44,7 +44,7 @@ pub(crate) fn unstarted(span: Span, name: &str, asked: Span, has_init: bool) -> 
         false => format!("give it its first value behind the main rule: `default init s0: function {name} = …`"),
     };
     Diagnostic::warning("never-begins", span, format!("`{name}` never gets a value, so nothing that asks for one runs"))
-        .because("it has no initial value, and every rule that sets it asks for a value first")
+        .here("it has no initial value, and every rule that sets it asks for a value first")
         .with_label(asked, "asked for here")
         .with_help(help)
 }
@@ -57,7 +57,7 @@ pub(crate) fn endless(span: Span, cycle: &[String], declared: Span) -> Diagnosti
         _ => format!("the definitions of {} use each other in a circle", cycle.join(" → ")),
     };
     Diagnostic::warning("endless-definition", span, message)
-        .because("a run that comes here never ends, but for a limit")
+        .here("a run that comes here never ends, but for a limit")
         .with_label(declared, format!("`{name}` is declared here"))
         .with_help("put the use behind a condition that comes false, or remove it")
 }
@@ -65,7 +65,7 @@ pub(crate) fn endless(span: Span, cycle: &[String], declared: Span) -> Diagnosti
 /// A second definition.
 pub(crate) fn duplicate_definition(span: Span, first: Span, what: &str, name: &str) -> Diagnostic {
     Diagnostic::error("duplicate-definition", span, format!("the {what} `{name}` is defined twice"))
-        .because("defined again")
+        .here("defined again")
         .with_label(first, "first defined here")
         .with_help("remove one of the two definitions")
 }
@@ -74,7 +74,7 @@ pub(crate) fn duplicate_definition(span: Span, first: Span, what: &str, name: &s
 pub(crate) fn definition_domain(span: Span, name: &str, mismatch: &Mismatch, declared: Span) -> Diagnostic {
     let Mismatch { expected, found, .. } = mismatch;
     Diagnostic::error("definition-domain", span, format!("`{name}` gives {expected}, but this is {found}"))
-        .because(mismatch.reason())
+        .here(mismatch.reason())
         .with_label(declared, format!("`{name}` is declared here"))
         .with_help(mismatch.help())
 }
@@ -86,7 +86,7 @@ pub(crate) fn dynamic_in_static(span: Span, name: &str, mentioned: &str, what: &
         span,
         format!("the static function `{name}` depends on {what} `{mentioned}`"),
     )
-    .because(format!("`{mentioned}` may change from state to state"))
+    .here(format!("`{mentioned}` may change from state to state"))
     .with_label(declared, "declared static here")
     .with_help(format!("declare `{name}` derived"))
 }
@@ -98,7 +98,7 @@ pub(crate) fn static_derived(span: Span, name: &str, declared: Span) -> Diagnost
         span,
         format!("the derived function `{name}` depends on no dynamic function"),
     )
-    .because("this never changes")
+    .here("this never changes")
     .with_label(declared, "declared derived here")
     .with_help(format!("declare `{name}` static"))
 }
@@ -106,7 +106,7 @@ pub(crate) fn static_derived(span: Span, name: &str, declared: Span) -> Diagnost
 /// An initial value for a function that has none.
 pub(crate) fn init_static(span: Span, name: &str, kind: &str, declared: Span) -> Diagnostic {
     Diagnostic::error("init-static-function", span, format!("the {kind} function `{name}` has no initial value"))
-        .because("only dynamic functions are initialised")
+        .here("only dynamic functions are initialised")
         .with_label(declared, format!("declared {kind} here"))
         .with_help(format!("move this to the definitions section, or declare `{name}` controlled"))
 }

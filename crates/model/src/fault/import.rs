@@ -11,7 +11,7 @@ pub(crate) fn not_found(span: Span, path: &str, reason: &str) -> Diagnostic {
 /// A file imports itself, directly or through others.
 pub(crate) fn circular(span: Span, cycle: &[String]) -> Diagnostic {
     Diagnostic::error("circular-import", span, format!("circular import: {}", cycle.join(" → ")))
-        .because("leads back to a file that is being read")
+        .here("leads back to a file that is being read")
         .with_help("move what both files need into a third one that imports neither")
 }
 

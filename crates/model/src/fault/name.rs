@@ -47,7 +47,7 @@ pub(crate) fn unknown_literal(span: Span, name: &str, help: String) -> Diagnosti
 /// A domain whose name reads as an enum literal.
 pub(crate) fn domain_in_capitals(span: Span, name: &str) -> Diagnostic {
     Diagnostic::error("domain-in-capitals", span, format!("`{name}` cannot name a domain"))
-        .because("two capitals first and no small letter: this shape is for enum literals")
+        .here("two capitals first and no small letter: this shape is for enum literals")
         .with_help(format!("name it `{}`", capitalised(name)))
 }
 
@@ -57,7 +57,7 @@ fn capitalised(name: &str) -> String {
 }
 
 fn duplicate(id: &'static str, span: Span, first: Option<Span>, message: String) -> Diagnostic {
-    let fault = Diagnostic::error(id, span, message).because("declared again");
+    let fault = Diagnostic::error(id, span, message).here("declared again");
     match first {
         Some(first) => fault.with_label(first, "first declared here"),
         None => fault,
@@ -69,9 +69,7 @@ pub(crate) fn duplicate_domain(span: Span, first: Option<Span>, name: &str) -> D
     let fault = duplicate("duplicate-domain", span, first, format!("the domain `{name}` is declared twice"));
     match first {
         Some(_) => fault.with_help("rename one of the two, or remove it"),
-        None => {
-            fault.because("predefined").with_help("rename it, or remove the declaration and use the predefined one")
-        }
+        None => fault.here("predefined").with_help("rename it, or remove the declaration and use the predefined one"),
     }
 }
 

@@ -5,7 +5,7 @@ use syntax::{Diagnostic, Span};
 /// A property that is not Boolean.
 pub(crate) fn not_boolean(span: Span, what: &str, found: &str) -> Diagnostic {
     Diagnostic::error("property-not-boolean", span, format!("{what} must be Boolean, but this is {found}"))
-        .because(found.to_string())
+        .here(found.to_string())
         .with_help("compare it with something: `… = …`")
 }
 

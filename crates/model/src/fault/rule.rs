@@ -19,7 +19,7 @@ pub(crate) fn not_called_by_rule_name(fault: &mut Diagnostic, name: &str, known:
 pub(crate) fn update_domain(span: Span, target: &str, mismatch: &Mismatch, declared: Span) -> Diagnostic {
     let Mismatch { expected, found, .. } = mismatch;
     Diagnostic::error("update-domain", span, format!("`{target}` takes {expected}, but this is {found}"))
-        .because(mismatch.reason())
+        .here(mismatch.reason())
         .with_label(declared, "declared here")
         .with_help(mismatch.help())
 }
@@ -28,7 +28,7 @@ pub(crate) fn update_domain(span: Span, target: &str, mismatch: &Mismatch, decla
 pub(crate) fn value_domain(span: Span, what: &str, mismatch: &Mismatch) -> Diagnostic {
     let Mismatch { expected, found, .. } = mismatch;
     Diagnostic::error("update-domain", span, format!("{what} takes {expected}, but this is {found}"))
-        .because(mismatch.reason())
+        .here(mismatch.reason())
         .with_help(mismatch.help())
 }
 
@@ -42,7 +42,7 @@ pub(crate) fn update_not_allowed(
     help: String,
 ) -> Diagnostic {
     Diagnostic::error("update-not-allowed", span, format!("the {kind} function `{name}` cannot be updated"))
-        .because(reason.to_string())
+        .here(reason.to_string())
         .with_label(declared, format!("declared {kind} here"))
         .with_help(help)
 }
@@ -50,7 +50,7 @@ pub(crate) fn update_not_allowed(
 /// A turbo rule's result for a function that only the environment writes.
 pub(crate) fn return_lost(span: Span, name: &str, declared: Span) -> Diagnostic {
     Diagnostic::warning("return-lost", span, format!("what is returned to the monitored function `{name}` is lost"))
-        .because("only the environment writes it")
+        .here("only the environment writes it")
         .with_label(declared, "declared monitored here")
         .with_help(format!("declare `{name}` controlled, or call the rule without `<-`"))
 }
@@ -103,7 +103,7 @@ pub(crate) fn argument_domain(
     declared: &[(Span, String)],
     help: String,
 ) -> Diagnostic {
-    let fault = Diagnostic::error("rule-argument-domain", span, message).because(found.to_string()).with_help(help);
+    let fault = Diagnostic::error("rule-argument-domain", span, message).here(found.to_string()).with_help(help);
     declared
         .iter()
         .fold(fault, |fault, (place, signature)| fault.with_label(*place, format!("declared as `{signature}`")))
@@ -116,7 +116,7 @@ pub(crate) fn recursive_macro(span: Span, cycle: &[String], declared: Span) -> D
         _ => format!("macro rules call each other in a circle: {}", cycle.join(" → ")),
     };
     Diagnostic::error("recursive-macro-rule", span, message)
-        .because("a macro call stands for the body of the rule, which would never end")
+        .here("a macro call stands for the body of the rule, which would never end")
         .with_label(declared, "declared here")
         .with_help("declare it `turbo rule` and call it with `()`")
 }
@@ -124,7 +124,7 @@ pub(crate) fn recursive_macro(span: Span, cycle: &[String], declared: Span) -> D
 /// A term in the place of a rule; its value is not a rule.
 pub(crate) fn not_a_rule(span: Span, found: &str, help: String) -> Diagnostic {
     Diagnostic::error("not-a-rule", span, format!("a rule is expected here, but this term is {found}"))
-        .because(found.to_string())
+        .here(found.to_string())
         .with_help(help)
 }
 
@@ -138,7 +138,7 @@ pub(crate) fn without_result(span: Span, name: &str, declared: Span) -> Diagnost
 /// Extending a domain that does not grow.
 pub(crate) fn extend_static(span: Span, name: &str, what: &str, declared: Option<Span>, help: String) -> Diagnostic {
     let fault = Diagnostic::error("extend-static-domain", span, format!("`{name}` cannot be extended"))
-        .because(what.to_string())
+        .here(what.to_string())
         .with_help(help);
     match declared {
         Some(place) => fault.with_label(place, "declared here"),
@@ -149,6 +149,6 @@ pub(crate) fn extend_static(span: Span, name: &str, what: &str, declared: Option
 /// A main rule with parameters.
 pub(crate) fn main_with_parameters(span: Span, name: &str) -> Diagnostic {
     Diagnostic::warning("main-with-parameters", span, format!("the main rule `{name}` has parameters"))
-        .because("nothing gives them values")
+        .here("nothing gives them values")
         .with_help("remove the parameters; choose or let may give them values in the body")
 }

@@ -7,7 +7,7 @@ use super::Mismatch;
 /// A number beyond 64 bits, or a real that is not finite.
 pub(crate) fn number_too_large(span: Span, text: &str, limit: &str) -> Diagnostic {
     Diagnostic::error("number-too-large", span, format!("`{text}` is too large"))
-        .because(limit.to_string())
+        .here(limit.to_string())
         .with_help("write it as a real number, `1.0`, if the exact value does not matter")
 }
 
@@ -45,7 +45,7 @@ pub(crate) fn argument_domain(
 ) -> Diagnostic {
     let Mismatch { expected, found, .. } = mismatch;
     Diagnostic::error("argument-domain", span, format!("`{name}` takes {expected} here, but this is {found}"))
-        .because(mismatch.reason())
+        .here(mismatch.reason())
         .with_label(declared, format!("declared as `{signature}`"))
         .with_help(mismatch.help())
 }
@@ -63,7 +63,7 @@ pub(crate) fn narrower_domain(span: Span, name: &str, expected: &str, found: &st
         span,
         format!("`{name}` is declared for {expected} only, but this is any {found}"),
     )
-    .because(format!("may be outside {expected}"))
+    .here(format!("may be outside {expected}"))
     .with_label(declared, format!("`{name}` is declared here"))
     .with_help(format!("range over {expected} instead of {found}, or declare `{name}` over {found}"))
 }
@@ -71,14 +71,14 @@ pub(crate) fn narrower_domain(span: Span, name: &str, expected: &str, found: &st
 /// A condition that is not Boolean.
 pub(crate) fn guard_not_boolean(span: Span, what: &str, found: &str) -> Diagnostic {
     Diagnostic::error("guard-not-boolean", span, format!("{what} must be Boolean, but this is {found}"))
-        .because(format!("{found}, where Boolean is expected"))
+        .here(format!("{found}, where Boolean is expected"))
         .with_help("compare it with something: `… = …`")
 }
 
 /// Branches of one term with domains that do not fit each other.
 pub(crate) fn branch_domains(span: Span, found: &str, first: Span, expected: &str) -> Diagnostic {
     Diagnostic::error("branch-domains", span, format!("this branch gives {found}, but the first gives {expected}"))
-        .because(found.to_string())
+        .here(found.to_string())
         .with_label(first, expected.to_string())
         .with_help("let all branches give values of one domain")
 }
@@ -90,7 +90,7 @@ pub(crate) fn element_domains(span: Span, found: &str, first: Span, expected: &s
         span,
         format!("this element is {found}, but the elements before are {expected}"),
     )
-    .because(found.to_string())
+    .here(found.to_string())
     .with_label(first, expected.to_string())
     .with_help("a collection holds elements of one domain; use a product for parts of several: `(1, \"a\")`")
 }
@@ -123,18 +123,18 @@ pub(crate) fn not_a_collection(span: Span, found: &str) -> Diagnostic {
         span,
         format!("a variable ranges over a domain or a collection, but this is {found}"),
     )
-    .because(found.to_string())
+    .here(found.to_string())
     .with_help("name a domain, or give a set, sequence or bag: `{1 : 10}`")
 }
 
 /// Bounds of a range that are not numbers.
 pub(crate) fn range_bounds(span: Span, found: &str) -> Diagnostic {
     Diagnostic::error("range-bounds", span, format!("a range goes over numbers, but this is {found}"))
-        .because(found.to_string())
+        .here(found.to_string())
         .with_help("give Natural, Integer or Real bounds, or list the elements: `{AA, BB}`")
 }
 
 /// A range that holds nothing, or a step that leads nowhere.
 pub(crate) fn empty_range(span: Span, reason: &str, help: &str) -> Diagnostic {
-    Diagnostic::warning("empty-range", span, "this range holds nothing").because(reason.to_string()).with_help(help)
+    Diagnostic::warning("empty-range", span, "this range holds nothing").here(reason.to_string()).with_help(help)
 }

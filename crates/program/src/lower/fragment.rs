@@ -50,7 +50,7 @@ pub fn lower_location(
     let mut lowering = Lowering::for_fragment(model, program);
     let Some((function, arguments)) = lowering.location(term) else {
         let fault = Diagnostic::error("not-a-location", term.span, "a value stands here, not a location")
-            .because("only a location can be assigned")
+            .here("only a location can be assigned")
             .with_help("write a dynamic function, applied to its arguments");
         return Err(vec![fault]);
     };

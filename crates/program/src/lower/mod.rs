@@ -201,9 +201,8 @@ impl<'m, 'p> Lowering<'m, 'p> {
         }
         let help = "arguments of macro rules are substituted in the rule's body; \
                     bind large ones by `let` before the call";
-        self.diagnostics.push(
-            Diagnostic::error("model-too-large", span, message).because("the limit is passed here").with_help(help),
-        );
+        self.diagnostics
+            .push(Diagnostic::error("model-too-large", span, message).here("the limit is passed here").with_help(help));
         self.stopped = Some(self.sentinels(span));
     }
 }

@@ -185,7 +185,7 @@ impl<'m> Lowering<'m, '_> {
                     a rule that is run as a value takes its arguments by value";
         let mut fault =
             Diagnostic::error("not-a-location", span, format!("{name} stands for a value here, not for a location"))
-                .because("only a location can be assigned")
+                .here("only a location can be assigned")
                 .with_help(help);
         if let Some(argument) = argument {
             fault = fault.with_label(argument, "the argument given");

@@ -34,7 +34,7 @@ pub(crate) fn replacement(operator: &str) -> Option<&'static str> {
 pub(crate) fn foreign_operator(span: Span, operator: &str) -> Diagnostic {
     let ours = replacement(operator).unwrap_or("=");
     Diagnostic::error("foreign-operator", span, format!("`{operator}` is no operator of AsmetaL"))
-        .because(format!("written `{ours}` in AsmetaL"))
+        .here(format!("written `{ours}` in AsmetaL"))
         .with_help(format!("write `{ours}`"))
 }
 
@@ -67,41 +67,41 @@ pub(crate) fn unknown_character(span: Span, text: &str) -> Diagnostic {
 pub(crate) fn foreign_letter(span: Span, name: &str) -> Diagnostic {
     let letter = name.chars().find(|letter| !letter.is_ascii()).unwrap_or('?');
     Diagnostic::error("unknown-character", span, format!("the letter `{letter}` cannot stand in a name"))
-        .because("a name holds the letters a–z and A–Z, digits and `_`")
+        .here("a name holds the letters a–z and A–Z, digits and `_`")
         .with_help("rename it with ASCII letters")
 }
 
 /// `/*` without `*/`.
 pub(crate) fn unterminated_comment(span: Span) -> Diagnostic {
     Diagnostic::error("unterminated-comment", span, "this comment has no end")
-        .because("opened here, and the rest of the file is in it")
+        .here("opened here, and the rest of the file is in it")
         .with_help("close it with `*/`; comments do not nest")
 }
 
 /// A string that does not end on its line.
 pub(crate) fn unterminated_string(span: Span) -> Diagnostic {
     Diagnostic::error("unterminated-string", span, "this string has no end")
-        .because("a string ends with `\"` on the line where it starts")
+        .here("a string ends with `\"` on the line where it starts")
         .with_help("close it with `\"`; write `\\n` for a line end and `\\\"` for a quote within it")
 }
 
 /// A character literal that does not end on its line.
 pub(crate) fn unterminated_character(span: Span) -> Diagnostic {
     Diagnostic::error("unterminated-character", span, "this character literal has no end")
-        .because("it ends with `'` on the line where it starts")
+        .here("it ends with `'` on the line where it starts")
         .with_help("close it with `'`, as in `'a'` or `'\\n'`; a text of several characters stands in \"…\"")
 }
 
 /// A backslash with a letter that is not an escape.
 pub(crate) fn unknown_escape(span: Span, letter: char) -> Diagnostic {
     Diagnostic::error("unknown-escape", span, format!("`\\{letter}` is no escape"))
-        .because(r#"the escapes are \n \t \b \r \f \\ \' \" , \ and one to three octal digits, and \uXXXX"#)
+        .here(r#"the escapes are \n \t \b \r \f \\ \' \" , \ and one to three octal digits, and \uXXXX"#)
         .with_help(format!("write `\\\\{letter}` for a backslash followed by `{letter}`"))
 }
 
 /// `1.5e3`
 pub(crate) fn exponent(span: Span, text: &str) -> Diagnostic {
     Diagnostic::error("number-form", span, format!("`{text}` has an exponent"))
-        .because("a number is digits, and for a real also a point and digits")
+        .here("a number is digits, and for a real also a point and digits")
         .with_help("write all digits, as in `1500.0`")
 }

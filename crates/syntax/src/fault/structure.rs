@@ -23,21 +23,21 @@ impl std::fmt::Display for Found<'_> {
 /// No term where one must stand; `wanted` says which.
 pub(crate) fn expected_term(found: Found<'_>, wanted: &str) -> Diagnostic {
     Diagnostic::error("expected-term", found.span, format!("expected {wanted}, found {found}"))
-        .because("a term must stand here")
+        .here("a term must stand here")
         .with_help("write a term: a literal, a variable, a function, or a compound of these")
 }
 
 /// No rule where one must stand; `wanted` says which.
 pub(crate) fn expected_rule(found: Found<'_>, wanted: &str) -> Diagnostic {
     Diagnostic::error("expected-rule", found.span, format!("expected {wanted}, found {found}"))
-        .because("a rule must stand here")
+        .here("a rule must stand here")
         .with_help("write a rule: `skip` does nothing, `f := t` updates, `r_x[]` calls, `par … endpar` holds several")
 }
 
 /// No domain where one must stand.
 pub(crate) fn expected_domain(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("expected-domain", found.span, format!("expected a domain, found {found}"))
-        .because("a domain must stand here")
+        .here("a domain must stand here")
         .with_help("write a domain's name, or Prod, Seq, Powerset, Bag, Map or Rule with its domains in parentheses")
 }
 
@@ -45,7 +45,7 @@ pub(crate) fn expected_domain(found: Found<'_>) -> Diagnostic {
 pub(crate) fn expected_token(found: Found<'_>, kind: SyntaxKind, context: &str) -> Diagnostic {
     let wanted = expected(kind);
     Diagnostic::error("expected-token", found.span, format!("expected {wanted} {context}, found {found}"))
-        .because(format!("{wanted} is missing here"))
+        .here(format!("{wanted} is missing here"))
         .with_help(format!("write {wanted}"))
 }
 
@@ -53,8 +53,8 @@ pub(crate) fn expected_token(found: Found<'_>, kind: SyntaxKind, context: &str) 
 pub(crate) fn name_class(found: Found<'_>, kind: SyntaxKind) -> Diagnostic {
     let fault = Diagnostic::error("name-class", found.span, format!("`{}` cannot be {}", found.text, name_of(kind)));
     let fault = match found.kind {
-        COMPLEX => fault.because("`i`, also with digits behind it, is the imaginary unit"),
-        _ => fault.because(shape_of(kind)),
+        COMPLEX => fault.here("`i`, also with digits behind it, is the imaginary unit"),
+        _ => fault.here(shape_of(kind)),
     };
     match renamed(found.text, kind) {
         Some(name) => fault.with_help(format!("write `{name}`, here and wherever it is used")),
@@ -65,7 +65,7 @@ pub(crate) fn name_class(found: Found<'_>, kind: SyntaxKind) -> Diagnostic {
 /// No name where one must stand.
 pub(crate) fn expected_name(found: Found<'_>, kind: SyntaxKind) -> Diagnostic {
     let fault = Diagnostic::error("expected-name", found.span, format!("expected {}, found {found}", name_of(kind)))
-        .because(shape_of(kind));
+        .here(shape_of(kind));
     match found.kind.text() {
         Some(word) if word.starts_with(|c: char| c.is_ascii_alphabetic()) => {
             fault.with_help(format!("`{}` is a keyword; choose another name", found.text))
@@ -77,14 +77,14 @@ pub(crate) fn expected_name(found: Found<'_>, kind: SyntaxKind) -> Diagnostic {
 /// A keyword that is declared, or defined, as a name.
 pub(crate) fn keyword_as_name(found: Found<'_>, kind: SyntaxKind) -> Diagnostic {
     Diagnostic::error("keyword-as-name", found.span, format!("`{}` cannot be {}", found.text, name_of(kind)))
-        .because("this word is a keyword")
+        .here("this word is a keyword")
         .with_help("choose another name, here and wherever it is used; what follows from this is not told")
 }
 
 /// A length of time without its unit.
 pub(crate) fn expected_unit(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("expected-token", found.span, format!("expected a unit behind the length of time, found {found}"))
-        .because("the unit is missing here")
+        .here("the unit is missing here")
         .with_help("write `ns`, `us`, `ms` or `s` behind the number, as in `10 ms`")
 }
 
@@ -98,7 +98,7 @@ pub(crate) fn missing_end(
     let wanted = expected(end);
     let word = opener.text;
     let fault = Diagnostic::error("missing-end", found.span, format!("`{word}` has no {wanted}; found {found}"))
-        .because(format!("{wanted} is expected here at the latest"))
+        .here(format!("{wanted} is expected here at the latest"))
         .with_label(opener.span, format!("this `{word}` is open"))
         .with_help(format!("write {wanted} where what `{word}` opens is to end"));
     match within {
@@ -118,14 +118,14 @@ pub(crate) fn else_if(found: Found<'_>, outer: Found<'_>, inner: Found<'_>) -> D
 /// An end that nothing waits for.
 pub(crate) fn stray_end(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("stray-end", found.span, format!("{found} ends nothing"))
-        .because("nothing that it could end is open here")
+        .here("nothing that it could end is open here")
         .with_help("remove it, or write what it is to end")
 }
 
 /// Two rules where only one may stand.
 pub(crate) fn several_rules(found: Found<'_>, opener: Found<'_>) -> Diagnostic {
     Diagnostic::error("several-rules", found.span, format!("a second rule where `{}` takes one", opener.text))
-        .because("this rule follows another without `par` or `seq` around them")
+        .here("this rule follows another without `par` or `seq` around them")
         .with_label(opener.span, format!("`{}` is opened here", opener.text))
         .with_help("write `par … endpar` around the rules (or `seq … endseq`), or end the construct before this rule")
 }
@@ -133,35 +133,35 @@ pub(crate) fn several_rules(found: Found<'_>, opener: Found<'_>) -> Diagnostic {
 /// `x = 3` or `x : = 3` as a rule.
 pub(crate) fn equals_for_assign(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("equals-for-assign", found.span, "an update is written with `:=`")
-        .because("`=` compares two terms")
+        .here("`=` compares two terms")
         .with_help("write `:=`")
 }
 
 /// `:=` within a term.
 pub(crate) fn assign_in_term(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("assign-in-term", found.span, "an update cannot stand in a term")
-        .because("`:=` updates a location and makes a rule")
+        .here("`:=` updates a location and makes a rule")
         .with_help("write `=` to compare")
 }
 
 /// A term where a rule must stand.
 pub(crate) fn term_as_rule(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("term-as-rule", found.span, format!("a term with {found} is no rule"))
-        .because("expected `:=`, as a rule must stand here")
+        .here("expected `:=`, as a rule must stand here")
         .with_help("write `location := term` for an update")
 }
 
 /// A branch after `else` or `otherwise`.
 pub(crate) fn misplaced_branch(found: Found<'_>, last: &str) -> Diagnostic {
     Diagnostic::error("misplaced-branch", found.span, format!("{found} behind `{last}`"))
-        .because(format!("`{last}` is the last branch"))
+        .here(format!("`{last}` is the last branch"))
         .with_help(format!("move this branch before `{last}`, or end the construct before it"))
 }
 
 /// `RED := 1`
 pub(crate) fn no_location(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("name-class", found.span, format!("{found} cannot be updated"))
-        .because("only a function, also with arguments, and a variable are updated")
+        .here("only a function, also with arguments, and a variable are updated")
         .with_help(shape_of(FUNCTION_ID))
 }
 
@@ -169,14 +169,14 @@ pub(crate) fn no_location(found: Found<'_>) -> Diagnostic {
 pub(crate) fn compound_assignment(found: Found<'_>) -> Diagnostic {
     let sign = found.text;
     Diagnostic::error("foreign-operator", found.span, format!("`{sign}=` is no operator of AsmetaL"))
-        .because("an update is written with `:=`")
+        .here("an update is written with `:=`")
         .with_help(format!("write `x := x {sign} …`"))
 }
 
 /// `function f := 1`
 pub(crate) fn assign_in_definition(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("assign-in-term", found.span, "a definition is written with `=`")
-        .because("`:=` updates a location and makes a rule")
+        .here("`:=` updates a location and makes a rule")
         .with_help("write `=`")
 }
 
@@ -187,28 +187,28 @@ pub(crate) fn contents_in_signature(found: Found<'_>) -> Diagnostic {
         found.span,
         "expected `subsetof` behind the name of a concrete domain, found `=`",
     )
-    .because("the signature only declares the domain")
+    .here("the signature only declares the domain")
     .with_help("write `domain D subsetof E` here, and `domain D = …` in the definitions")
 }
 
 /// `domain D subsetof …` in the definitions.
 pub(crate) fn declaration_of_domain(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("expected-token", found.span, format!("expected `=` behind the name of a domain, found {found}"))
-        .because("the definitions give the elements of a domain that is declared")
+        .here("the definitions give the elements of a domain that is declared")
         .with_help("move the declaration to the signature, and write `domain D = …` here")
 }
 
 /// A word such as `else` that belongs to no construct around.
 pub(crate) fn stray_word(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("stray-end", found.span, format!("{found} belongs to nothing that is open"))
-        .because("a rule must stand here")
+        .here("a rule must stand here")
         .with_help("remove it, or look for an end that comes too early before it")
 }
 
 /// `5.`
 pub(crate) fn bare_point(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("number-form", found.span, "a real number has digits on both sides of its point")
-        .because("no digit behind the point")
+        .here("no digit behind the point")
         .with_help("write `.0` for the point")
 }
 
@@ -216,7 +216,7 @@ pub(crate) fn bare_point(found: Found<'_>) -> Diagnostic {
 pub(crate) fn missing_brackets(found: Found<'_>) -> Diagnostic {
     let name = found.text;
     Diagnostic::error("missing-brackets", found.span, format!("the call of `{name}` has no brackets"))
-        .because("a call needs them even without arguments")
+        .here("a call needs them even without arguments")
         .with_help(format!("write `{name}[]` to call a macro rule, `{name}()` to call a turbo rule"))
 }
 
@@ -224,7 +224,7 @@ pub(crate) fn missing_brackets(found: Found<'_>) -> Diagnostic {
 pub(crate) fn rule_in_term(found: Found<'_>) -> Diagnostic {
     let name = found.text;
     Diagnostic::error("rule-in-term", found.span, format!("the rule `{name}` cannot stand in a term"))
-        .because("a term must stand here")
+        .here("a term must stand here")
         .with_help(format!(
             "write `<<{name}>>` for the rule as a value, or `f <- {name}(…)` for the result of a turbo rule"
         ))
@@ -234,28 +234,28 @@ pub(crate) fn rule_in_term(found: Found<'_>) -> Diagnostic {
 pub(crate) fn quantifier_parentheses(found: Found<'_>) -> Diagnostic {
     let word = found.text;
     Diagnostic::error("quantifier-parentheses", found.span, "a quantified term stands in parentheses")
-        .because(format!("`{word}` without `(` before it"))
+        .here(format!("`{word}` without `(` before it"))
         .with_help(format!("write `({word} $x in D with condition)`"))
 }
 
 /// An operator without its left operand.
 pub(crate) fn no_left_operand(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("expected-term", found.span, format!("the operator {found} has no left operand"))
-        .because("a term must stand before it")
+        .here("a term must stand before it")
         .with_help("write the operand, or remove the operator")
 }
 
 /// `.5`
 pub(crate) fn bare_fraction(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("number-form", found.span, "a real number has digits on both sides of its point")
-        .because("no digit before the point")
+        .here("no digit before the point")
         .with_help("write `0.` before the digits")
 }
 
 /// `f()`
 pub(crate) fn empty_parentheses(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("expected-term", found.span, "nothing stands between the parentheses")
-        .because("a term must stand here")
+        .here("a term must stand here")
         .with_help("a function without arguments is written without parentheses")
 }
 
@@ -268,14 +268,14 @@ pub(crate) fn domain_arity(found: Found<'_>, count: usize) -> Diagnostic {
         _ => "one domain",
     };
     Diagnostic::error("domain-arity", found.span, format!("`{}` takes {wanted}", found.text))
-        .because(format!("{count} given"))
+        .here(format!("{count} given"))
         .with_help(format!("give `{}` {wanted}", found.text))
 }
 
 /// No definition, declaration or section where one must stand.
 pub(crate) fn expected_definition(found: Found<'_>, wanted: &str) -> Diagnostic {
     Diagnostic::error("expected-definition", found.span, format!("expected {wanted}, found {found}"))
-        .because("this starts none, and the text up to the next one is skipped")
+        .here("this starts none, and the text up to the next one is skipped")
         .with_help(
             "check the end of what stands before, or write the word that starts it: `function`, `rule`, `main` …",
         )
@@ -288,56 +288,56 @@ pub(crate) fn declaration_in_definitions(found: Found<'_>) -> Diagnostic {
         found.span,
         format!("expected a definition, found the declaration {found}"),
     )
-    .because("domains and functions are declared in the signature")
+    .here("domains and functions are declared in the signature")
     .with_help("move it to the section `signature:`")
 }
 
 /// `;` or `,` between rules or definitions.
 pub(crate) fn separator(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("unexpected-text", found.span, format!("{found} separates nothing here"))
-        .because("rules and definitions follow one another without a mark between them")
+        .here("rules and definitions follow one another without a mark between them")
         .with_help("remove it")
 }
 
 /// Text after the end.
 pub(crate) fn unexpected_text(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("unexpected-text", found.span, format!("expected the end, found {found}"))
-        .because("the term ends before this")
+        .here("the term ends before this")
         .with_help("remove it, or write the operator that joins it to the term")
 }
 
 /// No `asm` or `module` at the start.
 pub(crate) fn no_machine_name(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("missing-section", found.span, format!("expected `asm` or `module`, found {found}"))
-        .because("a file starts with its name")
+        .here("a file starts with its name")
         .with_help("write `asm NAME` or `module NAME`, with NAME as the file is called")
 }
 
 /// A section is missing.
 pub(crate) fn missing_section(found: Found<'_>, section: &str) -> Diagnostic {
     Diagnostic::error("missing-section", found.span, format!("the section `{section}:` is missing; found {found}"))
-        .because(format!("`{section}:` is expected before this"))
+        .here(format!("`{section}:` is expected before this"))
         .with_help(format!("write `{section}:`, even if nothing is in it"))
 }
 
 /// A section stands twice.
 pub(crate) fn duplicate_section(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("duplicate-section", found.span, format!("a second {found}"))
-        .because("a file has at most one")
+        .here("a file has at most one")
         .with_help("join the two")
 }
 
 /// A section stands too late.
 pub(crate) fn misplaced_section(found: Found<'_>, later: &str) -> Diagnostic {
     Diagnostic::error("misplaced-section", found.span, format!("{found} behind `{later}`"))
-        .because("the order is: import, export, signature, definitions, main, init")
+        .here("the order is: import, export, signature, definitions, main, init")
         .with_help(format!("move it before `{later}`"))
 }
 
 /// No command of a scenario.
 pub(crate) fn expected_command(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("expected-command", found.span, format!("expected a command, found {found}"))
-        .because("a command must stand here")
+        .here("a command must stand here")
         .with_help("the commands are: check, set, step, step until, exec, pick, begin … end, execblock, expect")
 }
 
@@ -349,14 +349,14 @@ pub(crate) fn unknown_trouble(found: Found<'_>, whole: bool) -> Diagnostic {
         "`failure`, `inconsistent update` or `error`"
     };
     Diagnostic::error("expected-command", found.span, format!("expected {choices}, found {found}"))
-        .because("this says what trouble is expected")
+        .here("this says what trouble is expected")
         .with_help(format!("write {choices}"))
 }
 
 /// No item of a chart.
 pub(crate) fn expected_shape(found: Found<'_>, wanted: &str) -> Diagnostic {
     Diagnostic::error("expected-shape", found.span, format!("expected {wanted}, found {found}"))
-        .because("this starts none, and the text up to the next one is skipped")
+        .here("this starts none, and the text up to the next one is skipped")
         .with_help("start each with its word: `state`, `guard`, `action`, `instance`; a path with a name and `->`")
 }
 
@@ -364,7 +364,7 @@ pub(crate) fn expected_shape(found: Found<'_>, wanted: &str) -> Diagnostic {
 pub(crate) fn nested_too_deeply(found: Found<'_>) -> Diagnostic {
     use crate::limit::{MAX_CHAIN, MAX_NESTING};
     Diagnostic::error("nested-too-deeply", found.span, "this is nested too deeply")
-        .because(format!("at most {MAX_NESTING} constructs in one another, and {MAX_CHAIN} operators in one chain"))
+        .here(format!("at most {MAX_NESTING} constructs in one another, and {MAX_CHAIN} operators in one chain"))
         .with_help("split it: define functions for parts of a term, rules for parts of a rule")
 }
 
@@ -372,49 +372,49 @@ pub(crate) fn nested_too_deeply(found: Found<'_>) -> Diagnostic {
 pub(crate) fn dots_in_range(found: Found<'_>, two: bool) -> Diagnostic {
     let span = Span { end: found.span.end + u32::from(two), ..found.span };
     Diagnostic::error("foreign-operator", span, "a range is written with `:`")
-        .because("dots are no operator of AsmetaL")
+        .here("dots are no operator of AsmetaL")
         .with_help("write `{lo : hi}`, or `{lo : hi, step}`")
 }
 
 /// `A * B` as a domain.
 pub(crate) fn product_of_domains(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("foreign-operator", found.span, format!("{found} joins no domains"))
-        .because("a product of domains has a name in AsmetaL")
+        .here("a product of domains has a name in AsmetaL")
         .with_help("write `Prod(A, B)`")
 }
 
 /// `<<skip>>`
 pub(crate) fn rule_as_value(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("expected-name", found.span, format!("expected the name of a rule in `<<…>>`, found {found}"))
-        .because("only a rule that is declared is a value")
+        .here("only a rule that is declared is a value")
         .with_help("declare a rule for it, and write `<<r_name>>`")
 }
 
 /// `elif`, `elsif`
 pub(crate) fn foreign_word(found: Found<'_>, ours: &str) -> Diagnostic {
     Diagnostic::error("foreign-operator", found.span, format!("{found} is no word of AsmetaL"))
-        .because(format!("written `{ours}` in AsmetaL"))
+        .here(format!("written `{ours}` in AsmetaL"))
         .with_help(format!("write `{ours}`"))
 }
 
 /// Rules in parentheses or braces.
 pub(crate) fn bracketed_rule(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("expected-rule", found.span, format!("a rule does not start with {found}"))
-        .because("brackets do not hold rules together")
+        .here("brackets do not hold rules together")
         .with_help("write `par … endpar` or `seq … endseq` around the rules")
 }
 
 /// `endforall` and the like.
 pub(crate) fn no_such_end(found: Found<'_>) -> Diagnostic {
     stray_end(found)
-        .because("`choose`, `forall`, `while` and `extend` have one rule behind `do`, and no word ends them")
+        .here("`choose`, `forall`, `while` and `extend` have one rule behind `do`, and no word ends them")
         .with_help("remove it; write `par … endpar` around several rules")
 }
 
 /// `execblock file.block`
 pub(crate) fn dot_in_block_name(found: Found<'_>) -> Diagnostic {
     Diagnostic::error("expected-token", found.span, "a file and its block are joined by `:`")
-        .because("`:` is expected here")
+        .here("`:` is expected here")
         .with_help("write `execblock file:block;`")
 }
 
@@ -426,7 +426,7 @@ pub(crate) fn file_too_large(span: Span, length: usize) -> Diagnostic {
         span,
         format!("the file has {length} bytes, more than the {limit} that are read"),
     )
-    .because("nothing of it was read")
+    .here("nothing of it was read")
     .with_help("split it into modules that import one another")
 }
 
@@ -435,6 +435,6 @@ pub(crate) fn too_many_faults(next: Span) -> Diagnostic {
     let limit = crate::limit::MAX_FAULTS;
     let fault = Diagnostic::warning("too-many-faults", next, "there are more faults from here on");
     fault
-        .because(format!("only the first {limit} of a file are reported"))
+        .here(format!("only the first {limit} of a file are reported"))
         .with_help("mend the first ones and check again")
 }

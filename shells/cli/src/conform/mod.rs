@@ -184,8 +184,7 @@ fn parting(
     writeln!(out)?;
     if let Some(claim) = parted.claims.first() {
         let message = format!("the model {} here", claim.event.words());
-        let rule =
-            Diagnostic::error("conformance-parts", claim.span, message).because("the program did something else");
+        let rule = Diagnostic::error("conformance-parts", claim.span, message).here("the program did something else");
         shell.details(sources, &[rule])?;
     }
     Ok(())

@@ -144,7 +144,7 @@ impl Teller<'_> {
     pub fn report(&self, shell: &mut Shell, report: &Report, told: &BTreeSet<Subject>) -> Result<(), Failure> {
         for span in &report.unreachable {
             let diagnostic = Diagnostic::warning("unreachable-rule", *span, "no reachable state runs this rule")
-                .because("never runs")
+                .here("never runs")
                 .with_help("if it should run, its guard or what leads to it is wrong; else remove it");
             shell.diagnostic(self.sources, &diagnostic)?;
         }
@@ -305,7 +305,7 @@ impl Teller<'_> {
                 PropertyKind::Ctl | PropertyKind::Ltl => ("property-violated", "not true of this run".to_string()),
                 _ => ("invariant-violated", format!("not true after {}", plural(trace.steps.len(), "step"))),
             };
-            let diagnostic = Diagnostic::error(id, property.span, message).because(reason);
+            let diagnostic = Diagnostic::error(id, property.span, message).here(reason);
             return shell.diagnostic(self.sources, &diagnostic);
         }
         Ok(())
@@ -499,7 +499,7 @@ impl Teller<'_> {
                 let domain = &self.program.domain(declared.codomain).name;
                 let message = format!("the values of {} cannot be gone through ({place})", declared.name);
                 Diagnostic::error("no-bound", unbounded.span, message)
-                    .because(format!("{domain} is infinite, or its elements are not known"))
+                    .here(format!("{domain} is infinite, or its elements are not known"))
                     .with_help(format!("bound it: `--bound {}=0..10`, or an INVAR in the model", declared.name))
             }
             UnboundedKind::Choice => Diagnostic::error(
@@ -507,14 +507,14 @@ impl Teller<'_> {
                 unbounded.span,
                 format!("the candidates of a choice are infinite ({place})"),
             )
-            .because("chooses among infinitely many")
+            .here("chooses among infinitely many")
             .with_help("choose from a finite domain or set"),
             UnboundedKind::Clock => Diagnostic::error("no-bound", unbounded.span, "the model reads the clock")
-                .because("the clock has infinitely many readings")
+                .here("the clock has infinitely many readings")
                 .with_help("let a monitored function tell the time, and bound it"),
             UnboundedKind::Limit => {
                 Diagnostic::error("limit-reached", unbounded.span, format!("a step reaches a limit ({place})"))
-                    .because("reached here")
+                    .here("reached here")
                     .with_help("if the model is right, raise the limit: `groundstate verify --help`")
             }
         }

@@ -24,34 +24,34 @@ pub(super) fn mixed(span: Span, is_ctl: bool) -> Diagnostic {
         span,
         format!("an operator of the {operator} library stands in a formula of {formula}"),
     )
-    .because("this is of the other logic")
+    .here("this is of the other logic")
     .with_help(help)
 }
 
 pub(super) fn in_term(span: Span, operator: Span) -> Diagnostic {
     let fault = Diagnostic::error("temporal-in-term", span, "a formula about runs stands where a value is needed");
     let fault = if operator == span {
-        fault.because("this has no value in a single state")
+        fault.here("this has no value in a single state")
     } else {
-        fault.because("this needs the values of one state").with_label(operator, "this speaks of runs")
+        fault.here("this needs the values of one state").with_label(operator, "this speaks of runs")
     };
     fault.with_help("join formulas about runs by `not`, `and`, `or`, `xor`, `implies`, `iff`, `if … then … else … endif` and quantifiers")
 }
 
 pub(super) fn changing(span: Span, what: &str) -> Diagnostic {
     Diagnostic::error("temporal-over-changing", span, format!("{what} of a formula about runs changes from state to state"))
-        .because("this depends on the state")
+        .here("this depends on the state")
         .with_help("range over a fixed domain, and say in which states an element counts: `(forall $x in D with ag($x = … implies …))`")
 }
 
 pub(super) fn not_enumerable(span: Span, reason: &str) -> Diagnostic {
     Diagnostic::error("temporal-over-changing", span, "what this ranges over cannot be gone through")
-        .because(reason.to_string())
+        .here(reason.to_string())
         .with_help("range over a finite fixed domain")
 }
 
 pub(super) fn too_large(span: Span, what: &str, most: u64) -> Diagnostic {
     Diagnostic::error("formula-too-large", span, format!("the formula has more than {most} {what}"))
-        .because("the limit is passed here")
+        .here("the limit is passed here")
         .with_help("quantify over fewer elements, or split the property")
 }
