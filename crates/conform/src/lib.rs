@@ -9,6 +9,7 @@
 
 mod claims;
 mod evidence;
+mod fault;
 mod order;
 mod session;
 mod steps;
@@ -18,6 +19,7 @@ mod vocabulary;
 mod waiting;
 
 pub use evidence::{Claim, Parted, Recorded};
+pub use fault::{IDS as FAULT_IDS, diagnose_parted};
 pub use recording::{Event, Kind, Malformed, Reader, Recording, Track};
 pub use session::{Refusal, Session, Way};
 

@@ -9,8 +9,9 @@ use std::sync::Arc;
 use model::{Checked, Loader, Model, PropertyKind};
 use program::Program;
 use syntax::ast::{self, AstNode};
-use syntax::{Diagnostic, FileId, SourceFile, Sources, Span};
+use syntax::{Diagnostic, SourceFile, Sources, Span};
 
+use crate::fault::run::{missing_main, start};
 use crate::has_errors;
 
 /// What the texts of a model come to.
@@ -62,20 +63,4 @@ fn no_main_rule(model: &Model, sources: &Sources) -> Option<Diagnostic> {
     let machine = ast::SourceFile::cast(parse.syntax())?.machine_name()?;
     let span = machine.name().map_or_else(|| start(model.root), |name| Span::new(model.root, name.text_range()));
     (!machine.is_module()).then(|| missing_main(span))
-}
-
-/// A model that is to be run and has no main rule.
-pub fn diagnose_no_main(model: &Model) -> Diagnostic {
-    missing_main(start(model.root))
-}
-
-fn start(file: FileId) -> Span {
-    Span { file, start: 0, end: 0 }
-}
-
-fn missing_main(span: Span) -> Diagnostic {
-    Diagnostic::error("no-main-rule", span, "the model has no main rule to run").with_help(
-        "add `main rule r_Main = …` behind the other rules; what other models import is a `module`, and is run through an \
-         `asm` that imports it",
-    )
 }

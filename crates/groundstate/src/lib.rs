@@ -10,8 +10,7 @@ mod check_specification;
 mod check_verification;
 mod counterexample;
 mod decide;
-mod diagnose;
-mod diagnose_review;
+mod fault;
 mod fingerprint;
 pub mod job;
 mod kind;
@@ -34,9 +33,13 @@ pub use build::{BuiltChart, Located, build_chart};
 pub use check_specification::check_specification;
 pub use check_verification::check_verification;
 pub use counterexample::{counterexample_run, counterexample_scenario};
-pub use decide::diagnose_no_main;
-pub use diagnose::{diagnose_failure, diagnose_fault, diagnose_outside, diagnose_violation};
-pub use diagnose_review::{REVIEW_IDS, diagnose_finding};
+pub use fault::IDS as FAULT_IDS;
+pub use fault::review::{REVIEW_IDS, diagnose_finding};
+pub use fault::run::{diagnose_fault, diagnose_no_main, diagnose_violation};
+pub use fault::scenario::{diagnose_failure, diagnose_remark};
+pub use fault::verification::{
+    diagnose_outside, diagnose_property, diagnose_unbounded, diagnose_unreachable, short_place,
+};
 pub use fingerprint::fingerprint;
 pub use kind::{Kind, has_ending, model_of};
 pub use overlay::Overlay;

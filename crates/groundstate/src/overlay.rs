@@ -8,9 +8,9 @@ use std::sync::Arc;
 use model::{Model, PropertyKind};
 use program::{Expression, Program, Property};
 use syntax::ast::{AstNode, Term, TermFile};
-use syntax::{Diagnostic, FileId, SourceFile, Sources, Span};
+use syntax::{Diagnostic, FileId, SourceFile, Sources};
 
-use crate::{Loaded, has_errors};
+use crate::{Loaded, fault, has_errors};
 
 /// See the module.
 #[derive(Debug, Clone)]
@@ -79,10 +79,7 @@ impl Overlay {
         }
         match TermFile::cast(parsed.syntax()).and_then(|file| file.term()) {
             Some(term) => Ok((file, term)),
-            None => {
-                let span = Span { file, start: 0, end: 0 };
-                Err(vec![Diagnostic::error("expected-term", span, "a term is expected")])
-            }
+            None => Err(vec![fault::no_term(file)]),
         }
     }
 }

@@ -12,6 +12,7 @@ use scenario::{Blocks, Choices, Counts, Items, Options, Verdict};
 use simulate::SplitMix;
 use syntax::{Diagnostic, FileId, SourceFile, Sources};
 
+use crate::fault::scenario::unknown_model;
 use crate::{Faulty, Loaded, has_errors, load};
 
 /// Scenarios being run.
@@ -133,7 +134,7 @@ impl Suite {
             Ok(root) => root,
             Err(message) => {
                 let mut diagnostics = parsed.diagnostics.clone();
-                diagnostics.push(Diagnostic::error("unknown-model", *place, message));
+                diagnostics.push(unknown_model(*place, message));
                 return refused(alone, diagnostics);
             }
         };

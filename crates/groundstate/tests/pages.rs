@@ -43,3 +43,13 @@ fn every_fault_has_a_page_that_shows_it() {
         assert_eq!(ids, [id], "{faults:#?}");
     }
 }
+
+/// What their examples show is tested where the faults are made: here, in `review` and in `verification`; faults of a step by the
+/// machine's tests.
+#[test]
+fn every_kind_of_fault_has_a_page() {
+    assert!(groundstate::FAULT_IDS.is_sorted());
+    for id in groundstate::FAULT_IDS.iter().chain(groundstate::REVIEW_IDS) {
+        Page::fault(id);
+    }
+}

@@ -93,10 +93,16 @@ fn the_pages_of_faults_show_them() {
     let unreachable = Page::fault("unreachable-rule");
     let (_, report) = check(unreachable.example("asmetal verify"), 1);
     assert_eq!(report.unreachable.len(), 1);
+    assert_eq!(groundstate::diagnose_unreachable(report.unreachable[0]).id, "unreachable-rule");
     let no_bound = Page::fault("no-bound");
-    let (_, report) = check(no_bound.example("asmetal verify"), 1);
+    let text = no_bound.example("asmetal verify");
+    let (program, report) = check(text, 1);
     let Outcome::Unknown(reasons) = &report.verdicts[0].outcome else { panic!("{:?}", report.verdicts[0]) };
-    assert!(matches!(reasons[..], [Reason::Unbounded(_)]));
+    let [Reason::Unbounded(unbounded)] = &reasons[..] else { panic!("{reasons:?}") };
+    let loaded = groundstate::load(SourceFile::new(file(text), text), &mut one_model(text)).expect("it has no faults");
+    let fault = groundstate::diagnose_unbounded(unbounded, &program, &loaded.sources);
+    let message = "the values of inflow cannot be gone through (example.asm:4:15)";
+    assert_eq!((fault.id, fault.message.as_str()), ("no-bound", message));
     let outside = Page::fault("outside-solver");
     let text = outside.example("asmetal solver");
     let loaded = groundstate::load(SourceFile::new(file(text), text), &mut one_model(text));
@@ -107,7 +113,8 @@ fn the_pages_of_faults_show_them() {
     assert_eq!(groundstate::diagnose_outside(&outside).id, "outside-solver");
     assert_eq!(outside.what, "a function with values in Seq(Integer)");
     let violated = Page::fault("property-violated");
-    let (_, report) = check(violated.example("asmetal verify"), 1);
+    let (program, report) = check(violated.example("asmetal verify"), 1);
     let Outcome::Violated(trace) = &report.verdicts[4].outcome else { panic!("{:?}", report.verdicts[4]) };
+    assert_eq!(groundstate::diagnose_property(&program.properties[0], trace).id, "property-violated");
     assert_eq!((trace.steps.len(), trace.turn), (2, Some(0)));
 }

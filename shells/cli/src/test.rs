@@ -149,8 +149,7 @@ fn report(
     shell.details(sources, &new)?;
     let remarks = tested.verdict.iter().flat_map(|verdict| &verdict.remarks);
     for remark in remarks {
-        let warning = Diagnostic::warning("unused-pick", remark.span, remark.message.as_str());
-        shell.details(sources, &[warning])?;
+        shell.details(sources, &[groundstate::diagnose_remark(remark)])?;
     }
     Ok(())
 }

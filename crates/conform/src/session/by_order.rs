@@ -244,3 +244,13 @@ fn what_is_passed_over_is_a_writing() {
     let failed = passing("encoder 200 begins encoder_write_robot 0\n encoder 200 faults encoder_write_robot 0");
     assert!(matches!(verdict(&failed), Verdict::Unknown { .. }));
 }
+
+#[test]
+fn the_pages_of_faults_show_them() {
+    for id in crate::FAULT_IDS {
+        let page = testkit::Page::fault(id);
+        let Verdict::Parts(parted) = verdict(&recording("real", page.example("events"))) else { panic!("{id}") };
+        let fault = crate::diagnose_parted(&parted).expect("the model does something there");
+        assert_eq!((fault.id, fault.message.as_str()), (*id, "the model releases encoder_to_robot here"));
+    }
+}

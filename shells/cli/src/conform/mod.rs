@@ -8,10 +8,10 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use ::conform::{Malformed, Parted, Reader, Recording, Refusal, Session, Verdict, Way};
+use ::conform::{Malformed, Parted, Reader, Recording, Refusal, Session, Verdict, Way, diagnose_parted};
 use clap::Args;
 use groundstate::Loaded;
-use syntax::{Diagnostic, Sources};
+use syntax::Sources;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -182,9 +182,7 @@ fn parting(
         writeln!(out, "    {location} = {value}")?;
     }
     writeln!(out)?;
-    if let Some(claim) = parted.claims.first() {
-        let message = format!("the model {} here", claim.event.words());
-        let rule = Diagnostic::error("conformance-parts", claim.span, message).here("the program did something else");
+    if let Some(rule) = diagnose_parted(parted) {
         shell.details(sources, &[rule])?;
     }
     Ok(())

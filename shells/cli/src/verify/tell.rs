@@ -9,9 +9,9 @@ use groundstate::verify::solver::{Left, Proof};
 use groundstate::verify::{
     Engine, Outcome, Progress, Reason, Report, Stop, Storage, Subject, Trace, Unreduced, Verdict,
 };
-use machine::explore::{ChoiceTaken, Told, Unbounded, UnboundedKind};
+use machine::explore::{ChoiceTaken, Told, Unbounded};
 use machine::{Location, Show, Value};
-use program::{Program, PropertyKind};
+use program::Program;
 use serde::Serialize;
 use syntax::{Diagnostic, Sources, Span};
 use wire::Place;
@@ -143,10 +143,7 @@ impl Teller<'_> {
     /// Tells everything; of what was told while the search went on no more than the verdict.
     pub fn report(&self, shell: &mut Shell, report: &Report, told: &BTreeSet<Subject>) -> Result<(), Failure> {
         for span in &report.unreachable {
-            let diagnostic = Diagnostic::warning("unreachable-rule", *span, "no reachable state runs this rule")
-                .here("never runs")
-                .with_help("if it should run, its guard or what leads to it is wrong; else remove it");
-            shell.diagnostic(self.sources, &diagnostic)?;
+            shell.diagnostic(self.sources, &groundstate::diagnose_unreachable(*span))?;
         }
         for verdict in &report.verdicts {
             if told.contains(&verdict.subject) {
@@ -300,13 +297,7 @@ impl Teller<'_> {
         }
         if let Subject::Property(index) = subject {
             let property = &self.program.properties[index];
-            let message = format!("{} does not hold", property.name);
-            let (id, reason) = match property.kind {
-                PropertyKind::Ctl | PropertyKind::Ltl => ("property-violated", "not true of this run".to_string()),
-                _ => ("invariant-violated", format!("not true after {}", plural(trace.steps.len(), "step"))),
-            };
-            let diagnostic = Diagnostic::error(id, property.span, message).here(reason);
-            return shell.diagnostic(self.sources, &diagnostic);
+            return shell.diagnostic(self.sources, &groundstate::diagnose_property(property, trace));
         }
         Ok(())
     }
@@ -492,32 +483,7 @@ impl Teller<'_> {
 
     /// What cannot be gone through, with its place.
     pub fn unbounded(&self, unbounded: &Unbounded) -> Diagnostic {
-        let place = self.place(unbounded.span);
-        match unbounded.kind {
-            UnboundedKind::Input(function) => {
-                let declared = self.program.function(function);
-                let domain = &self.program.domain(declared.codomain).name;
-                let message = format!("the values of {} cannot be gone through ({place})", declared.name);
-                Diagnostic::error("no-bound", unbounded.span, message)
-                    .here(format!("{domain} is infinite, or its elements are not known"))
-                    .with_help(format!("bound it: `--bound {}=0..10`, or an INVAR in the model", declared.name))
-            }
-            UnboundedKind::Choice => Diagnostic::error(
-                "no-bound",
-                unbounded.span,
-                format!("the candidates of a choice are infinite ({place})"),
-            )
-            .here("chooses among infinitely many")
-            .with_help("choose from a finite domain or set"),
-            UnboundedKind::Clock => Diagnostic::error("no-bound", unbounded.span, "the model reads the clock")
-                .here("the clock has infinitely many readings")
-                .with_help("let a monitored function tell the time, and bound it"),
-            UnboundedKind::Limit => {
-                Diagnostic::error("limit-reached", unbounded.span, format!("a step reaches a limit ({place})"))
-                    .here("reached here")
-                    .with_help("if the model is right, raise the limit: `groundstate verify --help`")
-            }
-        }
+        groundstate::diagnose_unbounded(unbounded, self.program, self.sources)
     }
 
     fn value(&self, location: &Location, value: &Value) -> String {
@@ -537,10 +503,7 @@ impl Teller<'_> {
     }
 
     pub(super) fn place(&self, span: Span) -> String {
-        let file = self.sources.file(span.file);
-        let start = file.line_column(span.start);
-        let name = file.name.rsplit(['/', '\\']).next().unwrap_or(&file.name);
-        format!("{name}:{}:{}", start.line, start.column)
+        groundstate::short_place(self.sources, span)
     }
 }
 

@@ -1,23 +1,18 @@
-//! Run-time trouble as diagnostics: where it happened, what the values were, what to do.
+//! What goes wrong in a run: where it happened, what the values were, what to do.
+//!
+//! In: a fault of a step, a violated invariant, the program. Out: a diagnostic.
 
 use std::sync::Arc;
 
 use machine::{Closed, Fault, FaultKind, Machine, Show, Value};
+use model::Model;
 use program::Program;
-use scenario::{Failure, FailureKind, Reading};
+use scenario::Reading;
 use simulate::Violation;
-use syntax::ast::Expected;
-use syntax::{Diagnostic, Span};
+use syntax::{Diagnostic, FileId, Span};
 
 /// How many of the calls that led to a fault are shown.
 const CALLS: usize = 4;
-
-/// A part of a model that solvers have no place for.
-pub fn diagnose_outside(outside: &verify::solver::Outside) -> Diagnostic {
-    Diagnostic::error("outside-solver", outside.span, format!("{} has no place in what solvers are told", outside.what))
-        .here("not told to solvers")
-        .with_help("let the states be explored: `--engine explicit`, or `bdd`")
-}
 
 /// A fault of a step.
 pub fn diagnose_fault(fault: &Fault, program: &Program) -> Diagnostic {
@@ -113,67 +108,24 @@ pub fn diagnose_violation(violation: &Violation, step: u64, machine: &mut Machin
     }
 }
 
-/// A failure of a scenario: the failure, then what came instead of what was expected.
-pub fn diagnose_failure(failure: &Failure, program: &Program) -> Vec<Diagnostic> {
-    let steps = |count: u64| if count == 1 { "1 step".to_string() } else { format!("{count} steps") };
-    let after = steps(failure.step);
-    let show = |value: &Value| value.show(program).briefly().to_string();
-    let one = |diagnostic: Diagnostic| vec![diagnostic];
-    match &failure.kind {
-        FailureKind::Check { expected, actual, reads } => {
-            let message = format!("check failed after {after}: expected {}, found {}", show(expected), show(actual));
-            one(with_readings(Diagnostic::error("check-failed", failure.span, message), reads, program))
-        }
-        FailureKind::Invariant { name, value, during, reads } => {
-            let verb = if value.is_undef() { "is undef" } else { "does not hold" };
-            let message = format!("invariant {name} {verb} after {after}");
-            let diagnostic = Diagnostic::error("invariant-violated", failure.span, message);
-            let diagnostic = if *during == failure.span {
-                diagnostic
-            } else {
-                diagnostic.with_label(*during, "here in the scenario")
-            };
-            one(with_readings(diagnostic, reads, program))
-        }
-        FailureKind::Fault { fault, during } => {
-            let diagnostic = diagnose_fault(fault, program);
-            let diagnostic =
-                if *during == fault.span { diagnostic } else { diagnostic.with_label(*during, "here in the scenario") };
-            one(diagnostic)
-        }
-        FailureKind::Pick { choice, message } => {
-            let diagnostic = Diagnostic::error("pick-no-candidate", failure.span, format!("after {after}: {message}"));
-            one(diagnostic.with_label(*choice, "the choice that was to be made"))
-        }
-        FailureKind::Bound { bound } => {
-            let message = format!("the condition did not hold within {}", steps(*bound));
-            one(Diagnostic::error("bound-reached", failure.span, message)
-                .with_help("write `step until … within N;` to allow more"))
-        }
-        FailureKind::Expected { expected, invariant, instead } => {
-            let what = expected_words(*expected, invariant.as_deref());
-            let came = if instead.is_empty() { "none came" } else { "something else happened" };
-            let mut all =
-                one(Diagnostic::error("expected-failure", failure.span, format!("{what} was expected, but {came}")));
-            all.extend(instead.iter().flat_map(|failure| diagnose_failure(failure, program)));
-            all
-        }
-    }
-}
-
-fn expected_words(expected: Expected, invariant: Option<&str>) -> String {
-    match (expected, invariant) {
-        (Expected::Failure, _) => "a failure".to_string(),
-        (Expected::Check, _) => "a failed check".to_string(),
-        (Expected::Invariant, Some(name)) => format!("a violation of invariant {name}"),
-        (Expected::Invariant, None) => "a violated invariant".to_string(),
-        (Expected::InconsistentUpdate, _) => "an inconsistent update".to_string(),
-        (Expected::Error, _) => "a run-time error".to_string(),
-    }
-}
-
-fn with_readings(diagnostic: Diagnostic, reads: &[Reading], program: &Program) -> Diagnostic {
+pub(super) fn with_readings(diagnostic: Diagnostic, reads: &[Reading], program: &Program) -> Diagnostic {
     reads.iter().fold(diagnostic, |diagnostic, reading| {
         diagnostic.with_label(reading.span, format!("is {}", reading.value.show(program).briefly()))
     })
+}
+
+/// A model that is to be run and has no main rule.
+pub fn diagnose_no_main(model: &Model) -> Diagnostic {
+    missing_main(start(model.root))
+}
+
+pub(crate) fn start(file: FileId) -> Span {
+    Span { file, start: 0, end: 0 }
+}
+
+pub(crate) fn missing_main(span: Span) -> Diagnostic {
+    Diagnostic::error("no-main-rule", span, "the model has no main rule to run").with_help(
+        "add `main rule r_Main = …` behind the other rules; what other models import is a `module`, and is run through an \
+         `asm` that imports it",
+    )
 }
