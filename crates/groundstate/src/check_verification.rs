@@ -15,14 +15,15 @@ pub fn check_verification(asked: &mut Overlay, name: &str, text: &str) -> Vec<Di
         Ok(wanted) => wanted,
         Err(fault) => return vec![*fault],
     };
-    // LIMIT: the lines of bounds and of `fair` are not kept.
-    let whole = |message: String| *verification::fault(Span { file, start: 0, end: 0 }, message);
+    let wrong = |span: Span, message: String| *verification::fault(span, message);
     let mut faults = Vec::new();
-    if let Err(refused) = bound::read(&asked.program, &wanted.bounds) {
-        faults.push(whole(format!("--bound {refused}")));
+    for (bound, place) in wanted.bounds.iter().zip(&wanted.bound_places) {
+        if let Err(refused) = bound::read(&asked.program, std::slice::from_ref(bound)) {
+            faults.push(wrong(*place, format!("bound {refused}")));
+        }
     }
-    if wanted.fair.as_deref().is_some_and(|fair| !["weak", "strong"].contains(&fair)) {
-        faults.push(whole("`fair` is neither weak nor strong".to_string()));
+    if let Some(fair) = wanted.fair.as_ref().filter(|fair| !["weak", "strong"].contains(&&***fair)) {
+        faults.push(wrong(fair.span(), "`fair` is neither weak nor strong".to_string()));
     }
     let kinds = [PropertyKind::Invariant, PropertyKind::Ctl, PropertyKind::Ltl];
     let properties =

@@ -42,7 +42,7 @@ pub use fault::verification::{
 };
 pub use fingerprint::fingerprint;
 pub use kind::{Kind, has_ending, model_of};
-pub use overlay::Overlay;
+pub use overlay::{Overlay, Said};
 pub use test::{SeededChoices, Suite, Tested, own_files};
 pub use workspace::Workspace;
 pub use {inputs, machine, model, program, scenario, simulate, smt, syntax, verify};

@@ -1,10 +1,12 @@
 //! Questions to a model that its texts do not hold: a term to stop at, a property to verify, what a report shows.
 //!
 //! In: a [`Loaded`], which stays as it is, and texts. Out: terms and properties of a program of the overlay's own. What is not
-//! added to is shared, so that an overlay costs nothing until it is asked.
+//! added to is shared, so that an overlay costs nothing until it is asked. What is wrong with a text that stands in a file is told at its
+//! place there.
 
 use std::sync::Arc;
 
+use inputs::Scalar;
 use model::{Model, PropertyKind};
 use program::{Expression, Program, Property};
 use syntax::ast::{AstNode, Term, TermFile};
@@ -21,6 +23,47 @@ pub struct Overlay {
     pub model: Arc<Model>,
     /// The program, with the terms and properties of the questions.
     pub program: Arc<Program>,
+}
+
+/// The text of a question.
+#[derive(Debug, Clone, Copy)]
+pub struct Said<'t> {
+    text: &'t str,
+    /// Where it stands, if in a file.
+    scalar: Option<&'t Scalar>,
+}
+
+impl<'t> Said<'t> {
+    /// The text.
+    pub fn text(self) -> &'t str {
+        self.text
+    }
+
+    /// Faults of the text, which was read as a file of its own, at their places.
+    fn placed(self, faults: Vec<Diagnostic>, read_as: FileId) -> Vec<Diagnostic> {
+        match self.scalar {
+            Some(scalar) => scalar.placed(faults, read_as),
+            None => faults,
+        }
+    }
+}
+
+impl<'t> From<&'t str> for Said<'t> {
+    fn from(text: &'t str) -> Said<'t> {
+        Said { text, scalar: None }
+    }
+}
+
+impl<'t> From<&'t String> for Said<'t> {
+    fn from(text: &'t String) -> Said<'t> {
+        Said { text, scalar: None }
+    }
+}
+
+impl<'t> From<&'t Scalar> for Said<'t> {
+    fn from(scalar: &'t Scalar) -> Said<'t> {
+        Said { text: scalar, scalar: Some(scalar) }
+    }
 }
 
 impl Loaded {
@@ -41,27 +84,41 @@ impl Overlay {
     ///
     /// # Errors
     /// The faults of the text.
-    pub fn ask(&mut self, name: &str, text: &str) -> Result<Expression, Vec<Diagnostic>> {
-        let (file, term) = self.term(name, text)?;
-        let fragment = Arc::make_mut(&mut self.model).check_condition(file, &term, name);
-        if has_errors(&fragment.diagnostics) {
-            return Err(fragment.diagnostics);
-        }
-        program::lower_term(Arc::make_mut(&mut self.program), &self.model, &fragment.item, &fragment.variables)
+    pub fn ask<'t>(&mut self, name: &str, text: impl Into<Said<'t>>) -> Result<Expression, Vec<Diagnostic>> {
+        let said = text.into();
+        let file = self.add(SourceFile::new(name, said.text));
+        self.condition(file, name, said).map_err(|faults| said.placed(faults, file))
     }
 
     /// Adds a property as if it stood in the model; `name` is what its text is shown under.
     ///
     /// # Errors
     /// The faults of the text.
-    pub fn property(&mut self, kind: PropertyKind, name: &str, text: &str) -> Result<(), Vec<Diagnostic>> {
-        let formula = self.ask(name, text).map_err(|mut faults| {
+    pub fn property<'t>(
+        &mut self,
+        kind: PropertyKind,
+        name: &str,
+        text: impl Into<Said<'t>>,
+    ) -> Result<(), Vec<Diagnostic>> {
+        let said = text.into();
+        let file = self.add(SourceFile::new(name, said.text));
+        self.add_property(kind, file, name, said).map_err(|faults| said.placed(faults, file))
+    }
+
+    fn add_property(
+        &mut self,
+        kind: PropertyKind,
+        file: FileId,
+        name: &str,
+        said: Said<'_>,
+    ) -> Result<(), Vec<Diagnostic>> {
+        let formula = self.condition(file, name, said).map_err(|mut faults| {
             faults.iter_mut().for_each(|fault| model::missing_operator(fault, kind));
             faults
         })?;
         let span = self.program.term_span(formula.body);
         let reads_monitored = self.program.reads_monitored(&formula);
-        let name = text.trim().to_string();
+        let name = said.text.trim().to_string();
         let property = Property { kind, name, formula, conclusion: None, reads_monitored, span };
         Arc::make_mut(&mut self.program).properties.push(property);
         if matches!(kind, PropertyKind::Ctl | PropertyKind::Ltl) {
@@ -70,16 +127,21 @@ impl Overlay {
         Ok(())
     }
 
-    /// The term that a text is.
-    fn term(&mut self, name: &str, text: &str) -> Result<(FileId, Term), Vec<Diagnostic>> {
-        let file = self.add(SourceFile::new(name, text));
-        let parsed = syntax::parse_term(file, text);
-        if has_errors(&parsed.diagnostics) {
-            return Err(parsed.diagnostics);
+    fn condition(&mut self, file: FileId, name: &str, said: Said<'_>) -> Result<Expression, Vec<Diagnostic>> {
+        let term = term(file, said.text)?;
+        let fragment = Arc::make_mut(&mut self.model).check_condition(file, &term, name);
+        if has_errors(&fragment.diagnostics) {
+            return Err(fragment.diagnostics);
         }
-        match TermFile::cast(parsed.syntax()).and_then(|file| file.term()) {
-            Some(term) => Ok((file, term)),
-            None => Err(vec![fault::no_term(file)]),
-        }
+        program::lower_term(Arc::make_mut(&mut self.program), &self.model, &fragment.item, &fragment.variables)
     }
+}
+
+/// The term that a text is.
+fn term(file: FileId, text: &str) -> Result<Term, Vec<Diagnostic>> {
+    let parsed = syntax::parse_term(file, text);
+    if has_errors(&parsed.diagnostics) {
+        return Err(parsed.diagnostics);
+    }
+    TermFile::cast(parsed.syntax()).and_then(|file| file.term()).ok_or_else(|| vec![fault::no_term(file)])
 }

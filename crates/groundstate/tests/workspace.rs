@@ -112,11 +112,20 @@ fn what_a_report_shows_is_looked_at() {
 fn what_is_to_be_verified_is_looked_at() {
     let check = |text, expected: &[&str]| assert_eq!(beside_the_lamp("Lamp.verify.yaml", text), expected, "{text}");
     check("invariants: [on or not on]\nfair: weak\n", &[]);
-    // A term is a text of its own: its place is that within the term.
-    check(
-        "ctl: [on]\ninvariants: [on or of]\n",
-        &["Lamp.verify.yaml:1:7 unknown-function there is no function `of` []"],
-    );
+    for (text, place) in [
+        ("ctl: [on]\ninvariants: [on or of]\n", "2:20"),
+        ("invariants:\n  - on\n    or of\n", "3:8"),
+        ("terminal: 'on or of'\n", "1:18"),
+        ("ltl: \"on or\\x20of\"\n", "1:16"),
+        ("assume:\n- >-\n  on\n  or of\n", "4:6"),
+        ("invariants:\n- |\n  on\n    or\n  of\n", "5:3"),
+    ] {
+        check(text, &[&format!("Lamp.verify.yaml:{place} unknown-function there is no function `of` []")]);
+    }
+    let bad = |place: &str, message: &str| format!("Lamp.verify.yaml:{place} bad-verification-file {message} []");
+    check("fair: weakly\n", &[&bad("1:7", "`fair` is neither weak nor strong")]);
+    let unknown = "bound off=true: `off` is no monitored or shared function";
+    check("bounds:\n  off: 'true'\n", &[&bad("2:3", unknown)]);
     check("limit: 10\n", &["Lamp.verify.yaml:1:1 bad-verification-file `limit` says nothing here []"]);
     assert_eq!(beside_the_lamp("a/Lump.verify.yaml", "limit: 10\n"), ["not checked: there is no model a/Lump.asm"]);
 }

@@ -7,6 +7,7 @@
 pub mod bound;
 pub mod node;
 mod options;
+mod scalar;
 mod table;
 pub mod verification;
 mod yaml;
@@ -19,6 +20,7 @@ use simulate::{Given, Named, Problem, Steps, Written};
 use syntax::{Diagnostic, FileId, Span};
 
 pub use options::{asked, constants, integers, reals, step_ns, weighted, without_source};
+pub use scalar::Scalar;
 
 /// How inputs are written down.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

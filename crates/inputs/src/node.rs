@@ -3,8 +3,10 @@
 //! In: a text, and the id of its faults. Out: a [`Node`], or the first fault. Scalars are taken as they are written.
 //! LIMIT: nesting deeper than [`DEPTH`] is refused, and so are aliases.
 
-use saphyr_parser::{Event, Parser, ScanError, Span as Mark, StrInput};
+use saphyr_parser::{Event, Parser, ScalarStyle, ScanError, Span as Mark, StrInput};
 use syntax::{Diagnostic, FileId, Span};
+
+use crate::Scalar;
 
 const DEPTH: u32 = 20;
 
@@ -21,7 +23,7 @@ pub struct Node {
 #[derive(Debug, Clone)]
 pub enum Shape {
     /// A scalar, as it is written.
-    Text(String),
+    Text(Scalar),
     /// A sequence.
     List(Vec<Node>),
     /// A mapping, in the order of the file; no key comes twice.
@@ -44,11 +46,14 @@ pub struct Key {
 pub fn read(file: FileId, source: &str, id: &'static str) -> Result<Node, Box<Diagnostic>> {
     // Marks count characters, spans bytes.
     let offsets = source.char_indices().map(|(at, _)| at as u32).chain([source.len() as u32]).collect();
-    let mut yaml = Yaml { parser: Parser::new_from_str(source), file, id, offsets, depth: 0 };
+    let mut yaml = Yaml { parser: Parser::new_from_str(source), source, file, id, offsets, depth: 0 };
     loop {
         match yaml.next()? {
             (Event::StreamStart | Event::DocumentStart(_), _) => {}
-            (Event::StreamEnd, mark) => return Ok(Node { span: yaml.span(mark), shape: Shape::Text(String::new()) }),
+            (Event::StreamEnd, mark) => {
+                let span = yaml.span(mark);
+                return Ok(Node { span, shape: Shape::Text(Scalar::new(String::new(), ScalarStyle::Plain, span, "")) });
+            }
             (event, mark) => return yaml.node(event, mark),
         }
     }
@@ -56,6 +61,7 @@ pub fn read(file: FileId, source: &str, id: &'static str) -> Result<Node, Box<Di
 
 struct Yaml<'a> {
     parser: Parser<'a, StrInput<'a>>,
+    source: &'a str,
     file: FileId,
     id: &'static str,
     offsets: Vec<u32>,
@@ -95,7 +101,9 @@ impl<'a> Yaml<'a> {
             return Err(self.fault(span, "this nests too deep"));
         }
         let shape = match event {
-            Event::Scalar(text, ..) => Shape::Text(text.into_owned()),
+            Event::Scalar(text, style, ..) => {
+                Shape::Text(Scalar::new(text.into_owned(), style, span, &self.source[span.range()]))
+            }
             Event::SequenceStart(..) => self.list()?,
             Event::MappingStart(..) => self.map()?,
             _ => return Err(self.fault(span, "a text, a list or a mapping is expected")),

@@ -1,10 +1,11 @@
 //! `MODEL.verify.yaml`: what to verify of a model, and with which inputs.
 //!
-//! In: the file's text. Out: a [`Verification`], whose terms are still texts, or the first fault of the form. Whether the
-//! terms fit the model is not known here.
+//! In: the file's text. Out: a [`Verification`], whose terms are still texts that know their places, or the first fault of the form.
+//! Whether the terms fit the model is not known here.
 
 use syntax::{Diagnostic, FileId, Span};
 
+use crate::Scalar;
 use crate::node::{self, Key, Node, Shape};
 
 /// The id of what is wrong with the file.
@@ -15,14 +16,16 @@ const ID: &str = "bad-verification-file";
 pub struct Verification {
     /// As [`bound::read`](crate::bound::read) takes them.
     pub bounds: Vec<String>,
+    /// Where each of the bounds stands.
+    pub bound_places: Vec<Span>,
     /// The condition under which a state may be the last.
-    pub terminal: Option<String>,
+    pub terminal: Option<Scalar>,
     /// How fair runs are: `weak` or `strong`, unless the file is wrong.
-    pub fair: Option<String>,
+    pub fair: Option<Scalar>,
     /// Invariants, CTL and LTL formulas.
-    pub properties: [Vec<String>; 3],
+    pub properties: [Vec<Scalar>; 3],
     /// Further assumptions.
-    pub assumptions: Vec<String>,
+    pub assumptions: Vec<Scalar>,
 }
 
 /// What a text says.
@@ -57,11 +60,14 @@ fn understood(root: &Node) -> Result<Verification, Box<Diagnostic>> {
                     return Err(fault(node.span, "a mapping of inputs to values is expected"));
                 };
                 for (input, values) in inputs {
-                    verification.bounds.push(format!("{}={}", input.text, texts(values)?.join(",")));
+                    let values = Scalar::joined(texts(values)?, ",");
+                    verification.bounds.push(format!("{}={}", input.text, values.as_deref().unwrap_or_default()));
+                    let end = values.map_or(input.span.end, |values| values.span().end);
+                    verification.bound_places.push(Span { end, ..input.span });
                 }
             }
-            "terminal" => verification.terminal = Some(texts(node)?.join(" ")),
-            "fair" => verification.fair = Some(texts(node)?.join(" ")),
+            "terminal" => verification.terminal = Scalar::joined(texts(node)?, " "),
+            "fair" => verification.fair = Scalar::joined(texts(node)?, " "),
             "invariants" => verification.properties[0] = texts(node)?,
             "ctl" => verification.properties[1] = texts(node)?,
             "ltl" => verification.properties[2] = texts(node)?,
@@ -73,10 +79,13 @@ fn understood(root: &Node) -> Result<Verification, Box<Diagnostic>> {
 }
 
 /// A text, or a list of texts.
-fn texts(node: &Node) -> Result<Vec<String>, Box<Diagnostic>> {
+fn texts(node: &Node) -> Result<Vec<Scalar>, Box<Diagnostic>> {
     match &node.shape {
         Shape::Text(text) => Ok(vec![text.clone()]),
-        Shape::List(items) => items.iter().map(|item| texts(item).map(|texts| texts.join(","))).collect(),
+        Shape::List(items) => {
+            let item = |item| texts(item).map(|texts| Scalar::joined(texts, ","));
+            items.iter().filter_map(|of| item(of).transpose()).collect()
+        }
         Shape::Map(_) => Err(fault(node.span, "a text or a list of texts is expected")),
     }
 }
@@ -88,13 +97,14 @@ mod tests {
     #[test]
     fn what_a_file_says() {
         let source = "bounds: { level: 0..10, colour: [RED, GREEN] }\nfair: weak\nctl: [a, b]\nltl: c\n";
-        let expected = Verification {
-            bounds: vec!["level=0..10".to_string(), "colour=RED,GREEN".to_string()],
-            fair: Some("weak".to_string()),
-            properties: [vec![], vec!["a".to_string(), "b".to_string()], vec!["c".to_string()]],
-            ..Verification::default()
-        };
-        assert_eq!(read(FileId(0), source).ok(), Some(expected));
+        let said = read(FileId(0), source).expect("it says something");
+        assert_eq!(said.bounds, ["level=0..10", "colour=RED,GREEN"]);
+        assert_eq!(&source[said.bound_places[1].range()], "colour: [RED, GREEN");
+        assert_eq!((said.fair.as_deref(), said.terminal), (Some("weak"), None));
+        assert_eq!(
+            said.properties.map(|texts| texts.iter().map(|text| text.to_string()).collect::<Vec<_>>()),
+            [vec![], vec!["a".to_string(), "b".to_string()], vec!["c".to_string()]]
+        );
         assert_eq!(read(FileId(0), "").ok(), Some(Verification::default()));
     }
 

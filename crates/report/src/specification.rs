@@ -138,7 +138,7 @@ impl Reader {
     fn text(&mut self, node: Option<&Node>) -> Option<String> {
         match &node?.shape {
             Shape::Text(text) if is_nothing(text) => None,
-            Shape::Text(text) => Some(text.clone()),
+            Shape::Text(text) => Some(text.to_string()),
             _ => {
                 self.refuse(node?.span, "a text is expected");
                 None

@@ -20,10 +20,10 @@ use std::sync::Arc;
 
 use clap::Args;
 use groundstate::job::{self, Cancel};
-use groundstate::own_files;
 use groundstate::verify::solver::Method;
 use groundstate::verify::temporal::fairness::AgentFairness;
 use groundstate::verify::{Disk, NoStart, Options, Outcome, Reason, Report, Request};
+use groundstate::{Said, own_files};
 
 use program::PropertyKind;
 
@@ -196,15 +196,18 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let Some(beside) = bounded.beside(shell, &mut loaded.sources.clone(), &arguments.model)? else {
         return Ok(Exit::World);
     };
-    let asked = |said: &[String], beside: &[String]| !said.is_empty() || !beside.is_empty();
-    let (ctl, ltl) = (asked(&arguments.ctl, &beside.properties[1]), asked(&arguments.ltl, &beside.properties[2]));
+    let [_, ctl, ltl] = &beside.properties;
+    let (ctl, ltl) = (!arguments.ctl.is_empty() || !ctl.is_empty(), !arguments.ltl.is_empty() || !ltl.is_empty());
     loaded = operators::import(shell, loaded, ctl, ltl);
     let mut asked = loaded.overlay();
     let Some(beside) = bounded.beside(shell, &mut asked.sources, &arguments.model)? else { return Ok(Exit::World) };
     // What the command line assumes counts instead of what the file does.
-    let assumed = if arguments.assumptions.is_empty() { &beside.assumptions } else { &arguments.assumptions };
-    for text in assumed {
-        if let Err(faults) = asked.property(PropertyKind::Invar, "--assume", text) {
+    let assumed: Vec<Said> = match &arguments.assumptions[..] {
+        [] => beside.assumptions.iter().map(Said::from).collect(),
+        said => said.iter().map(Said::from).collect(),
+    };
+    for text in &assumed {
+        if let Err(faults) = asked.property(PropertyKind::Invar, "--assume", *text) {
             shell.diagnostics(&asked.sources, &faults)?;
             return Ok(Exit::World);
         }
@@ -212,14 +215,15 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let said = [&arguments.invariants, &arguments.ctl, &arguments.ltl];
     let kinds = [PropertyKind::Invariant, PropertyKind::Ctl, PropertyKind::Ltl];
     for (((kind, option), said), beside) in kinds.into_iter().zip(OPTIONS).zip(said).zip(&beside.properties) {
-        for text in beside.iter().chain(said) {
+        for text in beside.iter().map(Said::from).chain(said.iter().map(Said::from)) {
             if let Err(faults) = asked.property(kind, option, text) {
                 shell.diagnostics(&asked.sources, &faults)?;
                 return Ok(Exit::World);
             }
         }
     }
-    let terminal = match arguments.terminal.as_ref().or(beside.terminal.as_ref()) {
+    let terminal = arguments.terminal.as_ref().map(Said::from).or(beside.terminal.as_ref().map(Said::from));
+    let terminal = match terminal {
         None => None,
         Some(text) => match asked.ask("--terminal", text) {
             Ok(term) => Some(term),
@@ -277,7 +281,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         None => None,
     };
     let mut teller = Teller::new(&program, &sources, false);
-    teller.assumed(shell, assumed)?;
+    teller.assumed(shell, &assumed)?;
     let mut live = Live::new(shell, &teller, watch);
     let job = job::verify(request, Cancel::from(interrupt::request()), solver, checkpoint, live::impatience());
     let job = job.map_err(|error| Failure::usage(format!("the search cannot be started: {error}")))?;

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 
+use groundstate::Said;
 use groundstate::verify::runs::Why;
 use groundstate::verify::solver::{Left, Proof};
 use groundstate::verify::{
@@ -129,8 +130,8 @@ impl<'a> Teller<'a> {
 
 impl Teller<'_> {
     /// Tells under which assumptions that are not the model's the verdicts are given.
-    pub fn assumed(&self, shell: &mut Shell, assumptions: &[String]) -> Result<(), Failure> {
-        for term in assumptions.iter().map(|text| text.trim()) {
+    pub fn assumed(&self, shell: &mut Shell, assumptions: &[Said<'_>]) -> Result<(), Failure> {
+        for term in assumptions.iter().map(|said| said.text().trim()) {
             if shell.json() {
                 shell.object(&AssumedLine { r#type: "assumed", term })?;
             } else if shell.talks() {
