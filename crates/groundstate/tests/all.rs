@@ -4,6 +4,7 @@
 mod decision;
 mod invariants;
 mod jobs;
+mod labels;
 mod pages;
 mod picks;
 mod review;
