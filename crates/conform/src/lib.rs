@@ -45,3 +45,15 @@ pub enum Verdict {
         reason: String,
     },
 }
+
+impl Verdict {
+    /// The same, of a run that went on when whoever read along left.
+    pub fn left(self) -> Verdict {
+        match self {
+            Verdict::Unknown { events, .. } => {
+                Verdict::Unknown { events, reason: "the run went on when following it was ended".to_string() }
+            }
+            other => other,
+        }
+    }
+}

@@ -16,7 +16,7 @@ use crate::Verdict;
 use crate::steps::Steps;
 use crate::vocabulary::Vocabulary;
 use crate::{timed, untimed};
-use recording::{Kind, Recording};
+use recording::{Kind, Recording, Track};
 
 /// How a recording is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -209,6 +209,21 @@ impl Session {
             Replay::Timed(replay) => replay.agreed(),
             Replay::Untimed(replay) => replay.agreed(),
         }
+    }
+
+    /// How far the two agree, and what is waited for where a task is silent.
+    pub fn progress(&self, recording: &Recording) -> String {
+        let seconds = |ns: i64| ns as f64 / 1e9;
+        let last = |track: &&Track| track.events.last().map_or(0, |event| event.time_ns);
+        let newest = recording.tracks.iter().map(|track| last(&track)).max().unwrap_or(0);
+        let behind = recording.tracks.iter().min_by_key(last);
+        let silent = match behind {
+            Some(track) if newest - last(&track) > GRACE_NS => {
+                format!("; {} has been silent since {:.1} s", track.task, seconds(last(&track)))
+            }
+            _ => String::new(),
+        };
+        format!("{} events agree, the run is at {:.1} s{silent}", self.agreed(), seconds(newest))
     }
 
     /// The texts that places of a verdict point into.

@@ -17,6 +17,7 @@ mod kind;
 mod overlay;
 pub mod patterns;
 pub mod reporting;
+pub mod tell;
 mod test;
 pub mod test_generation;
 pub mod workspace;
@@ -35,7 +36,7 @@ pub use check_verification::check_verification;
 pub use counterexample::{counterexample_run, counterexample_scenario};
 pub use fault::IDS as FAULT_IDS;
 pub use fault::review::{REVIEW_IDS, diagnose_finding};
-pub use fault::run::{diagnose_fault, diagnose_no_main, diagnose_violation};
+pub use fault::run::{diagnose_fault, diagnose_no_main, diagnose_record, diagnose_violation};
 pub use fault::scenario::{diagnose_failure, diagnose_remark};
 pub use fault::verification::{
     diagnose_outside, diagnose_property, diagnose_unbounded, diagnose_unreachable, short_place,
@@ -45,7 +46,7 @@ pub use kind::{Kind, has_ending, model_of};
 pub use overlay::{Overlay, Said};
 pub use test::{SeededChoices, Suite, Tested, own_files};
 pub use workspace::Workspace;
-pub use {inputs, machine, model, program, scenario, simulate, smt, syntax, verify};
+pub use {chart, conform, generate, inputs, machine, model, program, scenario, simulate, smt, syntax, verify};
 
 /// A model that is ready to run. It does not change: what is asked of it beside its text goes into an [`Overlay`].
 #[derive(Debug, Clone)]

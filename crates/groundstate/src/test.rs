@@ -8,12 +8,12 @@ use std::sync::Arc;
 
 use model::Loader;
 use program::Program;
-use scenario::{Blocks, Choices, Counts, Items, Options, Verdict};
+use scenario::{Blocks, Choices, Counts, Items, Options, Story, Verdict};
 use simulate::SplitMix;
-use syntax::{Diagnostic, FileId, SourceFile, Sources};
+use syntax::{Diagnostic, FileId, Severity, SourceFile, Sources};
 
 use crate::fault::scenario::unknown_model;
-use crate::{Faulty, Loaded, has_errors, load};
+use crate::{Faulty, Loaded, diagnose_failure, has_errors, load};
 
 /// Scenarios being run.
 #[derive(Debug, Default)]
@@ -35,6 +35,28 @@ pub struct Tested {
     pub diagnostics: Vec<Diagnostic>,
     /// The program it ran on.
     pub program: Option<Arc<Program>>,
+}
+
+impl Tested {
+    /// Whether it came to the end that it is to come to.
+    pub fn passed(&self) -> bool {
+        self.verdict.as_ref().is_some_and(Verdict::passed)
+    }
+
+    /// What is wrong with one that did not pass.
+    pub fn failures(&self) -> Vec<Diagnostic> {
+        let (Some(verdict), Some(program)) = (&self.verdict, &self.program) else {
+            let errors = self.diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Error);
+            return errors.cloned().collect();
+        };
+        verdict.failures().iter().flat_map(|failure| diagnose_failure(failure, program)).collect()
+    }
+
+    /// The run of one that failed, where it was kept.
+    pub fn story(&self) -> Option<(&Program, &Story)> {
+        let verdict = self.verdict.as_ref().filter(|verdict| !verdict.passed())?;
+        Some((self.program.as_deref()?, verdict.story.as_ref()?))
+    }
 }
 
 /// Random choices from a seed.

@@ -5,6 +5,7 @@ mod decision;
 mod invariants;
 mod jobs;
 mod labels;
+mod operations;
 mod pages;
 mod picks;
 mod review;

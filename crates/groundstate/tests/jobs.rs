@@ -38,9 +38,11 @@ fn request(loaded: &Loaded) -> RunRequest {
         limits: Limits::default(),
         options: simulate::Options { history: 10, steps: None, ..simulate::Options::default() },
         inputs: Box::new(|inputs| inputs),
+        asks_inputs: true,
         asks_choices: true,
         paused: true,
         states: true,
+        due: job::at_once(),
     }
 }
 
@@ -98,6 +100,7 @@ fn a_run_is_steered() {
                 remote.send(Command::Choose(7));
                 remote.send(Command::Choose(2));
             }
+            RunEvent::Progress(_) => {}
             RunEvent::Refused(why) => told.push(why),
             RunEvent::Record { record, state, steps, .. } => told.push(match *record {
                 Record::End(end) => format!("{end:?} after {steps}"),

@@ -70,9 +70,11 @@ fn step(loaded: &Loaded, steps: u64) -> Result<(), Box<dyn Error>> {
         limits: Limits::default(),
         options: simulate::Options { history: 100, ..simulate::Options::default() },
         inputs: Box::new(|inputs| inputs),
+        asks_inputs: true,
         asks_choices: false,
         paused: true,
         states: false,
+        due: job::at_once(),
     };
     let (job, remote) = job::run(request, Cancel::new())?;
     let mut commands = [Command::Step(steps), Command::Back, Command::Stop].into_iter();
@@ -94,7 +96,7 @@ fn step(loaded: &Loaded, steps: u64) -> Result<(), Box<dyn Error>> {
                 }
                 faults.iter().for_each(|fault| println!("  {}", fault.message));
             }
-            RunEvent::AsksChoice { .. } | RunEvent::Refused(_) => {}
+            RunEvent::AsksChoice { .. } | RunEvent::Refused(_) | RunEvent::Progress(_) => {}
         }
     }
     println!("{} steps made", job.finish().map_err(|crashed| crashed.0)?);

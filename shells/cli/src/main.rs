@@ -31,7 +31,6 @@ mod junit;
 mod limits;
 mod load;
 mod man;
-mod narrate;
 mod new;
 mod overwrite;
 mod progress;

@@ -13,6 +13,21 @@ pub struct Progress {
     wanted: bool,
 }
 
+/// From one word of a run to the next, at least.
+const PACE: Duration = Duration::from_millis(20);
+
+/// Says when a run is to tell what has happened.
+pub fn now_and_then() -> Box<dyn FnMut() -> bool + Send> {
+    let mut last = Instant::now();
+    Box::new(move || {
+        let is_due = last.elapsed() > PACE;
+        if is_due {
+            last = Instant::now();
+        }
+        is_due
+    })
+}
+
 /// Shorter runs show nothing.
 const PATIENCE: Duration = Duration::from_millis(700);
 
@@ -22,9 +37,9 @@ impl Progress {
         Progress { began: Instant::now(), total, bar: None, wanted: !busy && std::io::stderr().is_terminal() }
     }
 
-    /// So many steps are made; cheap enough to be called every step.
+    /// So many steps are made.
     pub fn at(&mut self, steps: u64) {
-        if !self.wanted || !steps.is_multiple_of(256) {
+        if !self.wanted {
             return;
         }
         if self.bar.is_none() && self.began.elapsed() > PATIENCE {

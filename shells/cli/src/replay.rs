@@ -11,15 +11,14 @@ use std::sync::Arc;
 use clap::Args;
 use groundstate::Overlay;
 use groundstate::simulate::{Header, Options, Parted, Record, Recorded, StepRecord};
-use machine::Show;
+use machine::Show as _;
 use program::Program;
 use wire::{Answer, Line, Reader};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::load::load;
-use crate::narrate::Detail;
-use crate::run::{Teller, options};
+use crate::run::{Show, Teller, options};
 use crate::shell::Shell;
 
 /// Arguments of `replay`.
@@ -31,8 +30,8 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     model: Option<PathBuf>,
     /// How much of the state is shown
-    #[arg(long, value_enum, default_value_t = Detail::Changed)]
-    show: Detail,
+    #[arg(long, value_enum, default_value_t = Show::Changed)]
+    show: Show,
 }
 
 /// Runs the command.
@@ -88,7 +87,10 @@ fn follow(
         };
         match recorded.follow(&expected) {
             Ok(record) => {
-                teller.tell(shell, &record, recorded.run_mut())?;
+                let run = recorded.run_mut();
+                let faults = groundstate::diagnose_record(&record, run);
+                let state = teller.wants_state().then(|| run.machine().locations());
+                teller.tell(shell, &record, run.steps(), state.as_deref(), &faults)?;
                 if matches!(record, Record::End(_)) {
                     return Ok(Exit::Good);
                 }

@@ -7,8 +7,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
+use groundstate::job::{self, Cancel, ReviewEvent, ReviewRequest};
 use groundstate::own_files;
-use groundstate::verify::review::{Finding, Meta, Outcome, Review, review};
+use groundstate::verify::review::{Finding, Meta, Outcome, Review};
 use groundstate::verify::{Reason, Stop};
 use serde::Serialize;
 use syntax::FileId;
@@ -17,6 +18,7 @@ use wire::Fault;
 use crate::check::plural;
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::interrupt;
 use crate::load::load;
 use crate::shell::Shell;
 use crate::verify::{Bounded, StepLine, Teller, no_start};
@@ -82,11 +84,21 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let program = Arc::clone(&loaded.program);
     let (bounded, by_default) = arguments.bounded.with_end();
     let (options, mut watch) = bounded.options(shell, &program, &beside)?;
-    let root = loaded.model.root;
     let users = own_files(&sources);
-    let own = |file: FileId| file == root || (arguments.imports && users(file));
-    let metas = if arguments.only.is_empty() { Meta::ALL.to_vec() } else { arguments.only.clone() };
-    let outcome = review(&loaded.model, &program, &options, &metas, &own, &mut |progress| watch.at(progress));
+    let is_told = |file: FileId| file == loaded.model.root || (arguments.imports && users(file));
+    let request = ReviewRequest {
+        model: Arc::clone(&loaded.model),
+        program: Arc::clone(&program),
+        options,
+        metas: if arguments.only.is_empty() { Meta::ALL.to_vec() } else { arguments.only.clone() },
+        files: sources.iter().map(|(file, _)| file).filter(|file| is_told(*file)).collect(),
+    };
+    let started = job::review(request, Cancel::from(interrupt::request()));
+    let job = started.map_err(|error| Failure::usage(format!("the review cannot be started: {error}")))?;
+    while let Some(ReviewEvent(progress)) = job.next_event() {
+        watch.at(&progress);
+    }
+    let outcome = job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0));
     let timed_out = watch.done();
     let teller = Teller::new(&program, &sources, timed_out);
     let review = match outcome {

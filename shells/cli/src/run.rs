@@ -1,25 +1,26 @@
 //! `groundstate run MODEL`: steps, told as text or as a trace.
 
-use std::cell::Cell;
+use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use clap::Args;
-use groundstate::simulate::{End, Header, Invariants, Options, Record, Run, Violation};
+use clap::{Args, ValueEnum};
+use groundstate::job::{self, Cancel, Remote, RunEvent, RunRequest};
+use groundstate::simulate::{End, Header, Invariants, Options, Record, Violation};
+use groundstate::tell::{Detail, Narrator};
 use groundstate::{Loaded, Overlay};
-use machine::{FaultKind, Location};
+use machine::{FaultKind, Location, Value};
 use program::{FunctionKind, Program};
-use syntax::Sources;
+use syntax::{Diagnostic, Sources};
 use wire::Wire;
 
 use crate::engine::Engine;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::inputs::{self, Assembled};
+use crate::inputs::{self, Assembled, Prompt, Question};
 use crate::interrupt;
 use crate::load::load;
-use crate::narrate::{Detail, Narrator};
-use crate::progress::Progress;
+use crate::progress::{Progress, now_and_then};
 use crate::shell::Shell;
 use crate::tracefile::TraceFile;
 
@@ -50,8 +51,8 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
     /// How much of the state is shown
-    #[arg(long, value_enum, default_value_t = Detail::Changed)]
-    show: Detail,
+    #[arg(long, value_enum, default_value_t = Show::Changed)]
+    show: Show,
     /// What makes the steps
     #[arg(long, value_enum, default_value_t)]
     engine: Engine,
@@ -81,7 +82,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     };
     let Overlay { mut sources, program, .. } = asked;
     let assembled = inputs::assemble(shell, &arguments.inputs, &mut sources, &program)?;
-    let Assembled { inputs, interactive, told: look } = match assembled {
+    let Assembled { inputs, asks, interactive } = match assembled {
         Ok(assembled) => assembled,
         Err(faults) => {
             shell.diagnostics(&sources, &faults)?;
@@ -93,7 +94,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Some(path) => Some(TraceFile::create(path, interactive)?),
         None => None,
     };
-    let told = shell.json() || shell.talks() && arguments.show != Detail::None || trace.is_some();
+    let told = shell.json() || shell.talks() && arguments.show != Show::None || trace.is_some();
     let options = Options {
         until,
         keep: told,
@@ -101,36 +102,80 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         engine: arguments.engine.choice(),
         ..options(&header)
     };
-    let mut run = Run::new(Arc::clone(&program), shell.global.limits.machine(), inputs, options);
     let teller = Teller::new(shell, &program, &sources, arguments.show, header.until.clone());
     teller.begin(shell, &header)?;
     if let Some(trace) = &mut trace {
         trace.write(&Wire::header(&header))?;
     }
     interrupt::listen();
+    let request = RunRequest {
+        program: Arc::clone(&program),
+        limits: shell.global.limits.machine(),
+        options,
+        inputs,
+        asks_inputs: asks,
+        asks_choices: false,
+        paused: false,
+        states: interactive || shell.talks() && arguments.show == Show::All,
+        due: if interactive { job::at_once() } else { now_and_then() },
+    };
+    let started = job::run(request, Cancel::from(interrupt::request()));
+    let (job, remote) = started.map_err(|error| Failure::usage(format!("the run cannot be started: {error}")))?;
     let busy = interactive || shell.global.quiet || std::io::IsTerminal::is_terminal(&std::io::stdout());
     let mut progress = Progress::new(Some(arguments.steps), busy);
     let mut exit = Exit::Good;
-    while let Some(record) = run.advance() {
-        if let Some(trace) = &mut trace {
-            trace.write(&teller.wire.record(&record, run.steps()))?;
-        }
-        exit = exit.max(teller.tell(shell, &record, &mut run)?);
-        if interactive {
-            let mut look = look.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-            teller.narrator.look(&mut look, &record, run.machine());
-            shell.flush()?;
-        }
-        progress.at(run.steps());
-        if interrupt::asked() {
-            run.stop(End::Interrupted);
+    let mut desk = Desk::new(&program, &remote);
+    while let Some(event) = job.next_event() {
+        match event {
+            RunEvent::Record { record, steps, state, faults } => {
+                if let Some(trace) = &mut trace {
+                    trace.write(&teller.wire.record(&record, steps))?;
+                }
+                exit = exit.max(teller.tell(shell, &record, steps, state.as_deref(), &faults)?);
+                if interactive {
+                    teller.show(&mut desk.prompt, &record, state.as_deref());
+                    shell.flush()?;
+                }
+                progress.at(steps);
+            }
+            RunEvent::Progress(steps) => progress.at(steps),
+            other => desk.hear(other),
         }
     }
     progress.done();
+    job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0));
     if let Some(trace) = trace {
         trace.finish()?;
     }
     Ok(exit)
+}
+
+/// Whoever sits at the terminal, asked by a run.
+pub struct Desk<'a> {
+    program: &'a Program,
+    remote: &'a Remote,
+    pub prompt: Prompt,
+    question: Option<Question>,
+}
+
+impl<'a> Desk<'a> {
+    pub fn new(program: &'a Program, remote: &'a Remote) -> Desk<'a> {
+        Desk { program, remote, prompt: Prompt::default(), question: None }
+    }
+
+    /// Answers what a run asks. One that has ended hears no answer.
+    pub fn hear(&mut self, event: RunEvent) {
+        match event {
+            RunEvent::AsksInput { step, location, domain, values } => {
+                self.question = Some(Question { step, location, domain, values });
+            }
+            RunEvent::Refused(_) => self.prompt.refused(self.program),
+            RunEvent::Record { .. } | RunEvent::Progress(_) | RunEvent::AsksChoice { .. } | RunEvent::Paused => return,
+        }
+        if let Some(question) = &self.question {
+            let _ = self.remote.send(self.prompt.ask(self.program, question));
+        }
+    }
 }
 
 pub fn no_main(shell: &mut Shell, loaded: &Loaded) -> Result<Exit, Failure> {
@@ -172,6 +217,8 @@ pub fn options(header: &Header) -> Options {
 /// Tells a run's records: to people or as JSON, with the diagnostics of what went wrong.
 pub struct Teller<'a> {
     narrator: Narrator<'a>,
+    /// The run is to come to something within its steps.
+    has_until: bool,
     pub wire: Wire<'a>,
 }
 
@@ -180,12 +227,12 @@ impl<'a> Teller<'a> {
         shell: &Shell,
         program: &'a Program,
         sources: &'a Sources,
-        detail: Detail,
+        detail: Show,
         until: Option<String>,
     ) -> Teller<'a> {
-        let binders = if shell.talks() { groundstate::choice_variables(program) } else { Default::default() };
-        let narrator = Narrator { detail, color: shell.color_out(), program, binders, until, quiet: Cell::new(None) };
-        Teller { narrator, wire: Wire { program, sources } }
+        let has_until = until.is_some();
+        let narrator = Narrator::new(program, detail.detail(), until, shell.color_out());
+        Teller { narrator, has_until, wire: Wire { program, sources } }
     }
 
     /// The header; people know what they started.
@@ -193,81 +240,105 @@ impl<'a> Teller<'a> {
         if shell.json() { shell.object(&Wire::header(header)) } else { Ok(()) }
     }
 
-    /// Tells a record and gives what it means for the exit code.
-    pub fn tell(&self, shell: &mut Shell, record: &Record, run: &mut Run) -> Result<Exit, Failure> {
-        if shell.json() {
-            // What is wrong comes before the end, which is the last object.
-            let exit = if let Record::End(_) = record { self.faults(shell, record, run)? } else { Exit::Good };
-            shell.object(&self.wire.record(record, run.steps()))?;
-            let more = if let Record::End(_) = record { Exit::Good } else { self.faults(shell, record, run)? };
-            return Ok(exit.max(more));
-        }
-        if shell.talks() {
-            self.narrator.record(shell.out(), record, run.machine())?;
-        }
-        self.faults(shell, record, run)
-    }
-
-    fn faults(&self, shell: &mut Shell, record: &Record, run: &mut Run) -> Result<Exit, Failure> {
-        match record {
-            Record::Initial { violations, .. } => self.violations(shell, violations, 0, run),
-            Record::Step(step) | Record::Attempt(step) => self.violations(shell, &step.violations, step.step, run),
-            Record::Back { .. } => Ok(Exit::Good),
-            Record::End(end) => self.end(shell, end),
-        }
-    }
-
-    fn violations(
+    /// Tells a record and what is wrong in it, and gives what it means for the exit code.
+    pub fn tell(
         &self,
         shell: &mut Shell,
-        violations: &[Violation],
-        step: u64,
-        run: &mut Run,
+        record: &Record,
+        steps: u64,
+        state: Option<&[(Location, Value)]>,
+        faults: &[Diagnostic],
     ) -> Result<Exit, Failure> {
-        for violation in violations {
-            let diagnostic = groundstate::diagnose_violation(violation, step, run.machine_mut());
-            shell.diagnostic(self.wire.sources, &diagnostic)?;
+        let is_end = matches!(record, Record::End(_));
+        if shell.json() && !is_end {
+            shell.object(&self.wire.record(record, steps))?;
+        } else if shell.talks() {
+            shell.out().write_all(self.narrator.record(record, steps, state).as_bytes())?;
         }
-        Ok(if violations.is_empty() { Exit::Good } else { Exit::Model })
+        for fault in faults {
+            let told = self.advised(record, fault.clone());
+            shell.diagnostic(self.wire.sources, &told)?;
+        }
+        // What is wrong comes before the end, which is the last object.
+        if shell.json() && is_end {
+            shell.object(&self.wire.record(record, steps))?;
+        }
+        Ok(self.exit(record))
+    }
+
+    /// Whether each state is told, not what changed alone.
+    pub fn wants_state(&self) -> bool {
+        self.narrator.wants_state()
+    }
+
+    /// Lets who sits at the terminal look at the state.
+    fn show(&self, prompt: &mut Prompt, record: &Record, state: Option<&[(Location, Value)]>) {
+        prompt.state = self.narrator.state(state.unwrap_or_default());
+        prompt.updates = match record {
+            Record::Step(step) => self.narrator.updates(step),
+            _ => String::new(),
+        };
     }
 
     fn is_input(&self, location: &Location) -> bool {
         self.wire.program.function(location.function).kind == FunctionKind::Monitored
     }
 
-    fn end(&self, shell: &mut Shell, end: &End) -> Result<Exit, Failure> {
-        match end {
-            End::Fault(fault) => {
-                let mut diagnostic = groundstate::diagnose_fault(fault, self.wire.program);
-                let mut exit = Exit::Model;
-                match &fault.kind {
-                    FaultKind::Environment { .. } => {
-                        diagnostic = diagnostic.with_help(inputs::HELP);
-                        exit = Exit::World;
-                    }
-                    // The input is at fault, not the model.
-                    FaultKind::OutOfDomain { location, domain, .. } if self.is_input(location) => {
-                        let name = &self.wire.program.domain(*domain).name;
-                        diagnostic = diagnostic.with_help(format!("give it a value in {name}"));
-                        exit = Exit::World;
-                    }
-                    FaultKind::Interrupted(_) => {
-                        diagnostic = diagnostic.with_help("if the model is right, raise --max-heap");
-                    }
-                    FaultKind::Limit { limit, .. } => {
-                        if let Some(option) = crate::limits::Limits::option_for(limit) {
-                            diagnostic = diagnostic.with_help(format!("if the model is right, raise {option}"));
-                        }
-                    }
-                    _ => {}
-                }
-                shell.diagnostic(self.wire.sources, &diagnostic)?;
-                Ok(exit)
+    /// The fault that ended a run, with what the command line can do about it.
+    fn advised(&self, record: &Record, diagnostic: Diagnostic) -> Diagnostic {
+        let Record::End(End::Fault(fault)) = record else { return diagnostic };
+        match &fault.kind {
+            FaultKind::Environment { .. } => diagnostic.with_help(inputs::HELP),
+            FaultKind::OutOfDomain { location, domain, .. } if self.is_input(location) => {
+                let name = &self.wire.program.domain(*domain).name;
+                diagnostic.with_help(format!("give it a value in {name}"))
             }
-            End::Violation => Ok(Exit::Model),
-            End::Interrupted => Ok(Exit::Unknown),
-            End::Steps if self.narrator.until.is_some() => Ok(Exit::Unknown),
-            End::Steps | End::Empty | End::Trivial | End::Until | End::Quit => Ok(Exit::Good),
+            FaultKind::Interrupted(_) => diagnostic.with_help("if the model is right, raise --max-heap"),
+            FaultKind::Limit { limit, .. } => match crate::limits::Limits::option_for(limit) {
+                Some(option) => diagnostic.with_help(format!("if the model is right, raise {option}")),
+                None => diagnostic,
+            },
+            _ => diagnostic,
+        }
+    }
+
+    fn exit(&self, record: &Record) -> Exit {
+        let judged = |violations: &[Violation]| if violations.is_empty() { Exit::Good } else { Exit::Model };
+        match record {
+            Record::Initial { violations, .. } => judged(violations),
+            Record::Step(step) | Record::Attempt(step) => judged(&step.violations),
+            Record::Back { .. } => Exit::Good,
+            Record::End(End::Fault(fault)) => match &fault.kind {
+                FaultKind::Environment { .. } => Exit::World,
+                // The input is at fault, not the model.
+                FaultKind::OutOfDomain { location, .. } if self.is_input(location) => Exit::World,
+                _ => Exit::Model,
+            },
+            Record::End(End::Violation) => Exit::Model,
+            Record::End(End::Interrupted) => Exit::Unknown,
+            Record::End(End::Steps) if self.has_until => Exit::Unknown,
+            Record::End(End::Steps | End::Empty | End::Trivial | End::Until | End::Quit) => Exit::Good,
+        }
+    }
+}
+
+/// How much of the state is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Show {
+    /// The whole state after every step
+    All,
+    /// The initial state, then what changed
+    Changed,
+    /// Only how the run ended
+    None,
+}
+
+impl Show {
+    fn detail(self) -> Detail {
+        match self {
+            Show::All => Detail::All,
+            Show::Changed => Detail::Changed,
+            Show::None => Detail::None,
         }
     }
 }

@@ -3,19 +3,20 @@
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use clap::Args;
-use groundstate::scenario::{FirstCandidate, Judgement, Options, Story};
-use groundstate::{SeededChoices, Suite, Tested};
-use program::Program;
-use syntax::{Diagnostic, Severity};
+use groundstate::Tested;
+use groundstate::job::{self, Cancel, TestEvent};
+use groundstate::scenario::{Judgement, Options};
+use syntax::{Diagnostic, SourceFile};
 use wire::{Answer, Fault, ScenarioResult};
 
 use crate::check::plural;
 use crate::coverage;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::{collect, write_text};
+use crate::files::{Disk, collect, write_text};
 use crate::inputs::Chosen;
 use crate::interrupt;
 use crate::junit::Junit;
@@ -58,26 +59,30 @@ struct Tally {
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let files = collect(&arguments.paths, &["avalla"])?;
     interrupt::listen();
-    let mut suite = Suite::new();
+    let limits = shell.global.limits.machine();
+    let options = Options { limits, bound: arguments.until_bound, coverage: arguments.coverage, story: arguments.runs };
+    let seed = (arguments.choose == Chosen::Random).then_some(arguments.seed);
+    let unread = Arc::new(Mutex::new(None));
+    let scenarios = Scenarios { files: files.clone().into_iter(), disk: shell.disk(), unread: Arc::clone(&unread) };
+    let started = job::test(scenarios, shell.disk(), options, seed, Cancel::from(interrupt::request()));
+    let job = started.map_err(|error| Failure::usage(format!("the scenarios cannot be started: {error}")))?;
     let mut tally = Tally::default();
     let mut junit = Junit::default();
     let mut seen = BTreeSet::new();
     for path in &files {
-        if interrupt::asked() {
-            break;
-        }
-        let tested = test_one(shell, arguments, &mut suite, path)?;
-        if interrupt::asked() && !passed(&tested) {
-            break;
-        }
-        let failures = failures(&tested);
-        if passed(&tested) {
+        let Some(TestEvent(tested)) = job.next_event() else { break };
+        let failures = tested.failures();
+        if tested.passed() {
             tally.passed += 1
         } else {
             tally.failed += 1
         }
         junit.case(path, &tested, &failures);
         report(shell, path, &tested, &failures, &mut seen)?;
+    }
+    let suite = job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0));
+    if let Some(failure) = unread.lock().unwrap_or_else(PoisonError::into_inner).take() {
+        return Err(failure);
     }
     if arguments.coverage {
         for (model, sources, items) in suite.coverage() {
@@ -90,31 +95,28 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     summary(shell, &tally, files.len())
 }
 
-fn test_one(shell: &Shell, arguments: &Arguments, suite: &mut Suite, path: &Path) -> Result<Tested, Failure> {
-    if path.extension().is_some_and(|extension| extension == "asm") {
-        return Err(crate::load::another(path, "model", "`groundstate run` runs models; scenarios are .avalla files"));
+/// The scenarios of files, read one by one, up to the first that cannot be.
+struct Scenarios {
+    files: std::vec::IntoIter<PathBuf>,
+    disk: Disk,
+    unread: Arc<Mutex<Option<Failure>>>,
+}
+
+impl Iterator for Scenarios {
+    type Item = SourceFile;
+
+    fn next(&mut self) -> Option<SourceFile> {
+        let path = self.files.next()?;
+        let read = match path.extension().is_some_and(|extension| extension == "asm") {
+            true => {
+                let instead = "`groundstate run` runs models; scenarios are .avalla files";
+                Err(crate::load::another(&path, "model", instead))
+            }
+            false => self.disk.root(&path),
+        };
+        let mut unread = self.unread.lock().unwrap_or_else(PoisonError::into_inner);
+        read.map_err(|failure| *unread = Some(failure)).ok()
     }
-    let mut disk = shell.disk();
-    let source = disk.root(path)?;
-    let limits = shell.global.limits.machine();
-    let options = Options { limits, bound: arguments.until_bound, coverage: arguments.coverage, story: arguments.runs };
-    Ok(match arguments.choose {
-        Chosen::First => suite.test(source, &mut disk, options, &mut FirstCandidate),
-        Chosen::Random => suite.test(source, &mut disk, options, &mut SeededChoices::new(arguments.seed)),
-    })
-}
-
-fn passed(tested: &Tested) -> bool {
-    tested.verdict.as_ref().is_some_and(|verdict| verdict.passed())
-}
-
-/// What is wrong with a scenario that did not pass.
-fn failures(tested: &Tested) -> Vec<Diagnostic> {
-    let (Some(verdict), Some(program)) = (&tested.verdict, &tested.program) else {
-        let errors = tested.diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Error);
-        return errors.cloned().collect();
-    };
-    verdict.failures().iter().flat_map(|failure| groundstate::diagnose_failure(failure, program)).collect()
 }
 
 fn report(
@@ -127,15 +129,15 @@ fn report(
     let sources = &tested.sources;
     if shell.json() {
         let faults = failures.iter().map(|failure| Fault::new(sources, failure)).collect();
-        let told = story(tested).map(|(program, story)| crate::story::object(program, story));
+        let told = tested.story().map(|(program, story)| crate::story::object(program, story));
         return shell.object(&ScenarioResult::new(path.display().to_string(), tested, faults, told));
     }
-    let passed = passed(tested);
+    let passed = tested.passed();
     if shell.talks() {
         let line = line(shell, path, tested, passed);
         writeln!(shell.out(), "{line}")?;
     }
-    if let Some((program, story)) = story(tested).filter(|_| shell.talks()) {
+    if let Some((program, story)) = tested.story().filter(|_| shell.talks()) {
         crate::story::tell(shell, program, story)?;
     }
     // Many scenarios load one model; the faults that keep it from running are shown with the first. What went wrong in a
@@ -152,12 +154,6 @@ fn report(
         shell.details(sources, &[groundstate::diagnose_remark(remark)])?;
     }
     Ok(())
-}
-
-/// The run of a scenario that failed, where it was kept.
-fn story(tested: &Tested) -> Option<(&Program, &Story)> {
-    let verdict = tested.verdict.as_ref().filter(|verdict| !verdict.passed())?;
-    Some((tested.program.as_deref()?, verdict.story.as_ref()?))
 }
 
 fn line(shell: &Shell, path: &Path, tested: &Tested, passed: bool) -> String {

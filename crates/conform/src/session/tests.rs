@@ -2,7 +2,6 @@
 //! same verdict as reading the whole.
 
 use machine::Closed;
-use recording::Track;
 use testkit::{Disk, repository};
 
 use super::*;
@@ -142,4 +141,14 @@ fn the_horizon_stands_for_events_of_the_silent() {
     later.horizon_ns = Some(TICKS * TICK_NS + 2 * GRACE_NS);
     let verdict = session.go_on(&later, true).expect("of this system");
     assert!(matches!(verdict, Some(Verdict::Parts(_))), "{verdict:?}");
+}
+
+#[test]
+fn a_silent_task_is_named_while_one_reads_along() {
+    let mut heard = Recording { stopped_ns: None, ended: false, ..recorded("modelled") };
+    let session = session(&heard);
+    let told = session.progress(&heard);
+    assert!(told.starts_with("0 events agree, the run is at 0.0 s") && !told.contains("silent"), "{told}");
+    heard.tracks[1].events.last_mut().expect("it did something").time_ns = 3_000_000_000;
+    assert!(session.progress(&heard).contains(" has been silent since 0.0 s"), "{}", session.progress(&heard));
 }

@@ -8,7 +8,7 @@ use machine::{Closed, Fault, FaultKind, Machine, Show, Value};
 use model::Model;
 use program::Program;
 use scenario::Reading;
-use simulate::Violation;
+use simulate::{End, Record, Run, Violation};
 use syntax::{Diagnostic, FileId, Span};
 
 /// How many of the calls that led to a fault are shown.
@@ -105,6 +105,19 @@ pub fn diagnose_violation(violation: &Violation, step: u64, machine: &mut Machin
             with_readings(diagnostic, &readings, program)
         }
         _ => diagnostic,
+    }
+}
+
+/// What is wrong in the record that `run` has just made.
+pub fn diagnose_record(record: &Record, run: &mut Run) -> Vec<Diagnostic> {
+    let mut violated = |violations: &[Violation], step: u64| {
+        violations.iter().map(|violation| diagnose_violation(violation, step, run.machine_mut())).collect()
+    };
+    match record {
+        Record::Initial { violations, .. } => violated(violations, 0),
+        Record::Step(step) | Record::Attempt(step) => violated(&step.violations, step.step),
+        Record::End(End::Fault(fault)) => vec![diagnose_fault(fault, run.machine().program())],
+        Record::End(_) | Record::Back { .. } => Vec::new(),
     }
 }
 

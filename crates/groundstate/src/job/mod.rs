@@ -1,25 +1,38 @@
 //! Work on a thread of its own: it tells how it goes, can be cancelled, and gives its result at the end.
 //!
 //! In: what is to be done, with a [`Port`] to the one who waits. Out: a [`Job`]. Events go through a bounded channel: work that
-//! tells more than is read waits, so that nothing grows. INVARIANT: a job whose owner is gone ends as if it had been
-//! cancelled.
+//! tells more than is read waits, so that nothing grows. Those that come by the thousand go in batches, which whoever reads does not see.
+//! INVARIANT: a job whose owner is gone ends as if it had been cancelled; events are read in the order in which they were told.
 
+mod conform;
+mod generate;
+mod review;
 mod run;
 mod test;
 mod verify;
 
+use std::cell::RefCell;
+use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TryRecvError, sync_channel};
 use std::thread::{Builder, JoinHandle};
 use std::time::Duration;
 
 use machine::{Cause, Interrupt};
 
-pub use run::{Command, Remote, RunEvent, RunJob, RunRequest, run};
+pub use conform::{
+    ConformEvent, ConformJob, ConformRequest, Conformed, Events, NoTail, NotConformed, Piece, Tail, conform,
+};
+pub use generate::{Folder, GenerateEvent, GenerateJob, Headers, NotGenerated, generate_model, generate_system};
+pub use review::{ReviewEvent, ReviewJob, ReviewRequest, review};
+pub use run::{Command, Remote, RunEvent, RunJob, RunRequest, at_once, report, run};
 pub use test::{TestEvent, test};
 pub use verify::{NO_KEEPER, VerifyEvent, VerifyJob, verify};
 
-/// Events that wait to be read.
-const WAITING: usize = 1 << 10;
+/// Batches that wait to be read.
+const WAITING: usize = 64;
+
+/// The most events of a batch.
+const BATCH: usize = 64;
 
 /// As much as a main thread has, and more: deep terms are evaluated by recursion.
 const STACK: usize = 16 << 20;
@@ -27,7 +40,9 @@ const STACK: usize = 16 << 20;
 /// Work that is being done. `E` is what it tells while it goes on, `T` its result.
 #[derive(Debug)]
 pub struct Job<E, T> {
-    events: Receiver<E>,
+    events: Receiver<Vec<E>>,
+    /// Those of the last batch that are not read yet.
+    read: RefCell<VecDeque<E>>,
     thread: JoinHandle<T>,
     cancel: Cancel,
 }
@@ -78,26 +93,55 @@ impl From<&'static Interrupt> for Cancel {
 /// The job's side: where it tells its events, and learns that it is to end.
 #[derive(Debug)]
 pub struct Port<E> {
-    events: SyncSender<E>,
+    events: SyncSender<Vec<E>>,
+    held: RefCell<Vec<E>>,
     cancel: Cancel,
 }
 
 impl<E> Port<E> {
     /// Tells an event; waits where too many are not read yet.
     pub fn tell(&self, event: E) {
-        if self.events.send(event).is_err() {
-            self.cancel.cancel();
+        self.held.borrow_mut().push(event);
+        self.flush();
+    }
+
+    /// Tells an event with others, when there are enough of them or it `is_due`.
+    pub fn add(&self, event: E, is_due: bool) {
+        let mut held = self.held.borrow_mut();
+        held.push(event);
+        if is_due || held.len() >= BATCH {
+            drop(held);
+            self.flush();
         }
     }
 
     /// Tells an event, unless too many are not read yet: for those that are out of date by the next.
     pub fn mention(&self, event: E) {
-        let _ = self.events.try_send(event);
+        if self.held.borrow().is_empty() {
+            let _ = self.events.try_send(vec![event]);
+        }
+    }
+
+    fn flush(&self) {
+        let held = self.held.take();
+        if !held.is_empty() && self.events.send(held).is_err() {
+            self.cancel.cancel();
+        }
     }
 
     /// Whether to end.
     pub fn is_cancelled(&self) -> bool {
         self.cancel.is_cancelled()
+    }
+}
+
+/// What is held is told when the work ends.
+impl<E> Drop for Port<E> {
+    fn drop(&mut self) {
+        let held = self.held.take();
+        if !held.is_empty() {
+            let _ = self.events.send(held);
+        }
     }
 }
 
@@ -112,16 +156,16 @@ impl<E: Send + 'static, T: Send + 'static> Job<E, T> {
         work: impl FnOnce(Port<E>) -> T + Send + 'static,
     ) -> Result<Job<E, T>, std::io::Error> {
         let (sender, events) = sync_channel(WAITING);
-        let port = Port { events: sender, cancel };
+        let port = Port { events: sender, held: RefCell::default(), cancel };
         let thread = Builder::new().name(name.to_string()).stack_size(STACK).spawn(move || work(port))?;
-        Ok(Job { events, thread, cancel })
+        Ok(Job { events, read: RefCell::default(), thread, cancel })
     }
 }
 
 impl<E, T> Job<E, T> {
     /// The next event, when it comes; none when the work has ended.
     pub fn next_event(&self) -> Option<E> {
-        self.events.recv().ok()
+        self.next_of(|events| events.recv()).ok()
     }
 
     /// The next event if it comes within this time. The work has ended where that is [`RecvTimeoutError::Disconnected`].
@@ -129,7 +173,7 @@ impl<E, T> Job<E, T> {
     /// # Errors
     /// None came.
     pub fn next_event_within(&self, time: Duration) -> Result<E, RecvTimeoutError> {
-        self.events.recv_timeout(time)
+        self.next_of(|events| events.recv_timeout(time))
     }
 
     /// The next event if it is there.
@@ -137,7 +181,17 @@ impl<E, T> Job<E, T> {
     /// # Errors
     /// None is.
     pub fn poll(&self) -> Result<E, TryRecvError> {
-        self.events.try_recv()
+        self.next_of(|events| events.try_recv())
+    }
+
+    fn next_of<X>(&self, receive: impl Fn(&Receiver<Vec<E>>) -> Result<Vec<E>, X>) -> Result<E, X> {
+        let mut read = self.read.borrow_mut();
+        loop {
+            if let Some(event) = read.pop_front() {
+                return Ok(event);
+            }
+            read.extend(receive(&self.events)?);
+        }
     }
 
     /// By what the job is cancelled, also from another thread.

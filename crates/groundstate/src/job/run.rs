@@ -3,6 +3,9 @@
 //! In: a [`RunRequest`], and [`Command`]s while it goes on. Out: a [`RunEvent`] for each record, with what is wrong in it as
 //! diagnostics. Where an input or a choice is wanted that nobody gave, the run asks and waits for a command. INVARIANT: what it
 //! does depends on the request and the commands alone, not on when they come, unless the run is not paused.
+//!
+//! A run makes hundreds of thousands of steps a second. So events go in batches, and a run whose records hold nothing
+//! ([`Options::keep`]) tells of a step only where something is wrong in it.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, VecDeque};
@@ -12,14 +15,15 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::Duration;
 
-use machine::{Choice, Limits, Location, Value};
+use machine::{Choice, Limits, Location, Show, Value};
 use model::Basic;
 use program::{DomainId, DomainKind, Program};
-use simulate::{Ask, Choices, Chooser, End, Inputs, Options, Record, Run, Signal, Source, Violation, read_value};
-use syntax::{Diagnostic, Span};
+use simulate::{Ask, Choices, Chooser, End, Inputs, Options, Record, Run, Signal, Source, read_value};
+use syntax::{Diagnostic, Sources, Span};
 
+use crate::diagnose_record;
 use crate::job::{Cancel, Job, Port};
-use crate::{diagnose_fault, diagnose_violation};
+use crate::reporting::Reporter;
 
 /// Between two looks at whether a job that waits for a command is cancelled.
 const LOOK: Duration = Duration::from_millis(20);
@@ -34,12 +38,22 @@ pub struct RunRequest {
     pub options: Options,
     /// Adds the sources of inputs, which are asked after those that [`Command::Set`] gave; made on the thread of the job.
     pub inputs: Box<dyn FnOnce(Inputs) -> Inputs + Send>,
+    /// Whether inputs are asked for that no source has; else that is a fault.
+    pub asks_inputs: bool,
     /// Whether choices are asked for, in place of those that `inputs` makes.
     pub asks_choices: bool,
     /// Whether it waits for a command before the first step.
     pub paused: bool,
     /// Whether each event holds the whole state.
     pub states: bool,
+    /// Asked after each record: whether what has happened is to be told now, and not with what happens next. The clock is the shell's;
+    /// [`at_once`] is for whoever looks at each record.
+    pub due: Box<dyn FnMut() -> bool + Send>,
+}
+
+/// Every record is told when it is there.
+pub fn at_once() -> Box<dyn FnMut() -> bool + Send> {
+    Box::new(|| true)
 }
 
 impl std::fmt::Debug for RunRequest {
@@ -59,6 +73,10 @@ pub enum Command {
     Pause,
     /// Take the last step back; where an input or a choice is asked for, give none and do the same.
     Back,
+    /// The input that is asked for has this value, this once.
+    Answer(Value),
+    /// The input that is asked for cannot be given: a fault, with this sentence.
+    Withhold(String),
     /// From now on an input has this value.
     Set(Location, Value),
     /// From now on an input is asked for again.
@@ -83,7 +101,9 @@ pub enum RunEvent {
         /// What is wrong: a violated invariant, a fault.
         faults: Vec<Diagnostic>,
     },
-    /// An input is wanted: it goes on with [`Command::Set`].
+    /// So many steps have been made, where nobody is told of each.
+    Progress(u64),
+    /// An input is wanted: it goes on with [`Command::Answer`] or [`Command::Set`].
     AsksInput {
         /// The step that is being made, from 1; 0 while the initial state is made.
         step: u64,
@@ -91,7 +111,7 @@ pub enum RunEvent {
         location: Location,
         /// The domain of its values.
         domain: DomainId,
-        /// The values themselves, where they are not too many to be offered.
+        /// The first hundred of the values themselves, where they are known.
         values: Vec<Value>,
     },
     /// A choice is wanted: it goes on with [`Command::Choose`].
@@ -127,7 +147,25 @@ impl Remote {
 /// The system gives no thread.
 pub fn run(request: RunRequest, cancel: Cancel) -> io::Result<(RunJob, Remote)> {
     let (sender, commands) = channel();
-    let job = Job::start("run", cancel, move |port| go(request, Rc::new(port), commands, cancel))?;
+    let job = Job::start("run", cancel, move |port| go(request, Rc::new(port), commands, cancel, &mut |_, _| {}))?;
+    Ok((job, Remote(sender)))
+}
+
+/// Starts a run that is followed for its report: it is told and steered as any other, and its result is who followed it.
+///
+/// # Errors
+/// The system gives no thread.
+pub fn report(
+    request: RunRequest,
+    mut reporter: Reporter,
+    sources: Sources,
+    cancel: Cancel,
+) -> io::Result<(Job<RunEvent, Reporter>, Remote)> {
+    let (sender, commands) = channel();
+    let job = Job::start("report", cancel, move |port| {
+        go(request, Rc::new(port), commands, cancel, &mut |record, run| reporter.note(record, run, &sources));
+        reporter
+    })?;
     Ok((job, Remote(sender)))
 }
 
@@ -184,6 +222,9 @@ impl Desk {
             Command::Back => return Some(Do::Back),
             Command::Stop => return Some(Do::Stop),
             Command::Choose(_) => self.port.tell(RunEvent::Refused("no choice is asked for".to_string())),
+            Command::Answer(_) | Command::Withhold(_) => {
+                self.port.tell(RunEvent::Refused("no input is asked for".to_string()))
+            }
         }
         None
     }
@@ -228,7 +269,8 @@ struct Given(Rc<RefCell<Desk>>);
 
 impl Source for Given {
     fn input(&mut self, ask: &Ask<'_>) -> Result<Option<Value>, String> {
-        Ok(self.0.borrow().given.get(&ask.location.to_location()).cloned())
+        let desk = self.0.borrow();
+        if desk.given.is_empty() { Ok(None) } else { Ok(desk.given.get(&ask.location.to_location()).cloned()) }
     }
 }
 
@@ -259,10 +301,14 @@ impl Source for Asking {
             match desk.wait() {
                 Waited::Over | Waited::Command(Command::Stop) => return Err(self.stop(Signal::Quit)),
                 Waited::Command(Command::Back) => return Err(self.stop(Signal::Back)),
-                Waited::Command(Command::Set(at, value)) if at == location => {
+                Waited::Command(Command::Withhold(why)) => return Err(why),
+                Waited::Command(Command::Answer(value)) if ask.admits(&value) => return Ok(Some(value)),
+                Waited::Command(Command::Set(at, value)) if at == location && ask.admits(&value) => {
                     desk.given.insert(at, value.clone());
                     return Ok(Some(value));
                 }
+                Waited::Command(Command::Answer(value)) => desk.port.tell(not_in(ask, &value)),
+                Waited::Command(Command::Set(at, value)) if at == location => desk.port.tell(not_in(ask, &value)),
                 Waited::Command(other) => desk.later.push_back(other),
             }
         }
@@ -273,13 +319,18 @@ impl Source for Asking {
     }
 }
 
-/// LIMIT: of a larger domain no values are offered.
+fn not_in(ask: &Ask<'_>, value: &Value) -> RunEvent {
+    let domain = &ask.program.domain(ask.codomain).name;
+    RunEvent::Refused(format!("{} is not in {domain}", value.show(ask.program)))
+}
+
+/// LIMIT: of a larger domain so many values are offered.
 const OFFERED: usize = 100;
 
 /// The values of a small domain.
 fn offered(ask: &Ask<'_>) -> Vec<Value> {
     if let Some(elements) = ask.carriers.get(ask.codomain) {
-        return if elements.len() <= OFFERED { elements.to_vec() } else { Vec::new() };
+        return elements.iter().take(OFFERED).cloned().collect();
     }
     let named = |name: &str| read_value(ask.program, ask.codomain, name).ok();
     match &ask.program.domain(ask.codomain).kind {
@@ -315,8 +366,15 @@ impl Chooser for Asking {
     }
 }
 
-fn go(request: RunRequest, port: Rc<Port<RunEvent>>, commands: Receiver<Command>, cancel: Cancel) -> u64 {
-    let RunRequest { program, limits, options, inputs, asks_choices, paused, states } = request;
+fn go(
+    request: RunRequest,
+    port: Rc<Port<RunEvent>>,
+    commands: Receiver<Command>,
+    cancel: Cancel,
+    follow: &mut dyn FnMut(&Record, &mut Run),
+) -> u64 {
+    let RunRequest { program, limits, options, inputs, asks_inputs, asks_choices, paused, states, mut due } = request;
+    let is_told = options.keep;
     let desk = Desk {
         port: Rc::clone(&port),
         commands,
@@ -327,7 +385,10 @@ fn go(request: RunRequest, port: Rc<Port<RunEvent>>, commands: Receiver<Command>
     };
     let desk = Rc::new(RefCell::new(desk));
     let asking = || Asking { desk: Rc::clone(&desk), signal: None };
-    let mut sources = inputs(Inputs::new().with(Given(Rc::clone(&desk)))).with(asking());
+    let mut sources = inputs(Inputs::new().with(Given(Rc::clone(&desk))));
+    if asks_inputs {
+        sources = sources.with(asking());
+    }
     if asks_choices {
         sources = sources.choosing(Choices::asked(asking()));
     }
@@ -354,28 +415,21 @@ fn go(request: RunRequest, port: Rc<Port<RunEvent>>, commands: Receiver<Command>
             }
         };
         let Some(record) = record else { return run.steps() };
-        let faults = faults_of(&record, &mut run, &program);
+        follow(&record, &mut run);
+        let faults = diagnose_record(&record, &mut run);
         let state = states.then(|| run.machine().locations());
         if let (Record::End(_), Turn::Steps(steps)) = (&record, &mut desk.borrow_mut().turn) {
             // Whoever steps by hand may take the last step back.
             *steps = 0;
         }
-        port.tell(RunEvent::Record { record: Box::new(record), steps: run.steps(), state, faults });
+        let is_due = due();
+        if is_told || !faults.is_empty() || !matches!(record, Record::Step(_)) {
+            port.add(RunEvent::Record { record: Box::new(record), steps: run.steps(), state, faults }, is_due);
+        } else if is_due {
+            port.mention(RunEvent::Progress(run.steps()));
+        }
         if stops {
             return run.steps();
         }
-    }
-}
-
-/// What is wrong in a record.
-fn faults_of(record: &Record, run: &mut Run, program: &Program) -> Vec<Diagnostic> {
-    let mut violated = |violations: &[Violation], step: u64| {
-        violations.iter().map(|violation| diagnose_violation(violation, step, run.machine_mut())).collect()
-    };
-    match record {
-        Record::Initial { violations, .. } => violated(violations, 0),
-        Record::Step(step) | Record::Attempt(step) => violated(&step.violations, step.step),
-        Record::End(End::Fault(fault)) => vec![diagnose_fault(fault, program)],
-        Record::End(_) | Record::Back { .. } => Vec::new(),
     }
 }

@@ -16,13 +16,13 @@ use crate::{SeededChoices, Suite, Tested};
 #[derive(Debug)]
 pub struct TestEvent(pub Box<Tested>);
 
-/// Starts scenarios, one after the other. Choices that no `pick` makes take the first candidate, or are drawn from a seed. One
-/// that is cancelled is not told of, nor are those after it.
+/// Starts scenarios, one after the other as they come. Choices that no `pick` makes take the first candidate, or are drawn from a
+/// seed. One that was cancelled before it came to a good end is not told of, nor are those after it.
 ///
 /// # Errors
 /// The system gives no thread.
 pub fn test(
-    scenarios: Vec<SourceFile>,
+    scenarios: impl IntoIterator<Item = SourceFile> + Send + 'static,
     mut loader: impl Loader + Send + 'static,
     options: Options,
     seed: Option<u64>,
@@ -32,12 +32,15 @@ pub fn test(
     options.limits.interrupt = Some(cancel.interrupt());
     Job::start("test", cancel, move |port| {
         let mut suite = Suite::new();
-        for scenario in scenarios {
+        let mut scenarios = scenarios.into_iter();
+        while !port.is_cancelled()
+            && let Some(scenario) = scenarios.next()
+        {
             let tested = match seed {
                 None => suite.test(scenario, &mut loader, options, &mut FirstCandidate),
                 Some(seed) => suite.test(scenario, &mut loader, options, &mut SeededChoices::new(seed)),
             };
-            if port.is_cancelled() {
+            if port.is_cancelled() && !tested.passed() {
                 break;
             }
             port.tell(TestEvent(Box::new(tested)));

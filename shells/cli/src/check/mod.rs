@@ -17,6 +17,8 @@ use model::Model;
 use syntax::{Diagnostic, Severity, SourceFile, Sources};
 use wire::Answer;
 
+pub use groundstate::tell::plural;
+
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::shell::Shell;
@@ -143,9 +145,4 @@ fn size(model: &Model) -> String {
     let rules = model.rules.len();
     let invariants = model.properties.iter().filter(|p| p.kind == model::PropertyKind::Invariant).count();
     format!(" ({}, {}, {})", plural(functions, "function"), plural(rules, "rule"), plural(invariants, "invariant"))
-}
-
-/// `1 rule`, `2 rules`.
-pub fn plural(count: usize, word: &str) -> String {
-    if count == 1 { format!("1 {word}") } else { format!("{count} {word}s") }
 }

@@ -6,13 +6,13 @@
 
 use std::fs::File;
 use std::io::{ErrorKind, IsTerminal, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use ::conform::{Reader, Recording, Session, Verdict};
+use groundstate::job::{self, Cancel, ConformEvent, ConformRequest, Events, NotConformed, Piece};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::{Arguments, refused, session, tell, unreadable};
+use super::{Arguments, not_started, refused, tell, unreadable};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::interrupt;
@@ -25,76 +25,62 @@ const PAUSE: Duration = Duration::from_millis(50);
 const AT_ONCE: u64 = 8 << 20;
 
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
-    let mut loaded = match load(shell, &arguments.model)? {
-        Ok(loaded) => Some(loaded),
+    let loaded = match load(shell, &arguments.model)? {
+        Ok(loaded) => loaded,
         Err(exit) => return Ok(exit),
     };
     interrupt::listen();
     let path = &arguments.recording;
-    let mut tail = Tail { file: None, read: 0, limit: shell.global.limits.recording() };
-    let mut reader = Reader::default();
-    let mut replay: Option<Session> = None;
+    let limit = shell.global.limits.recording();
+    let tail = Tail { path: path.clone(), file: None, read: 0, limit, waits: false };
+    let limits = shell.global.limits.uninterrupted();
+    let request = ConformRequest { loaded, events: Events::Coming(tail), limits, by_order: arguments.untimed };
+    let job = job::conform(request, Cancel::from(interrupt::request())).map_err(not_started)?;
     let status = Status::new(shell.talks());
-    loop {
-        // Asked before the last look, so that what was written till then is looked at.
-        let asked = interrupt::asked();
-        let bytes = tail.read(path)?;
-        let is_all = (bytes.len() as u64) < AT_ONCE;
-        let stops = asked && is_all;
-        reader.feed(&bytes).map_err(|malformed| unreadable(path, &malformed))?;
-        let recording = reader.recording();
-        let more = !reader.has_ended() && !stops;
-        // The head stands before the first event.
-        if recording.events() > 0 || reader.has_ended() {
-            if let Some(loaded) = loaded.take() {
-                match session(shell, loaded, path, recording, arguments.untimed)? {
-                    Ok(session) => replay = Some(session),
-                    Err(exit) => return Ok(exit),
-                }
-            }
-            let Some(session) = &mut replay else { unreachable!("it was begun above") };
-            match session.go_on(recording, more) {
-                Ok(Some(verdict)) => {
-                    status.done();
-                    let verdict = if stops { interrupted(verdict) } else { verdict };
-                    return tell(shell, session.sources(), recording, &verdict, session.way().words());
-                }
-                Ok(None) => status.agrees(session, recording),
-                Err(refusal) => return refused(shell, path, refusal),
-            }
-        } else if stops {
-            status.done();
-            return Err(Failure::usage(format!("{} has no events yet", path.display())));
-        } else {
-            status.awaits(path);
-        }
-        if is_all {
-            std::thread::sleep(PAUSE);
+    while let Some(event) = job.next_event() {
+        match event {
+            ConformEvent::Awaits => status.say(format!("waiting for the first events in {}", path.display())),
+            ConformEvent::Agrees(words) => status.say(words),
         }
     }
-}
-
-/// Said of a run whose end nobody waited for.
-fn interrupted(verdict: Verdict) -> Verdict {
-    match verdict {
-        Verdict::Unknown { events, .. } => {
-            Verdict::Unknown { events, reason: "the run went on when following it was ended".to_string() }
-        }
-        other => other,
+    status.done();
+    match job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0)) {
+        Ok(conformed) => tell(shell, &conformed),
+        Err(NotConformed::Unread(failure)) => Err(failure),
+        Err(NotConformed::Malformed(malformed)) => Err(unreadable(path, &malformed)),
+        Err(NotConformed::Refused(refusal)) => refused(shell, path, refusal),
+        Err(NotConformed::NoEvents) => Err(Failure::usage(format!("{} has no events yet", path.display()))),
     }
 }
 
 /// A file that grows, read where it was left.
 struct Tail {
+    path: PathBuf,
     file: Option<File>,
     read: u64,
     /// The most bytes that are read.
     limit: u64,
+    /// At the last look nothing more was there.
+    waits: bool,
+}
+
+impl job::Tail for Tail {
+    type Trouble = Failure;
+
+    fn next(&mut self) -> Result<Piece, Failure> {
+        if self.waits {
+            std::thread::sleep(PAUSE);
+        }
+        let bytes = self.read()?;
+        self.waits = (bytes.len() as u64) < AT_ONCE;
+        Ok(Piece { bytes, is_all: self.waits })
+    }
 }
 
 impl Tail {
     /// What is new; nothing as long as there is no file.
-    fn read(&mut self, path: &Path) -> Result<Vec<u8>, Failure> {
+    fn read(&mut self) -> Result<Vec<u8>, Failure> {
+        let path: &Path = &self.path;
         let wrong = |error| Failure::of_file("read", path, error);
         let file = match &mut self.file {
             Some(file) => file,
@@ -141,25 +127,6 @@ impl Status {
             bar.set_message(words);
             bar.tick();
         }
-    }
-
-    fn awaits(&self, path: &Path) {
-        self.say(format!("waiting for the first events in {}", path.display()));
-    }
-
-    /// How far the two agree, and what is waited for where a task is silent.
-    fn agrees(&self, session: &Session, recording: &Recording) {
-        let seconds = |ns: i64| ns as f64 / 1e9;
-        let last = |track: &&::conform::Track| track.events.last().map_or(0, |event| event.time_ns);
-        let newest = recording.tracks.iter().map(|track| last(&track)).max().unwrap_or(0);
-        let behind = recording.tracks.iter().min_by_key(last);
-        let silent = match behind {
-            Some(track) if newest - last(&track) > 1_000_000_000 => {
-                format!("; {} has been silent since {:.1} s", track.task, seconds(last(&track)))
-            }
-            _ => String::new(),
-        };
-        self.say(format!("{} events agree, the run is at {:.1} s{silent}", session.agreed(), seconds(newest)));
     }
 
     fn done(&self) {

@@ -6,16 +6,17 @@ mod follow;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
-use ::conform::{Malformed, Parted, Reader, Recording, Refusal, Session, Verdict, Way, diagnose_parted};
+use ::conform::{Malformed, Parted, Reader, Recording, Refusal, Verdict, diagnose_parted};
 use clap::Args;
 use groundstate::Loaded;
+use groundstate::job::{self, Cancel, ConformRequest, Conformed, Events, NoTail, NotConformed};
 use syntax::Sources;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::Bounded;
+use crate::interrupt;
 use crate::load::load;
 use crate::shell::Shell;
 
@@ -44,8 +45,8 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Ok(loaded) => loaded,
         Err(exit) => return Ok(exit),
     };
-    match hold(shell, loaded, &arguments.model, &recording, arguments.untimed)? {
-        Ok((sources, verdict, way)) => tell(shell, &sources, &recording, &verdict, way.words()),
+    match hold(shell, loaded, &arguments.model, recording, arguments.untimed)? {
+        Ok(conformed) => tell(shell, &conformed),
         Err(exit) => Ok(exit),
     }
 }
@@ -72,34 +73,23 @@ pub fn hold(
     shell: &mut Shell,
     loaded: Loaded,
     path: &Path,
-    recording: &Recording,
+    recording: Recording,
     untimed: bool,
-) -> Result<Result<(Sources, Verdict, Way), Exit>, Failure> {
-    let mut session = match session(shell, loaded, path, recording, untimed)? {
-        Ok(session) => session,
-        Err(exit) => return Ok(Err(exit)),
-    };
-    match session.go_on(recording, false) {
-        Ok(Some(verdict)) => Ok(Ok((session.sources().clone(), verdict, session.way()))),
-        Ok(None) => unreachable!("nothing more comes"),
-        Err(refusal) => refused(shell, path, refusal).map(Err),
+) -> Result<Result<Conformed, Exit>, Failure> {
+    let limits = shell.global.limits.uninterrupted();
+    let events = Events::<NoTail>::Whole(recording);
+    let request = ConformRequest { loaded, events, limits, by_order: untimed };
+    let job = job::conform(request, Cancel::from(interrupt::request())).map_err(not_started)?;
+    match job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0)) {
+        Ok(conformed) => Ok(Ok(conformed)),
+        Err(NotConformed::Refused(refusal)) => refused(shell, path, refusal).map(Err),
+        Err(NotConformed::Unread(never)) => match never {},
+        Err(NotConformed::Malformed(_) | NotConformed::NoEvents) => unreachable!("it was read before"),
     }
 }
 
-/// A session for a recording whose head is known.
-fn session(
-    shell: &mut Shell,
-    loaded: Loaded,
-    path: &Path,
-    head: &Recording,
-    untimed: bool,
-) -> Result<Result<Session, Exit>, Failure> {
-    let Loaded { sources, model, program, .. } = loaded;
-    let (model, program) = (Arc::unwrap_or_clone(model), Arc::unwrap_or_clone(program));
-    match Session::new(sources, model, program, shell.global.limits.uninterrupted(), head, untimed) {
-        Ok(session) => Ok(Ok(session)),
-        Err(refusal) => refused(shell, path, refusal).map(Err),
-    }
+fn not_started(error: std::io::Error) -> Failure {
+    Failure::usage(format!("the comparison cannot be started: {error}"))
 }
 
 fn refused(shell: &mut Shell, path: &Path, refusal: Refusal) -> Result<Exit, Failure> {
@@ -112,13 +102,9 @@ fn refused(shell: &mut Shell, path: &Path, refusal: Refusal) -> Result<Exit, Fai
     }
 }
 
-fn tell(
-    shell: &mut Shell,
-    sources: &Sources,
-    recording: &Recording,
-    verdict: &Verdict,
-    way: &str,
-) -> Result<Exit, Failure> {
+fn tell(shell: &mut Shell, conformed: &Conformed) -> Result<Exit, Failure> {
+    let Conformed { sources, recording, verdict, way } = conformed;
+    let way = way.words();
     if shell.json() {
         shell.object(&wire::Conformance::new(sources, verdict, way))?;
     }

@@ -6,4 +6,4 @@ mod options;
 mod prompt;
 
 pub use options::{Assembled, Chosen, HELP, InputArguments, assemble};
-pub use prompt::Look;
+pub use prompt::{Prompt, Question};

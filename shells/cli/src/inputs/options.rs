@@ -2,7 +2,6 @@
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 use groundstate::inputs::{self, Form};
@@ -11,7 +10,6 @@ use machine::TimeUnit;
 use program::Program;
 use syntax::{Diagnostic, SourceFile, Sources};
 
-use super::prompt;
 use crate::failure::Failure;
 use crate::files::read_text;
 use crate::shell::Shell;
@@ -135,13 +133,16 @@ impl Clock for SystemClock {
 
 /// What the options come to.
 pub struct Assembled {
-    /// The sources.
-    pub inputs: Inputs,
-    /// Somebody at a terminal is asked, so steps can be taken back.
+    /// Adds the sources.
+    pub inputs: Sourcing,
+    /// Inputs that no source has are asked for at the terminal.
+    pub asks: bool,
+    /// The model has inputs that may be asked for, so steps can be taken back.
     pub interactive: bool,
-    /// What who is asked can look at.
-    pub told: prompt::Told,
 }
+
+/// Adds sources to those that are there.
+pub type Sourcing = Box<dyn FnOnce(Inputs) -> Inputs + Send>;
 
 /// Makes the sources. Faults in input files are given as diagnostics over `sources`, which takes in their texts.
 pub fn assemble(
@@ -150,29 +151,29 @@ pub fn assemble(
     sources: &mut Sources,
     program: &Program,
 ) -> Result<Result<Assembled, Vec<Diagnostic>>, Failure> {
-    let mut inputs = Inputs::new();
+    let mut layers: Vec<Sourcing> = Vec::new();
     let constants = inputs::constants(program, &arguments.set);
-    inputs = inputs.with(constants.map_err(|refused| Failure::usage(format!("--set {refused}")))?);
+    let constants = constants.map_err(|refused| Failure::usage(format!("--set {refused}")))?;
+    layers.push(Box::new(|inputs| inputs.with(constants)));
     if let Some(path) = &arguments.input {
         match named(shell, path, sources, program)? {
-            Ok(named) => inputs = inputs.with(named),
+            Ok(named) => layers.push(Box::new(|inputs| inputs.with(named))),
             Err(faults) => return Ok(Err(faults)),
         }
     }
     if let Some(path) = &arguments.env {
         let text = read_text(path, shell.global.limits.max_file_size)?;
-        inputs = inputs.with(Positional::new(&path.display().to_string(), &text));
+        let positional = Positional::new(&path.display().to_string(), &text);
+        layers.push(Box::new(|inputs| inputs.with(positional)));
     }
-    let mut interactive = false;
-    let told = prompt::Told::default();
+    let (mut asks, mut interactive) = (false, false);
     if arguments.random {
         let weighted = inputs::weighted(program, arguments.seed, &arguments.weight);
         let weighted = weighted.map_err(|refused| Failure::usage(format!("--weight {refused}")))?;
-        inputs = inputs.with(weighted);
-        inputs = inputs.with(RandomSource::new(arguments.seed, arguments.bounds.bounds()));
+        let random = RandomSource::new(arguments.seed, arguments.bounds.bounds());
+        layers.push(Box::new(|inputs| inputs.with(weighted).with(random)));
     } else if std::io::stdin().is_terminal() {
-        interactive = !inputs::asked(program).is_empty();
-        inputs = inputs.with(prompt::Prompt::new(Arc::clone(&told)));
+        (asks, interactive) = (true, !inputs::asked(program).is_empty());
     } else if arguments.input.is_none()
         && arguments.env.is_none()
         && arguments.set.is_empty()
@@ -180,12 +181,14 @@ pub fn assemble(
     {
         return Err(Failure::usage_with_help(format!("{lack}, and there is no terminal to ask at"), HELP));
     }
-    inputs = inputs.choosing(arguments.choose.choices(arguments.seed));
-    inputs = match arguments.clock {
+    let (choose, seed, clock) = (arguments.choose, arguments.seed, arguments.clock);
+    layers.push(Box::new(move |inputs| inputs.choosing(choose.choices(seed))));
+    layers.push(Box::new(move |inputs| match clock {
         Ticking::Steps(step_ns) => inputs.timed_by(StepClock::new(step_ns)),
         Ticking::System => inputs.timed_by(SystemClock),
-    };
-    Ok(Ok(Assembled { inputs, interactive, told }))
+    }));
+    let inputs: Sourcing = Box::new(|inputs| layers.into_iter().fold(inputs, |inputs, layer| layer(inputs)));
+    Ok(Ok(Assembled { inputs, asks, interactive }))
 }
 
 /// What to pass when inputs are missing.

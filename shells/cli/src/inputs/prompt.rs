@@ -5,11 +5,11 @@
 
 use std::collections::BTreeMap;
 use std::io::Write;
-use std::sync::{Arc, Mutex};
 
-use groundstate::simulate::{Ask, Signal, Source, expected, read_value};
-use machine::{Show, Value};
-use program::DomainId;
+use groundstate::job::Command;
+use groundstate::simulate::{expected, read_value};
+use machine::{Location, Show, Value};
+use program::{DomainId, Program};
 use rustyline::completion::Completer;
 use rustyline::error::ReadlineError;
 use rustyline::highlight::Highlighter;
@@ -22,20 +22,24 @@ use rustyline::{Behavior, Config, Context, Editor, Helper};
 #[derive(Default)]
 pub struct Prompt {
     editor: Option<Editor<Words, MemHistory>>,
-    signal: Option<Signal>,
     /// What was answered, by the domain that was asked for.
     answers: BTreeMap<DomainId, Vec<String>>,
-    told: Told,
+    /// The last answer, and whether it is kept for the next question of the domain.
+    last: Option<(DomainId, String, bool)>,
+    /// The state before the step that is being made.
+    pub state: String,
+    /// What the last step changed.
+    pub updates: String,
 }
 
-/// What can be looked at between two answers; whoever makes the steps keeps it up to date.
-pub type Told = Arc<Mutex<Look>>;
-
-/// The state before the step that is being made, and what the last step changed.
-#[derive(Debug, Default)]
-pub struct Look {
-    pub state: String,
-    pub updates: String,
+/// An input that is asked for.
+#[derive(Debug, Clone)]
+pub struct Question {
+    pub step: u64,
+    pub location: Location,
+    pub domain: DomainId,
+    /// The first of its values, where they are known.
+    pub values: Vec<Value>,
 }
 
 const HELP: &str = "  :help     this text              :state  the state before this step
@@ -50,18 +54,13 @@ fn say(text: &str) {
 }
 
 impl Prompt {
-    pub fn new(told: Told) -> Self {
-        Prompt { told, ..Prompt::default() }
-    }
-
     /// Answers a command; `false`: it is none that is answered here.
     fn look(&self, line: &str) -> bool {
-        let look = self.told.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         match line {
             ":help" | ":h" | ":?" => say(HELP),
-            ":state" | ":s" => say(look.state.trim_end()),
-            ":updates" | ":u" if look.updates.is_empty() => say("  no step has been made"),
-            ":updates" | ":u" => say(look.updates.trim_end()),
+            ":state" | ":s" => say(self.state.trim_end()),
+            ":updates" | ":u" if self.updates.is_empty() => say("  no step has been made"),
+            ":updates" | ":u" => say(self.updates.trim_end()),
             _ => return false,
         }
         true
@@ -78,32 +77,27 @@ impl Prompt {
         self.editor.as_mut().ok_or_else(|| "there is no terminal to ask at".to_string())
     }
 
-    fn stop(&mut self, signal: Signal) -> Result<Option<Value>, String> {
-        self.signal = Some(signal);
-        Err("no value was given at the prompt".to_string())
+    /// Asks, until there is something to tell the run.
+    pub fn ask(&mut self, program: &Program, question: &Question) -> Command {
+        self.answer(program, question).unwrap_or_else(Command::Withhold)
     }
-}
 
-impl Source for Prompt {
-    fn input(&mut self, ask: &Ask<'_>) -> Result<Option<Value>, String> {
-        if ask.clock {
-            return Ok(None);
-        }
-        let values = values(ask);
-        let question = question(ask, &values);
-        let earlier = self.answers.get(&ask.codomain).cloned().unwrap_or_default();
+    fn answer(&mut self, program: &Program, question: &Question) -> Result<Command, String> {
+        let values: Vec<String> = question.values.iter().map(|value| value.show(program).to_string()).collect();
+        let words = wording(program, question, &values);
+        let earlier = self.answers.get(&question.domain).cloned().unwrap_or_default();
         let editor = self.editor()?;
         editor.set_helper(Some(Words(values)));
         let _ = editor.clear_history();
         earlier.iter().for_each(|answer| _ = editor.add_history_entry(answer));
         loop {
-            match self.editor()?.readline(&question) {
+            match self.editor()?.readline(&words) {
                 Ok(line) => {
                     let line = line.trim();
                     match line {
                         "" => continue,
-                        ":back" | ":b" => return self.stop(Signal::Back),
-                        ":quit" | ":q" => return self.stop(Signal::Quit),
+                        ":back" | ":b" => return Ok(Command::Back),
+                        ":quit" | ":q" => return Ok(Command::Stop),
                         command if self.look(command) => continue,
                         command if command.starts_with(':') => {
                             say(&format!("  {command} is no command here\n{HELP}"));
@@ -111,55 +105,51 @@ impl Source for Prompt {
                         }
                         _ => {}
                     }
-                    match read_value(ask.program, ask.codomain, line) {
-                        Ok(value) if ask.admits(&value) => {
-                            let answers = self.answers.entry(ask.codomain).or_default();
-                            if answers.last().is_none_or(|last| last != line) {
-                                answers.push(line.to_string());
-                            }
-                            return Ok(Some(value));
+                    match read_value(program, question.domain, line) {
+                        Ok(value) => {
+                            self.remember(question.domain, line);
+                            return Ok(Command::Answer(value));
                         }
-                        Ok(_) => say(&format!("  {line} is not in {}", ask.program.domain(ask.codomain).name)),
                         Err(message) => say(&format!("  {message}")),
                     }
                 }
-                Err(ReadlineError::Eof | ReadlineError::Interrupted) => return self.stop(Signal::Quit),
+                Err(ReadlineError::Eof | ReadlineError::Interrupted) => return Ok(Command::Stop),
                 Err(error) => return Err(format!("the terminal cannot be read: {error}")),
             }
         }
     }
 
-    fn signal(&mut self) -> Option<Signal> {
-        self.signal.take()
+    fn remember(&mut self, domain: DomainId, line: &str) {
+        let answers = self.answers.entry(domain).or_default();
+        let is_new = answers.last().is_none_or(|last| last != line);
+        if is_new {
+            answers.push(line.to_string());
+        }
+        self.last = Some((domain, line.to_string(), is_new));
     }
-}
 
-/// The values of a small domain.
-fn values(ask: &Ask<'_>) -> Vec<String> {
-    use program::DomainKind;
-    let program = ask.program;
-    if let Some(elements) = ask.carriers.get(ask.codomain) {
-        return elements.iter().take(100).map(|value| value.show(program).to_string()).collect();
-    }
-    match &program.domain(ask.codomain).kind {
-        DomainKind::Enum { literals } => literals.clone(),
-        DomainKind::Basic(model::Basic::Boolean) => vec!["true".to_string(), "false".to_string()],
-        _ => Vec::new(),
+    /// The last answer is not one: the run says why.
+    pub fn refused(&mut self, program: &Program) {
+        let Some((domain, line, is_new)) = self.last.take() else { return };
+        say(&format!("  {line} is not in {}", program.domain(domain).name));
+        if is_new {
+            self.answers.entry(domain).or_default().pop();
+        }
     }
 }
 
 /// LIMIT: of a larger domain only the first values are shown.
 const SHOWN: usize = 12;
 
-fn question(ask: &Ask<'_>, values: &[String]) -> String {
-    let domain = &ask.program.domain(ask.codomain).name;
-    let location = ask.location.show(ask.program);
+fn wording(program: &Program, question: &Question, values: &[String]) -> String {
+    let domain = &program.domain(question.domain).name;
+    let location = question.location.show(program);
     let choice = match values {
-        [] => expected(ask.program, ask.codomain).unwrap_or_else(|| "a value".to_string()),
+        [] => expected(program, question.domain).unwrap_or_else(|| "a value".to_string()),
         _ if values.len() > SHOWN => format!("{}, …", values[..SHOWN].join(", ")),
         _ => values.join(", "),
     };
-    format!("step {}: {location} ({domain}: {choice}) = ", ask.step)
+    format!("step {}: {location} ({domain}: {choice}) = ", question.step)
 }
 
 /// Completes the names of values.
@@ -206,9 +196,18 @@ mod tests {
 
     #[test]
     fn the_state_can_be_looked_at() {
-        let told = Told::default();
-        let prompt = Prompt::new(Arc::clone(&told));
+        let prompt = Prompt::default();
         assert!(prompt.look(":state") && prompt.look(":updates") && prompt.look(":help"));
         assert!(!prompt.look(":stat") && !prompt.look("true"));
+    }
+
+    #[test]
+    fn what_was_refused_is_not_recalled() {
+        let domain = DomainId(0);
+        let mut prompt = Prompt::default();
+        prompt.remember(domain, "1");
+        prompt.remember(domain, "1");
+        assert_eq!(prompt.last.as_ref().map(|last| last.2), Some(false));
+        assert_eq!(prompt.answers[&domain], ["1"]);
     }
 }

@@ -15,8 +15,9 @@ use std::sync::Arc;
 use ::report::{Fact, Report, SummaryOptions, SvgOptions};
 use clap::Args;
 use groundstate::Overlay;
+use groundstate::job::{self, Cancel, RunEvent, RunRequest};
 use groundstate::reporting::{Prepared, Reporter, derived_specification, prepare_report};
-use groundstate::simulate::{End, Invariants, Options, Run};
+use groundstate::simulate::{Invariants, Options, Run};
 use program::Program;
 use syntax::{SourceFile, Sources};
 
@@ -26,7 +27,8 @@ use crate::files::{read_text, write_text};
 use crate::inputs::{self, Assembled};
 use crate::interrupt;
 use crate::load::load;
-use crate::progress::Progress;
+use crate::progress::{Progress, now_and_then};
+use crate::run::Desk;
 use crate::shell::Shell;
 
 /// What a specification looks like.
@@ -123,9 +125,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     };
     let origin = wanted.name.clone();
     let mut asked = loaded.overlay();
-    let Some(mut reporter) = prepare(shell, &mut asked, wanted, &path)? else { return Ok(Exit::World) };
+    let Some(reporter) = prepare(shell, &mut asked, wanted, &path)? else { return Ok(Exit::World) };
     let Overlay { mut sources, program, .. } = asked;
-    let Assembled { inputs, .. } = match inputs::assemble(shell, &arguments.inputs, &mut sources, &program)? {
+    let Assembled { inputs, asks, .. } = match inputs::assemble(shell, &arguments.inputs, &mut sources, &program)? {
         Ok(assembled) => assembled,
         Err(faults) => {
             shell.diagnostics(&sources, &faults)?;
@@ -134,16 +136,29 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     };
     let options =
         Options { steps: Some(arguments.steps), invariants: Invariants::Report, keep: false, ..Options::default() };
-    let mut run = Run::new(Arc::clone(&program), shell.global.limits.machine(), inputs, options);
     interrupt::listen();
+    let request = RunRequest {
+        program: Arc::clone(&program),
+        limits: shell.global.limits.machine(),
+        options,
+        inputs,
+        asks_inputs: asks,
+        asks_choices: false,
+        paused: false,
+        states: false,
+        due: now_and_then(),
+    };
+    let started = job::report(request, reporter, sources.clone(), Cancel::from(interrupt::request()));
+    let (job, remote) = started.map_err(|error| Failure::usage(format!("the run cannot be started: {error}")))?;
     let mut progress = Progress::new(Some(arguments.steps), shell.global.quiet);
-    while let Some(record) = run.advance() {
-        reporter.note(&record, &mut run, &sources);
-        progress.at(run.steps());
-        if interrupt::asked() {
-            run.stop(End::Interrupted);
+    let mut desk = Desk::new(&program, &remote);
+    while let Some(event) = job.next_event() {
+        match event {
+            RunEvent::Record { steps, .. } | RunEvent::Progress(steps) => progress.at(steps),
+            other => desk.hear(other),
         }
     }
+    let reporter = job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0));
     progress.done();
     let exit = match (reporter.was_interrupted(), reporter.is_at_fault()) {
         (true, _) => Exit::Unknown,

@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 
 use ::conform::{Parted, Verdict, Way};
 use ::report::{Fact, Held, Program, ProgramRun, RunSummary, render_program};
+use groundstate::job::Conformed;
 use recording::Recording;
 
 use crate::conform::{hold, read};
@@ -43,8 +44,11 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         if program.runs.is_empty() {
             program.facts.push(fact("Fingerprint of all texts", groundstate::fingerprint(&loaded.sources)));
         }
-        let held = match hold(shell, loaded, &arguments.model, &recording, false)? {
-            Ok((_, verdict, way)) => verdict_in_words(&verdict, way, &recording),
+        let (recording, held) = match hold(shell, loaded, &arguments.model, recording, false)? {
+            Ok(Conformed { recording, verdict, way, .. }) => {
+                let held = verdict_in_words(&verdict, way, &recording);
+                (recording, held)
+            }
             Err(exit) => return Ok(exit),
         };
         worst = worst.max(match held.conforms {

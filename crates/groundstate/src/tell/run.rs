@@ -1,22 +1,21 @@
 //! A run as text for people: what came in, what was chosen, what changed.
 //!
-//! INVARIANT: what is written depends on the records alone, so that a replay writes the same bytes.
+//! In: records as they come, with the state after each where all of it is to be told. Out: lines. INVARIANT: they depend on the records
+//! alone, so that a replay tells the same.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
-use std::io::{self, Write};
+use std::fmt::{self, Write};
 
-use clap::ValueEnum;
-use groundstate::simulate::{ChoiceMade, End, Record, StepRecord};
-use machine::{Location, Machine, Show, Value};
+use machine::{Location, Show, Value};
 use program::Program;
+use simulate::{ChoiceMade, End, Record, StepRecord, Violation};
 use syntax::Span;
 
-use crate::check::plural;
-use crate::inputs::Look;
+use super::plural;
 
-/// How much of the state is written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+/// How much of the state is told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Detail {
     /// The whole state after every step
     All,
@@ -26,17 +25,21 @@ pub enum Detail {
     None,
 }
 
-/// Writes records.
+/// Tells records.
+#[derive(Debug)]
 pub struct Narrator<'a> {
-    pub detail: Detail,
-    pub color: bool,
-    pub program: &'a Program,
+    detail: Detail,
+    is_colored: bool,
+    program: &'a Program,
     /// The variables that each choose rule binds, by its place.
-    pub binders: BTreeMap<Span, Vec<String>>,
-    pub until: Option<String>,
+    binders: BTreeMap<Span, Vec<String>>,
+    until: Option<String>,
     /// The steps in which nothing was taken in and nothing changed, still to be told.
-    pub quiet: Cell<Option<(u64, u64)>>,
+    quiet: Cell<Option<(u64, u64)>>,
 }
+
+/// A state: each location with its value.
+type State = [(Location, Value)];
 
 const BOLD: &str = "\x1b[1m";
 const DIM: &str = "\x1b[2m";
@@ -45,9 +48,28 @@ const GREEN: &str = "\x1b[32m";
 const RED: &str = "\x1b[31m";
 const RESET: &str = "\x1b[0m";
 
+impl<'a> Narrator<'a> {
+    /// Nothing has been told yet. `until` is the condition that the run may end with, `is_colored` is for terminals.
+    pub fn new(program: &'a Program, detail: Detail, until: Option<String>, is_colored: bool) -> Narrator<'a> {
+        let binders = crate::choice_variables(program);
+        Narrator { detail, is_colored, program, binders, until, quiet: Cell::new(None) }
+    }
+
+    /// Whether all of each state is told.
+    pub fn wants_state(&self) -> bool {
+        self.detail == Detail::All
+    }
+}
+
 impl Narrator<'_> {
-    /// Writes a record; the machine is in the state after it.
-    pub fn record(&self, out: &mut impl Write, record: &Record, machine: &Machine) -> io::Result<()> {
+    /// A record as lines; none where it is told together with those that follow. `steps` have been made, and `state` is that after it.
+    pub fn record(&self, record: &Record, steps: u64, state: Option<&State>) -> String {
+        let mut out = String::new();
+        let _ = self.write(&mut out, record, steps, state.unwrap_or_default());
+        out
+    }
+
+    fn write(&self, out: &mut String, record: &Record, steps: u64, state: &State) -> fmt::Result {
         if self.detail == Detail::None && !matches!(record, Record::End(_)) {
             return Ok(());
         }
@@ -71,7 +93,7 @@ impl Narrator<'_> {
             Record::Step(step) => {
                 writeln!(out, "{}", self.paint(BOLD, &format!("step {}", step.step)))?;
                 self.taken(out, step)?;
-                self.changes(out, step, machine)?;
+                self.changes(out, step, state)?;
                 self.violations(out, &step.violations)
             }
             Record::Attempt(step) => {
@@ -81,49 +103,43 @@ impl Narrator<'_> {
             }
             Record::Back { step } => writeln!(out, "{}", self.paint(DIM, &format!("back to before step {step}"))),
             Record::End(end) => {
-                let steps = plural(machine.steps() as usize, "step");
-                writeln!(out, "{} {}", self.paint(BOLD, &format!("end after {steps}:")), self.reason(end, machine))
+                let made = plural(steps as usize, "step");
+                writeln!(out, "{} {}", self.paint(BOLD, &format!("end after {made}:")), self.reason(end, steps))
             }
         }
     }
 
-    /// Keeps up to date what can be looked at between two steps.
-    pub fn look(&self, look: &mut Look, record: &Record, machine: &Machine) {
-        let lines = |values: &mut dyn Iterator<Item = String>| {
-            let text: String = values.map(|line| format!("  {line}\n")).collect();
-            if text.is_empty() { "  nothing\n".to_string() } else { text }
+    /// A state, as it can be looked at between two steps.
+    pub fn state(&self, state: &State) -> String {
+        let line = |(location, value): &(Location, Value)| {
+            format!("{} = {}", location.show(self.program), value.show(self.program))
         };
-        let show = |value: &Value| value.show(self.program).to_string();
-        let at = |location: &Location| location.show(self.program).to_string();
-        look.state = lines(
-            &mut machine
-                .locations()
-                .into_iter()
-                .map(|(location, value)| format!("{} = {}", at(&location), show(&value))),
-        );
-        look.updates = match record {
-            Record::Step(step) => lines(&mut step.changes.iter().map(|change| {
-                format!("{}: {} -> {}", at(&change.location), show(&change.before), show(&change.after))
-            })),
-            _ => String::new(),
-        };
+        listed(state.iter().map(line))
+    }
+
+    /// What a step changed, as it can be looked at after it.
+    pub fn updates(&self, step: &StepRecord) -> String {
+        listed(step.changes.iter().map(|change| {
+            let (before, after) = (change.before.show(self.program), change.after.show(self.program));
+            format!("{}: {before} -> {after}", change.location.show(self.program))
+        }))
     }
 
     /// Steps in which nothing happened are told as one.
-    fn tell_quiet(&self, out: &mut impl Write) -> io::Result<()> {
+    fn tell_quiet(&self, out: &mut String) -> fmt::Result {
         let Some((first, last)) = self.quiet.take() else { return Ok(()) };
         let steps = if first == last { format!("step {first}") } else { format!("steps {first} to {last}") };
         writeln!(out, "{}\n  {}", self.paint(BOLD, &steps), self.paint(DIM, "no change"))
     }
 
     /// What a step took from outside.
-    fn taken(&self, out: &mut impl Write, step: &StepRecord) -> io::Result<()> {
+    fn taken(&self, out: &mut String, step: &StepRecord) -> fmt::Result {
         self.values(out, "in", CYAN, &step.inputs)?;
         self.values(out, "in", CYAN, &step.writes)?;
         self.choices(out, &step.choices)
     }
 
-    fn choices(&self, out: &mut impl Write, choices: &[ChoiceMade]) -> io::Result<()> {
+    fn choices(&self, out: &mut String, choices: &[ChoiceMade]) -> fmt::Result {
         for choice in choices {
             writeln!(out, "  {} {}", self.paint(CYAN, "choose"), self.choice(choice))?;
         }
@@ -144,12 +160,12 @@ impl Narrator<'_> {
         format!("{shown} ({} of {})", choice.index + 1, choice.of)
     }
 
-    fn changes(&self, out: &mut impl Write, step: &StepRecord, machine: &Machine) -> io::Result<()> {
+    fn changes(&self, out: &mut String, step: &StepRecord, state: &State) -> fmt::Result {
         if self.detail == Detail::All {
             let changed: Vec<&Location> = step.changes.iter().map(|change| &change.location).collect();
-            for (location, value) in machine.locations() {
-                let color = if changed.contains(&&location) { GREEN } else { "" };
-                self.value(out, "", color, &location, &value)?;
+            for (location, value) in state {
+                let color = if changed.contains(&location) { GREEN } else { "" };
+                self.value(out, "", color, location, value)?;
             }
             return Ok(());
         }
@@ -172,11 +188,11 @@ impl Narrator<'_> {
         Ok(())
     }
 
-    fn values(&self, out: &mut impl Write, word: &str, color: &str, values: &[(Location, Value)]) -> io::Result<()> {
+    fn values(&self, out: &mut String, word: &str, color: &str, values: &[(Location, Value)]) -> fmt::Result {
         values.iter().try_for_each(|(location, value)| self.value(out, word, color, location, value))
     }
 
-    fn value(&self, out: &mut impl Write, word: &str, color: &str, at: &Location, value: &Value) -> io::Result<()> {
+    fn value(&self, out: &mut String, word: &str, color: &str, at: &Location, value: &Value) -> fmt::Result {
         let line = format!("{} = {}", at.show(self.program), value.show(self.program).briefly());
         match word {
             "" => writeln!(out, "  {}", self.paint(color, &line)),
@@ -184,12 +200,12 @@ impl Narrator<'_> {
         }
     }
 
-    fn violations(&self, out: &mut impl Write, violations: &[groundstate::simulate::Violation]) -> io::Result<()> {
+    fn violations(&self, out: &mut String, violations: &[Violation]) -> fmt::Result {
         let word = self.paint(RED, "violated");
         violations.iter().try_for_each(|violation| writeln!(out, "  {word} {}", violation.name))
     }
 
-    fn reason(&self, end: &End, machine: &Machine) -> String {
+    fn reason(&self, end: &End, steps: u64) -> String {
         let until = self.until.as_deref().unwrap_or("the condition");
         match end {
             End::Steps if self.until.is_some() => format!("`{until}` did not hold within them"),
@@ -198,18 +214,23 @@ impl Narrator<'_> {
             End::Trivial => "nothing changes any more".to_string(),
             End::Until => format!("`{until}` holds"),
             End::Violation => self.paint(RED, "an invariant does not hold"),
-            End::Fault(_) => self.paint(RED, &format!("step {} cannot be made", machine.steps() + 1)),
+            End::Fault(_) => self.paint(RED, &format!("step {} cannot be made", steps + 1)),
             End::Interrupted => "interrupted".to_string(),
             End::Quit => "stopped at the prompt".to_string(),
         }
     }
 
     fn paint(&self, color: &str, text: &str) -> String {
-        if self.color && !color.is_empty() { format!("{color}{text}{RESET}") } else { text.to_string() }
+        if self.is_colored && !color.is_empty() { format!("{color}{text}{RESET}") } else { text.to_string() }
     }
 }
 
 fn is_quiet(step: &StepRecord) -> bool {
     let outside = step.inputs.is_empty() && step.writes.is_empty() && step.choices.is_empty();
     outside && !step.changed && step.violations.is_empty()
+}
+
+fn listed(lines: impl Iterator<Item = String>) -> String {
+    let text: String = lines.map(|line| format!("  {line}\n")).collect();
+    if text.is_empty() { "  nothing\n".to_string() } else { text }
 }

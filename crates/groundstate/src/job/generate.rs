@@ -1,0 +1,146 @@
+//! C++ of models and of systems, as jobs: folders in memory.
+//!
+//! In: a program with its texts under the names that are to be told, or a chart with a system. Out: the files of a [`Folder`], those of the
+//! runtime included; what cannot be generated as diagnostics. Whoever writes them looks after the folder.
+
+use std::io;
+use std::sync::Arc;
+
+use chart::Chart;
+use chart::generate::{Form, ungenerated};
+use generate::{Generated, Options};
+use machine::{Closed, Limits, Machine};
+use program::Program;
+use serde_json::{Value, json};
+use syntax::{Diagnostic, Sources, Span};
+
+use crate::job::{Cancel, Job, Port};
+
+/// What is generated: paths within the folder, and texts.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Folder {
+    /// Written anew each time, the most important one first.
+    pub decided: Vec<(String, String)>,
+    /// The user's own: written where they are missing, never touched again.
+    pub once: Vec<(String, String)>,
+    /// What C++ calls otherwise than the model: `(model's, C++'s)`.
+    pub renamed: Vec<(String, String)>,
+}
+
+/// Why there is no folder.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum NotGenerated {
+    /// This cannot be generated.
+    Refused(Vec<Diagnostic>),
+    /// The chart has no system.
+    NoSystem,
+    /// The job was cancelled.
+    Cancelled,
+}
+
+/// A file is there, of that path.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct GenerateEvent(pub String);
+
+/// A generation.
+pub type GenerateJob = Job<GenerateEvent, Result<Folder, NotGenerated>>;
+
+/// Headers of the runtime, by name; a shell has them built in.
+pub type Headers = &'static [(&'static str, &'static str)];
+
+/// Starts to generate the class of a model. `sources` have the names that the source map is to tell.
+///
+/// # Errors
+/// The system gives no thread.
+pub fn generate_model(
+    program: Arc<Program>,
+    sources: Sources,
+    options: Options,
+    headers: Headers,
+    cancel: Cancel,
+) -> io::Result<GenerateJob> {
+    Job::start("generate", cancel, move |port| {
+        let mut started = Machine::new(Arc::clone(&program), machine_limits(cancel));
+        // An initial value that asks the environment, or is at fault, does so again when the program starts.
+        let _ = started.start(&mut Closed);
+        go_on(&port)?;
+        let generated =
+            generate::generate(&program, &sources, &mut started, &options).map_err(NotGenerated::Refused)?;
+        let map = serde_json::to_string_pretty(&source_map(&generated, &sources)).unwrap_or_default();
+        let runtime =
+            |(name, text): &(&str, &str)| (format!("runtime/include/groundstate/machine/{name}"), (*text).to_string());
+        let files = generated.files.into_iter().map(|file| (file.name, file.text));
+        let maps = [("source-map.json".to_string(), map)];
+        let decided = files.chain(headers.iter().map(runtime)).chain(maps).collect();
+        told(&port, Folder { decided, once: Vec::new(), renamed: generated.renamed })
+    })
+}
+
+/// Starts to generate the program of a chart's system; `file` names the chart in comments.
+///
+/// # Errors
+/// The system gives no thread.
+pub fn generate_system(
+    chart: Chart,
+    file: String,
+    form: Form,
+    headers: Headers,
+    cancel: Cancel,
+) -> io::Result<GenerateJob> {
+    Job::start("generate", cancel, move |port| {
+        let system = chart.system.as_ref().ok_or(NotGenerated::NoSystem)?;
+        let faults = ungenerated(system);
+        if !faults.is_empty() {
+            return Err(NotGenerated::Refused(faults));
+        }
+        go_on(&port)?;
+        let chart::generate::Generated { mut decided, once } = chart::generate::generate(&chart, system, &file, &form);
+        let runtime =
+            |(name, text): &(&str, &str)| (format!("generated/include/groundstate/{name}"), (*text).to_string());
+        decided.extend(headers.iter().map(runtime));
+        told(&port, Folder { decided, once, renamed: Vec::new() })
+    })
+}
+
+fn machine_limits(cancel: Cancel) -> Limits {
+    Limits { interrupt: Some(cancel.interrupt()), ..Limits::default() }
+}
+
+fn go_on(port: &Port<GenerateEvent>) -> Result<(), NotGenerated> {
+    if port.is_cancelled() { Err(NotGenerated::Cancelled) } else { Ok(()) }
+}
+
+fn told(port: &Port<GenerateEvent>, folder: Folder) -> Result<Folder, NotGenerated> {
+    for (path, _) in folder.decided.iter().chain(&folder.once) {
+        go_on(port)?;
+        port.add(GenerateEvent(path.clone()), false);
+    }
+    Ok(folder)
+}
+
+/// Which generated lines stand for which places of the model, which place each number in a fault is, and which names are
+/// others in C++.
+fn source_map(generated: &Generated, sources: &Sources) -> Value {
+    let place = |span: Span| {
+        let file = sources.file(span.file);
+        let (start, end) = (file.line_column(span.start), file.line_column(span.end));
+        json!({
+            "file": file.name,
+            "line": start.line, "column": start.column,
+            "end_line": end.line, "end_column": end.column,
+        })
+    };
+    let lines: Vec<Value> = generated
+        .files
+        .iter()
+        .flat_map(|file| {
+            file.mappings.iter().map(|mapping| {
+                json!({ "generated": { "file": file.name, "line": mapping.line }, "model": place(mapping.span) })
+            })
+        })
+        .collect();
+    let sites = generated.sites.iter().enumerate();
+    let sites: Vec<Value> = sites.map(|(index, span)| json!({ "site": index + 1, "model": place(*span) })).collect();
+    let names = generated.renamed.iter().map(|(model, cpp)| json!({ "model": model, "generated": cpp }));
+    json!({ "lines": lines, "sites": sites, "names": names.collect::<Vec<_>>() })
+}

@@ -1,0 +1,13 @@
+//! What happened, as text for people.
+//!
+//! In: records of runs and what else the operations hand over. Out: lines, which a shell writes where it will. It must not know terminals;
+//! colours are asked for.
+
+mod run;
+
+pub use run::{Detail, Narrator};
+
+/// A count with its noun.
+pub fn plural(count: usize, word: &str) -> String {
+    if count == 1 { format!("1 {word}") } else { format!("{count} {word}s") }
+}

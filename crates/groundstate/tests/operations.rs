@@ -1,0 +1,165 @@
+//! Operations as jobs: what a review, a report, generated C++ and a comparison come to, and that they end when they are cancelled.
+
+use std::sync::Arc;
+
+use groundstate::conform::Recording;
+use groundstate::job::{
+    self, Cancel, ConformRequest, Events, Folder, GenerateJob, NoTail, NotConformed, NotGenerated, Piece,
+    ReviewRequest, RunEvent, RunRequest, Tail,
+};
+use groundstate::reporting::{Prepared, prepare_report};
+use groundstate::verify::review::{Meta, Outcome};
+use groundstate::verify::{NoStart, Options, Stop};
+use groundstate::workspace::{Absent, Files};
+use groundstate::{Loaded, load};
+use machine::Limits;
+use syntax::SourceFile;
+
+const TOGGLE: &str = "asm Toggle\nimport StandardLibrary\nsignature:\n\tcontrolled on: Boolean\n\tcontrolled idle: Boolean\n\
+                      definitions:\n\tmain rule r_Main = on := not on\ndefault init s0:\n\tfunction on = false\n\
+                      \tfunction idle = true\n";
+
+struct NoFiles;
+
+impl model::Loader for NoFiles {
+    fn load(&mut self, _: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        Err(format!("there is no {path}"))
+    }
+}
+
+impl Files for NoFiles {
+    fn read(&mut self, _: &str) -> Result<SourceFile, Absent> {
+        Err(Absent::Missing)
+    }
+}
+
+fn toggle() -> Loaded {
+    let loaded = load(SourceFile::new("Toggle.asm", TOGGLE), &mut NoFiles);
+    loaded.unwrap_or_else(|faulty| panic!("{:?}", faulty.diagnostics))
+}
+
+fn cancelled() -> Cancel {
+    let cancel = Cancel::new();
+    cancel.cancel();
+    cancel
+}
+
+#[test]
+fn a_review() {
+    let request = |loaded: &Loaded| ReviewRequest {
+        model: Arc::clone(&loaded.model),
+        program: Arc::clone(&loaded.program),
+        options: Options::default(),
+        metas: Meta::ALL.to_vec(),
+        files: [loaded.model.root].into(),
+    };
+    let loaded = toggle();
+    let job = job::review(request(&loaded), Cancel::new()).expect("a thread");
+    let review = job.finish().expect("no panic").expect("there is an initial state");
+    let violated = review.outcomes.iter().filter(|(_, outcome)| *outcome == Outcome::Violated).count();
+    // Nothing reads or updates `idle`, and it is never false.
+    assert_eq!((violated, review.findings.len()), (2, 3), "{:?}", review.findings);
+    let job = job::review(request(&loaded), cancelled()).expect("a thread");
+    assert_eq!(job.finish().expect("no panic").err(), Some(NoStart::Stopped(Stop::Asked)));
+}
+
+#[test]
+fn a_report() {
+    let loaded = toggle();
+    let mut asked = loaded.overlay();
+    let wanted = SourceFile::new("Toggle.report.yaml", "series: { Light: { value: if on then 1 else 0 endif } }\n");
+    let prepared = prepare_report(&mut asked, wanted, "Toggle.report.yaml", &mut NoFiles).expect("no chart");
+    let Prepared { reporter: Some(reporter), .. } = prepared else { panic!("{:?}", prepared.faults) };
+    let request = RunRequest {
+        program: Arc::clone(&asked.program),
+        limits: Limits::default(),
+        options: groundstate::simulate::Options { steps: Some(5_000), keep: false, ..Default::default() },
+        inputs: Box::new(|inputs| inputs),
+        asks_inputs: false,
+        asks_choices: false,
+        paused: false,
+        states: false,
+        due: job::at_once(),
+    };
+    let (job, _remote) = job::report(request, reporter, asked.sources, Cancel::new()).expect("a thread");
+    let (mut told, mut last) = (0, 0);
+    while let Some(event) = job.next_event() {
+        match event {
+            RunEvent::Record { steps, .. } => (told, last) = (told + 1, steps),
+            RunEvent::Progress(steps) => assert!((last..=5_000).contains(&steps)),
+            other => panic!("{other:?}"),
+        }
+    }
+    // The initial state and the end: nothing is wrong in between.
+    assert_eq!((told, last), (2, 5_000));
+    let report = job.finish().expect("no panic").finish();
+    assert_eq!((report.ticks, report.stopped), (5_000, None));
+}
+
+fn folder(job: GenerateJob) -> Result<Folder, NotGenerated> {
+    job.finish().expect("no panic")
+}
+
+#[test]
+fn the_class_of_a_model() {
+    let generate = |cancel| {
+        let loaded = toggle();
+        let options = groundstate::generate::Options::default();
+        let headers = &[("machine.hpp", "// the runtime\n")];
+        folder(job::generate_model(loaded.program, loaded.sources, options, headers, cancel).expect("a thread"))
+    };
+    let folder = generate(Cancel::new()).expect("it can be generated");
+    let paths: Vec<&str> = folder.decided.iter().map(|(path, _)| path.as_str()).collect();
+    let expected = [
+        "toggle.hpp",
+        "toggle.cpp",
+        "replay.cpp",
+        "CMakeLists.txt",
+        "runtime/include/groundstate/machine/machine.hpp",
+        "source-map.json",
+    ];
+    assert_eq!((paths, folder.once.len()), (expected.to_vec(), 0));
+    assert!(folder.decided[5].1.contains("\"file\": \"Toggle.asm\""));
+    assert_eq!(generate(cancelled()), Err(NotGenerated::Cancelled));
+}
+
+#[test]
+fn the_program_of_a_system() {
+    let generate = |text: &str| {
+        let source = SourceFile::new("Blink.chart", text);
+        let chart = groundstate::chart::load(source, &mut testkit::Patterns).chart;
+        let job = job::generate_system(chart, "Blink.chart".to_string(), Default::default(), &[], Cancel::new());
+        folder(job.expect("a thread"))
+    };
+    let text = "chart Blink\nimport patterns/ControlTask\nsystem blink\n\tcomponent lamp synchronous period 10 ms\n\
+                \t\telaborate toggle 1 ms\n\tendcomponent\nendsystem\n";
+    let folder = generate(text).expect("it can be generated");
+    assert!(folder.once.iter().any(|(path, _)| path == "main.cpp") && !folder.decided.is_empty());
+    assert_eq!(generate("chart Blink\n"), Err(NotGenerated::NoSystem));
+}
+
+/// Bytes that come one after the other; then nothing.
+struct Bytes(Vec<u8>);
+
+impl Tail for Bytes {
+    type Trouble = String;
+
+    fn next(&mut self) -> Result<Piece, String> {
+        Ok(Piece { bytes: std::mem::take(&mut self.0), is_all: true })
+    }
+}
+
+#[test]
+fn a_comparison() {
+    let coming = |bytes: &[u8], cancel| {
+        let events = Events::Coming(Bytes(bytes.to_vec()));
+        let request = ConformRequest { loaded: toggle(), events, limits: Limits::default(), by_order: false };
+        job::conform(request, cancel).expect("a thread").finish().expect("no panic")
+    };
+    assert!(matches!(coming(b"no recording", Cancel::new()), Err(NotConformed::Malformed(_))));
+    assert!(matches!(coming(b"", cancelled()), Err(NotConformed::NoEvents)));
+    let events = Events::<NoTail>::Whole(Recording::default());
+    let request = ConformRequest { loaded: toggle(), events, limits: Limits::default(), by_order: false };
+    let whole = job::conform(request, Cancel::new()).expect("a thread").finish().expect("no panic");
+    assert!(matches!(whole, Err(NotConformed::Refused(_))));
+}
