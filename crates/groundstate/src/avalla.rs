@@ -5,7 +5,7 @@
 
 use std::fmt::Write;
 
-use machine::explore::ChoiceTaken;
+use explore::ChoiceTaken;
 use machine::{Location, Show, Value};
 use program::{Program, Rule, RuleId};
 

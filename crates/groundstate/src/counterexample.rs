@@ -16,7 +16,7 @@ use crate::avalla::{pick, set};
 
 /// The run of a counterexample. The header says how many steps it makes and what is done about invariants.
 pub fn counterexample_run(program: &Arc<Program>, limits: Limits, trace: &Trace, header: &Header) -> Run {
-    let decided = |told: &machine::explore::Told| Decided {
+    let decided = |told: &explore::Told| Decided {
         inputs: told.inputs.clone(),
         choices: told.choices.iter().map(|choice| choice.values.clone()).collect(),
     };

@@ -2,8 +2,8 @@
 //!
 //! In: `NAME=LOW..HIGH` or `NAME=VALUE,VALUE`, and the program. Out: the values of each function of that name.
 
+use machine::Bounds;
 use machine::Value;
-use machine::explore::Bounds;
 use program::{FunctionId, FunctionKind, Program};
 use simulate::read_value;
 

@@ -161,7 +161,7 @@ impl<'a> Executor<'a> {
     /// none. An alternative that is dead has met none.
     #[cold]
     fn note_order(&mut self, range: TermId) {
-        if !self.environment.branches().is_some_and(|branches| branches.dead) {
+        if !self.environment.alternatives().is_some_and(|alternatives| alternatives.is_dead()) {
             self.core.order_mattered.get_or_insert(self.program.term_span(range));
         }
     }
@@ -263,7 +263,7 @@ fn product(columns: &[Arc<Items>]) -> Vec<Value> {
 }
 
 /// Each row with each value of one more column, the last column fastest.
-pub(crate) fn extended<T: Clone>(rows: Vec<Vec<T>>, column: &[T]) -> Vec<Vec<T>> {
+pub fn extended<T: Clone>(rows: Vec<Vec<T>>, column: &[T]) -> Vec<Vec<T>> {
     let longer = |row: Vec<T>| {
         column.iter().map(move |value| {
             let mut longer = row.clone();

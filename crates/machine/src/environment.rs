@@ -3,7 +3,7 @@
 use program::{DomainId, Program};
 use syntax::Span;
 
-use crate::explore::Branches;
+use crate::alternatives::Alternatives;
 use crate::location::LocationRef;
 use crate::value::{Real, Value};
 
@@ -118,7 +118,7 @@ pub trait Environment {
     fn time(&mut self, unit: TimeUnit) -> Result<i64, String>;
 
     /// Where every alternative is wanted, not one: who goes through them.
-    fn branches(&mut self) -> Option<&mut Branches> {
+    fn alternatives(&mut self) -> Option<&mut dyn Alternatives> {
         None
     }
 }

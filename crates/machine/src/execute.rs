@@ -71,9 +71,9 @@ pub(crate) struct Core {
     pub journal: Option<Box<Journal>>,
     /// The choices of this step.
     pub choices: Choices,
-    /// Every alternative is wanted, and what is looked at is noted: see [`crate::explore`].
+    /// Every alternative is wanted, and what is looked at is noted: see [`crate::alternatives`].
     pub exploring: bool,
-    /// By term: see [`crate::explore::Settings::unordered`].
+    /// By term, where any is: a range whose elements are to be interchangeable, all of which quantifiers look at.
     pub unordered: std::sync::Arc<[bool]>,
     /// Where a fault may depend on the order of elements.
     pub order_mattered: Option<Span>,
@@ -294,7 +294,7 @@ impl Executor<'_> {
         }
         let codomain = self.program.function(function).codomain;
         // Also while an initial value that comes up late is evaluated, which explores nothing by itself.
-        let given = if self.environment.branches().is_some() {
+        let given = if self.environment.alternatives().is_some() {
             self.ask_among(location)
         } else {
             self.environment.monitored(self.program, location, codomain)

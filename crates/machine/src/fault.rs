@@ -33,6 +33,28 @@ pub struct Fault {
     pub calls: Vec<Span>,
 }
 
+/// What kind of fault a step met, as far as it is told apart by who goes through many.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum FaultClass {
+    /// An inconsistent update.
+    Inconsistent,
+    /// A value outside its domain.
+    OutOfDomain,
+    /// Anything else that has no meaning: an undefined guard, a division by zero.
+    Undefined,
+}
+
+impl FaultClass {
+    /// The class of a fault.
+    pub fn of(fault: &Fault) -> FaultClass {
+        match fault.kind {
+            FaultKind::InconsistentUpdate { .. } => FaultClass::Inconsistent,
+            FaultKind::OutOfDomain { .. } => FaultClass::OutOfDomain,
+            _ => FaultClass::Undefined,
+        }
+    }
+}
+
 /// What happened.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum FaultKind {

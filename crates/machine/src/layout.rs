@@ -10,7 +10,7 @@ use program::{DomainId, DomainKind, Function, FunctionKind, Program};
 use crate::value::Value;
 
 /// The number of a location in the store.
-pub(crate) type LocationIndex = u32;
+pub type LocationIndex = u32;
 
 /// LIMIT: a function with more locations than this is sparse.
 const DENSE_LIMIT: u64 = 1 << 18;

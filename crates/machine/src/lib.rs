@@ -5,14 +5,16 @@
 //! are those of E. Börger, R. Stärk, *Abstract State Machines*, Springer 2003: locations, updates and update sets
 //! (2.4), rules (2.4.4), turbo rules (4.1). It must not know files, clocks, random sources or printing.
 
+mod alternatives;
+mod branching;
 mod builtin;
 mod coverage;
 mod enumerate;
 mod environment;
 mod evaluate;
 mod execute;
-pub mod explore;
 mod fault;
+pub mod inside;
 mod interrupt;
 mod journal;
 mod layout;
@@ -30,12 +32,14 @@ mod step;
 mod store;
 mod update;
 mod value;
+mod watch;
 mod weighed;
 mod work;
 
+pub use alternatives::{Alternatives, Bounds};
 pub use coverage::Coverage;
 pub use environment::{Choice, Closed, Draw, Environment, TimeUnit};
-pub use fault::{ClashSide, Fault, FaultKind};
+pub use fault::{ClashSide, Fault, FaultClass, FaultKind};
 pub use interrupt::{Cause, Interrupt};
 pub use journal::Mark;
 pub use limits::Limits;

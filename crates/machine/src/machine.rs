@@ -118,7 +118,7 @@ impl Machine {
     }
 
     /// From now on what these limits name is looked at within steps.
-    pub(crate) fn mind_interrupts(&mut self, limits: &Limits) {
+    pub fn mind_interrupts(&mut self, limits: &Limits) {
         self.limits.interrupt = limits.interrupt;
     }
 
@@ -155,7 +155,10 @@ impl Machine {
     }
 
     /// The same from a copy of the state before any start, for who starts again and again while exploring.
-    pub(crate) fn start_from(&mut self, blank: &Snapshot, environment: &mut dyn Environment) -> Result<(), Fault> {
+    ///
+    /// # Errors
+    /// An initial value that cannot be evaluated.
+    pub fn start_from(&mut self, blank: &Snapshot, environment: &mut dyn Environment) -> Result<(), Fault> {
         self.restore(blank);
         // What is given now is of the initial state, in which values that come up later are evaluated.
         self.core.epoch = AT_START;

@@ -180,7 +180,7 @@ impl<'a> Executor<'a> {
         let fault = self.inconsistent::<()>(clash);
         let outermost = self.core.updates.is_outermost();
         match (&mut self.core.observations, fault) {
-            (Some(observations), Err(fault)) if observations.on && outermost => {
+            (Some(observations), Err(fault)) if observations.is_on() && outermost => {
                 observations.clash.get_or_insert(fault);
                 Ok(())
             }

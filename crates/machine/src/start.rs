@@ -195,9 +195,9 @@ impl<'a> Executor<'a> {
     fn in_initial_state<T>(&mut self, body: impl FnOnce(&mut Self) -> Outcome<T>) -> Outcome<T> {
         let Some(mut origin) = self.core.origin.take() else { return body(self) };
         if self.core.exploring
-            && let Some(branches) = self.environment.branches()
+            && let Some(alternatives) = self.environment.alternatives()
         {
-            branches.look_at_origin();
+            alternatives.look_at_origin();
         }
         let asked = self.core.inputs.len();
         let lent = self.lend_inputs(&mut origin);

@@ -4,6 +4,7 @@
 //! INVARIANT: between steps a location's entry is the state's value; within a `seq` it is that of the
 //! intermediate state, and the log in [`crate::update`] can take it back.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use hashbrown::HashMap;
@@ -27,15 +28,15 @@ pub(crate) struct Carrier {
     pub intermediate: Vec<Value>,
 }
 
-/// Values by location number, and what belongs to them.
+/// The values of a state by the numbers of its locations, and what belongs to them.
 #[derive(Debug, Clone)]
-pub(crate) struct Store {
+pub struct Store {
     /// The value of each location.
-    pub values: Vec<Value>,
+    pub(crate) values: Vec<Value>,
     /// For an input: the epoch in which the environment gave it.
-    pub given: Vec<u32>,
+    pub(crate) given: Vec<u32>,
     /// By function.
-    pub layouts: Vec<Layout>,
+    pub(crate) layouts: Vec<Layout>,
     /// The functions that have dense locations, each with the first of them, in the order of those.
     owners: Arc<[(LocationIndex, FunctionId)]>,
     dense: u32,
@@ -43,12 +44,12 @@ pub(crate) struct Store {
     /// The locations of the sparse numbers, from `dense` on.
     sparse_locations: Vec<Location>,
     /// By domain; only dynamic ones' are used.
-    pub carriers: Vec<Carrier>,
+    pub(crate) carriers: Vec<Carrier>,
 }
 
 impl Store {
     /// A store whose locations are all undef; `most` is the limit of their number.
-    pub fn new(program: &Program, contents: &dyn Fn(DomainId) -> Option<Vec<Value>>, most: u64) -> Store {
+    pub(crate) fn new(program: &Program, contents: &dyn Fn(DomainId) -> Option<Vec<Value>>, most: u64) -> Store {
         let (layouts, dense) = lay_out(program, contents, most);
         let owners = layouts.iter().zip(0..).filter_map(|(layout, function)| {
             let first = match layout {
@@ -116,6 +117,62 @@ impl Store {
         self.values.len()
     }
 
+    /// Whether none has.
+    pub fn is_empty(&self) -> bool {
+        self.values.is_empty()
+    }
+
+    /// How many of them, the first, have the same number in all states.
+    pub fn dense_len(&self) -> usize {
+        self.dense as usize
+    }
+
+    /// The numbers of a function's dense locations, if it has such.
+    pub fn dense(&self, function: FunctionId) -> Option<Range<LocationIndex>> {
+        match &self.layouts[function.0 as usize] {
+            Layout::Single(location) => Some(*location..*location + 1),
+            Layout::Dense { base, len, .. } => Some(*base..*base + *len),
+            Layout::None | Layout::Sparse => None,
+        }
+    }
+
+    /// The value of a location.
+    #[inline]
+    pub fn value(&self, index: LocationIndex) -> &Value {
+        &self.values[index as usize]
+    }
+
+    /// The values of all locations, in the order of their numbers.
+    pub fn values(&self) -> &[Value] {
+        &self.values
+    }
+
+    /// Whether a location was given its value by the environment or as its initial value, undef perhaps.
+    #[inline]
+    pub fn is_given(&self, index: LocationIndex) -> bool {
+        self.given[index as usize] != 0
+    }
+
+    /// Puts a value in the place of another; who gave that does not change.
+    #[inline]
+    pub fn overwrite(&mut self, index: LocationIndex, value: Value) {
+        self.values[index as usize] = value;
+    }
+
+    /// Puts a value where no initial value is to be evaluated any more, even if it is undef.
+    #[inline]
+    pub fn put(&mut self, index: LocationIndex, value: Value) {
+        self.values[index as usize] = value;
+        self.given[index as usize] = 1;
+    }
+
+    /// Makes a location undef that an initial value is evaluated of when it is read, if it has one.
+    #[inline]
+    pub fn clear(&mut self, index: LocationIndex) {
+        self.values[index as usize] = Value::Undef;
+        self.given[index as usize] = 0;
+    }
+
     /// Whether another store of the same program has the same values, given by whom they may be.
     pub fn is_like(&self, other: &Store) -> bool {
         self.values == other.values
@@ -125,7 +182,7 @@ impl Store {
     }
 
     /// How many locations have a number beyond the dense ones.
-    pub fn sparse_len(&self) -> usize {
+    pub(crate) fn sparse_len(&self) -> usize {
         self.sparse_locations.len()
     }
 
@@ -159,7 +216,7 @@ impl Store {
     }
 
     /// The numbers of a function's locations.
-    pub fn indices_of(&self, function: FunctionId) -> Vec<LocationIndex> {
+    pub(crate) fn indices_of(&self, function: FunctionId) -> Vec<LocationIndex> {
         let mut indices: Vec<LocationIndex> = match &self.layouts[function.0 as usize] {
             Layout::Single(index) => vec![*index],
             Layout::Dense { base, len, .. } => (*base..base + len).collect(),
@@ -172,7 +229,7 @@ impl Store {
 
     /// Takes the numbers back from sparse locations that are undef, unless undef was given to one that `keeps` what
     /// it is given. No number handed out before is valid after.
-    pub fn compact(&mut self, keeps: &dyn Fn(&Location) -> bool) {
+    pub(crate) fn compact(&mut self, keeps: &dyn Fn(&Location) -> bool) {
         let kept: Vec<(Location, Value, u32)> = std::mem::take(&mut self.sparse_locations)
             .into_iter()
             .enumerate()

@@ -8,8 +8,8 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use machine::explore::{ChoiceTaken, FaultClass, Settings, Told};
-use machine::{Choice, EngineChoice, Environment, Location, LocationRef, Machine, TimeUnit, Value};
+use explore::{ChoiceTaken, Settings, Told};
+use machine::{Choice, EngineChoice, Environment, FaultClass, Location, LocationRef, Machine, TimeUnit, Value};
 use program::{DomainId, Program};
 
 use crate::search::Target;

@@ -6,8 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use machine::Value;
-use machine::explore::Bounds;
+use machine::{Bounds, Value};
 use model::Basic;
 use program::{
     Builtin, DomainKind, FunctionId, FunctionKind, Literal, Program, PropertyKind, Quantifier, Slot, Term, TermId,

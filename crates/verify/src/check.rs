@@ -7,8 +7,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use machine::explore::{Bounds, Settings, Trouble, Unbounded};
-use machine::{Fault, Interrupt, Limits};
+use explore::{Settings, Trouble, Unbounded};
+use machine::{Bounds, Fault, Interrupt, Limits};
 use program::{Expression, FunctionId, Program, PropertyKind};
 use smt::Outside;
 use smt::session::Solvers;

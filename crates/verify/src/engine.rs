@@ -9,8 +9,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
+use explore::{Trouble, Unbounded, Widening};
 use machine::Cause;
-use machine::explore::{Trouble, Unbounded, Widening};
 use model::Basic;
 use program::{DomainId, DomainKind, FunctionKind, Program, Rule};
 use smt::session::Solvers;

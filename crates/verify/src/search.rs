@@ -9,7 +9,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use machine::explore::{Explorer, Interner, Orbits, Settings, Starts, Trouble, Unbounded, Widening};
+use explore::{Explorer, Interner, Orbits, Settings, Starts, Trouble, Unbounded, Widening};
 use machine::{Cause, Interrupt};
 use program::Program;
 use syntax::Span;

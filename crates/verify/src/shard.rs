@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::{Arc, Barrier, Mutex, PoisonError};
 
-use machine::explore::{Expansion, Explorer, Orbits, Trouble, Truth, Unbounded, Widening};
+use explore::{Expansion, Explorer, Orbits, Trouble, Truth, Unbounded, Widening};
 use syntax::Span;
 
 use crate::checkpoint::Journal;

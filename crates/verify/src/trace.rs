@@ -7,8 +7,8 @@
 
 use std::ops::ControlFlow;
 
-use machine::explore::{Explorer, FaultClass, Orbits, Outcome, Path, Told};
-use machine::{Location, Value};
+use explore::{Explorer, Orbits, Outcome, Path, Told};
+use machine::{FaultClass, Location, Value};
 
 use crate::heed::Heed;
 use crate::search::{Found, Search, Stop, Target};

@@ -9,8 +9,8 @@
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
 
-use machine::Show;
-use machine::explore::{Bounds, Explorer, Interner, Settings, Trouble, Widening};
+use explore::{Explorer, Interner, Settings, Trouble, Widening};
+use machine::{Bounds, Show};
 use machine::{
     Choice, Draw, Environment, Fault, FaultKind, Limits, Location, LocationRef, Machine, Snapshot, TimeUnit, Value,
 };

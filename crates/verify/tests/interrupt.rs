@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use machine::explore::{Explorer, Interner, Settings, Trouble, Widening};
+use explore::{Explorer, Interner, Settings, Trouble, Widening};
 use machine::{Cause, Interrupt};
 use program::Program;
 use syntax::SourceFile;

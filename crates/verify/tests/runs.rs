@@ -112,7 +112,7 @@ fn replay(program: &Arc<Program>, trace: &Trace) -> Vec<Vec<(machine::Location, 
             Err("no clock".to_string())
         }
     }
-    let told = |told: &machine::explore::Told| -> Given {
+    let told = |told: &explore::Told| -> Given {
         (told.inputs.clone(), told.choices.iter().map(|choice| choice.values.clone()).collect())
     };
     let mut picks = Picks(std::iter::once(&trace.start).chain(&trace.steps).map(told).collect(), 0, 0);
@@ -195,7 +195,7 @@ fn assumptions_on_inputs_are_kept() {
     );
     let condition = |property: &program::Property| (property.formula.clone(), true);
     let assumed = program.properties.iter().filter(|p| p.kind == program::PropertyKind::Invar).map(condition);
-    let settings = machine::explore::Settings { step_conditions: assumed.collect(), ..Default::default() };
+    let settings = explore::Settings { step_conditions: assumed.collect(), ..Default::default() };
     assert_eq!(words(&program, &Question { settings, ..unlimited() }), ["ltlSpec_on holds", "ltlSpec_both holds"]);
 }
 

@@ -4,8 +4,7 @@
 
 use std::sync::Arc;
 
-use machine::explore::Bounds;
-use machine::{Limits, Value};
+use machine::{Bounds, Limits, Value};
 use model::Basic;
 use program::{DomainKind, FunctionId, FunctionKind, Program};
 use syntax::{Severity, SourceFile};

@@ -12,6 +12,7 @@ const LAYERS: &[&[&str]] = &[
     &["model"],
     &["program"],
     &["machine", "smt"],
+    &["explore"],
     &["recording", "testkit"],
     &["simulate", "scenario", "verify", "refine", "chart", "conform", "ide"],
     &["draw", "generate"],

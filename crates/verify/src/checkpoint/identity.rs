@@ -5,7 +5,7 @@
 
 use std::fmt::{Debug, Write};
 
-use machine::explore::Explorer;
+use explore::Explorer;
 use program::Program;
 
 use crate::search::Plan;

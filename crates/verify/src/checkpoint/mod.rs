@@ -11,7 +11,7 @@ mod words;
 
 use std::sync::Arc;
 
-use machine::explore::{Explorer, Interner, Trouble, Unbounded, UnboundedKind, Widening};
+use explore::{Explorer, Interner, Trouble, Unbounded, UnboundedKind, Widening};
 use model::FunctionId;
 use program::Program;
 use syntax::{FileId, Span};

@@ -8,7 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use machine::explore::Settings;
+use explore::Settings;
 use machine::{Closed, Location, Machine, Value};
 use program::{
     Binder, DomainKind, Effect, Expression, FunctionId, ProcedureId, Program, Rule, RuleId, Slot, Term, TermId,

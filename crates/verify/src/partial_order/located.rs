@@ -3,7 +3,7 @@
 //! In: an explorer. Out: by field, the location whose value changes with it. Found out by trying: a field is given another code,
 //! and the values of the state are looked at. LIMIT: fields that hold numbers of values are not located.
 
-use machine::explore::{Bits, Explorer};
+use explore::{Bits, Explorer};
 use machine::{Location, Value};
 
 /// Fields of more bits hold numbers of values.

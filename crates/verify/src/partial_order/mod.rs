@@ -16,7 +16,7 @@ mod located;
 
 use std::sync::Arc;
 
-use machine::explore::{AlternativeKind, Bits, Expansion, Explorer, Overwrite, SetTrouble, StateSets, Widening};
+use explore::{AlternativeKind, Bits, Expansion, Explorer, Overwrite, SetTrouble, StateSets, Widening};
 use program::Program;
 
 use crate::partial_order::footprint::{Footprint, footprints};

@@ -5,14 +5,14 @@
 //! every state, and some run is fair.
 
 mod close;
-mod explore;
 mod scheduler;
+mod states;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use machine::explore::{Outcome as Came, Settings, Told, Trouble};
+use explore::{Outcome as Came, Settings, Told, Trouble};
 use machine::{Location, Value};
 use program::Program;
 use syntax::Span;
@@ -28,7 +28,7 @@ use crate::temporal::read::{Formula, Properties, read_each};
 use crate::temporal::run::Run;
 use crate::temporal::{Verdict, decide_ctl, decide_ltl};
 use crate::trace::Trace;
-use explore::{Explored, Place, Source, explore, has_letter};
+use states::{Explored, Place, Source, explore, has_letter};
 
 pub use scheduler::scheduler;
 

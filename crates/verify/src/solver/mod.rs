@@ -17,7 +17,7 @@ mod unrolling;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use machine::explore::Trouble;
+use explore::Trouble;
 use program::Program;
 pub use smt::Outside;
 use smt::session::{Silence, Solvers};

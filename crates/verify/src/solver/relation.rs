@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use machine::explore::{Explorer, Interner, Settings, Told, Trouble};
+use explore::{Explorer, Interner, Settings, Told, Trouble};
 use machine::{Location, Machine, Value};
 use program::{FunctionId, Program};
 use rustc_hash::FxHashMap;

@@ -6,8 +6,8 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
-use machine::explore::{ChoiceTaken, FaultClass, Told};
-use machine::{Choice, Draw, EngineChoice, Environment, Location, LocationRef, Machine, TimeUnit, Value};
+use explore::{ChoiceTaken, Told};
+use machine::{Choice, Draw, EngineChoice, Environment, FaultClass, Location, LocationRef, Machine, TimeUnit, Value};
 use program::{DomainId, Program};
 use rustc_hash::FxHashMap;
 use smt::session::Constant;

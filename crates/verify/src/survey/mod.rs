@@ -10,7 +10,7 @@ mod walk;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use machine::explore::{Explorer, Interner, Met, Told, Trouble, Truth, Unbounded, Widening};
+use explore::{Explorer, Interner, Met, Told, Trouble, Truth, Unbounded, Widening};
 use machine::{Cause, Location, Observation, Value};
 use program::{DomainId, Program};
 

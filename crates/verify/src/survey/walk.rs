@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use machine::explore::{Explorer, Interner, Outcome, Trouble, Truth, Widening};
+use explore::{Explorer, Interner, Outcome, Trouble, Truth, Widening};
 use machine::{Interrupt, Observation};
 use program::Program;
 

@@ -6,7 +6,7 @@
 
 use std::hash::BuildHasherDefault;
 
-use machine::explore::{Bits, Overwrite, StateSets};
+use explore::{Bits, Overwrite, StateSets};
 use oxidd::bcdd::{BCDDFunction, BCDDManagerRef};
 use oxidd::util::{OutOfMemory, SatCountCache};
 use oxidd::{BooleanFunction, BooleanFunctionQuant, Manager, ManagerRef};

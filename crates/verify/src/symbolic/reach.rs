@@ -1,7 +1,7 @@
 //! Reachability by sets: all states that can be reached, as one binary decision diagram.
 //!
 //! In: a program and what is asked of its states, as for [`crate::search`]. Out: a [`Reach`] with what was found. The steps
-//! of a set are the machine's own, learned as far as they are reached ([`machine::explore::StateSets`]). The closure takes
+//! of a set are the machine's own, learned as far as they are reached ([`explore::StateSets`]). The closure takes
 //! one part of the step after the other (chaining: O. Roig, J. Cortadella, E. Pastor, *Verification of asynchronous circuits
 //! by BDD-based model checking of Petri nets*, 1995), which needs fewer rounds than level by level; only where something is
 //! found are the levels gone through, for a shortest run to it.
@@ -9,7 +9,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use machine::explore::{
+use explore::{
     Alternative, AlternativeKind, Explorer, Interner, SetTrouble, StateSets, Trouble, Truth, Unbounded, Widening,
 };
 use program::Program;

@@ -11,7 +11,7 @@ mod telling;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use machine::explore::{Explorer, Orbits};
+use explore::{Explorer, Orbits};
 use machine::{Closed, Machine, Value};
 use program::{DomainId, DomainKind, FunctionId, Program};
 use syntax::Span;

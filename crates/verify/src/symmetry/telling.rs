@@ -7,8 +7,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use explore::Settings;
 use machine::Value;
-use machine::explore::Settings;
 use program::{
     CollectionKind, DomainId, DomainKind, FunctionId, Literal, ProcedureId, Program, Rule, RuleId, ShowsOrder, Term,
     TermId,

@@ -4,13 +4,13 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 
+use explore::{ChoiceTaken, Told, Unbounded};
 use groundstate::Said;
 use groundstate::verify::runs::Why;
 use groundstate::verify::solver::{Left, Proof};
 use groundstate::verify::{
     Engine, Outcome, Progress, Reason, Report, Stop, Storage, Subject, Trace, Unreduced, Verdict,
 };
-use machine::explore::{ChoiceTaken, Told, Unbounded};
 use machine::{Location, Show, Value};
 use program::Program;
 use serde::Serialize;

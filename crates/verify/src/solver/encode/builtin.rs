@@ -2,8 +2,7 @@
 //!
 //! SYNC(operations): the faults are the machine's; what is not here is outside of what solvers are told.
 
-use machine::Value;
-use machine::explore::FaultClass;
+use machine::{FaultClass, Value};
 use program::{Builtin, TermId};
 use smt::shared::Terms;
 

@@ -5,8 +5,7 @@
 
 use std::sync::Arc;
 
-use machine::explore::FaultClass;
-use machine::{Location, Value};
+use machine::{FaultClass, Location, Value};
 use model::Basic;
 use program::{DomainId, DomainKind, FunctionId, FunctionKind, TermId, TermList};
 use smt::shared::{Bounds, Kind, Node, Terms};

@@ -19,8 +19,7 @@ mod term;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use machine::explore::{Bounds, FaultClass};
-use machine::{Fault, FaultKind, Machine, Value};
+use machine::{Bounds, Fault, FaultClass, FaultKind, Machine, Value};
 use program::{Expression, FunctionId, Program, Slot, TermId};
 use rustc_hash::FxHashMap;
 use smt::Outside;

@@ -4,8 +4,7 @@
 //! computes with exact ones, one that is to prove something lets every result be anything within the error of rounding.
 //! LIMIT: reals beyond the doubles' range.
 
-use machine::Value;
-use machine::explore::FaultClass;
+use machine::{FaultClass, Value};
 use program::Builtin;
 use smt::shared::{Kind, Node, Terms};
 use syntax::Span;

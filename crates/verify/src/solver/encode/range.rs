@@ -2,8 +2,7 @@
 //!
 //! LIMIT: so many bindings of one rule or term.
 
-use machine::Value;
-use machine::explore::FaultClass;
+use machine::{FaultClass, Value};
 use program::{Binder, Term, TermId};
 use smt::shared::{Node, Terms};
 use std::sync::Arc;

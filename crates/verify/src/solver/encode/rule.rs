@@ -4,8 +4,7 @@
 
 use std::sync::Arc;
 
-use machine::Value;
-use machine::explore::FaultClass;
+use machine::{FaultClass, Value};
 use model::Basic;
 use program::{Binder, DomainKind, FunctionId, FunctionKind, ProcedureId, Rule, RuleId, Term, TermId, TermList};
 use smt::shared::{Node, Terms};

@@ -2,8 +2,7 @@
 //!
 //! SYNC(evaluate): what is evaluated before what, and which faults are met on the way.
 
-use machine::explore::FaultClass;
-use machine::{Closed, Value};
+use machine::{Closed, FaultClass, Value};
 use program::{
     Builtin, CollectionKind, DomainKind, Expression, FunctionId, FunctionKind, Quantifier, Slot, Term, TermId, TermList,
 };

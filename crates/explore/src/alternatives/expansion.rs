@@ -3,9 +3,9 @@
 //! In: what became of each alternative. Out: how many came to what, and the states that they lead to. INVARIANT: alternatives are
 //! counted one by one, whether they lead to one state or to many.
 
-use crate::explore::explorer::Kind;
-use crate::explore::sets::Overwrite;
-use crate::explore::successors::Successors;
+use crate::alternatives::kind::AlternativeKind;
+use crate::alternatives::successors::Successors;
+use crate::packed::words::{Overwrite, apply};
 
 /// What the alternatives of a state came to, all together.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -14,7 +14,7 @@ pub struct Expansion {
     pub moved: u32,
     /// Alternatives that leave it as it is.
     pub stayed: u32,
-    /// Alternatives that are faults, by [`crate::explore::FaultClass`].
+    /// Alternatives that are faults, by [`machine::FaultClass`].
     pub faults: [u32; 3],
     /// Alternatives that cannot be gone through.
     pub unbounded: u32,
@@ -40,7 +40,7 @@ impl Expansion {
 
     /// Counts an alternative of which these conditions do not hold.
     #[cold]
-    pub(super) fn fail(&mut self, conditions: &[u32]) {
+    pub(crate) fn fail(&mut self, conditions: &[u32]) {
         self.failed += 1;
         self.failing |=
             conditions.iter().fold(0, |bits, condition| bits | 1 << (*condition as usize).min(Expansion::TOLD));
@@ -48,9 +48,15 @@ impl Expansion {
 
     /// Counts an alternative, and lists what it leads to.
     #[inline]
-    pub(super) fn count(&mut self, kind: Kind, state: &[u64], overwrites: &[Overwrite], found: &mut Successors<'_>) {
+    pub(crate) fn count(
+        &mut self,
+        kind: AlternativeKind,
+        state: &[u64],
+        overwrites: &[Overwrite],
+        found: &mut Successors<'_>,
+    ) {
         match kind {
-            Kind::Next => {
+            AlternativeKind::Next => {
                 let out = found.room(state.len());
                 let start = out.len();
                 out.extend_from_slice(state);
@@ -63,17 +69,9 @@ impl Expansion {
                     self.moved += 1;
                 }
             }
-            Kind::Fault(class) => self.faults[class as usize] += 1,
-            Kind::Unbounded => self.unbounded += 1,
-            Kind::Excluded => self.excluded += 1,
+            AlternativeKind::Fault(class) => self.faults[class as usize] += 1,
+            AlternativeKind::Unbounded => self.unbounded += 1,
+            AlternativeKind::Excluded => self.excluded += 1,
         }
-    }
-}
-
-#[inline]
-pub(super) fn apply(overwrites: &[Overwrite], words: &mut [u64]) {
-    for Overwrite { word, clear, set } in overwrites {
-        let word = &mut words[*word as usize];
-        *word = *word & !clear | set;
     }
 }

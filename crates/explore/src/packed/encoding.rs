@@ -9,114 +9,20 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use program::{Builtin, DomainId, DomainKind, FunctionId, FunctionKind, Program, Rule, Term};
+use machine::inside::{extended, is_kept};
+use machine::{Location, Machine, Value};
+use program::{DomainKind, FunctionId, FunctionKind, Program, Rule, Term};
 
-use crate::enumerate::extended;
-use crate::execute::Core;
-use crate::explore::branches::{NOWHERE, REST};
-use crate::explore::choose::is_kept;
-use crate::explore::conditions::{initial_value, is_fixed};
-use crate::explore::interner::{Rest, View};
-use crate::explore::kept::{Kept, is_input};
-use crate::explore::paths::Told;
-use crate::layout::Layout;
-use crate::location::Location;
-use crate::machine::Machine;
-use crate::value::Value;
+use crate::packed::codes::{Codes, Coding, finite};
+use crate::packed::interner::{Rest, View};
+use crate::packed::kept::{Kept, is_input};
+use crate::packed::widening::{TooNarrow, Widening};
+use crate::packed::words::{Field, NOWHERE, REST};
 
 /// LIMIT: a function with more locations has no fields.
 const FIELDS_OF_A_FUNCTION: usize = 1 << 12;
-/// LIMIT: a domain with more elements counts as infinite.
-const CODES: usize = 1 << 12;
-/// A function with more locations does not have all its initial values from the start, see [`crate::machine::Machine::start`].
-const EAGER: usize = 1 << 20;
 /// LIMIT: the fields of a state have at most so many bits; what would not fit belongs to the rest.
 pub(crate) const BITS: usize = 1 << 14;
-
-/// What has been found not to fit since the encoding was made.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Widening {
-    /// Functions that may be undef.
-    undefined: BTreeSet<FunctionId>,
-    /// The rest changes.
-    rest: bool,
-}
-
-impl Widening {
-    /// Adds what another has found.
-    pub fn merge(&mut self, other: &Widening) {
-        self.undefined.extend(&other.undefined);
-        self.rest |= other.rest;
-    }
-
-    /// Whether nothing has been found.
-    pub fn is_empty(&self) -> bool {
-        !self.rest && self.undefined.is_empty()
-    }
-}
-
-/// How values of one function become codes.
-#[derive(Debug, Clone)]
-pub(crate) enum Codes {
-    /// The place in this list, sorted; undef, where it is possible, comes last.
-    Listed { values: Arc<Vec<Value>>, undefined: bool },
-    /// The number that an interner gives.
-    Interned,
-}
-
-impl Codes {
-    /// The codes of values of a domain and these, of undef where that is possible; and how many bits they need.
-    pub fn of<'v>(
-        program: &Program,
-        machine: &mut Machine,
-        domain: DomainId,
-        found: impl Iterator<Item = &'v Value>,
-        undefined: bool,
-    ) -> (Codes, usize) {
-        let Some(mut values) = finite(program, machine, domain) else { return (Codes::Interned, 32) };
-        values.extend(found.cloned());
-        values.retain(|value| !value.is_undef());
-        values.sort_unstable();
-        values.dedup();
-        let count = values.len() + usize::from(undefined);
-        let bits = (usize::BITS - count.saturating_sub(1).leading_zeros()) as usize;
-        (Codes::Listed { values: Arc::new(values), undefined }, bits)
-    }
-}
-
-/// How a function's values become codes, for who asks.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Coding<'e> {
-    /// The place in this list.
-    Listed(&'e [Value]),
-    /// The number of the value.
-    Numbered,
-}
-
-/// A field of the words.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Field {
-    /// The location whose value it holds; unused for the rest.
-    pub location: u32,
-    pub function: FunctionId,
-    pub word: u32,
-    pub shift: u8,
-    pub bits: u8,
-}
-
-impl Field {
-    /// The ones that cover the field in its word.
-    #[inline]
-    pub fn mask(&self) -> u64 {
-        ((1u64 << self.bits) - 1) << self.shift
-    }
-
-    /// The code that stands in it.
-    #[inline]
-    pub fn code(&self, words: &[u64]) -> u32 {
-        ((words[self.word as usize] & self.mask()) >> self.shift) as u32
-    }
-}
 
 /// See the module.
 #[derive(Debug)]
@@ -142,10 +48,6 @@ pub(crate) struct Encoding {
     pub origin: Option<u32>,
 }
 
-/// The state does not fit into the encoding.
-#[derive(Debug)]
-pub(crate) struct TooNarrow(pub Widening);
-
 impl Encoding {
     /// The encoding of a program's states; `machine` stands in an initial state, `initial` are the values of all initial
     /// states by location, `kept` the inputs that these keep, and so many `origins` are to be told apart.
@@ -166,7 +68,7 @@ impl Encoding {
             rest: None,
             constant_rest: Arc::default(),
             words: 1,
-            lazy: lazy(program, machine),
+            lazy: machine.late_initials(),
             grows: program.domains.iter().any(|domain| match &domain.kind {
                 DomainKind::Abstract { dynamic, .. } | DomainKind::Concrete { dynamic, .. } => *dynamic,
                 _ => false,
@@ -175,21 +77,16 @@ impl Encoding {
             origin: None,
         };
         // What is sparse has other numbers in other states.
-        let dense = machine.core.store.len() - machine.core.store.sparse_len();
-        let mut of_location = vec![NOWHERE; dense];
+        let mut of_location = vec![NOWHERE; machine.store().dense_len()];
         let mut used = 0usize;
         for (index, function) in program.functions.iter().enumerate() {
             let id = FunctionId(index as u32);
             let is_kept = is_kept(program, id);
-            let (first, len) = match &machine.core.store.layouts[index] {
-                Layout::Single(location) => (*location, 1),
-                Layout::Dense { base, len, .. } => (*base, *len),
-                Layout::None | Layout::Sparse => continue,
-            };
+            let Some(dense) = machine.store().dense(id) else { continue };
             if !is_kept {
                 continue;
             }
-            of_location[first as usize..(first + len) as usize].fill(REST);
+            of_location[dense.start as usize..dense.end as usize].fill(REST);
             if function.library || function.kind == FunctionKind::Shared {
                 continue;
             }
@@ -213,7 +110,7 @@ impl Encoding {
             }
         }
         encoding.of_location = of_location.into();
-        let mut rest = encoding.gather(program, &machine.core, false);
+        let mut rest = encoding.gather(program, machine, false);
         encoding.settle(machine, &mut rest);
         encoding.constant_rest = Arc::new(rest);
         if widening.rest {
@@ -266,6 +163,11 @@ impl Encoding {
         }
     }
 
+    /// Whether a run's beginning is part of its states.
+    pub fn tells_origins(&self) -> bool {
+        self.origin.is_some()
+    }
+
     /// Whether the declared locations of a function have fields.
     pub fn has_fields(&self, function: FunctionId) -> bool {
         self.codes[function.0 as usize].is_some()
@@ -280,79 +182,64 @@ impl Encoding {
         }
     }
 
-    /// Puts a code into a field.
-    pub fn put(field: Field, code: u32, words: &mut [u64]) {
-        let word = &mut words[field.word as usize];
-        *word = *word & !field.mask() | u64::from(code) << field.shift;
-    }
-
-    /// Packs the machine's state, an initial one that has asked for what is told, of this origin.
+    /// Packs the machine's state, an initial one that has asked for these inputs, of this origin.
     pub fn pack(
         &self,
         program: &Program,
         machine: &mut Machine,
-        (told, origin): (&Told, u32),
+        (inputs, origin): (&[(Location, Value)], u32),
         view: &mut View,
     ) -> Result<Box<[u64]>, TooNarrow> {
-        let mut rest = self.gather(program, &machine.core, false);
+        let mut rest = self.gather(program, machine, false);
         self.settle(machine, &mut rest);
-        self.add_inputs(&mut rest, told);
-        let core = &machine.core;
+        self.add_inputs(&mut rest, inputs);
         let mut words = vec![0; self.words].into_boxed_slice();
         for field in self.fields.iter().filter(|field| field.location != NOWHERE) {
-            let code = self.code(*field, &core.store.values[field.location as usize], view)?;
-            Encoding::put(*field, code, &mut words);
+            let code = self.code(*field, machine.store().value(field.location), view)?;
+            field.put(code, &mut words);
         }
         self.put_rest(rest, &mut words, view)?;
         if let Some(field) = self.origin {
-            Encoding::put(self.fields[field as usize], origin, &mut words);
+            self.fields[field as usize].put(origin, &mut words);
         }
         Ok(words)
     }
 
     /// Puts the machine into a packed state.
-    pub fn unpack(&self, program: &Program, words: &[u64], core: &mut Core, view: &mut View) {
+    pub fn unpack(&self, program: &Program, words: &[u64], machine: &mut Machine, view: &mut View) {
+        let store = machine.store_mut();
         for field in self.fields.iter().filter(|field| field.location != NOWHERE) {
-            core.store.values[field.location as usize] = self.value(*field, words, view);
+            store.overwrite(field.location, self.value(*field, words, view));
         }
         let rest = match self.rest {
             Some(field) => view.rest(self.fields[field as usize].code(words)),
             None => Arc::clone(&self.constant_rest),
         };
-        let sparse = self.of_location.len() as u32..core.store.len() as u32;
-        for index in self.others.iter().copied().chain(sparse) {
-            core.store.values[index as usize] = Value::Undef;
-            core.store.given[index as usize] = 0;
-        }
+        let sparse = self.of_location.len() as u32..store.len() as u32;
+        self.others.iter().copied().chain(sparse).for_each(|index| store.clear(index));
         for (location, value) in rest.locations.iter().filter(|(location, _)| !is_input(program, location)) {
-            let index = core.store.number(location.function, &location.arguments) as usize;
-            core.store.values[index] = value.clone();
-            core.store.given[index] = 1;
+            let index = store.number(location.function, &location.arguments);
+            store.put(index, value.clone());
         }
         if self.grows {
-            core.reset_carriers(program);
-            for (domain, count, elements) in &rest.carriers {
-                let carrier = &mut core.store.carriers[domain.0 as usize];
-                (carrier.count, carrier.fresh) = (*count, *count);
-                carrier.elements.clone_from(elements);
-            }
+            machine.set_grown(&rest.grown);
         }
     }
 
     /// Whether a state's rest can differ from that of the state before a step that has made no update of it.
-    pub fn rest_may_change(&self, core: &Core) -> bool {
-        self.grows || !self.others.is_empty() || core.store.len() > self.of_location.len()
+    pub fn rest_may_change(&self, machine: &Machine) -> bool {
+        self.grows || !self.others.is_empty() || machine.store().len() > self.of_location.len()
     }
 
     /// The rest of the state; with the updates of the running step, if these are wanted.
-    pub fn gather(&self, program: &Program, core: &Core, updated: bool) -> Rest {
-        let store = &core.store;
+    pub fn gather(&self, program: &Program, machine: &Machine, updated: bool) -> Rest {
+        let store = machine.store();
         let sparse = self.of_location.len() as u32..store.len() as u32;
         let mut locations: Vec<(Location, Value)> = Vec::new();
         for index in self.others.iter().copied().chain(sparse) {
-            let (mut value, mut given) = (&store.values[index as usize], store.given[index as usize] != 0);
-            if updated && let Some(update) = core.updates.held(index) {
-                (value, given) = (&update.value, true);
+            let (mut value, mut given) = (store.value(index), store.is_given(index));
+            if updated && let Some(update) = machine.update_of(index) {
+                (value, given) = (update, true);
             }
             if value.is_undef() && !given {
                 continue;
@@ -362,7 +249,7 @@ impl Encoding {
             if !is_kept(program, location.function) {
                 continue;
             }
-            let has_initial = core.initials[location.function.0 as usize].is_some();
+            let has_initial = machine.has_initial(location.function);
             // Undef says something only where it keeps an initial value or a question away.
             if value.is_undef() && !has_initial && kind != FunctionKind::Shared {
                 continue;
@@ -370,32 +257,8 @@ impl Encoding {
             locations.push((location, value.clone()));
         }
         locations.sort_unstable();
-        let carriers = if self.grows { self.carriers(program, core, updated) } else { Vec::new() };
-        Rest { locations, carriers }
-    }
-
-    fn carriers(&self, program: &Program, core: &Core, updated: bool) -> Vec<(DomainId, u32, Vec<Value>)> {
-        let created = if updated { core.updates.created() } else { &[] };
-        let each = program.domains.iter().enumerate().filter_map(|(index, domain)| {
-            let id = DomainId(index as u32);
-            let carrier = &core.store.carriers[index];
-            let new = || created.iter().filter(|(domain, _)| *domain == id);
-            match &domain.kind {
-                DomainKind::Abstract { elements, .. } => {
-                    let count = if new().next().is_some() { carrier.fresh } else { carrier.count };
-                    (count as usize != elements.len()).then(|| (id, count, Vec::new()))
-                }
-                DomainKind::Concrete { dynamic: true, .. } => {
-                    let mut elements = carrier.elements.clone();
-                    elements.extend(new().map(|(_, element)| element.clone()));
-                    elements.sort_unstable();
-                    elements.dedup();
-                    Some((id, 0, elements))
-                }
-                _ => None,
-            }
-        });
-        each.collect()
+        let grown = if self.grows { machine.grown(updated) } else { Vec::new() };
+        Rest { locations, grown }
     }
 
     /// Puts the number of a rest into its field.
@@ -403,7 +266,7 @@ impl Encoding {
         match self.rest {
             Some(field) => {
                 let code = view.rest_number(&Arc::new(rest));
-                Encoding::put(self.fields[field as usize], code, words);
+                self.fields[field as usize].put(code, words);
                 Ok(())
             }
             None if rest == *self.constant_rest => Ok(()),
@@ -414,7 +277,7 @@ impl Encoding {
     /// Leaves out locations that have the initial value which they would get anyway when they are first read.
     pub fn settle(&self, machine: &mut Machine, rest: &mut Rest) {
         rest.locations.retain(|(location, value)| {
-            !self.lazy[location.function.0 as usize] || initial_value(machine, location).as_ref() != Some(value)
+            !self.lazy[location.function.0 as usize] || machine.initial_value(location).as_ref() != Some(value)
         });
     }
 
@@ -436,26 +299,6 @@ impl Encoding {
     }
 }
 
-/// The elements of a domain that is finite and the same in all states.
-fn finite(program: &Program, machine: &mut Machine, domain: DomainId) -> Option<Vec<Value>> {
-    let fixed = match &program.domain(domain).kind {
-        DomainKind::Basic(model::Basic::Boolean) | DomainKind::Enum { .. } => true,
-        DomainKind::Abstract { dynamic, .. } | DomainKind::Concrete { dynamic, .. } => !dynamic,
-        // What is inside of tuples and collections is not checked of an update, so they may hold anything.
-        _ => false,
-    };
-    let over_growing = match &program.domain(domain).kind {
-        DomainKind::Concrete { base, .. } => {
-            matches!(program.domain(*base).kind, DomainKind::Abstract { dynamic: true, .. })
-        }
-        _ => false,
-    };
-    if !fixed || over_growing {
-        return None;
-    }
-    machine.elements(domain).ok().filter(|elements| elements.len() <= CODES)
-}
-
 /// The dense locations whose arguments are in the declared domains, if these are finite.
 fn declared_locations(program: &Program, machine: &mut Machine, function: FunctionId) -> Option<Vec<u32>> {
     let mut tuples = vec![Vec::new()];
@@ -466,13 +309,9 @@ fn declared_locations(program: &Program, machine: &mut Machine, function: Functi
         }
         tuples = extended(tuples, &elements);
     }
-    let dense = machine.core.store.layouts.get(function.0 as usize)?;
-    let inside = |index: &u32| match dense {
-        Layout::Single(_) => true,
-        Layout::Dense { base, len, .. } => (*base..base + len).contains(index),
-        Layout::None | Layout::Sparse => false,
-    };
-    tuples.iter().map(|tuple| machine.core.store.find(function, tuple).filter(inside)).collect()
+    let dense = machine.store().dense(function)?;
+    let inside = |index: &u32| dense.contains(index);
+    tuples.iter().map(|tuple| machine.store().find(function, tuple).filter(inside)).collect()
 }
 
 /// By function: some update rule gives it `undef` as written.
@@ -487,25 +326,4 @@ fn assigned_undef(program: &Program) -> Vec<bool> {
         }
     }
     assigned
-}
-
-/// By function: its initial values depend on its arguments alone, and some of them are not there from the start.
-fn lazy(program: &Program, machine: &mut Machine) -> Vec<bool> {
-    let fixed = crate::memo::fixed_functions(program);
-    let mut lazy = vec![false; program.functions.len()];
-    for initial in &program.initials {
-        let body = initial.value.body;
-        let chooses = matches!(program.term(body), Term::Builtin { builtin: Builtin::ChooseOne, .. });
-        let mut locations = 1usize;
-        for parameter in &program.function(initial.function).parameters {
-            let count = match is_fixed(program, *parameter) {
-                true => machine.elements(*parameter).map_or(usize::MAX, |elements| elements.len()),
-                false => usize::MAX,
-            };
-            locations = locations.saturating_mul(count);
-        }
-        lazy[initial.function.0 as usize] =
-            locations > EAGER && !chooses && crate::memo::is_fixed_term(program, body, &fixed);
-    }
-    lazy
 }

@@ -7,19 +7,17 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use hashbrown::HashMap;
-use program::DomainId;
+use machine::inside::Grown;
+use machine::{Location, Value};
 use rustc_hash::FxBuildHasher;
-
-use crate::location::Location;
-use crate::value::Value;
 
 /// What a state has beyond its fields: locations that come up as a run goes on, and the elements of domains that grow.
 #[derive(Debug, Clone, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct Rest {
     /// In canonical order; one that is undef stands here where it was made so.
     pub locations: Vec<(Location, Value)>,
-    /// Of each domain whose elements differ from those it is declared with: how many, or which.
-    pub carriers: Vec<(DomainId, u32, Vec<Value>)>,
+    /// The domains whose elements differ from those that they are declared with.
+    pub grown: Vec<Grown>,
 }
 
 #[derive(Debug)]

@@ -6,13 +6,11 @@
 
 use std::sync::Arc;
 
-use program::{Builtin, DomainKind, Expression, Program, Quantifier, Slot, Term, TermId};
+use machine::inside::{extended, is_fixed_domain};
+use machine::{Machine, Value};
+use program::{Builtin, Expression, Program, Quantifier, Slot, Term, TermId};
 
-use crate::enumerate::extended;
-use crate::environment::Closed;
-use crate::explore::tree::{End, Tree};
-use crate::machine::Machine;
-use crate::value::Value;
+use crate::memory::tree::{End, Tree};
 
 /// LIMIT: a formula is taken apart into so many parts at most.
 const PARTS: usize = 1 << 12;
@@ -88,7 +86,7 @@ impl Condition {
                 let elements: Option<Vec<Vec<Value>>> = binders
                     .iter()
                     .map(|binder| match program.term(binder.range) {
-                        Term::Domain(domain) if is_fixed(program, *domain) => machine.elements(*domain).ok(),
+                        Term::Domain(domain) if is_fixed_domain(program, *domain) => machine.elements(*domain).ok(),
                         _ => None,
                     })
                     .collect();
@@ -111,29 +109,4 @@ impl Condition {
         }
         self.parts.push(Part { bindings, term, frame, tree: Tree::default() });
     }
-}
-
-/// Whether a domain has the same elements in all states.
-pub(crate) fn is_fixed(program: &Program, domain: program::DomainId) -> bool {
-    match &program.domain(domain).kind {
-        DomainKind::Basic(_) | DomainKind::Enum { .. } => true,
-        DomainKind::Abstract { dynamic, .. } => !dynamic,
-        DomainKind::Concrete { dynamic, base, .. } => {
-            !dynamic && !matches!(program.domain(*base).kind, DomainKind::Abstract { dynamic: true, .. })
-        }
-        DomainKind::Prod(parts) => parts.iter().all(|part| is_fixed(program, *part)),
-        _ => false,
-    }
-}
-
-/// The value that the initial value's term has for these arguments.
-pub(crate) fn initial_value(machine: &mut Machine, location: &crate::Location) -> Option<Value> {
-    let initial = machine.core.initials[location.function.0 as usize]?;
-    let value = machine.execute(&mut Closed, |executor, program| {
-        let initial = &program.initials[initial as usize];
-        let start = executor.core.frames.len();
-        executor.core.frames.extend(location.arguments.iter().cloned());
-        executor.in_frame(start, initial.value.frame, initial.span, |this| this.evaluate(initial.value.body))
-    });
-    value.ok()
 }

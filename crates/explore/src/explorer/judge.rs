@@ -6,9 +6,10 @@
 
 use std::sync::Arc;
 
-use crate::explore::conditions::{Part, Truth};
-use crate::explore::explorer::{Explorer, note_limit};
-use crate::value::Value;
+use machine::Value;
+
+use crate::explorer::Explorer;
+use crate::memory::condition::{Part, Truth};
 
 impl Explorer {
     /// What a condition comes to in a state.
@@ -43,7 +44,7 @@ impl Explorer {
                 let other = self.truth_of_part(condition, part, state);
                 if matches!(other, Truth::False | Truth::Fault | Truth::Unknown) && other != whole {
                     let span = self.program.term_span(self.conditions[condition].parts[part].term);
-                    self.machine.core.order_mattered.get_or_insert(span);
+                    self.machine.note_order_mattered(span);
                 }
             }
         }
@@ -75,7 +76,7 @@ impl Explorer {
             let (bindings, term, frame) = (Arc::clone(bindings), *term, *frame);
             let outcome = self.machine.evaluate_with(term, frame, &bindings, &mut self.branches);
             if let Err(fault) = &outcome {
-                note_limit(&mut self.branches, fault);
+                self.branches.note_limit(fault);
             }
             let truth = match outcome {
                 Ok(Value::Boolean(true)) => Truth::True,

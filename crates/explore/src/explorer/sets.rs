@@ -5,32 +5,12 @@
 //! its states and the walk goes on: so a symbolic search needs no second meaning of the language, and learns of the tree
 //! only what can be reached.
 
-use crate::explore::encoding::Widening;
-use crate::explore::explorer::{Explorer, Kind};
-use crate::explore::tree::{Place, Stop, Tree};
-use crate::explore::{FaultClass, Truth};
-
-/// Where a field stands in the words of a packed state.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Bits {
-    /// In which word.
-    pub word: u32,
-    /// From which bit on, the lowest is 0.
-    pub shift: u8,
-    /// How many.
-    pub bits: u8,
-}
-
-/// Bits of one word that a step sets, whatever they were.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Overwrite {
-    /// In which word.
-    pub word: u32,
-    /// Which bits.
-    pub clear: u64,
-    /// Those of them that become ones.
-    pub set: u64,
-}
+use crate::alternatives::kind::AlternativeKind;
+use crate::explorer::Explorer;
+use crate::memory::condition::Truth;
+use crate::memory::tree::{Place, Stop, Tree};
+use crate::packed::widening::Widening;
+use crate::packed::words::{Bits, Overwrite};
 
 /// Sets of packed states.
 pub trait StateSets {
@@ -71,19 +51,6 @@ pub struct Alternative<'a> {
     pub overwrites: &'a [Overwrite],
 }
 
-/// What an alternative comes to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AlternativeKind {
-    /// A next state.
-    Next,
-    /// A fault.
-    Fault(FaultClass),
-    /// It cannot be gone through.
-    Unbounded,
-    /// An assumption leaves it out.
-    Excluded,
-}
-
 /// Why a set could not be expanded.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum SetTrouble<F> {
@@ -116,9 +83,9 @@ impl Explorer {
         let fields = self.fields();
         let place = |bits: Bits| fields.binary_search(&bits).unwrap_or(0);
         let mut found = std::collections::BTreeSet::new();
-        self.steps.each_end(&mut |looked, end| {
+        self.steps.tree.each_end(&mut |looked, end| {
             let mut edge: Vec<usize> = looked.iter().map(|bits| place(*bits)).collect();
-            for overwrite in self.overwrites_of(end) {
+            for overwrite in self.steps.overwrites_of(end) {
                 let touched = fields.iter().enumerate().filter(|(_, bits)| {
                     bits.word == overwrite.word && overwrite.clear >> bits.shift & ((1 << bits.bits) - 1) != 0
                 });
@@ -134,7 +101,7 @@ impl Explorer {
     /// How many parts the step of every state has that begin with nothing but a choice; 1 where it begins otherwise.
     /// Known once some state was expanded.
     pub fn parts(&self) -> usize {
-        match self.steps.stop(Place::Root) {
+        match self.steps.tree.stop(Place::Root) {
             Some(Stop::Ask { of, .. }) => of as usize,
             _ => 1,
         }
@@ -152,7 +119,7 @@ impl Explorer {
         set: &S::Set,
         visit: &mut Visit<'_, S>,
     ) -> Result<Option<S::Set>, SetTrouble<S::Failure>> {
-        let place = match self.steps.stop(Place::Root) {
+        let place = match self.steps.tree.stop(Place::Root) {
             Some(stop @ Stop::Ask { .. }) => Tree::child(stop, part as u32),
             _ => Place::Root,
         };
@@ -169,7 +136,7 @@ impl Explorer {
         set: &S::Set,
         visit: &mut Visit<'_, S>,
     ) -> Result<(), SetTrouble<S::Failure>> {
-        if let Some(stop @ Stop::Ask { of, guarded: true, .. }) = self.steps.stop(Place::Root) {
+        if let Some(stop @ Stop::Ask { of, guarded: true, .. }) = self.steps.tree.stop(Place::Root) {
             self.expand_from(Tree::child(stop, of), sets, set.clone(), visit)?;
         }
         Ok(())
@@ -185,25 +152,19 @@ impl Explorer {
         if sets.is_empty(&set) {
             return Ok(None);
         }
-        if self.steps.stop(place).is_none() && !self.steps.is_crowded() {
+        if self.steps.tree.stop(place).is_none() && !self.steps.tree.is_crowded() {
             let state = sets.member(&set);
             self.expand_by_machine(&state, &mut Vec::new()).map_err(SetTrouble::Narrow)?;
         }
         if self.settings.interrupt.is_raised() {
             return Err(SetTrouble::Interrupted);
         }
-        let Some(stop) = self.steps.stop(place) else { return Err(SetTrouble::Crowded) };
+        let Some(stop) = self.steps.tree.stop(place) else { return Err(SetTrouble::Crowded) };
         stacker::maybe_grow(1 << 18, 4 << 20, || match stop {
             Stop::Dead => Ok(None),
             Stop::End(end) => {
-                let effect = self.effects[end as usize];
-                let kind = match effect.kind {
-                    Kind::Next => AlternativeKind::Next,
-                    Kind::Fault(class) => AlternativeKind::Fault(class),
-                    Kind::Unbounded => AlternativeKind::Unbounded,
-                    Kind::Excluded => AlternativeKind::Excluded,
-                };
-                let (failed, overwrites) = (self.failures_of(end), self.overwrites_of(end));
+                let kind = self.steps.kind_of(end);
+                let (failed, overwrites) = (self.steps.failures_of(end), self.steps.overwrites_of(end));
                 visit(sets, &Alternative { kind, failed, overwrites }, &set)?;
                 Ok(Some(set))
             }

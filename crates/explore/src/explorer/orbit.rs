@@ -9,13 +9,15 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
+use machine::inside::Grown;
+use machine::{Location, Value};
 use program::FunctionId;
 
-use crate::explore::encoding::{Coding, Encoding, Field};
-use crate::explore::explorer::Explorer;
-use crate::explore::interner::{Rest, View};
-use crate::location::Location;
-use crate::value::Value;
+use crate::explorer::Explorer;
+use crate::packed::codes::Coding;
+use crate::packed::encoding::Encoding;
+use crate::packed::interner::{Rest, View};
+use crate::packed::words::Field;
 
 /// LIMIT: so many orders of elements of which a state says the same are tried.
 const ORDERS: usize = 5040;
@@ -244,13 +246,13 @@ impl Orbits {
             locations.push((Location { function: location.function, arguments }, of(value)));
         }
         locations.sort_unstable();
-        let mut carriers = Vec::with_capacity(rest.carriers.len());
-        for (domain, count, elements) in &rest.carriers {
+        let mut grown = Vec::with_capacity(rest.grown.len());
+        for Grown { domain, count, elements } in &rest.grown {
             let mut elements: Vec<Value> = elements.iter().map(&mut *of).collect();
             elements.sort_unstable();
-            carriers.push((*domain, *count, elements));
+            grown.push(Grown { domain: *domain, count: *count, elements });
         }
-        Rest { locations, carriers }
+        Rest { locations, grown }
     }
 
     fn rest_image(&self, rest: &Rest, permutation: &Permutation) -> Rest {
@@ -281,14 +283,14 @@ impl Orbits {
                         if image == value { code } else { view.number(&image) }
                     }
                 };
-                Encoding::put(family.fields[to], code, &mut out);
+                family.fields[to].put(code, &mut out);
             }
         }
         if let Some(field) = self.rest {
             let rest = view.rest(field.code(state));
             let image = self.rest_image(&rest, permutation);
             let code = if image == *rest { field.code(state) } else { view.rest_number(&image.into()) };
-            Encoding::put(field, code, &mut out);
+            field.put(code, &mut out);
         }
         out
     }
@@ -344,7 +346,7 @@ impl Orbits {
                 let arguments = Value::tuple(location.arguments.to_vec());
                 profile.push(Value::tuple(vec![Value::Integer(location.function.0.into()), arguments, value]));
             }
-            profile.extend(rest.carriers.into_iter().map(|(_, _, elements)| Value::seq(elements)));
+            profile.extend(rest.grown.into_iter().map(|grown| Value::seq(grown.elements)));
         }
         profile
     }
@@ -461,7 +463,7 @@ impl Explorer {
     /// The orbits of the states under permutations of the elements of each class; none where states are packed so that these
     /// cannot be permuted. `holds` tells whether values of a function may be such elements, or have them inside.
     pub fn orbits(&self, classes: &[Vec<Value>], holds: &dyn Fn(FunctionId) -> bool) -> Option<Orbits> {
-        Orbits::new(&self.encoding, &|location| self.machine.core.store.location(location), classes, holds)
+        Orbits::new(&self.encoding, &|location| self.machine.store().location(location), classes, holds)
     }
 
     /// The representative of a state, and the permutation that leads to it.

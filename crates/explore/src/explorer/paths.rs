@@ -4,14 +4,14 @@
 
 use std::ops::ControlFlow;
 
-use crate::explore::branches::{ChoiceTaken, Unbounded};
-use crate::explore::encoding::Widening;
-use crate::explore::expansion::apply;
-use crate::explore::explorer::{Explorer, Kind};
-use crate::fault::Fault;
-use crate::location::Location;
-use crate::machine::Change;
-use crate::value::Value;
+use machine::Fault;
+
+use crate::alternatives::branches::Unbounded;
+use crate::alternatives::kind::AlternativeKind;
+use crate::alternatives::told::ChoiceTaken;
+use crate::explorer::Explorer;
+use crate::packed::widening::Widening;
+use crate::packed::words::apply;
 
 /// What an alternative came to.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -37,19 +37,6 @@ pub struct Path {
     pub failed: Vec<u32>,
     /// What was chosen.
     pub choices: Vec<ChoiceTaken>,
-}
-
-/// All there is to say of one step.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Told {
-    /// The inputs given, in the order asked.
-    pub inputs: Vec<(Location, Value)>,
-    /// The choices, in order.
-    pub choices: Vec<ChoiceTaken>,
-    /// What it changed, in canonical order.
-    pub changes: Vec<Change>,
-    /// Why it could not be made.
-    pub fault: Option<Box<Fault>>,
 }
 
 impl Explorer {
@@ -81,7 +68,7 @@ impl Explorer {
             if let Some(attempt) = self.attempt(state)? {
                 let picks = self.branches.answers().iter().map(|asked| asked.taken).collect();
                 let outcome = match (attempt.kind, attempt.fault, self.branches.unbounded) {
-                    (Kind::Next, ..) => {
+                    (AlternativeKind::Next, ..) => {
                         let mut next: Box<[u64]> = state.into();
                         apply(&attempt.overwrites, &mut next);
                         Outcome::Next(next)

@@ -1,33 +1,27 @@
-//! The choose rule and inputs where every alternative is wanted: see [`crate::explore::branches`].
+//! The choose rule and inputs where every alternative is wanted: see [`crate::alternatives`].
 //!
-//! INVARIANT: the alternatives that are alive are exactly the candidates of the choose rule, in their order; where
-//! there is none, the rule without candidates is run.
+//! A choose rule with a guard is asked for before its guards are evaluated, so that an alternative looks at no more of the
+//! state than its own guard does. INVARIANT: the alternatives that are alive are exactly the candidates of the choose rule,
+//! in their order; where there is none, the rule without candidates is run.
 
 use std::ops::ControlFlow;
 
-use program::{Binder, Expression, FunctionId, Program, RuleId, Term, TermId};
+use program::{Binder, Expression, FunctionId, RuleId, Term, TermId};
 use syntax::Span;
 
+use crate::alternatives::is_kept;
 use crate::execute::{Executor, Outcome};
-use crate::explore::branches::{ChoiceTaken, REST, UnboundedKind};
-use crate::fault::FaultKind;
+use crate::fault::{Fault, FaultKind};
 use crate::location::LocationRef;
 use crate::value::Value;
-
-/// Whether a function's locations are part of the state between steps.
-pub(crate) fn is_kept(program: &Program, function: FunctionId) -> bool {
-    use program::FunctionKind::{Controlled, Out, Shared};
-    matches!(program.function(function).kind, Controlled | Out | Shared) && Some(function) != program.self_function
-}
 
 impl Executor<'_> {
     /// Notes that a location is looked at.
     #[cold]
     pub fn note_look(&mut self, function: FunctionId, found: Option<u32>) {
         let kept = is_kept(self.program, function);
-        if let Some(branches) = self.environment.branches() {
-            let kept = kept || branches.inputs_in_rest.contains(&function);
-            branches.look(branches.field(found, kept));
+        if let Some(alternatives) = self.environment.alternatives() {
+            alternatives.look(function, found, kept);
         }
     }
 
@@ -35,18 +29,16 @@ impl Executor<'_> {
     #[cold]
     pub fn note_write(&mut self, function: FunctionId, found: Option<u32>) {
         let kept = is_kept(self.program, function);
-        if let Some(branches) = self.environment.branches()
-            && branches.field(found, kept) == REST
-        {
-            branches.look(REST);
+        if let Some(alternatives) = self.environment.alternatives() {
+            alternatives.write(found, kept);
         }
     }
 
     /// Notes that the elements of a dynamic domain are looked at.
     #[cold]
     pub fn note_carriers(&mut self) {
-        if let Some(branches) = self.environment.branches() {
-            branches.look(REST);
+        if let Some(alternatives) = self.environment.alternatives() {
+            alternatives.look_at_carriers();
         }
     }
 
@@ -54,18 +46,17 @@ impl Executor<'_> {
     pub fn ask_among(&mut self, location: LocationRef<'_>) -> Result<Value, String> {
         let declared = self.program.function(location.function);
         let (codomain, span) = (declared.codomain, declared.span);
-        let bounded = |branches: &mut super::Branches| branches.bounds.contains_key(&location.function);
-        if self.environment.branches().is_some_and(bounded) {
+        if self.environment.alternatives().is_some_and(|alternatives| alternatives.gives(location.function)) {
             return self.environment.monitored(self.program, location, codomain);
         }
         let values = self.listed(codomain, span).ok().filter(|values| !values.is_empty());
-        let Some(branches) = self.environment.branches() else { return Err(String::new()) };
+        let Some(alternatives) = self.environment.alternatives() else { return Err(String::new()) };
         match values {
             Some(values) => {
-                let taken = branches.ask(values.len(), false);
+                let taken = alternatives.ask(values.len(), false);
                 values.get(taken).cloned().ok_or_else(|| "an answer that there is not".to_string())
             }
-            None => Err(branches.endless(UnboundedKind::Input(location.function), span)),
+            None => Err(alternatives.endless_input(location.function, span)),
         }
     }
 
@@ -130,8 +121,8 @@ impl Executor<'_> {
             Term::Constant(index) => self.core.constants[*index as usize] != Value::Boolean(true),
             _ => true,
         });
-        let Some(branches) = self.environment.branches() else { return Ok(()) };
-        let taken = branches.ask(bindings as usize, guard.is_some()) as u64;
+        let Some(alternatives) = self.environment.alternatives() else { return Ok(()) };
+        let taken = alternatives.ask(bindings as usize, guard.is_some()) as u64;
         if taken == bindings {
             return none(self);
         }
@@ -148,14 +139,14 @@ impl Executor<'_> {
         if let Some(guard) = guard
             && !self.holds(guard)?
         {
-            if let Some(branches) = self.environment.branches() {
-                branches.dead = true;
+            if let Some(alternatives) = self.environment.alternatives() {
+                alternatives.be_dead();
             }
             return self.fault(span, FaultKind::Environment { reason: String::new() });
         }
         let values = binders.iter().map(|binder| self.slot(binder.slot).clone()).collect();
-        if let Some(branches) = self.environment.branches() {
-            branches.chosen.push(ChoiceTaken { span, values });
+        if let Some(alternatives) = self.environment.alternatives() {
+            alternatives.chose(span, values);
         }
         self.core.went(id, 1);
         self.perform(body)
@@ -163,11 +154,11 @@ impl Executor<'_> {
 
     /// Candidates that cannot be listed are no fault of the step here: they are what cannot be explored.
     #[cold]
-    pub fn endless_choice(&mut self, fault: Box<crate::Fault>, span: Span) -> Outcome<()> {
+    pub fn endless_choice(&mut self, fault: Box<Fault>, span: Span) -> Outcome<()> {
         if let FaultKind::NotEnumerable { .. } = fault.kind
-            && let Some(branches) = self.environment.branches()
+            && let Some(alternatives) = self.environment.alternatives()
         {
-            branches.endless(UnboundedKind::Choice, span);
+            alternatives.endless_choice(span);
         }
         Err(fault)
     }

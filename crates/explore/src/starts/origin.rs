@@ -6,10 +6,8 @@
 
 use std::sync::Arc;
 
-use crate::explore::encoding::Encoding;
-use crate::explore::explorer::Explorer;
-use crate::machine::Machine;
-use crate::store::Store;
+use machine::Machine;
+use machine::inside::Store;
 
 /// The initial states of runs, each once.
 #[derive(Debug, Default)]
@@ -32,35 +30,22 @@ impl Origins {
 
     /// The number of the initial state that the machine has just been started in; 0 where none is ever looked at again.
     pub fn number(&mut self, machine: &Machine) -> u32 {
-        let Some(origin) = &machine.core.origin else { return 0 };
+        let Some(origin) = machine.origin() else { return 0 };
         let known = self.stores.iter().position(|store| store.is_like(origin));
         if known.is_none() {
-            Arc::make_mut(&mut self.stores).push((**origin).clone());
+            Arc::make_mut(&mut self.stores).push(origin.clone());
         }
         self.current = known.unwrap_or(self.stores.len() - 1);
         self.current as u32
     }
 
+    /// Another one, for a machine that has this; none where it is the same.
+    pub fn change(&mut self, origin: usize) -> Option<&Store> {
+        (std::mem::replace(&mut self.current, origin) != origin).then(|| &self.stores[origin])
+    }
+
     /// How many there are.
     pub fn count(&self) -> usize {
         self.stores.len()
-    }
-}
-
-impl Explorer {
-    /// Gives the machine the initial state that a packed state's run began in.
-    pub(super) fn load_origin(&mut self, state: &[u64]) {
-        let Some(field) = self.encoding.origin else { return };
-        let origin = self.encoding.fields[field as usize].code(state) as usize;
-        if std::mem::replace(&mut self.origins.current, origin) != origin {
-            self.machine.core.origin = Some(Box::new(self.origins.stores[origin].clone()));
-        }
-    }
-}
-
-impl Encoding {
-    /// Whether a run's beginning is part of its states.
-    pub fn tells_origins(&self) -> bool {
-        self.origin.is_some()
     }
 }

@@ -7,12 +7,12 @@
 //! machine would: nothing but events decides how a step goes on.
 
 use hashbrown::HashMap;
+use machine::Interrupt;
 use rustc_hash::FxBuildHasher;
 
-use crate::explore::branches::{Asked, Event};
-use crate::explore::encoding::Field;
-use crate::explore::sets::Bits;
-use crate::interrupt::Interrupt;
+use crate::alternatives::branches::{Asked, Event};
+use crate::memory::maker::Unmade;
+use crate::packed::words::{Bits, Field};
 
 /// The number of an end, given by who keeps what ends mean.
 pub(crate) type End = u32;
@@ -83,15 +83,6 @@ pub(crate) enum Below {
     Table(u32),
 }
 
-/// Why a walk ends early.
-#[derive(Debug, PartialEq, Eq)]
-pub(crate) enum Unwalked {
-    /// Some alternative is not known.
-    Unknown,
-    /// Whoever waits has had enough.
-    Interrupted,
-}
-
 impl Tree {
     /// Whether it pays to walk it.
     #[inline]
@@ -106,13 +97,13 @@ impl Tree {
 
     /// Visits the ends of all alternatives of a state, in their order, dead ones left out.
     #[inline]
-    pub fn walk(&mut self, words: &[u64], interrupt: &Interrupt, visit: &mut impl FnMut(End)) -> Result<(), Unwalked> {
+    pub fn walk(&mut self, words: &[u64], interrupt: &Interrupt, visit: &mut impl FnMut(End)) -> Result<(), Unmade> {
         self.walks += 1;
         match self.walk_from(self.root, words, interrupt, visit) {
             Ok(_) => Ok(()),
-            Err(Unwalked::Unknown) => {
+            Err(Unmade::Unknown) => {
                 self.fail();
-                Err(Unwalked::Unknown)
+                Err(Unmade::Unknown)
             }
             Err(interrupted) => Err(interrupted),
         }
@@ -136,7 +127,7 @@ impl Tree {
         words: &[u64],
         interrupt: &Interrupt,
         visit: &mut impl FnMut(End),
-    ) -> Result<bool, Unwalked> {
+    ) -> Result<bool, Unmade> {
         loop {
             if link & END != 0 {
                 let end = link & !END;
@@ -146,7 +137,7 @@ impl Tree {
                 return Ok(end != DEAD);
             }
             if link == 0 {
-                return Err(Unwalked::Unknown);
+                return Err(Unmade::Unknown);
             }
             match self.nodes[link as usize - 1] {
                 Node::Field { word, shift, bits, base } => {
@@ -158,7 +149,7 @@ impl Tree {
                     link = self.wide.get(&(index, code)).copied().unwrap_or(0);
                 }
                 // The alternatives of one state may be many, where questions multiply.
-                Node::Ask { .. } | Node::Guarded { .. } if interrupt.is_raised() => return Err(Unwalked::Interrupted),
+                Node::Ask { .. } | Node::Guarded { .. } if interrupt.is_raised() => return Err(Unmade::Interrupted),
                 Node::Ask { base, of } => {
                     let mut alive = false;
                     for child in &self.links[base as usize..(base + of) as usize] {

@@ -8,18 +8,15 @@
 //! guard does not hold is *dead*, and only where all are dead does the rule have no candidate. So an alternative looks
 //! at no more of the state than its own guard does.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use machine::{Alternatives, Bounds, Choice, Draw, Environment, Fault, FaultKind, LocationRef, TimeUnit, Value};
 use program::{DomainId, FunctionId, Program};
 use syntax::Span;
 
-use crate::environment::{Choice, Draw, Environment, TimeUnit};
-use crate::location::LocationRef;
-use crate::value::Value;
-
-/// The values that an input takes, where they are not all those of its domain.
-pub type Bounds = BTreeMap<FunctionId, Vec<Value>>;
+use crate::alternatives::told::ChoiceTaken;
+use crate::packed::words::{NOWHERE, REST};
 
 /// What kind of alternatives cannot be gone through.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -30,7 +27,7 @@ pub enum UnboundedKind {
     Choice,
     /// The readings of the clock.
     Clock,
-    /// What a step may take: see [`crate::Limits`].
+    /// What a step may take: see [`machine::Limits`].
     Limit,
 }
 
@@ -41,15 +38,6 @@ pub struct Unbounded {
     pub kind: UnboundedKind,
     /// The function's declaration, or the choose rule.
     pub span: Span,
-}
-
-/// A choice as it was made.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ChoiceTaken {
-    /// The choose rule, or the term.
-    pub span: Span,
-    /// The values of the variables bound.
-    pub values: Vec<Value>,
 }
 
 /// What a step does that matters to how it goes on, in order.
@@ -73,11 +61,6 @@ pub(crate) struct Asked {
     /// Some alternative taken so far was not dead.
     alive: bool,
 }
-
-/// A location that no field holds belongs to the rest.
-pub(crate) const REST: u32 = u32::MAX - 1;
-/// A location that is no part of the state between steps.
-pub(crate) const NOWHERE: u32 = u32::MAX;
 
 /// See the module.
 #[derive(Debug)]
@@ -173,20 +156,8 @@ impl Branches {
         &self.asked[..self.at]
     }
 
-    /// Asks which of `of` alternatives is taken.
-    pub(crate) fn ask(&mut self, of: usize, guarded: bool) -> usize {
-        let of = of as u32;
-        match self.asked.get_mut(self.at) {
-            Some(asked) => (asked.of, asked.guarded) = (of, guarded),
-            None => self.asked.push(Asked { taken: 0, of, guarded, alive: false }),
-        }
-        self.events.push(Event::Ask);
-        self.at += 1;
-        self.asked[self.at - 1].taken as usize
-    }
-
-    /// Notes that the state is looked at.
-    pub(crate) fn look(&mut self, field: u32) {
+    /// Notes that a field of the state is looked at.
+    pub(crate) fn look_at(&mut self, field: u32) {
         let field = if field == REST { self.rest.unwrap_or(NOWHERE) } else { field };
         if field == NOWHERE {
             return;
@@ -200,22 +171,80 @@ impl Branches {
         }
     }
 
-    /// Notes that it is looked at in which initial state the run began.
-    pub(crate) fn look_at_origin(&mut self) {
-        self.look(self.origin.unwrap_or(NOWHERE));
-    }
-
     /// Where a location stands; `found` is its number, if it has one, and `kept` says whether its function's locations are
     /// part of the state.
-    pub(crate) fn field(&self, found: Option<u32>, kept: bool) -> u32 {
+    fn field(&self, found: Option<u32>, kept: bool) -> u32 {
         let dense = found.and_then(|index| self.fields.get(index as usize));
         dense.copied().unwrap_or(if kept { REST } else { NOWHERE })
     }
 
     /// The step ends here, since its alternatives cannot be gone through.
-    pub(crate) fn endless(&mut self, kind: UnboundedKind, span: Span) -> String {
+    fn endless(&mut self, kind: UnboundedKind, span: Span) -> String {
         self.unbounded = Some(Unbounded { kind, span });
         String::new()
+    }
+
+    /// Where a step, or the value of a condition, was not computed to its end: what it would come to is not known.
+    pub(crate) fn note_limit(&mut self, fault: &Fault) {
+        if let FaultKind::Limit { .. } | FaultKind::Interrupted(_) = fault.kind {
+            self.endless(UnboundedKind::Limit, fault.span);
+        }
+    }
+}
+
+impl Alternatives for Branches {
+    fn ask(&mut self, of: usize, guarded: bool) -> usize {
+        let of = of as u32;
+        match self.asked.get_mut(self.at) {
+            Some(asked) => (asked.of, asked.guarded) = (of, guarded),
+            None => self.asked.push(Asked { taken: 0, of, guarded, alive: false }),
+        }
+        self.events.push(Event::Ask);
+        self.at += 1;
+        self.asked[self.at - 1].taken as usize
+    }
+
+    fn be_dead(&mut self) {
+        self.dead = true;
+    }
+
+    fn is_dead(&self) -> bool {
+        self.dead
+    }
+
+    fn chose(&mut self, span: Span, values: Vec<Value>) {
+        self.chosen.push(ChoiceTaken { span, values });
+    }
+
+    fn gives(&self, input: FunctionId) -> bool {
+        self.bounds.contains_key(&input)
+    }
+
+    fn endless_input(&mut self, input: FunctionId, span: Span) -> String {
+        self.endless(UnboundedKind::Input(input), span)
+    }
+
+    fn endless_choice(&mut self, span: Span) {
+        self.endless(UnboundedKind::Choice, span);
+    }
+
+    fn look(&mut self, function: FunctionId, found: Option<u32>, kept: bool) {
+        let kept = kept || self.inputs_in_rest.contains(&function);
+        self.look_at(self.field(found, kept));
+    }
+
+    fn write(&mut self, found: Option<u32>, kept: bool) {
+        if self.field(found, kept) == REST {
+            self.look_at(REST);
+        }
+    }
+
+    fn look_at_carriers(&mut self) {
+        self.look_at(REST);
+    }
+
+    fn look_at_origin(&mut self) {
+        self.look_at(self.origin.unwrap_or(NOWHERE));
     }
 }
 
@@ -251,7 +280,7 @@ impl Environment for Branches {
         Err(self.endless(UnboundedKind::Clock, span))
     }
 
-    fn branches(&mut self) -> Option<&mut Branches> {
+    fn alternatives(&mut self) -> Option<&mut dyn Alternatives> {
         Some(self)
     }
 }

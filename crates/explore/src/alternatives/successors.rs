@@ -12,7 +12,7 @@ use rustc_hash::FxHasher;
 const PIECE: usize = 1 << 16;
 
 /// See the module.
-pub(super) struct Successors<'o> {
+pub(crate) struct Successors<'o> {
     out: &'o mut Vec<u64>,
     /// Where they begin in the list.
     start: usize,

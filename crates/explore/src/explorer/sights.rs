@@ -6,50 +6,31 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use machine::inside::is_fixed_domain;
+use machine::{Fault, Location, Observation, Value};
 use rustc_hash::FxHashSet;
 
-use crate::explore::encoding::Encoding;
-use crate::explore::explorer::{Explorer, Kind};
-use crate::explore::kept::is_input;
-use crate::fault::Fault;
-use crate::location::Location;
-use crate::observe::{Observation, Observations};
-use crate::value::Value;
-
-/// Something that happened for the first time.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Sighting {
-    /// What.
-    pub observation: Observation,
-    /// The answers that lead to the step.
-    pub picks: Vec<u32>,
-    /// The step can be made; it is no fault.
-    pub made: bool,
-}
-
-/// By field of the packed states, the codes met.
-#[derive(Debug, Clone, Default)]
-pub struct Met {
-    codes: Vec<FxHashSet<u32>>,
-    last: Vec<u64>,
-}
+use crate::alternatives::kind::AlternativeKind;
+use crate::explorer::Explorer;
+use crate::explorer::sighting::{Met, Sighting};
+use crate::packed::kept::is_input;
 
 impl Explorer {
     /// Notes what the step at hand showed.
-    pub(super) fn sight(&mut self, kind: Kind) {
-        let Some(observations) = &mut self.machine.core.observations else { return };
-        if observations.step.is_empty() {
+    pub(super) fn sight(&mut self, kind: AlternativeKind) {
+        let Some(observations) = self.machine.watched() else { return };
+        let seen = observations.take();
+        if seen.is_empty() {
             return;
         }
-        let seen = std::mem::take(&mut observations.step);
-        let made = kind == Kind::Next;
-        if kind == Kind::Excluded || kind == Kind::Unbounded {
+        let made = kind == AlternativeKind::Next;
+        if kind == AlternativeKind::Excluded || kind == AlternativeKind::Unbounded {
             return;
         }
         let picks: Vec<u32> = self.branches.answers().iter().map(|asked| asked.taken).collect();
         for observation in seen {
-            let known = if made { &mut observations.known } else { &mut self.in_faults };
-            if known.insert(observation) {
+            let is_new = if made { observations.learn(observation) } else { self.in_faults.insert(observation) };
+            if is_new {
                 self.sightings.push(Sighting { observation, picks: picks.clone(), made });
             }
         }
@@ -62,24 +43,24 @@ impl Explorer {
 
     /// All that happens in one step.
     pub fn observe(&mut self, state: &[u64], picks: &[u32]) -> Vec<Observation> {
-        let former = self.machine.core.observations.replace(Box::default());
+        let former = self.machine.watch(Some(Box::default()));
         self.load(state);
         self.branches.follow(picks);
         self.begin_watching();
         let _ = self.machine.prepare(&mut self.branches);
         self.machine.discard();
-        let observations = std::mem::replace(&mut self.machine.core.observations, former);
-        observations.map(|observations| observations.step).unwrap_or_default()
+        let observations = self.machine.watch(former);
+        observations.map(|mut observations| observations.take()).unwrap_or_default()
     }
 
     /// The location of a number that an observation names.
     pub fn location(&self, index: u32) -> Location {
-        self.machine.core.store.location(index)
+        self.machine.store().location(index)
     }
 
     /// The elements of a domain, as far as they are the same in all states and no more than `most`.
     pub fn elements(&mut self, domain: program::DomainId, most: usize) -> Option<Vec<Value>> {
-        let fixed = crate::explore::conditions::is_fixed(&self.program, domain);
+        let fixed = is_fixed_domain(&self.program, domain);
         let elements = if fixed { self.machine.elements(domain).ok()? } else { return None };
         (elements.len() <= most).then_some(elements)
     }
@@ -120,9 +101,9 @@ impl Explorer {
                     continue;
                 }
                 let mut words = vec![0; encoding.words];
-                Encoding::put(field, code, &mut words);
+                field.put(code, &mut words);
                 let value = encoding.value(field, &words, view);
-                values.entry(machine.core.store.location(field.location)).or_default().insert(value);
+                values.entry(machine.store().location(field.location)).or_default().insert(value);
             }
         }
         if encoding.rest.is_none() {
@@ -134,20 +115,13 @@ impl Explorer {
     }
 
     pub(super) fn begin_watching(&mut self) {
-        if let Some(observations) = &mut self.machine.core.observations {
-            observations.step.clear();
-            (observations.clash, observations.on) = (None, true);
+        if let Some(observations) = self.machine.watched() {
+            observations.begin();
         }
     }
 
     /// Ends it; gives the first clash of a step that has gone on after it.
     pub(super) fn end_watching(&mut self) -> Option<Box<Fault>> {
-        let observations = self.machine.core.observations.as_mut()?;
-        observations.on = false;
-        observations.clash.take()
-    }
-
-    pub(super) fn watch(&mut self) {
-        self.machine.core.observations = Some(Box::new(Observations::default()));
+        self.machine.watched()?.end()
     }
 }

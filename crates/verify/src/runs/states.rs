@@ -8,8 +8,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use explore::{Explorer, Interner, Outcome, Path, Settings, Trouble, Truth, Widening};
 use hashbrown::{HashMap, HashSet};
-use machine::explore::{Explorer, Interner, Outcome, Path, Settings, Trouble, Truth, Widening};
 use machine::{Cause, Value};
 use program::Program;
 use rustc_hash::FxBuildHasher;

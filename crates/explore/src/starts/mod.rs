@@ -4,20 +4,18 @@
 //! the second time each is packed. Out: [`Starts`]: a few words for each, since there may be a great many. What one took from
 //! outside is told by making it once more. INVARIANT: they come in the order of their alternatives, whoever makes them.
 
+pub(crate) mod origin;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use crate::explore::branches::Branches;
-use crate::explore::explorer::{Explorer, Trouble, note_limit};
-use crate::explore::origin::Origins;
-use crate::explore::paths::Told;
-use crate::fault::FaultKind;
-use crate::interrupt::Interrupt;
-use crate::location::Location;
-use crate::machine::{EngineChoice, Machine, Snapshot};
-use crate::store::Store;
-use crate::value::Value;
+use machine::inside::Store;
+use machine::{FaultKind, Interrupt, Location, Machine, Snapshot, Value};
+
+use crate::alternatives::branches::Branches;
+use crate::settings::Trouble;
+use crate::starts::origin::Origins;
 
 /// Of so many the answers that lead to one are kept.
 const MARK: usize = 64;
@@ -30,11 +28,11 @@ pub struct Start(u32);
 
 /// What there is in any of the initial states.
 #[derive(Debug)]
-pub(super) struct Seen {
+pub(crate) struct Seen {
     /// The values of locations: each that a location has in some of the states is in some row.
     pub rows: Vec<Vec<Value>>,
     /// Each input that was asked for, with a value, and with undef if it was that.
-    pub asked: Told,
+    pub asked: Vec<(Location, Value)>,
     /// The states that initial values which come up later are evaluated in.
     pub origins: Arc<Vec<Store>>,
 }
@@ -43,30 +41,36 @@ pub(super) struct Seen {
 #[derive(Debug)]
 pub struct Starts {
     /// The states; one may come up several times.
-    pub(super) states: Vec<(Box<[u64]>, Start)>,
+    pub(crate) states: Vec<(Box<[u64]>, Start)>,
     /// The answers that lead to each of them whose number is a multiple of [`MARK`].
     marks: Vec<Box<[u32]>>,
-    pub(super) seen: Arc<Seen>,
+    pub(crate) seen: Arc<Seen>,
 }
 
 impl Starts {
     /// None yet.
-    pub(super) fn new(seen: Arc<Seen>) -> Starts {
+    pub(crate) fn new(seen: Arc<Seen>) -> Starts {
         Starts { states: Vec::new(), marks: Vec::new(), seen }
     }
 
     /// Adds the state that these answers lead to.
-    pub(super) fn push(&mut self, words: Box<[u64]>, branches: &Branches) {
+    pub(crate) fn push(&mut self, words: Box<[u64]>, branches: &Branches) {
         if self.states.len().is_multiple_of(MARK) {
             self.marks.push(branches.answers().iter().map(|asked| asked.taken).collect());
         }
         self.states.push((words, Start(self.states.len() as u32)));
     }
+
+    /// The answers that lead to a start before this one or to itself, and how many starts after that it comes.
+    pub(crate) fn way_to(&self, start: Start) -> (&[u32], usize) {
+        let number = start.0 as usize;
+        (&self.marks[number / MARK], number % MARK)
+    }
 }
 
 /// Initial states as they are made for the first time.
 #[derive(Debug, Default)]
-pub(super) struct Begun {
+pub(crate) struct Begun {
     columns: Columns,
     /// By location, and whether it was undef.
     asked: BTreeMap<(Location, bool), Value>,
@@ -76,7 +80,7 @@ pub(super) struct Begun {
 impl Begun {
     /// Adds the one that the machine was started in.
     pub fn add(&mut self, machine: &Machine) {
-        self.columns.add(&machine.core.store.values);
+        self.columns.add(machine.store().values());
         for (location, value) in machine.inputs() {
             self.asked.entry((location, value.is_undef())).or_insert(value);
         }
@@ -85,8 +89,8 @@ impl Begun {
 
     /// What there is in any of them.
     pub fn seen(self) -> Seen {
-        let inputs = self.asked.into_iter().map(|((location, _), value)| (location, value)).collect();
-        Seen { rows: self.columns.rows(), asked: Told { inputs, ..Told::default() }, origins: self.origins.stores() }
+        let asked = self.asked.into_iter().map(|((location, _), value)| (location, value)).collect();
+        Seen { rows: self.columns.rows(), asked, origins: self.origins.stores() }
     }
 }
 
@@ -123,10 +127,10 @@ impl Columns {
 }
 
 /// What is done in an initial state; whether the others are gone through, too.
-pub(super) type Visit<'v> = dyn FnMut(&mut Machine, &mut Branches) -> Result<ControlFlow<()>, Trouble> + 'v;
+pub(crate) type Visit<'v> = dyn FnMut(&mut Machine, &mut Branches) -> Result<ControlFlow<()>, Trouble> + 'v;
 
 /// Starts a machine in one initial state after the other, from the one that the answers lead to which `branches` have.
-pub(super) fn each_start(
+pub(crate) fn each_start(
     machine: &mut Machine,
     blank: &Snapshot,
     branches: &mut Branches,
@@ -141,7 +145,7 @@ pub(super) fn each_start(
             if let FaultKind::Interrupted(cause) = fault.kind {
                 return Err(Trouble::Interrupted(cause));
             }
-            note_limit(branches, &fault);
+            branches.note_limit(&fault);
             return Err(match branches.unbounded {
                 Some(unbounded) => Trouble::Unbounded(unbounded),
                 None => Trouble::Fault(Box::new(fault)),
@@ -150,31 +154,5 @@ pub(super) fn each_start(
         if visit(machine, branches)?.is_break() || !branches.next() {
             return Ok(());
         }
-    }
-}
-
-impl Explorer {
-    /// What an initial state took from outside.
-    pub fn told_of_start(&self, start: Start) -> Told {
-        let Start(number) = start;
-        let mut machine = Machine::new(self.program.clone(), self.settings.limits);
-        machine.use_engine(EngineChoice::Interpreted);
-        machine.ignore_interrupts();
-        machine.core.exploring = true;
-        let blank = machine.snapshot();
-        let mut branches = Branches::new(self.settings.bounds.clone());
-        branches.follow(&self.starts.marks[number as usize / MARK]);
-        let (mut told, mut left) = (Told::default(), number as usize % MARK);
-        // It was made before, without trouble.
-        let _ = each_start(&mut machine, &blank, &mut branches, &Interrupt::default(), &mut |machine, branches| {
-            if left > 0 {
-                left -= 1;
-                return Ok(ControlFlow::Continue(()));
-            }
-            let choices = std::mem::take(&mut branches.chosen);
-            told = Told { inputs: machine.inputs(), choices, ..Told::default() };
-            Ok(ControlFlow::Break(()))
-        });
-        told
     }
 }

@@ -1,0 +1,60 @@
+//! Steps and starts told: what was found is made once more, and all there is to say of it is noted.
+
+use std::ops::ControlFlow;
+
+use machine::{EngineChoice, Interrupt, Machine};
+
+use crate::alternatives::branches::Branches;
+use crate::alternatives::told::Told;
+use crate::explorer::Explorer;
+use crate::starts::{Start, each_start};
+
+impl Explorer {
+    /// Tells of the step that these answers lead to.
+    pub fn tell(&mut self, state: &[u64], picks: &[u32]) -> Told {
+        self.load(state);
+        self.branches.follow(picks);
+        let mut told = Told::default();
+        let prepared = self.machine.prepare(&mut self.branches);
+        told.inputs = self.machine.inputs();
+        match prepared {
+            Ok(()) => {
+                // Conditions may ask for more inputs.
+                for (formula, _) in &self.settings.step_conditions {
+                    let _ = self.machine.evaluate(formula, &mut self.branches);
+                }
+                told.inputs = self.machine.inputs();
+                self.machine.commit();
+                told.changes = self.machine.changes();
+            }
+            Err(fault) => told.fault = Some(Box::new(fault)),
+        }
+        told.choices = std::mem::take(&mut self.branches.chosen);
+        self.is_loaded = false;
+        told
+    }
+
+    /// What an initial state took from outside.
+    pub fn told_of_start(&self, start: Start) -> Told {
+        let mut machine = Machine::new(self.program.clone(), self.settings.limits);
+        machine.use_engine(EngineChoice::Interpreted);
+        machine.ignore_interrupts();
+        machine.explore();
+        let blank = machine.snapshot();
+        let mut branches = Branches::new(self.settings.bounds.clone());
+        let (answers, mut left) = self.starts.way_to(start);
+        branches.follow(answers);
+        let mut told = Told::default();
+        // It was made before, without trouble.
+        let _ = each_start(&mut machine, &blank, &mut branches, &Interrupt::default(), &mut |machine, branches| {
+            if left > 0 {
+                left -= 1;
+                return Ok(ControlFlow::Continue(()));
+            }
+            let choices = std::mem::take(&mut branches.chosen);
+            told = Told { inputs: machine.inputs(), choices, ..Told::default() };
+            Ok(ControlFlow::Break(()))
+        });
+        told
+    }
+}

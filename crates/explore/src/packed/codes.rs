@@ -1,0 +1,70 @@
+//! How the values of a function become codes, and how many bits a code needs.
+//!
+//! In: a domain, the values that were found. Out: [`Codes`]: places in a list where there are few values, numbers of an
+//! interner otherwise.
+
+use std::sync::Arc;
+
+use machine::{Machine, Value};
+use program::{DomainId, DomainKind, Program};
+
+/// LIMIT: a domain with more elements counts as infinite.
+const CODES: usize = 1 << 12;
+
+/// How values of one function become codes.
+#[derive(Debug, Clone)]
+pub(crate) enum Codes {
+    /// The place in this list, sorted; undef, where it is possible, comes last.
+    Listed { values: Arc<Vec<Value>>, undefined: bool },
+    /// The number that an interner gives.
+    Interned,
+}
+
+impl Codes {
+    /// The codes of values of a domain and these, of undef where that is possible; and how many bits they need.
+    pub fn of<'v>(
+        program: &Program,
+        machine: &mut Machine,
+        domain: DomainId,
+        found: impl Iterator<Item = &'v Value>,
+        undefined: bool,
+    ) -> (Codes, usize) {
+        let Some(mut values) = finite(program, machine, domain) else { return (Codes::Interned, 32) };
+        values.extend(found.cloned());
+        values.retain(|value| !value.is_undef());
+        values.sort_unstable();
+        values.dedup();
+        let count = values.len() + usize::from(undefined);
+        let bits = (usize::BITS - count.saturating_sub(1).leading_zeros()) as usize;
+        (Codes::Listed { values: Arc::new(values), undefined }, bits)
+    }
+}
+
+/// How a function's values become codes, for who asks.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Coding<'e> {
+    /// The place in this list.
+    Listed(&'e [Value]),
+    /// The number of the value.
+    Numbered,
+}
+
+/// The elements of a domain that is finite and the same in all states.
+pub(crate) fn finite(program: &Program, machine: &mut Machine, domain: DomainId) -> Option<Vec<Value>> {
+    let fixed = match &program.domain(domain).kind {
+        DomainKind::Basic(model::Basic::Boolean) | DomainKind::Enum { .. } => true,
+        DomainKind::Abstract { dynamic, .. } | DomainKind::Concrete { dynamic, .. } => !dynamic,
+        // What is inside of tuples and collections is not checked of an update, so they may hold anything.
+        _ => false,
+    };
+    let over_growing = match &program.domain(domain).kind {
+        DomainKind::Concrete { base, .. } => {
+            matches!(program.domain(*base).kind, DomainKind::Abstract { dynamic: true, .. })
+        }
+        _ => false,
+    };
+    if !fixed || over_growing {
+        return None;
+    }
+    machine.elements(domain).ok().filter(|elements| elements.len() <= CODES)
+}

@@ -1,0 +1,45 @@
+//! What an explorer is made with, and why there may be none.
+
+use std::sync::Arc;
+
+use machine::{Bounds, Cause, Fault, Interrupt, Limits};
+use program::Expression;
+
+use crate::alternatives::branches::Unbounded;
+use crate::packed::widening::Widening;
+
+/// What an explorer is made with.
+#[derive(Debug, Clone, Default)]
+pub struct Settings {
+    /// The machine's limits.
+    pub limits: Limits,
+    /// The values of inputs that are not all those of their domains.
+    pub bounds: Arc<Bounds>,
+    /// Conditions on states.
+    pub conditions: Vec<Expression>,
+    /// Conditions on a state with the inputs of its step; whether each is an assumption, by which alternatives are left
+    /// out.
+    pub step_conditions: Vec<(Expression, bool)>,
+    /// Nothing is remembered.
+    pub forgetful: bool,
+    /// Looked at between the alternatives of a state, of which there may be many.
+    pub interrupt: Interrupt,
+    /// What happens within steps is told: see [`crate::Explorer::sightings`].
+    pub observed: bool,
+    /// By term, where any is: a range whose elements are to be interchangeable. Quantifiers look at all of them, and where a
+    /// fault may depend on their order [`crate::Explorer::order_mattered`] tells.
+    pub unordered: Arc<[bool]>,
+}
+
+/// Why there is no explorer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Trouble {
+    /// An initial state cannot be made.
+    Fault(Box<Fault>),
+    /// The initial states cannot be gone through.
+    Unbounded(Unbounded),
+    /// The states do not fit: try again with this.
+    TooNarrow(Widening),
+    /// Whoever waits has had enough before all initial states were made.
+    Interrupted(Cause),
+}

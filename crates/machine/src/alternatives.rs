@@ -1,0 +1,58 @@
+//! Where every alternative of a step is wanted, not one: who goes through them, and what the machine tells it.
+//!
+//! In: an [`Alternatives`], which the environment names. Out: what a step asks for, as one of so many alternatives, and what it
+//! looks at. INVARIANT: nothing but the answers and what is looked at decides how a step goes on.
+
+use std::collections::BTreeMap;
+
+use program::{FunctionId, Program};
+use syntax::Span;
+
+use crate::value::Value;
+
+/// The values that an input takes, where they are not all those of its domain.
+pub type Bounds = BTreeMap<FunctionId, Vec<Value>>;
+
+/// Who goes through the alternatives of steps, one at a time, and notes what of the state each looks at. A step is
+/// deterministic but for what it asks here.
+pub trait Alternatives {
+    /// Which of `of` alternatives is taken, from 0. Where they are `guarded`, `of` itself says that none of them is alive.
+    fn ask(&mut self, of: usize, guarded: bool) -> usize;
+
+    /// The alternative taken is none: its guard does not hold.
+    fn be_dead(&mut self);
+
+    /// Whether the alternative taken is none.
+    fn is_dead(&self) -> bool;
+
+    /// A choice was made: the choose rule and the values of the variables that it binds.
+    fn chose(&mut self, span: Span, values: Vec<Value>);
+
+    /// Whether the values of an input are given, so that its domain is not gone through.
+    fn gives(&self, input: FunctionId) -> bool;
+
+    /// The values of an input cannot be gone through. Gives the reason that the step ends with.
+    fn endless_input(&mut self, input: FunctionId, span: Span) -> String;
+
+    /// The candidates of a choice cannot be gone through.
+    fn endless_choice(&mut self, span: Span);
+
+    /// A location is looked at: the number that it may have, and whether its function's locations are part of the state
+    /// between steps ([`is_kept`]).
+    fn look(&mut self, function: FunctionId, found: Option<u32>, kept: bool);
+
+    /// A location is written that may have to have its initial value first.
+    fn write(&mut self, found: Option<u32>, kept: bool);
+
+    /// The elements of a dynamic domain are looked at.
+    fn look_at_carriers(&mut self);
+
+    /// It is looked at in which initial state the run began.
+    fn look_at_origin(&mut self);
+}
+
+/// Whether a function's locations are part of the state between steps.
+pub fn is_kept(program: &Program, function: FunctionId) -> bool {
+    use program::FunctionKind::{Controlled, Out, Shared};
+    matches!(program.function(function).kind, Controlled | Out | Shared) && Some(function) != program.self_function
+}
