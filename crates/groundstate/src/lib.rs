@@ -46,7 +46,7 @@ pub use kind::{Kind, has_ending, model_of};
 pub use overlay::{Overlay, Said};
 pub use test::{SeededChoices, Suite, Tested, own_files};
 pub use workspace::Workspace;
-pub use {chart, conform, generate, inputs, machine, model, program, scenario, simulate, smt, syntax, verify};
+pub use {chart, conform, generate, inputs, machine, model, program, scenario, simulate, solve, syntax, verify};
 
 /// A model that is ready to run. It does not change: what is asked of it beside its text goes into an [`Overlay`].
 #[derive(Debug, Clone)]

@@ -41,7 +41,7 @@ const STATES: u64 = 60;
 
 struct NoSolver;
 
-impl smt::Solver for NoSolver {
+impl solve::Solver for NoSolver {
     fn solve(&mut self, _: &str) -> Result<String, String> {
         Err("there is no solver".to_string())
     }

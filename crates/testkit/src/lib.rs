@@ -2,7 +2,7 @@
 //! files.
 //!
 //! It does I/O, which the crates under test must not, so it is a dev-dependency and nothing else. It knows `syntax`, `model`
-//! and `smt` for their traits. The unit tests of those three see another copy of these types: only their integration
+//! and `solve` for their traits. The unit tests of those three see another copy of these types: only their integration
 //! tests can use it. All other tests can.
 
 #![allow(

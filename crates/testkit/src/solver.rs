@@ -6,13 +6,13 @@
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
-use smt::session::{Session, Silence, Solvers, is_answer};
+use solve::session::{Session, Silence, Solvers, is_answer};
 
 /// A solver that answers nothing: everything must be decided without one.
 #[derive(Debug, Clone, Copy)]
 pub struct NoSolver;
 
-impl smt::Solver for NoSolver {
+impl solve::Solver for NoSolver {
     fn solve(&mut self, _script: &str) -> Result<String, String> {
         Err("there is no solver".to_string())
     }

@@ -10,8 +10,8 @@ use std::sync::Arc;
 use explore::{Settings, Trouble, Unbounded};
 use machine::{Bounds, Fault, Interrupt, Limits};
 use program::{Expression, FunctionId, Program, PropertyKind};
-use smt::Outside;
-use smt::session::Solvers;
+use solve::Outside;
+use solve::session::Solvers;
 use syntax::Span;
 
 use crate::again::made_again;

@@ -13,7 +13,7 @@ use explore::{Trouble, Unbounded, Widening};
 use machine::Cause;
 use model::Basic;
 use program::{DomainId, DomainKind, FunctionKind, Program, Rule};
-use smt::session::Solvers;
+use solve::session::Solvers;
 
 use crate::again::made_again;
 use crate::check::{Engine, NoStart};

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use machine::Interrupt;
 use program::Program;
-use smt::session::{Session, Silence, Solvers};
+use solve::session::{Session, Silence, Solvers};
 
 use crate::check::{Engine, NoStart, Options, Report, verify_request};
 use crate::checkpoint::Keeper;

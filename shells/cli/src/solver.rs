@@ -6,7 +6,7 @@ use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 
-use smt::session::{Session, Silence, Solvers, is_answer};
+use solve::session::{Session, Silence, Solvers, is_answer};
 
 /// How long a solver may think about one question that is asked alone, in seconds.
 const SECONDS: u32 = 10;
@@ -71,7 +71,7 @@ fn on_path(names: &[&str]) -> Option<PathBuf> {
     candidates.into_iter().find(|path| path.is_file() || path.with_extension("exe").is_file())
 }
 
-impl smt::Solver for Process {
+impl solve::Solver for Process {
     fn solve(&mut self, script: &str) -> Result<String, String> {
         let program = self.program()?;
         let arguments = match Process::make(program) {

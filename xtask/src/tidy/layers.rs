@@ -1,7 +1,7 @@
 //! Which crate may use which: the flow is the tree, and a crate reads only what lies before it.
 //!
 //! In: the manifests. Out: findings where a dependency goes against the flow
-//! (syntax ← model ← program ← machine ← operations ← groundstate ← shells). Operations never use each other; the
+//! (syntax ← model ← program ← machine ← solve ← operations ← groundstate ← shells). Operations never use each other; the
 //! oracle and what else only tests need may be a dev-dependency alone.
 
 use super::{File, Finding};
@@ -11,8 +11,8 @@ const LAYERS: &[&[&str]] = &[
     &["syntax", "palette"],
     &["model"],
     &["program"],
-    &["machine", "smt"],
-    &["explore"],
+    &["machine"],
+    &["explore", "solve"],
     &["recording", "testkit"],
     &["simulate", "scenario", "verify", "refine", "chart", "conform", "ide"],
     &["draw", "generate"],

@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use model::{Checked, FunctionId, Model, RuleId};
-use smt::Solver;
+use solve::Solver;
 use syntax::{Diagnostic, Severity, Span, SyntaxKind};
 
 use crate::build::{call, machine_rule, rule_name, state_value};

@@ -8,7 +8,7 @@
 use std::collections::BTreeSet;
 
 use model::Model;
-use smt::{Decision, Solver};
+use solve::{Decision, Solver};
 use syntax::ast::{AstNode, TermFile};
 use syntax::{Diagnostic, FileId, Severity, Span};
 
@@ -128,7 +128,7 @@ impl Asker<'_> {
         if fragment.diagnostics.iter().any(|found| found.severity == Severity::Error) {
             return Decision::Unknown("the guards are no condition".to_string());
         }
-        match smt::translate(self.model, &fragment.item, &fragment.variables) {
+        match solve::translate(self.model, &fragment.item, &fragment.variables) {
             Ok(formula) => formula.decide(self.solver),
             Err(outside) => Decision::Unknown(format!("{} cannot be decided", outside.what)),
         }

@@ -2,7 +2,7 @@
 //!
 //! In: parts of a report, the program, its texts. Out: a diagnostic each.
 
-use machine::explore::{Unbounded, UnboundedKind};
+use explore::{Unbounded, UnboundedKind};
 use program::{Program, Property, PropertyKind};
 use syntax::{Diagnostic, Sources, Span};
 use verify::Trace;

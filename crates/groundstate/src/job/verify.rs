@@ -7,7 +7,7 @@ use std::io;
 
 use verify::{Keeper, Listener, NoStart, Progress, Report, Request, Subject, Trace};
 
-use smt::session::Solvers;
+use solve::session::Solvers;
 
 use crate::job::{Cancel, Job, Port};
 

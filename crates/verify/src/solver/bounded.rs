@@ -7,9 +7,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use program::Program;
-use smt::Outside;
-use smt::session::{Silence, Verdict};
-use smt::shared::Node;
+use solve::Outside;
+use solve::session::{Silence, Verdict};
+use solve::shared::Node;
 
 use crate::search::{Plan, Target};
 use crate::solver::relation::Relation;
@@ -39,7 +39,7 @@ impl<'r> Bounded<'r> {
         program: &'r Arc<Program>,
         plan: &'r Plan,
         relation: &'r Relation,
-        session: Box<dyn smt::session::Session>,
+        session: Box<dyn solve::session::Session>,
     ) -> Bounded<'r> {
         Bounded {
             program,

@@ -7,8 +7,8 @@
 use std::fmt::Write;
 
 use rustc_hash::FxHashMap;
-use smt::session::{Session, Silence, Verdict, verdict};
-use smt::shared::{Node, Script, Terms, VariableId};
+use solve::session::{Session, Silence, Verdict, verdict};
+use solve::shared::{Node, Script, Terms, VariableId};
 
 use crate::solver::relation::Relation;
 use crate::solver::unrolling::Patience;

@@ -6,8 +6,8 @@
 
 use std::collections::BTreeMap;
 
-use smt::session::{Session, Silence, Verdict};
-use smt::shared::Node;
+use solve::session::{Session, Silence, Verdict};
+use solve::shared::Node;
 
 use crate::search::Target;
 use crate::solver::relation::Relation;

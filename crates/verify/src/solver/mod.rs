@@ -1,17 +1,15 @@
 //! Verification by an SMT solver: models whose states, inputs and choices cannot be gone through.
 //!
 //! In: a program and what is asked of its states. Out: what was found, with runs that the machine has made again, and what
-//! was proved. [`encode`] puts a step into terms, [`relation`] the whole program; [`bounded`] looks for runs, [`induction`]
+//! was proved. [`solve::encode`] puts a step into terms, [`relation`] the whole program; [`bounded`] looks for runs, [`induction`]
 //! and [`horn`] prove that there are none. INVARIANT: nothing is proved unless it is proved, too, that the machine does
 //! nothing that the solver was not told.
 
 mod bounded;
-mod encode;
 mod horn;
 mod induction;
 mod relation;
 mod replay;
-mod symbol;
 mod unrolling;
 
 use std::collections::BTreeMap;
@@ -19,8 +17,8 @@ use std::sync::Arc;
 
 use explore::Trouble;
 use program::Program;
-pub use smt::Outside;
-use smt::session::{Silence, Solvers};
+pub use solve::Outside;
+use solve::session::{Silence, Solvers};
 
 use crate::search::{Plan, Progress, Target};
 use crate::trace::Trace;
@@ -144,7 +142,7 @@ pub(crate) fn solve(
     let mut patience = Patience { seconds: if portfolio { SECONDS } else { u32::MAX }, go_on: &mut go_on, depth: 0 };
     let mut solved = Solved { solver: solver.clone(), ..Solved::default() };
     let mut pending = exact.targets.clone();
-    pending.extend(exact.untold.iter().map(|target| (*target, smt::shared::Terms::FALSE)));
+    pending.extend(exact.untold.iter().map(|target| (*target, solve::shared::Terms::FALSE)));
     let mut bounded = Bounded::new(program, plan, &exact, solvers.start()?);
     let (mut told, mut late) = (false, None);
     let mut proves = BTreeMap::new();
@@ -269,7 +267,7 @@ fn by_reachability(
     told: &mut bool,
 ) -> Result<Reached, Unsolved> {
     let targets: Vec<_> = relation.targets.iter().filter(|(target, _)| !known.contains_key(target)).copied().collect();
-    let beyond = if already { smt::shared::Terms::FALSE } else { relation.strays };
+    let beyond = if already { solve::shared::Terms::FALSE } else { relation.strays };
     let all = relation.terms.or(targets.iter().map(|one| one.1).chain([beyond]));
     let mut silent = None;
     match horn::reachable(relation, all, &mut *solvers.start()?, patience) {

@@ -10,14 +10,14 @@ use explore::{Explorer, Interner, Settings, Told, Trouble};
 use machine::{Location, Machine, Value};
 use program::{FunctionId, Program};
 use rustc_hash::FxHashMap;
-use smt::Outside;
-use smt::shared::{Kind, Node, Op, Terms, VariableId};
+use solve::Outside;
+use solve::shared::{Kind, Node, Op, Terms, VariableId};
 use syntax::Span;
 
 use crate::search::{Plan, Target, widened};
-use crate::solver::encode::{Choice, Encoder, Input, InputKind, Place};
 use crate::solver::replay::Given;
-use crate::solver::symbol::{Codes, Open, Shape, Symbol, constant};
+use solve::encode::{Choice, Encoder, Input, InputKind, Place};
+use solve::symbol::{Codes, Open, Shape, Symbol, constant};
 
 /// LIMIT: initial states.
 const STARTS: usize = 256;

@@ -10,14 +10,14 @@ use explore::{ChoiceTaken, Told};
 use machine::{Choice, Draw, EngineChoice, Environment, FaultClass, Location, LocationRef, Machine, TimeUnit, Value};
 use program::{DomainId, Program};
 use rustc_hash::FxHashMap;
-use smt::session::Constant;
-use smt::shared::{VariableId, value_at};
+use solve::session::Constant;
+use solve::shared::{VariableId, value_at};
 
 use crate::search::{Plan, Target};
-use crate::solver::encode::InputKind;
 use crate::solver::relation::Relation;
-use crate::solver::symbol::{Symbol, value_of};
 use crate::trace::Trace;
+use solve::encode::InputKind;
+use solve::symbol::{Symbol, value_of};
 
 /// What a solver says of a run.
 #[derive(Debug, Clone, Default)]

@@ -5,8 +5,8 @@
 
 use std::fmt::Write;
 
-use smt::session::{Constant, Session, Silence, Verdict, constants, verdict};
-use smt::shared::{Kind, Node, Script, Terms, VariableId};
+use solve::session::{Constant, Session, Silence, Verdict, constants, verdict};
+use solve::shared::{Kind, Node, Script, Terms, VariableId};
 
 use crate::solver::relation::Relation;
 use crate::solver::replay::Found;

@@ -2,13 +2,12 @@
 //!
 //! SYNC(operations): the faults are the machine's; what is not here is outside of what solvers are told.
 
-use machine::{FaultClass, Value};
+use machine::Value;
 use program::{Builtin, TermId};
-use smt::shared::Terms;
 
-use super::{Encoder, InputKind, Result, components, elements};
-use crate::solver::encode::Choice;
-use crate::solver::symbol::{Open, Shape, Symbol};
+use super::{Choice, Encoder, FaultClass, InputKind, Result, components, elements};
+use crate::shared::Terms;
+use crate::symbol::{Open, Shape, Symbol};
 
 impl Encoder {
     pub(super) fn apply(&mut self, builtin: Builtin, operands: &[Symbol], id: TermId) -> Result {
@@ -92,7 +91,7 @@ impl Encoder {
     }
 
     /// `chooseone(S)`: undef of an empty set.
-    fn choose_one(&mut self, elements: Vec<(smt::shared::Node, Symbol)>) -> Result {
+    fn choose_one(&mut self, elements: Vec<(crate::shared::Node, Symbol)>) -> Result {
         if elements.is_empty() {
             return Ok(Symbol::UNDEF);
         }
@@ -110,12 +109,12 @@ impl Encoder {
     }
 
     /// By candidate, the condition that it is the one that is picked among those that are there.
-    pub(super) fn pick(&mut self, candidates: &[(smt::shared::Node, Vec<Symbol>)]) -> Vec<smt::shared::Node> {
+    pub(super) fn pick(&mut self, candidates: &[(crate::shared::Node, Vec<Symbol>)]) -> Vec<crate::shared::Node> {
         if let [(present, _)] = candidates {
             return vec![*present];
         }
         let bounds = (Some(0), Some(candidates.len() as i128 - 1));
-        let pick = self.input("pick", smt::shared::Kind::Integer, bounds, InputKind::Pick);
+        let pick = self.input("pick", crate::shared::Kind::Integer, bounds, InputKind::Pick);
         let mut taken = Vec::with_capacity(candidates.len());
         for (index, (present, _)) in candidates.iter().enumerate() {
             let index = self.terms.integer(index as i128);

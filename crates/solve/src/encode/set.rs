@@ -1,9 +1,8 @@
 //! Sets of symbols: each element with the condition that it is in the set.
 
-use smt::shared::{Node, Terms};
-
 use super::{Encoder, Result, elements};
-use crate::solver::symbol::{Open, Shape, Symbol};
+use crate::shared::{Node, Terms};
+use crate::symbol::{Open, Shape, Symbol};
 
 impl Encoder {
     /// The set of some elements, of which each is there under a condition; what is equal is there once.

@@ -1,7 +1,7 @@
 //! A step of the machine in terms of a solver: for each location, its next value as a function of the state, the inputs and
 //! the choices; and under which conditions the step is no step.
 //!
-//! In: a program. Out: what [`super::relation`] puts together. Rules are run in the machine's order with symbols for values;
+//! In: a program. Out: what `verify` puts together to a transition relation. Rules are run in the machine's order with symbols for values;
 //! every branch that may be taken is. INVARIANT: for every state and answer, `faults` holds the class of the first fault
 //! that the machine meets, and the update set is the machine's; `beyond` holds where that is not so. Tests hold the two to
 //! each other, and nobody is told of a run that the machine does not make.
@@ -22,12 +22,12 @@ use std::sync::Arc;
 use machine::{Bounds, Fault, FaultClass, FaultKind, Machine, Value};
 use program::{Expression, FunctionId, Program, Slot, TermId};
 use rustc_hash::FxHashMap;
-use smt::Outside;
-use smt::shared::{Node, Terms};
 use syntax::Span;
 
-use crate::solver::symbol::{Codes, Open, Shape, Symbol, constant};
-pub(crate) use location::Place;
+use crate::Outside;
+use crate::shared::{Node, Terms};
+use crate::symbol::{Codes, Open, Shape, Symbol, constant, value_of};
+pub use location::Place;
 
 /// LIMIT: terms and rules that are gone through for one step.
 const WORK: usize = 2_000_000;
@@ -36,17 +36,21 @@ const TERMS: usize = 4_000_000;
 /// LIMIT: calls in each other, of which a solver is told all.
 const DEPTH: usize = 100;
 
-pub(crate) type Result<T = Symbol> = std::result::Result<T, Outside>;
+/// What is in terms, or why something has no place in them.
+pub type Result<T = Symbol> = std::result::Result<T, Outside>;
 
 /// What a step takes from outside.
 #[derive(Debug, Clone)]
-pub(crate) struct Input {
+pub struct Input {
+    /// Its value.
     pub variable: Node,
+    /// What it is.
     pub kind: InputKind,
 }
 
+/// What an input is.
 #[derive(Debug, Clone)]
-pub(crate) enum InputKind {
+pub enum InputKind {
     /// The value of a monitored location.
     Location(FunctionId, Vec<Value>, Shape),
     /// A place in the candidates of a choice.
@@ -59,9 +63,10 @@ pub(crate) enum InputKind {
 
 /// A choice: its candidates with the condition that each is taken.
 #[derive(Debug, Clone)]
-pub(crate) struct Choice {
+pub struct Choice {
     /// It is made, and has candidates.
     pub made: Node,
+    /// By candidate, that it is taken, and the values of the variables.
     pub candidates: Vec<(Node, Vec<Symbol>)>,
     /// Numbers that are drawn before.
     pub draws: Vec<Symbol>,
@@ -71,9 +76,13 @@ pub(crate) struct Choice {
 type Unit = BTreeMap<usize, (Node, Symbol)>;
 
 /// See the module.
-pub(crate) struct Encoder {
+#[derive(Debug)]
+pub struct Encoder {
+    /// What is encoded.
     pub program: Arc<Program>,
+    /// The terms that were made.
     pub terms: Terms,
+    /// What values that are only compared are called.
     pub codes: Codes,
     /// Evaluates what does not depend on the state.
     machine: Machine,
@@ -82,6 +91,7 @@ pub(crate) struct Encoder {
     exact: bool,
     /// Functions whose locations may be undef.
     partial: BTreeSet<FunctionId>,
+    /// The locations that were met.
     pub places: Vec<Place>,
     listed: BTreeMap<FunctionId, Arc<location::Rows>>,
     /// The values of places now, and before the step.
@@ -89,8 +99,10 @@ pub(crate) struct Encoder {
     original: Vec<Symbol>,
     before: bool,
     agent: Symbol,
+    /// What was taken from outside.
     pub inputs: Vec<Input>,
     given_inputs: FxHashMap<(FunctionId, Vec<Value>), Symbol>,
+    /// The choices that were met.
     pub choices: Vec<Choice>,
     /// What is known of inputs.
     pub given: Vec<Node>,
@@ -113,13 +125,17 @@ pub(crate) struct Encoder {
 
 /// The state between two parts of an encoding.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Course {
+pub struct Course {
+    /// The condition under which what comes next is run.
     pub path: Node,
+    /// No fault was met.
     pub live: Node,
+    /// By class, where a fault was the first.
     pub faults: [Node; 3],
 }
 
 impl Encoder {
+    /// An encoder of the program of a started machine, which evaluates what does not depend on the state.
     pub fn new(machine: Machine, bounds: Bounds, exact: bool, partial: BTreeSet<FunctionId>) -> Encoder {
         Encoder {
             program: Arc::clone(machine.program()),
@@ -179,6 +195,9 @@ impl Encoder {
     }
 
     /// Runs the main rule as a unit of its own.
+    ///
+    /// # Errors
+    /// It holds something that has no place in terms; so below.
     pub fn step(&mut self) -> Result<()> {
         let main = self.program.main.map(|main| self.program.procedure(main).clone());
         let Some(main) = main else {
@@ -189,6 +208,9 @@ impl Encoder {
     }
 
     /// The next value of a place after [`Encoder::step`], and whether it is another one.
+    ///
+    /// # Errors
+    /// See [`Encoder::step`].
     pub fn next(&mut self, place: usize) -> Result<(Symbol, Node)> {
         let old = self.original[place].clone();
         let Some((guard, value)) = self.units.first().and_then(|unit| unit.get(&place)).cloned() else {
@@ -202,6 +224,9 @@ impl Encoder {
 
     /// Whether a condition is true, in the state before the step, and whether it has a value at all; by itself, so that its
     /// faults are none of the step.
+    ///
+    /// # Errors
+    /// See [`Encoder::step`].
     pub fn condition(&mut self, expression: &Expression) -> Result<(Node, Node)> {
         let former = self.course();
         (self.path, self.live, self.faults) = (Terms::TRUE, Terms::TRUE, [Terms::FALSE; 3]);
@@ -213,6 +238,9 @@ impl Encoder {
     }
 
     /// Whether a condition is true, evaluated behind what was run before: its faults are the step's.
+    ///
+    /// # Errors
+    /// See [`Encoder::step`].
     pub fn closed_truth(&mut self, expression: &Expression) -> Result<Node> {
         let span = self.program.term_span(expression.body);
         let symbol = self.in_frame(Vec::new(), expression.frame, span, |this| this.evaluate(expression.body))?;
@@ -335,13 +363,13 @@ impl Encoder {
     }
 
     fn constant_value(&self, shape: Shape, node: Node) -> Option<Value> {
-        use smt::session::Constant;
+        use crate::session::Constant;
         let constant = self.terms.constant(node)?;
         match (shape, constant) {
             // One that is not there yet may come.
             (Shape::Coded, Constant::Integer(_))
             | (_, Constant::Boolean(_) | Constant::Integer(_) | Constant::Real(_)) => {
-                crate::solver::symbol::value_of(&self.codes, shape, constant)
+                value_of(&self.codes, shape, constant)
             }
         }
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use machine::{Closed, Limits, Machine, Value};
 use model::check;
-use smt::{Decision, translate};
+use solve::{Decision, translate};
 use syntax::ast::{AstNode, TermFile};
 use syntax::{FileId, SourceFile};
 use testkit::{NoFiles, NoSolver};

@@ -2,7 +2,7 @@
 
 use expect_test::{Expect, expect};
 use model::{Checked, check as check_model};
-use smt::{Decision, Formula, Solver, translate};
+use solve::{Decision, Formula, Solver, translate};
 use syntax::ast::{AstNode, TermFile};
 use syntax::{FileId, SourceFile};
 use testkit::NoFiles;

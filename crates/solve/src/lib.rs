@@ -6,17 +6,19 @@
 //! and a [`Solver`], which the shell brings, is asked. An answer is a state, none, or unknown with the reason.
 //!
 //! Transition relations are too large for such trees: [`shared`] terms stand once, and a [`session`] with a solver keeps what
-//! it was told. `verify` builds them from programs.
+//! it was told. [`encode`] puts the rules and terms of a program into them; `verify` makes relations of these.
 //!
 //! The meaning of terms is that of `machine`; tests hold the two to each other. It must not start a process.
 
 mod answer;
 mod cases;
 mod decide;
+pub mod encode;
 mod formula;
 mod script;
 pub mod session;
 pub mod shared;
+pub mod symbol;
 mod translate;
 
 pub use decide::{Decision, Solver};

@@ -6,13 +6,18 @@
 
 use machine::{Real, Value};
 use program::DomainId;
-use smt::shared::{Kind, Node, Terms};
+
+use crate::session::Constant;
+use crate::shared::{Kind, Node, Terms};
 
 /// What the values of a term are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum Shape {
+pub enum Shape {
+    /// Truth values.
     Boolean,
+    /// Integers.
     Integer,
+    /// Real numbers.
     Real,
     /// Literals of an enum, by number.
     Enum(DomainId),
@@ -23,6 +28,7 @@ pub(crate) enum Shape {
 }
 
 impl Shape {
+    /// What its terms are.
     pub fn kind(self) -> Kind {
         match self {
             Shape::Boolean => Kind::Boolean,
@@ -46,26 +52,33 @@ impl Shape {
 
 /// A scalar in terms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Open {
+pub struct Open {
+    /// What its values are.
     pub shape: Shape,
     /// Its value, where it is defined.
     pub value: Node,
+    /// Where it is defined.
     pub defined: Node,
 }
 
 /// A value, known or not.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Symbol {
+pub enum Symbol {
+    /// Known.
     Known(Value),
+    /// A scalar that is not.
     Open(Open),
+    /// A tuple.
     Tuple(Vec<Symbol>),
     /// Elements that may be in a set, each with the condition that it is. INVARIANT: no two that are in it are equal.
     Set(Vec<(Node, Symbol)>),
 }
 
 impl Symbol {
+    /// Undef.
     pub const UNDEF: Symbol = Symbol::Known(Value::Undef);
 
+    /// A truth value.
     pub fn boolean(value: Node) -> Symbol {
         match value {
             Terms::TRUE => Symbol::Known(Value::Boolean(true)),
@@ -74,6 +87,7 @@ impl Symbol {
         }
     }
 
+    /// The value, where it is known.
     pub fn known(&self) -> Option<&Value> {
         match self {
             Symbol::Known(value) => Some(value),
@@ -84,11 +98,12 @@ impl Symbol {
 
 /// The list of values that are only compared.
 #[derive(Debug, Default)]
-pub(crate) struct Codes {
+pub struct Codes {
     values: Vec<Value>,
 }
 
 impl Codes {
+    /// The code of a value.
     pub fn code(&mut self, value: &Value) -> i128 {
         let found = self.values.iter().position(|known| known == value);
         found.unwrap_or_else(|| {
@@ -109,7 +124,7 @@ impl Codes {
 }
 
 /// The constant of a shape that a value is.
-pub(crate) fn constant(terms: &mut Terms, codes: &mut Codes, value: &Value) -> Node {
+pub fn constant(terms: &mut Terms, codes: &mut Codes, value: &Value) -> Node {
     match value {
         Value::Boolean(truth) => terms.boolean(*truth),
         Value::Integer(number) => terms.integer(i128::from(*number)),
@@ -123,8 +138,7 @@ pub(crate) fn constant(terms: &mut Terms, codes: &mut Codes, value: &Value) -> N
 }
 
 /// The value of a shape that a constant is.
-pub(crate) fn value_of(codes: &Codes, shape: Shape, constant: smt::session::Constant) -> Option<Value> {
-    use smt::session::Constant;
+pub fn value_of(codes: &Codes, shape: Shape, constant: Constant) -> Option<Value> {
     Some(match (shape, constant) {
         (Shape::Boolean, Constant::Boolean(truth)) => Value::Boolean(truth),
         (Shape::Integer, Constant::Integer(number)) => Value::Integer(i64::try_from(number).ok()?),

@@ -5,15 +5,15 @@
 
 use std::sync::Arc;
 
-use machine::{FaultClass, Location, Value};
+use machine::{Location, Value};
 use model::Basic;
 use program::{DomainId, DomainKind, FunctionId, FunctionKind, TermId, TermList};
-use smt::shared::{Bounds, Kind, Node, Terms};
 use syntax::Span;
 
 use super::number::INTEGERS;
-use super::{Encoder, Input, InputKind, Result};
-use crate::solver::symbol::{Open, Shape, Symbol, constant};
+use super::{Encoder, FaultClass, Input, InputKind, Result};
+use crate::shared::{Bounds, Kind, Node, Terms};
+use crate::symbol::{Open, Shape, Symbol, constant};
 
 const PLACES: usize = 10_000;
 /// LIMIT: values that an input without an order is given.
@@ -24,11 +24,14 @@ pub(super) type Rows = Vec<(Vec<Value>, usize)>;
 
 /// A location of the state.
 #[derive(Debug, Clone)]
-pub(crate) struct Place {
+pub struct Place {
+    /// Which it is.
     pub location: Location,
+    /// What its values are.
     pub shape: Shape,
-    /// Its value and whether it is defined, as variables; the latter a constant where it always is.
+    /// Its value, as a variable.
     pub value: Node,
+    /// Whether it is defined, as a variable; a constant where it always is.
     pub defined: Node,
     /// It is part of the state between steps.
     pub kept: bool,
@@ -341,6 +344,9 @@ impl Encoder {
     }
 
     /// Makes the places of a function, if there are none yet.
+    ///
+    /// # Errors
+    /// Its locations or values cannot be told.
     pub fn know(&mut self, function: FunctionId) -> Result<()> {
         let span = self.program.function(function).span;
         self.places_of(function, span).map(drop)

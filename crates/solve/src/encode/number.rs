@@ -4,13 +4,13 @@
 //! computes with exact ones, one that is to prove something lets every result be anything within the error of rounding.
 //! LIMIT: reals beyond the doubles' range.
 
-use machine::{FaultClass, Value};
+use machine::Value;
 use program::Builtin;
-use smt::shared::{Kind, Node, Terms};
 use syntax::Span;
 
-use super::{Encoder, InputKind, Result};
-use crate::solver::symbol::{Open, Shape, Symbol};
+use super::{Encoder, FaultClass, InputKind, Result};
+use crate::shared::{Kind, Node, Terms};
+use crate::symbol::{Open, Shape, Symbol};
 
 /// The integers that there are.
 pub(super) const INTEGERS: (Option<i128>, Option<i128>) = (Some(i64::MIN as i128), Some(i64::MAX as i128));

@@ -2,16 +2,16 @@
 //!
 //! SYNC(evaluate): what is evaluated before what, and which faults are met on the way.
 
-use machine::{Closed, FaultClass, Value};
+use machine::{Closed, Value};
 use program::{
     Builtin, CollectionKind, DomainKind, Expression, FunctionId, FunctionKind, Quantifier, Slot, Term, TermId, TermList,
 };
-use smt::shared::{Node, Terms};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use super::{Encoder, Result, components};
-use crate::solver::symbol::{Open, Shape, Symbol};
+use super::{Encoder, FaultClass, Result, components};
+use crate::shared::{Node, Terms};
+use crate::symbol::{Open, Shape, Symbol};
 
 impl Encoder {
     /// The symbol of a term.

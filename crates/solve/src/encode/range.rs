@@ -2,14 +2,14 @@
 //!
 //! LIMIT: so many bindings of one rule or term.
 
-use machine::{FaultClass, Value};
+use machine::Value;
 use program::{Binder, Term, TermId};
-use smt::shared::{Node, Terms};
 use std::sync::Arc;
 use syntax::Span;
 
-use super::{Encoder, Result, elements};
-use crate::solver::symbol::{Open, Shape, Symbol};
+use super::{Encoder, FaultClass, Result, elements};
+use crate::shared::{Node, Terms};
+use crate::symbol::{Open, Shape, Symbol};
 
 const BINDINGS: usize = 50_000;
 /// LIMIT: numbers of a range whose ends are not known.

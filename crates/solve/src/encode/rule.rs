@@ -4,15 +4,15 @@
 
 use std::sync::Arc;
 
-use machine::{FaultClass, Value};
+use machine::Value;
 use model::Basic;
 use program::{Binder, DomainKind, FunctionId, FunctionKind, ProcedureId, Rule, RuleId, Term, TermId, TermList};
-use smt::shared::{Node, Terms};
 use syntax::Span;
 
 use super::number::INTEGERS;
-use super::{Choice, Encoder, InputKind, Result, Unit};
-use crate::solver::symbol::{Open, Shape, Symbol};
+use super::{Choice, Encoder, FaultClass, InputKind, Result, Unit};
+use crate::shared::{Node, Terms};
+use crate::symbol::{Open, Shape, Symbol};
 
 const ROUNDS: usize = 64;
 
