@@ -68,7 +68,9 @@ fn a_report() {
     let loaded = toggle();
     let mut asked = loaded.overlay();
     let wanted = SourceFile::new("Toggle.report.yaml", "series: { Light: { value: if on then 1 else 0 endif } }\n");
-    let prepared = prepare_report(&mut asked, wanted, "Toggle.report.yaml", &mut NoFiles).expect("no chart");
+    let prepared =
+        prepare_report(&mut asked, wanted, "Toggle.report.yaml", &mut NoFiles, &groundstate::chart::NoPictures)
+            .expect("no chart");
     let Prepared { reporter: Some(reporter), .. } = prepared else { panic!("{:?}", prepared.faults) };
     let request = RunRequest {
         program: Arc::clone(&asked.program),
@@ -104,7 +106,7 @@ fn folder(job: GenerateJob) -> Result<Folder, NotGenerated> {
 fn the_class_of_a_model() {
     let generate = |cancel| {
         let loaded = toggle();
-        let options = groundstate::generate::Options::default();
+        let options = groundstate::generate::model::Options::default();
         let headers = &[("machine.hpp", "// the runtime\n")];
         folder(job::generate_model(loaded.program, loaded.sources, options, headers, cancel).expect("a thread"))
     };

@@ -7,8 +7,8 @@ use std::io;
 use std::sync::Arc;
 
 use chart::Chart;
-use chart::generate::{Form, ungenerated};
-use generate::{Generated, Options};
+use generate::model::{Generated, Options};
+use generate::system::{Form, ungenerated};
 use machine::{Closed, Limits, Machine};
 use program::Program;
 use serde_json::{Value, json};
@@ -65,7 +65,7 @@ pub fn generate_model(
         let _ = started.start(&mut Closed);
         go_on(&port)?;
         let generated =
-            generate::generate(&program, &sources, &mut started, &options).map_err(NotGenerated::Refused)?;
+            generate::model::generate(&program, &sources, &mut started, &options).map_err(NotGenerated::Refused)?;
         let map = serde_json::to_string_pretty(&source_map(&generated, &sources)).unwrap_or_default();
         let runtime =
             |(name, text): &(&str, &str)| (format!("runtime/include/groundstate/machine/{name}"), (*text).to_string());
@@ -94,7 +94,8 @@ pub fn generate_system(
             return Err(NotGenerated::Refused(faults));
         }
         go_on(&port)?;
-        let chart::generate::Generated { mut decided, once } = chart::generate::generate(&chart, system, &file, &form);
+        let generate::system::Generated { mut decided, once } =
+            generate::system::generate(&chart, system, &file, &form);
         let runtime =
             |(name, text): &(&str, &str)| (format!("generated/include/groundstate/{name}"), (*text).to_string());
         decided.extend(headers.iter().map(runtime));
