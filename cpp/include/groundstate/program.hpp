@@ -112,6 +112,15 @@ RunAccount account_of(const System& system, Ending ending) {
     return account;
 }
 
+/// All data were valid, and so handed over, and the log is whole, if there is one.
+inline bool is_complete(const RunAccount& account) noexcept {
+    bool is_valid = true;
+    for (const TaskAccount& task : account.tasks) {
+        is_valid = is_valid && task.invalid == 0;
+    }
+    return is_valid && account.ending.log_error == 0 && account.ending.log_lost == 0;
+}
+
 /// Prints how a run ended, and what is known of the cycles of each task. The exit status: 1 if a task failed, 3 if
 /// something is missing all the same, or 0.
 inline int tell(const RunAccount& account) {
@@ -132,17 +141,14 @@ inline int tell(const RunAccount& account) {
     if (outcome.log_lost > 0) {
         std::fprintf(stderr, "%s: %lld events are missing in the log\n", name, static_cast<long long>(outcome.log_lost));
     }
-    const bool is_whole = outcome.log_error == 0 && outcome.log_lost == 0;
-    bool is_valid = true;
     for (const TaskAccount& task : account.tasks) {
         if (task.invalid > 0) {
-            is_valid = false;
             std::fprintf(stderr, "%s: task %s made %lld data that are not valid; they were not handed over\n", name,
                          task.name.c_str(), static_cast<long long>(task.invalid));
         }
     }
     if (outcome) {
-        return is_valid && is_whole ? 0 : 3;
+        return is_complete(account) ? 0 : 3;
     }
     std::fprintf(stderr, "%s: task %s %s in cycle %lld, phase %s: %s; the others were stopped safely\n", name,
                  outcome.task.c_str(), outcome.kind == Ending::Kind::hung ? "hung" : "failed",

@@ -17,6 +17,7 @@ namespace {
 constexpr int good = 0;
 constexpr int bad = 1;
 constexpr int unusable = 2;
+constexpr int incomplete = 3;
 
 // A time above 0 and up to an hour, in seconds; below 0 if it is none.
 double seconds_of(const std::string& text) {
@@ -184,7 +185,10 @@ int CommandLine::end(const RunAccount& account, bool is_good, const std::functio
             return unusable;
         }
     }
-    return is_good && account.ending ? good : bad;
+    if (!is_good || !account.ending) {
+        return bad;
+    }
+    return is_complete(account) ? good : incomplete;
 }
 
 void write_settings(Json& json, const RunSettings& settings) {

@@ -1,6 +1,6 @@
 // micro_assembly: the stage and the bench for so long; force and height as JSON.
 // Exit status: 0 the part lies on the substrate, or stands as it must when the microscope is gone; 1 it does not; 2 usage,
-// or the world.
+// or the world; 3 it does, but data were not valid or the log is not whole.
 #include <cstdio>
 
 #include <groundstate/closed_loop/command_line.hpp>

@@ -1,6 +1,6 @@
 // object_tracking: the head and the object before it for so long; what was seen as JSON.
 // Exit status: 0 the object was kept in the middle, or the head stands as it must when the camera is gone; 1 it was not;
-// 2 usage, or the world.
+// 2 usage, or the world; 3 it was, but data were not valid or the log is not whole.
 #include <algorithm>
 #include <cstdio>
 

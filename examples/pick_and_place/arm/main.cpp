@@ -1,5 +1,6 @@
 // pick_and_place: the arm and the table for so long; the moves and where the parts lie as JSON.
-// Exit status: 0 all parts are in a row; 1 they are not; 2 usage, or the world.
+// Exit status: 0 all parts are in a row; 1 they are not; 2 usage, or the world; 3 they are, but data
+// were not valid or the log is not whole.
 #include <cstdio>
 
 #include <groundstate/closed_loop/command_line.hpp>

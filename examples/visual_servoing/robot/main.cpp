@@ -1,5 +1,6 @@
 // visual_servoing: the controller and the simulated cell for so long; what happened as JSON, what was seen as PNG.
-// Exit status: 0 it converged, or came to rest as it must when the camera is gone; 1 it did not; 2 usage, or the world.
+// Exit status: 0 it converged, or came to rest as it must when the camera is gone; 1 it did not; 2 usage, or the world;
+// 3 it did so, but data were not valid or the log is not whole.
 #include <cstdio>
 
 #include <groundstate/closed_loop/command_line.hpp>

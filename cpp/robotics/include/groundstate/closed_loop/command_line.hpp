@@ -13,8 +13,9 @@
 //         return line.end(loop.account, loop.is_good(), [&](Json& json) { … });
 //     }
 //
-// Exit status: 0 the verdict is good; 1 it is not, or a task failed; 2 wrong usage, or a file that cannot be written. What
-// is wrong is told on stderr, and before anything runs as far as it can be known.
+// Exit status: 0 the verdict is good; 1 it is not, or a task failed; 2 wrong usage, or a file that cannot be written; 3 the
+// verdict is good, but data were not valid and so not handed over, or the log is not whole (as of generated programs). What is
+// wrong is told on stderr, and before anything runs as far as it can be known.
 #pragma once
 
 #include <functional>
