@@ -7,6 +7,7 @@ use serde::Serialize;
 /// An object of the command's output; the variant's name in small letters is its `type`.
 #[derive(Debug, Serialize)]
 #[serde(tag = "type", rename_all = "lowercase")]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub enum Answer<'a> {
     /// Faults that are not shown.
     More {

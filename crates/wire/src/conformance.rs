@@ -8,7 +8,12 @@ use syntax::Sources;
 
 /// The verdict.
 #[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Conformance {
+    #[cfg_attr(test, schemars(extend("const" = "conformance")))]
+    r#type: &'static str,
+    /// As `type`, by which this object was not known before.
+    #[cfg_attr(test, schemars(extend("const" = "conformance")))]
     kind: &'static str,
     verdict: &'static str,
     way: String,
@@ -24,6 +29,7 @@ pub struct Conformance {
 
 /// Where program and model part.
 #[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 struct Parts {
     tick: i64,
     task: String,
@@ -35,6 +41,7 @@ struct Parts {
 
 /// An event.
 #[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 struct Told {
     task: String,
     time_ns: i64,
@@ -57,7 +64,16 @@ impl Conformance {
             Verdict::Conforms { after, .. } => Some(*after),
             Verdict::Unknown { .. } | Verdict::Parts(_) => None,
         };
-        Conformance { kind: "conformance", verdict: word, way: way.to_string(), events, after, reason, parts }
+        Conformance {
+            r#type: "conformance",
+            kind: "conformance",
+            verdict: word,
+            way: way.to_string(),
+            events,
+            after,
+            reason,
+            parts,
+        }
     }
 }
 

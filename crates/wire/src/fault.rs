@@ -8,6 +8,7 @@ use syntax::{Diagnostic, Severity, Sources, Span};
 /// A range of a source text; lines and columns count from 1, columns in characters, the end is the first
 /// character behind the range.
 #[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Place {
     file: String,
     line: u32,
@@ -32,6 +33,7 @@ impl Place {
 }
 
 #[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 struct Label<'a> {
     #[serde(flatten)]
     place: Place,
@@ -40,7 +42,9 @@ struct Label<'a> {
 
 /// `{"type":"fault",…}`
 #[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Fault<'a> {
+    #[cfg_attr(test, schemars(extend("const" = "fault")))]
     r#type: &'static str,
     id: &'static str,
     severity: &'static str,
@@ -75,7 +79,9 @@ impl<'a> Fault<'a> {
 
 /// `{"type":"failure",…}`: not the model's.
 #[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct WorldFailure {
+    #[cfg_attr(test, schemars(extend("const" = "failure")))]
     r#type: &'static str,
     id: &'static str,
     message: String,

@@ -1,17 +1,35 @@
-//! What is written as JSON, and read back: traces, states, faults, verdicts, the answers of single commands.
+//! What is written as JSON, and read back: traces, states, faults, verdicts, the answers of single commands; test results as JUnit XML.
 //!
 //! In: the types of the crates below. Out: types that `serde` writes, each an object with its `type`; of traces also what they
-//! were made of. Versioned; documented in docs/cli.md and spec/trace.md. The types of the crates below are not serialised
+//! were made of. Versioned; documented in docs/cli.md and spec/trace.md, their JSON Schema in `schema/`. The types of the crates below are not serialised
 //! themselves, so that they can change while the format stays. It must not know files or who reads what is written.
 
 mod answer;
 mod conformance;
+mod coverage;
 mod fault;
+mod generation;
+mod junit;
+mod report;
+mod review;
 mod scenario;
+#[cfg(test)]
+mod schema;
 mod trace;
+mod verification;
 
-pub use crate::scenario::ScenarioResult;
+pub use crate::report::{Measured, ProgramReported, ReportMade};
+pub use crate::scenario::{ScenarioResult, Told};
 pub use answer::Answer;
 pub use conformance::Conformance;
+pub use coverage::Coverage;
 pub use fault::{Fault, Place, WorldFailure};
+pub use generation::{Generated, Goal};
+pub use junit::Junit;
+pub use review::{Finding, MetaProperty};
 pub use trace::{Ending, Head, Line, Pairs, Reader, State, Step, VERSION, Wire};
+pub use verification::{Assumed, DomainLine, Explored, ExploredLine, RunChange, RunStep, Verdict};
+
+/// The version of the objects that commands write. It is raised by a change that a reader of the objects would misread: a key or a type
+/// that goes, or means another thing. New keys and types do not raise it.
+pub const OUTPUT_VERSION: u32 = 1;

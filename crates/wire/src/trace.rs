@@ -21,6 +21,7 @@ pub const VERSION: u32 = 1;
 /// One line.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(tag = "type", rename_all = "lowercase")]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub enum Line {
     /// The first line: what was run, and how.
     Trace(Head),
@@ -43,12 +44,35 @@ pub enum Line {
 }
 
 /// Pairs as an object whose keys keep their order.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Pairs<T>(Vec<(String, T)>);
+
+impl<T> Default for Pairs<T> {
+    fn default() -> Self {
+        Pairs(Vec::new())
+    }
+}
 
 impl<T> Pairs<T> {
     fn is_empty(&self) -> bool {
         self.0.is_empty()
+    }
+}
+
+impl<T> FromIterator<(String, T)> for Pairs<T> {
+    fn from_iter<I: IntoIterator<Item = (String, T)>>(pairs: I) -> Self {
+        Pairs(pairs.into_iter().collect())
+    }
+}
+
+#[cfg(test)]
+impl<T: schemars::JsonSchema> schemars::JsonSchema for Pairs<T> {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        format!("PairsOf{}", T::schema_name()).into()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({ "type": "object", "additionalProperties": generator.subschema_for::<T>() })
     }
 }
 
@@ -86,6 +110,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Pairs<T> {
 
 /// What was run, and how.
 #[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Head {
     version: u32,
     model: String,
@@ -106,6 +131,7 @@ pub struct Head {
 
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 enum Mode {
     Stop,
     Report,
@@ -114,8 +140,9 @@ enum Mode {
 
 /// The initial state, and what it was made of.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct State {
-    #[serde(skip_serializing_if = "Pairs::is_empty", default = "none")]
+    #[serde(skip_serializing_if = "Pairs::is_empty", default)]
     inputs: Pairs<String>,
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     choices: Vec<Chosen>,
@@ -126,23 +153,20 @@ pub struct State {
     violations: Vec<Broken>,
 }
 
-fn none<T>() -> Pairs<T> {
-    Pairs(Vec::new())
-}
-
 /// A step: what it read and what it changed.
 #[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Step {
     step: u64,
-    #[serde(skip_serializing_if = "Pairs::is_empty", default = "none")]
+    #[serde(skip_serializing_if = "Pairs::is_empty", default)]
     inputs: Pairs<String>,
-    #[serde(skip_serializing_if = "Pairs::is_empty", default = "none")]
+    #[serde(skip_serializing_if = "Pairs::is_empty", default)]
     writes: Pairs<String>,
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     choices: Vec<Chosen>,
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     times: Vec<(String, i64)>,
-    #[serde(skip_serializing_if = "Pairs::is_empty", default = "none")]
+    #[serde(skip_serializing_if = "Pairs::is_empty", default)]
     changes: Pairs<Changed>,
     #[serde(skip_serializing_if = "is_zero", default)]
     updates: usize,
@@ -157,6 +181,7 @@ fn is_zero(number: &usize) -> bool {
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 struct Chosen {
     at: String,
     of: usize,
@@ -165,6 +190,7 @@ struct Chosen {
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 struct Changed {
     from: String,
     to: String,
@@ -172,6 +198,7 @@ struct Changed {
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 struct Broken {
     invariant: String,
     at: String,
@@ -182,6 +209,7 @@ struct Broken {
 
 /// Why a run ended.
 #[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Ending {
     reason: String,
     steps: u64,
@@ -190,6 +218,7 @@ pub struct Ending {
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 struct FaultLine {
     id: String,
     message: String,

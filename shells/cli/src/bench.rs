@@ -14,7 +14,7 @@ use clap::Args;
 use groundstate::simulate::{Bounds, Choices, Inputs, Invariants, Options, Passed, RandomSource, Run};
 use machine::{Machine, Show};
 use program::Program;
-use serde::Serialize;
+use wire::Measured;
 
 use crate::engine::Engine;
 use crate::exit::Exit;
@@ -47,26 +47,6 @@ pub struct Arguments {
     /// What makes the steps
     #[arg(long, value_enum, default_value_t)]
     engine: Engine,
-}
-
-/// `{"type":"bench",…}`
-#[derive(Debug, Serialize)]
-struct Measured {
-    r#type: &'static str,
-    model: String,
-    steps_per_second: f64,
-    lowest: f64,
-    highest: f64,
-    windows: u32,
-    /// The steps that the digest is after.
-    steps: u64,
-    digest: String,
-    /// Of all steps, how many in a hundred changed the state.
-    changed_percent: f64,
-    updates_per_step: f64,
-    restarts: u64,
-    load_ms: f64,
-    peak_memory_mb: Option<f64>,
 }
 
 /// Runs the command.

@@ -15,7 +15,6 @@ use groundstate::test_generation::{Goal, GoalKind, Method, Subject, Tests, Turn,
 use groundstate::verify::{Reason, Stop};
 use groundstate::{Loaded, SeededChoices, Suite, own_files};
 use model::DomainKind;
-use serde::Serialize;
 use syntax::FileId;
 use wire::Place;
 
@@ -50,25 +49,6 @@ pub struct Arguments {
     seed: u64,
     #[command(flatten)]
     bounded: Bounded,
-}
-
-/// `{"type":"goal",…}`
-#[derive(Debug, Serialize)]
-struct GoalLine<'a> {
-    r#type: &'static str,
-    kind: &'static str,
-    what: String,
-    of: &'a str,
-    at: Place,
-    outcome: &'static str,
-}
-
-/// `{"type":"generated",…}`
-#[derive(Debug, Serialize)]
-struct GeneratedLine {
-    r#type: &'static str,
-    path: String,
-    steps: usize,
 }
 
 /// Runs the command.
@@ -140,7 +120,7 @@ fn write(shell: &mut Shell, folder: &Path, tests: &Tests, suite: &mut Suite) -> 
         }
         if shell.json() {
             let path = path.display().to_string();
-            shell.object(&GeneratedLine { r#type: "generated", path, steps: scenario.steps })?;
+            shell.object(&wire::Generated::new(path, scenario.steps))?;
         } else if shell.talks() {
             writeln!(shell.out(), "wrote {}: {}", path.display(), plural(scenario.steps, "step"))?;
         }
@@ -188,8 +168,7 @@ fn told(shell: &mut Shell, teller: &Teller<'_>, tests: &Tests) -> Result<(), Fai
         for goal in &tests.goals {
             let (kind, what) = kind(goal.kind);
             let (of, at) = (goal.rule.as_str(), Place::new(teller.sources, goal.span));
-            let (what, outcome) = (what.to_string(), outcome(goal));
-            shell.object(&GoalLine { r#type: "goal", kind, what, of, at, outcome })?;
+            shell.object(&wire::Goal::new(kind, what, of, at, outcome(goal)))?;
         }
     } else if shell.talks() {
         writeln!(shell.out(), "\ngoals")?;

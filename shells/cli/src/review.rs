@@ -11,9 +11,8 @@ use groundstate::job::{self, Cancel, ReviewEvent, ReviewRequest};
 use groundstate::own_files;
 use groundstate::verify::review::{Finding, Meta, Outcome, Review};
 use groundstate::verify::{Reason, Stop};
-use serde::Serialize;
 use syntax::FileId;
-use wire::Fault;
+use wire::{Fault, MetaProperty};
 
 use crate::check::plural;
 use crate::exit::Exit;
@@ -21,7 +20,7 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::load::load;
 use crate::shell::Shell;
-use crate::verify::{Bounded, StepLine, Teller, no_start};
+use crate::verify::{Bounded, Teller, no_start};
 
 /// Arguments of `review`.
 #[derive(Debug, Args)]
@@ -45,27 +44,6 @@ fn meta(text: &str) -> Result<Meta, String> {
     let number = text.trim().to_lowercase().strip_prefix("mp").and_then(|number| number.parse::<usize>().ok());
     let meta = number.and_then(|number| Meta::ALL.into_iter().find(|meta| meta.number() == number));
     meta.ok_or_else(|| "write mp1 to mp7".to_string())
-}
-
-/// `{"type":"finding",…}`
-#[derive(Debug, Serialize)]
-struct FindingLine<'a> {
-    r#type: &'static str,
-    meta: String,
-    finding: Fault<'a>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    witness: Option<Vec<StepLine>>,
-}
-
-/// `{"type":"meta-property",…}`
-#[derive(Debug, Serialize)]
-struct MetaLine {
-    r#type: &'static str,
-    meta: String,
-    outcome: &'static str,
-    findings: usize,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    reasons: Vec<String>,
 }
 
 /// Runs the command.
@@ -119,12 +97,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
 fn tell(shell: &mut Shell, teller: &Teller<'_>, review: &Review, finding: &Finding, runs: bool) -> Result<(), Failure> {
     let diagnostic = groundstate::diagnose_finding(finding, review, teller.program);
     if shell.json() {
-        return shell.object(&FindingLine {
-            r#type: "finding",
-            meta: format!("MP{}", finding.meta.number()),
-            finding: Fault::new(teller.sources, &diagnostic),
-            witness: finding.witness.as_deref().map(|trace| teller.steps(trace)),
-        });
+        let witness = finding.witness.as_deref().map(|trace| teller.steps(trace));
+        let fault = Fault::new(teller.sources, &diagnostic);
+        return shell.object(&wire::Finding::new(finding.meta.number(), fault, witness));
     }
     shell.details(teller.sources, &[diagnostic])?;
     if let (Some(trace), true) = (&finding.witness, shell.talks()) {
@@ -152,7 +127,7 @@ fn summary(shell: &mut Shell, teller: &Teller<'_>, review: &Review) -> Result<()
         };
         let number = format!("MP{}", meta.number());
         if shell.json() {
-            shell.object(&MetaLine { r#type: "meta-property", meta: number, outcome: word, findings, reasons })?;
+            shell.object(&MetaProperty::new(meta.number(), word, findings, reasons))?;
         } else if shell.talks() {
             let says = says(*meta);
             let more = match outcome {

@@ -10,7 +10,7 @@ use groundstate::Tested;
 use groundstate::job::{self, Cancel, TestEvent};
 use groundstate::scenario::{Judgement, Options};
 use syntax::{Diagnostic, SourceFile};
-use wire::{Answer, Fault, ScenarioResult};
+use wire::{Answer, Fault, Junit, ScenarioResult, Told};
 
 use crate::check::plural;
 use crate::coverage;
@@ -19,7 +19,7 @@ use crate::failure::Failure;
 use crate::files::{Disk, collect, write_text};
 use crate::inputs::Chosen;
 use crate::interrupt;
-use crate::junit::Junit;
+use crate::render;
 use crate::shell::Shell;
 
 /// Arguments of `test`.
@@ -77,7 +77,8 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         } else {
             tally.failed += 1
         }
-        junit.case(path, &tested, &failures);
+        let render = |fault: &Diagnostic| render::diagnostic(&tested.sources, fault, false);
+        junit.case(&path.display().to_string(), &tested, &failures, &render);
         report(shell, path, &tested, &failures, &mut seen)?;
     }
     let suite = job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0));
@@ -129,7 +130,7 @@ fn report(
     let sources = &tested.sources;
     if shell.json() {
         let faults = failures.iter().map(|failure| Fault::new(sources, failure)).collect();
-        let told = tested.story().map(|(program, story)| crate::story::object(program, story));
+        let told = tested.story().map(|(program, story)| Told::story(program, story));
         return shell.object(&ScenarioResult::new(path.display().to_string(), tested, faults, told));
     }
     let passed = tested.passed();
@@ -138,7 +139,8 @@ fn report(
         writeln!(shell.out(), "{line}")?;
     }
     if let Some((program, story)) = tested.story().filter(|_| shell.talks()) {
-        crate::story::tell(shell, program, story)?;
+        let run = groundstate::tell::story(program, story);
+        shell.out().write_all(run.as_bytes())?;
     }
     // Many scenarios load one model; the faults that keep it from running are shown with the first. What went wrong in a
     // run is that scenario's own reason, however many others have the same.

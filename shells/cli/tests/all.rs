@@ -8,5 +8,6 @@ mod first_steps;
 mod fmt;
 mod input_pages;
 mod interrupts;
+mod schema;
 mod start;
 mod transcripts;

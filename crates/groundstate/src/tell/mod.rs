@@ -3,9 +3,13 @@
 //! In: records of runs and what else the operations hand over. Out: lines, which a shell writes where it will. It must not know terminals;
 //! colours are asked for.
 
+mod coverage;
 mod run;
+mod story;
 
+pub use coverage::{Uncovered, uncovered};
 pub use run::{Detail, Narrator};
+pub use story::story;
 
 /// A count with its noun.
 pub fn plural(count: usize, word: &str) -> String {

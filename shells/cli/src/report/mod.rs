@@ -279,10 +279,7 @@ fn write(shell: &mut Shell, arguments: &Arguments, report: &Report) -> Result<()
     }
     if shell.json() {
         let written: Vec<String> = written.iter().map(|path| path.display().to_string()).collect();
-        let object = serde_json::json!({
-            "type": "report", "model": report.model, "steps": report.ticks, "troubles": report.troubles(), "files": written,
-        });
-        return shell.object(&object);
+        return shell.object(&wire::ReportMade::new(report, written));
     }
     if shell.talks() {
         let options = SummaryOptions { colour: shell.color_out(), ..SummaryOptions::default() };

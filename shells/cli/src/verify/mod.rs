@@ -38,7 +38,8 @@ use checkpoint::Checkpoint;
 pub use counterexample::relative;
 use disk::Folder;
 use live::Live;
-pub use tell::{Explored, StepLine, Teller};
+pub use tell::Teller;
+pub use wire::Explored;
 
 /// Arguments of `verify`.
 #[derive(Debug, Args)]

@@ -5,31 +5,11 @@ use std::io::Write;
 use groundstate::verify::{Distinct, Symmetry};
 use machine::{Show, Value};
 use program::DomainKind;
-use serde::Serialize;
-use wire::Place;
+use wire::{DomainLine, Place};
 
 use crate::failure::Failure;
 use crate::shell::Shell;
 use crate::verify::tell::Teller;
-
-/// A domain, and those of its elements that are interchangeable with each other, or why none are.
-#[derive(Debug, Serialize)]
-pub struct DomainLine {
-    domain: String,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    interchangeable: Vec<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    distinct: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    at: Option<Place>,
-}
-
-impl DomainLine {
-    /// Elements are interchangeable.
-    pub fn is_class(&self) -> bool {
-        !self.interchangeable.is_empty()
-    }
-}
 
 impl Teller<'_> {
     /// What there is to say, for programs.

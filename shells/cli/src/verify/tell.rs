@@ -13,15 +13,13 @@ use groundstate::verify::{
 };
 use machine::{Location, Show, Value};
 use program::Program;
-use serde::Serialize;
 use syntax::{Diagnostic, Sources, Span};
-use wire::Place;
+use wire::{Assumed, Explored, ExploredLine, Place, RunChange, RunStep};
 
 use crate::check::plural;
 use crate::failure::Failure;
 use crate::shell::Shell;
 use crate::verify::hint::hint;
-use crate::verify::symmetry::DomainLine;
 
 /// Tells what verification came to.
 pub struct Teller<'a> {
@@ -31,94 +29,6 @@ pub struct Teller<'a> {
     pub timed_out: bool,
     /// The initial state that was told last.
     told: RefCell<Vec<String>>,
-}
-
-/// `{"type":"verdict",…}`
-#[derive(Debug, Serialize)]
-struct VerdictLine {
-    r#type: &'static str,
-    check: String,
-    kind: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    at: Option<Place>,
-    verdict: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    states: Option<u64>,
-    /// How it was proved, where that was not by meeting all states.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    by: Option<String>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    reasons: Vec<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    trace: Option<Vec<StepLine>>,
-    /// The step from which the trace goes on again and again.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    again_from: Option<usize>,
-}
-
-#[derive(Debug, Serialize)]
-pub struct StepLine {
-    step: usize,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    values: Vec<(String, String)>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    inputs: Vec<(String, String)>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    choices: Vec<String>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    changes: Vec<ChangeLine>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    fault: Option<String>,
-}
-
-#[derive(Debug, Serialize)]
-struct ChangeLine {
-    location: String,
-    from: String,
-    to: String,
-    by: String,
-}
-
-/// `{"type":"explored",…}`
-#[derive(Debug, Serialize)]
-struct ExploredLine<'a> {
-    r#type: &'static str,
-    complete: bool,
-    states: u64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    transitions: Option<u64>,
-    depth: u64,
-    bytes: u64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    disk: Option<u64>,
-    #[serde(flatten)]
-    more: &'a Explored,
-}
-
-/// What there is to say of a search beside its numbers.
-#[derive(Debug, Default, Serialize)]
-pub struct Explored {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    bits: Option<usize>,
-    /// Where less than the states was kept: how many are to be expected to have been left out.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    omission: Option<f64>,
-    /// Where one order of moves was to be enough: whether it was.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    partial_order: Option<&'static str>,
-    /// Where interchangeable elements were to be found: which there are.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    symmetry: Option<Vec<DomainLine>>,
-    /// States were gone through as sets, of which transitions are not counted.
-    #[serde(skip)]
-    sets: bool,
-}
-
-/// `{"type":"assumed",…}`
-#[derive(Debug, Serialize)]
-struct AssumedLine<'a> {
-    r#type: &'static str,
-    term: &'a str,
 }
 
 impl<'a> Teller<'a> {
@@ -133,7 +43,7 @@ impl Teller<'_> {
     pub fn assumed(&self, shell: &mut Shell, assumptions: &[Said<'_>]) -> Result<(), Failure> {
         for term in assumptions.iter().map(|said| said.text().trim()) {
             if shell.json() {
-                shell.object(&AssumedLine { r#type: "assumed", term })?;
+                shell.object(&Assumed::new(term))?;
             } else if shell.talks() {
                 writeln!(shell.out(), "assumed   {term}")?;
             }
@@ -189,16 +99,7 @@ impl Teller<'_> {
         more: &Explored,
     ) -> Result<(), Failure> {
         if shell.json() {
-            return shell.object(&ExploredLine {
-                r#type: "explored",
-                complete,
-                states: progress.states,
-                transitions: (!more.sets).then_some(progress.transitions),
-                depth: progress.depth,
-                bytes: progress.bytes,
-                disk: (progress.spilled > 0).then_some(progress.spilled),
-                more,
-            });
+            return shell.object(&ExploredLine::new(progress, complete, more));
         }
         if shell.talks() {
             let up_to = more.symmetry.iter().flatten().any(|line| line.is_class());
@@ -303,36 +204,25 @@ impl Teller<'_> {
         Ok(())
     }
 
-    fn violated_line(&self, subject: Subject, trace: &Trace) -> VerdictLine {
-        VerdictLine {
-            verdict: "violated",
-            trace: Some(self.steps(trace)),
-            again_from: trace.turn.map(|turn| turn + 1),
-            ..self.line_of(subject)
-        }
+    fn violated_line(&self, subject: Subject, trace: &Trace) -> wire::Verdict {
+        let mut line = self.line_of(subject);
+        line.verdict = "violated";
+        line.trace = Some(self.steps(trace));
+        line.again_from = trace.turn.map(|turn| turn + 1);
+        line
     }
 
     /// The line of a check that holds.
-    fn line_of(&self, subject: Subject) -> VerdictLine {
+    fn line_of(&self, subject: Subject) -> wire::Verdict {
         let (kind, span) = match subject {
             Subject::Property(index) => ("property", Some(self.program.properties[index].span)),
             _ => ("builtin", None),
         };
-        VerdictLine {
-            r#type: "verdict",
-            check: id(subject).map_or_else(|| self.name(subject), str::to_string),
-            kind,
-            at: span.map(|span| Place::new(self.sources, span)),
-            verdict: "holds",
-            states: None,
-            by: None,
-            reasons: Vec::new(),
-            trace: None,
-            again_from: None,
-        }
+        let check = id(subject).map_or_else(|| self.name(subject), str::to_string);
+        wire::Verdict::holds(check, kind, span.map(|span| Place::new(self.sources, span)))
     }
 
-    fn line(&self, verdict: &Verdict, report: &Report) -> VerdictLine {
+    fn line(&self, verdict: &Verdict, report: &Report) -> wire::Verdict {
         let mut line = self.line_of(verdict.subject);
         match &verdict.outcome {
             Outcome::Holds => match self.proof(verdict.subject, report) {
@@ -349,7 +239,7 @@ impl Teller<'_> {
     }
 
     /// A run, as it is written as JSON.
-    pub fn steps(&self, trace: &Trace) -> Vec<StepLine> {
+    pub fn steps(&self, trace: &Trace) -> Vec<RunStep> {
         let binders = groundstate::choice_variables(self.program);
         let pairs = |values: &[(Location, Value)]| -> Vec<(String, String)> {
             let show = |(location, value): &(Location, Value)| {
@@ -357,7 +247,7 @@ impl Teller<'_> {
             };
             values.iter().map(show).collect()
         };
-        let line = |step: usize, told: &Told, values: &[(Location, Value)]| StepLine {
+        let line = |step: usize, told: &Told, values: &[(Location, Value)]| RunStep {
             step,
             values: pairs(values),
             inputs: pairs(&told.inputs),
@@ -365,7 +255,7 @@ impl Teller<'_> {
             changes: told
                 .changes
                 .iter()
-                .map(|change| ChangeLine {
+                .map(|change| RunChange {
                     location: change.location.show(self.program).to_string(),
                     from: change.before.show(self.program).to_string(),
                     to: change.after.show(self.program).to_string(),

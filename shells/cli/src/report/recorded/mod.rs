@@ -147,18 +147,7 @@ fn verdict_in_words(verdict: &Verdict, way: Way, recording: &Recording) -> Held 
 fn tell(shell: &mut Shell, program: &Program, written: Option<&Path>) -> Result<(), Failure> {
     let written: Vec<String> = written.iter().map(|path| path.display().to_string()).collect();
     if shell.json() {
-        let run = |run: &ProgramRun| {
-            serde_json::json!({
-                "name": run.name, "span_ns": run.span_ns, "events": run.events,
-                "conforms": run.verdict.as_ref().and_then(|held| held.conforms),
-                "reached": run.closed_loop.as_ref().and_then(|world| world.reached),
-            })
-        };
-        let runs: Vec<_> = program.runs.iter().map(run).collect();
-        let object = serde_json::json!({
-            "type": "program", "model": program.model, "runs": runs, "troubles": program.troubles(), "files": written,
-        });
-        return shell.object(&object);
+        return shell.object(&wire::ProgramReported::new(program, written));
     }
     if shell.talks() {
         let options = RunSummary { colour: shell.color_out() };

@@ -1,13 +1,12 @@
 //! Test results as JUnit XML, the dialect that continuous integration servers read. No times, so that the same
 //! results give the same bytes.
+//!
+//! In: scenarios that were tested, and their faults as text. Out: a document.
 
 use std::fmt::Write;
-use std::path::Path;
 
 use groundstate::Tested;
 use syntax::Diagnostic;
-
-use crate::render;
 
 /// A report being written.
 #[derive(Debug, Default)]
@@ -19,10 +18,16 @@ pub struct Junit {
 }
 
 impl Junit {
-    /// Adds a scenario.
-    pub fn case(&mut self, path: &Path, tested: &Tested, failures: &[Diagnostic]) {
+    /// Adds the scenario of a file. `render` gives a fault as text.
+    pub fn case(
+        &mut self,
+        file: &str,
+        tested: &Tested,
+        failures: &[Diagnostic],
+        render: &dyn Fn(&Diagnostic) -> String,
+    ) {
         self.tests += 1;
-        let (name, class) = (escape(&tested.name), escape(&path.display().to_string()));
+        let (name, class) = (escape(&tested.name), escape(file));
         let _ = write!(self.cases, "    <testcase name=\"{name}\" classname=\"{class}\" file=\"{class}\"");
         if failures.is_empty() {
             self.cases.push_str("/>\n");
@@ -37,7 +42,7 @@ impl Junit {
         }
         self.cases.push_str(">\n");
         for failure in failures {
-            let text = render::diagnostic(&tested.sources, failure, false);
+            let text = render(failure);
             let (kind, message) = (escape(failure.id), escape(&failure.message));
             let text = escape(&text);
             let _ = writeln!(self.cases, "      <{element} type=\"{kind}\" message=\"{message}\">{text}</{element}>");

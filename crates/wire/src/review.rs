@@ -1,0 +1,45 @@
+//! What a review finds, as JSON objects.
+
+use serde::Serialize;
+
+use crate::{Fault, RunStep};
+
+/// `{"type":"finding",…}`
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Finding<'a> {
+    #[cfg_attr(test, schemars(extend("const" = "finding")))]
+    r#type: &'static str,
+    meta: String,
+    finding: Fault<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    witness: Option<Vec<RunStep>>,
+}
+
+impl<'a> Finding<'a> {
+    /// What violates the meta-property of this number, and the run that shows it.
+    pub fn new(meta: usize, finding: Fault<'a>, witness: Option<Vec<RunStep>>) -> Finding<'a> {
+        Finding { r#type: "finding", meta: format!("MP{meta}"), finding, witness }
+    }
+}
+
+/// `{"type":"meta-property",…}`
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct MetaProperty {
+    #[cfg_attr(test, schemars(extend("const" = "meta-property")))]
+    r#type: &'static str,
+    meta: String,
+    /// `holds`, `violated` or `unknown`.
+    outcome: &'static str,
+    findings: usize,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    reasons: Vec<String>,
+}
+
+impl MetaProperty {
+    /// What became of the meta-property of this number, and why it is not known.
+    pub fn new(meta: usize, outcome: &'static str, findings: usize, reasons: Vec<String>) -> MetaProperty {
+        MetaProperty { r#type: "meta-property", meta: format!("MP{meta}"), outcome, findings, reasons }
+    }
+}

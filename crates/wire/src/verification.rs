@@ -1,0 +1,184 @@
+//! What a verification comes to, as JSON objects: verdicts with their runs, how far the search came, what was assumed.
+
+use serde::Serialize;
+
+use crate::Place;
+
+/// `{"type":"verdict",…}`
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Verdict {
+    #[cfg_attr(test, schemars(extend("const" = "verdict")))]
+    r#type: &'static str,
+    check: String,
+    kind: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    at: Option<Place>,
+    /// `holds`, `violated` or `unknown`.
+    pub verdict: &'static str,
+    /// How many states were met, where it holds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub states: Option<u64>,
+    /// How it was proved, where that was not by meeting all states.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub by: Option<String>,
+    /// Why it is not known.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub reasons: Vec<String>,
+    /// The run that violates it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trace: Option<Vec<RunStep>>,
+    /// The step from which the trace goes on again and again.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub again_from: Option<usize>,
+}
+
+impl Verdict {
+    /// A check that holds: its name, whether it is the model's own (`property`) or not (`builtin`), where it stands.
+    pub fn holds(check: String, kind: &'static str, at: Option<Place>) -> Verdict {
+        Verdict {
+            r#type: "verdict",
+            check,
+            kind,
+            at,
+            verdict: "holds",
+            states: None,
+            by: None,
+            reasons: Vec::new(),
+            trace: None,
+            again_from: None,
+        }
+    }
+}
+
+/// A step of a run that was found; number 0 is the initial state.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct RunStep {
+    /// Its number.
+    pub step: usize,
+    /// The initial state.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub values: Vec<(String, String)>,
+    /// What it read.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub inputs: Vec<(String, String)>,
+    /// What it chose, in words.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub choices: Vec<String>,
+    /// What it changed.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub changes: Vec<RunChange>,
+    /// Why it could not be made.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fault: Option<String>,
+}
+
+/// A location whose value changed.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct RunChange {
+    /// The location.
+    pub location: String,
+    /// Its value before.
+    pub from: String,
+    /// Its value after.
+    pub to: String,
+    /// The place of the update.
+    pub by: String,
+}
+
+/// `{"type":"explored",…}`
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct ExploredLine<'a> {
+    #[cfg_attr(test, schemars(extend("const" = "explored")))]
+    r#type: &'static str,
+    complete: bool,
+    states: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    transitions: Option<u64>,
+    depth: u64,
+    bytes: u64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    disk: Option<u64>,
+    #[serde(flatten)]
+    more: &'a Explored,
+}
+
+impl<'a> ExploredLine<'a> {
+    /// How far a search came, and what there is to say of it.
+    pub fn new(progress: &groundstate::verify::Progress, complete: bool, more: &'a Explored) -> ExploredLine<'a> {
+        ExploredLine {
+            r#type: "explored",
+            complete,
+            states: progress.states,
+            transitions: (!more.sets).then_some(progress.transitions),
+            depth: progress.depth,
+            bytes: progress.bytes,
+            disk: (progress.spilled > 0).then_some(progress.spilled),
+            more,
+        }
+    }
+}
+
+/// What there is to say of a search beside its numbers.
+#[derive(Debug, Default, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Explored {
+    /// How many bits a state has.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bits: Option<usize>,
+    /// Where less than the states was kept: how many are to be expected to have been left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub omission: Option<f64>,
+    /// Where one order of moves was to be enough: whether it was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub partial_order: Option<&'static str>,
+    /// Where interchangeable elements were to be found: which there are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub symmetry: Option<Vec<DomainLine>>,
+    /// States were gone through as sets, of which transitions are not counted.
+    #[serde(skip)]
+    pub sets: bool,
+}
+
+/// A domain, and those of its elements that are interchangeable with each other, or why none are.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct DomainLine {
+    /// Its name.
+    pub domain: String,
+    /// The elements.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub interchangeable: Vec<String>,
+    /// Why there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub distinct: Option<String>,
+    /// Where that is to be seen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<Place>,
+}
+
+impl DomainLine {
+    /// Elements are interchangeable.
+    pub fn is_class(&self) -> bool {
+        !self.interchangeable.is_empty()
+    }
+}
+
+/// `{"type":"assumed",…}`
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Assumed<'a> {
+    #[cfg_attr(test, schemars(extend("const" = "assumed")))]
+    r#type: &'static str,
+    term: &'a str,
+}
+
+impl<'a> Assumed<'a> {
+    /// The verdicts are given under this assumption, which is not the model's.
+    pub fn new(term: &'a str) -> Assumed<'a> {
+        Assumed { r#type: "assumed", term }
+    }
+}

@@ -1,0 +1,3 @@
+//! The tests of `wire` as one program: each file of this folder is a module here.
+
+mod traces;
