@@ -12,6 +12,7 @@ mod generation;
 mod junit;
 mod report;
 mod review;
+mod run;
 mod scenario;
 #[cfg(test)]
 mod schema;
@@ -27,6 +28,7 @@ pub use fault::{Fault, Place, WorldFailure};
 pub use generation::{Generated, Goal};
 pub use junit::Junit;
 pub use review::{Finding, MetaProperty};
+pub use run::{RunFile, RunTold, Unseen};
 pub use trace::{Ending, Head, Line, Pairs, Reader, State, Step, VERSION, Wire};
 pub use verification::{Assumed, DomainLine, Explored, ExploredLine, RunChange, RunStep, Verdict};
 

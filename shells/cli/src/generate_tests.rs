@@ -8,13 +8,12 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use chart::{Origin, Target};
 use clap::Args;
-use groundstate::scenario::{FirstCandidate, Options as Scenario};
-use groundstate::test_generation::{Goal, GoalKind, Method, Subject, Tests, Turn, generate_tests};
+use groundstate::test_generation::{
+    Goal, Method, Subject, Tests, chart_turns, generate_tests, passes_whatever_is_chosen,
+};
 use groundstate::verify::{Reason, Stop};
-use groundstate::{Loaded, SeededChoices, Suite, own_files};
-use model::DomainKind;
+use groundstate::{Suite, own_files};
 use syntax::FileId;
 use wire::Place;
 
@@ -22,7 +21,7 @@ use crate::check::plural;
 use crate::coverage;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::{Disk, read_source, write_text};
+use crate::files::{read_source, write_text};
 use crate::load::load;
 use crate::shell::Shell;
 use crate::verify::{Bounded, Teller, no_start, relative};
@@ -66,7 +65,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     };
     let folder = &arguments.output;
     std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
-    let turns = turns(&loaded);
+    let turns = chart_turns(&loaded.model);
     let program = Arc::clone(&loaded.program);
     let (bounded, by_default) = match arguments.random {
         // Walks come to an end by themselves.
@@ -113,7 +112,8 @@ fn write(shell: &mut Shell, folder: &Path, tests: &Tests, suite: &mut Suite) -> 
     for scenario in &tests.scenarios {
         let path = folder.join(format!("{}.avalla", scenario.name));
         write_text(&path, &scenario.text)?;
-        if !passes(&path, shell, limits, suite)? {
+        let source = read_source(&path, shell.global.limits.max_file_size)?;
+        if !passes_whatever_is_chosen(suite, &source, &mut shell.disk(), limits) {
             std::fs::remove_file(&path).map_err(|error| Failure::of_file("write", &path, error))?;
             left_out.push(scenario.name.clone());
             continue;
@@ -128,33 +128,11 @@ fn write(shell: &mut Shell, folder: &Path, tests: &Tests, suite: &mut Suite) -> 
     Ok(left_out)
 }
 
-/// Whether a scenario passes whatever is chosen where it picks nothing.
-fn passes(path: &Path, shell: &Shell, limits: machine::Limits, suite: &mut Suite) -> Result<bool, Failure> {
-    let limit = shell.global.limits.max_file_size;
-    let mut disk = Disk { limit };
-    let mut run = |suite: &mut Suite, coverage: bool, seed: Option<u64>| -> Result<bool, Failure> {
-        let source = read_source(path, limit)?;
-        let options = Scenario { limits, coverage, ..Scenario::default() };
-        let tested = match seed {
-            None => suite.test(source, &mut disk, options, &mut FirstCandidate),
-            Some(seed) => suite.test(source, &mut disk, options, &mut SeededChoices::new(seed)),
-        };
-        Ok(tested.verdict.is_some_and(|verdict| verdict.passed()))
-    };
-    for seed in [None, Some(1), Some(2)] {
-        if !run(suite, false, seed)? {
-            return Ok(false);
-        }
-    }
-    // As `groundstate test --coverage` will run it.
-    run(suite, true, Some(0))
-}
-
 /// Tells what is reached and what is not.
 fn told(shell: &mut Shell, teller: &Teller<'_>, tests: &Tests) -> Result<(), Failure> {
     let mut kinds: BTreeMap<&'static str, (usize, usize)> = BTreeMap::new();
     for goal in &tests.goals {
-        let entry = kinds.entry(kind(goal.kind).0).or_default();
+        let entry = kinds.entry(goal.kind.words().0).or_default();
         entry.0 += usize::from(goal.reached);
         entry.1 += 1;
     }
@@ -166,7 +144,7 @@ fn told(shell: &mut Shell, teller: &Teller<'_>, tests: &Tests) -> Result<(), Fai
     };
     if shell.json() {
         for goal in &tests.goals {
-            let (kind, what) = kind(goal.kind);
+            let (kind, what) = goal.kind.words();
             let (of, at) = (goal.rule.as_str(), Place::new(teller.sources, goal.span));
             shell.object(&wire::Goal::new(kind, what, of, at, outcome(goal)))?;
         }
@@ -177,7 +155,7 @@ fn told(shell: &mut Shell, teller: &Teller<'_>, tests: &Tests) -> Result<(), Fai
         }
         for goal in tests.goals.iter().filter(|goal| !goal.reached) {
             let at = teller.sources.position(goal.span);
-            let (kind, what) = kind(goal.kind);
+            let (kind, what) = goal.kind.words();
             let what = if what.is_empty() { kind } else { what };
             writeln!(shell.out(), "  {:<11} {at}: {what} of {}", outcome(goal), goal.rule)?;
         }
@@ -190,46 +168,4 @@ fn told(shell: &mut Shell, teller: &Teller<'_>, tests: &Tests) -> Result<(), Fai
         Some(progress) => teller.explored(shell, progress, complete, &crate::verify::Explored::default()),
         None => Ok(()),
     }
-}
-
-/// The words for a kind of goal, and for which of its kind it is.
-fn kind(kind: GoalKind) -> (&'static str, &'static str) {
-    match kind {
-        GoalKind::Rule => ("rules", "the whole"),
-        GoalKind::Branch(what) => ("branches", what),
-        GoalKind::Update => ("updates", "update"),
-        GoalKind::Forall(what) => ("foralls", what),
-        GoalKind::Condition => ("conditions", "deciding condition"),
-        GoalKind::Transition => ("transitions", "transition"),
-    }
-}
-
-/// The transitions from a control state to another of the charts that the model's rules are.
-fn turns(loaded: &Loaded) -> Vec<Turn> {
-    let model = &loaded.model;
-    let literal = |name: &str| {
-        model.domains.iter().find_map(|(id, domain)| match &domain.kind {
-            DomainKind::Enum { literals } => {
-                literals.iter().position(|literal| literal == name).map(|index| (id, index as u32))
-            }
-            _ => None,
-        })
-    };
-    let found = chart::extract(model, None, None).chart;
-    let mut turns: Vec<Turn> = Vec::new();
-    for machine in &found.machines {
-        let rule = machine.rule.as_ref().map_or(&machine.name, |rule| &rule.name);
-        let Some(rule) = model.rules.iter().find(|known| known.name == *rule) else { continue };
-        for transition in chart::transitions(&found, machine) {
-            let (Origin::State(from), Target::State(to)) = (transition.origin, transition.target) else { continue };
-            let state = |id| machine.shape(id).link.as_ref().map(|link| link.name.clone());
-            let (Some(from), Some(to)) = (state(from), state(to)) else { continue };
-            let (Some((domain, first)), Some((other, second))) = (literal(&from), literal(&to)) else { continue };
-            let name = format!("{}, {from} to {to}", rule.name);
-            if domain == other && !turns.iter().any(|turn| turn.name == name) && first != second {
-                turns.push(Turn { name, span: rule.span, domain, literals: (first, second) });
-            }
-        }
-    }
-    turns
 }

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use clap::Args;
 use groundstate::job::{self, Cancel, ReviewEvent, ReviewRequest};
 use groundstate::own_files;
+use groundstate::tell::says;
 use groundstate::verify::review::{Finding, Meta, Outcome, Review};
 use groundstate::verify::{Reason, Stop};
 use syntax::FileId;
@@ -139,18 +140,6 @@ fn summary(shell: &mut Shell, teller: &Teller<'_>, review: &Review) -> Result<()
         }
     }
     teller.explored(shell, &review.progress, review.reasons.is_empty(), &crate::verify::Explored::default())
-}
-
-fn says(meta: Meta) -> &'static str {
-    match meta {
-        Meta::Consistent => "no inconsistent update is ever performed",
-        Meta::Complete => "every conditional rule is complete",
-        Meta::Fires => "every rule can eventually fire",
-        Meta::NotTrivial => "no assignment is always trivial",
-        Meta::ElementUsed => "every domain element is the value of some location",
-        Meta::ValueTaken => "every controlled function can take any value of its codomain",
-        Meta::LocationUsed => "every controlled location is updated and every location is read",
-    }
 }
 
 fn exit(review: &Review) -> Exit {

@@ -6,6 +6,7 @@
 mod charts;
 mod derived;
 mod evidence;
+mod recorded;
 mod watch;
 
 use std::sync::Arc;
@@ -23,6 +24,7 @@ use watch::Watch;
 
 pub use derived::derived_specification;
 pub use evidence::{reported_coverage, reported_scenario};
+pub use recorded::{held_in_words, run_name};
 
 /// What reading a specification came to.
 #[derive(Debug)]

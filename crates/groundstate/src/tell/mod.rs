@@ -4,10 +4,14 @@
 //! colours are asked for.
 
 mod coverage;
+mod parting;
+mod review;
 mod run;
 mod story;
 
 pub use coverage::{Uncovered, uncovered};
+pub use parting::parting;
+pub use review::says;
 pub use run::{Detail, Narrator};
 pub use story::story;
 

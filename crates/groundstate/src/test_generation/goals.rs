@@ -30,6 +30,20 @@ pub enum GoalKind {
     Transition,
 }
 
+impl GoalKind {
+    /// The words for a kind of goal, and for which of its kind it is.
+    pub fn words(self) -> (&'static str, &'static str) {
+        match self {
+            GoalKind::Rule => ("rules", "the whole"),
+            GoalKind::Branch(what) => ("branches", what),
+            GoalKind::Update => ("updates", "update"),
+            GoalKind::Forall(what) => ("foralls", what),
+            GoalKind::Condition => ("conditions", "deciding condition"),
+            GoalKind::Transition => ("transitions", "transition"),
+        }
+    }
+}
+
 /// Something to be reached.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Goal {

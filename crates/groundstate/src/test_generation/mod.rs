@@ -6,6 +6,8 @@
 
 mod cover;
 mod goals;
+mod kept;
+mod turns;
 mod write;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -22,6 +24,8 @@ use cover::{Candidate, cover};
 use goals::{Need, goals, needs_met};
 
 pub use goals::{Goal, GoalKind, Turn};
+pub use kept::passes_whatever_is_chosen;
+pub use turns::chart_turns;
 
 /// How what can be reached is looked for.
 #[derive(Debug, Clone, Copy)]

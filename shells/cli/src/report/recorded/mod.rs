@@ -4,23 +4,22 @@
 //! is shown in detail, of all runs the figures stand side by side. Exit code: as of `conform`, of the worst run; 1 also where
 //! a closed loop in virtual time did not come where it had to.
 
-mod world;
-
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use ::conform::{Parted, Verdict, Way};
-use ::report::{Fact, Held, Program, ProgramRun, RunSummary, render_program};
+use ::report::{Fact, Program, ProgramRun, RunSummary, render_program};
 use groundstate::job::Conformed;
+use groundstate::reporting::{held_in_words, run_name};
 use recording::Recording;
 
 use crate::conform::{hold, read};
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::files::read_bytes;
 use crate::load::load;
 use crate::report::{Arguments, write_beside};
 use crate::shell::Shell;
-use world::Told;
+use wire::{RunFile, RunTold, Unseen};
 
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
@@ -46,7 +45,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         }
         let (recording, held) = match hold(shell, loaded, &arguments.model, recording, false)? {
             Ok(Conformed { recording, verdict, way, .. }) => {
-                let held = verdict_in_words(&verdict, way, &recording);
+                let held = held_in_words(&verdict, way, &recording);
                 (recording, held)
             }
             Err(exit) => return Ok(exit),
@@ -56,10 +55,10 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
             Some(false) => Exit::Model,
             None => Exit::Unknown,
         });
-        let name = name(&recording, &program.runs);
+        let name = run_name(&recording, &program.runs);
         let mut run = ProgramRun::of(name, &recording);
         run.verdict = Some(held);
-        let Told { title, note, closed_loop } = told;
+        let RunTold { title, note, closed_loop } = told;
         if program.runs.is_empty() {
             program.title = title.unwrap_or_else(|| recording.system.clone());
             program.note = note.unwrap_or_default();
@@ -80,14 +79,19 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
 }
 
 /// The recording, and what else the file tells of the run.
-fn find(shell: &Shell, path: &Path) -> Result<(Recording, Told), Failure> {
+fn find(shell: &Shell, path: &Path) -> Result<(Recording, RunTold), Failure> {
     let is_json = path.extension().is_some_and(|extension| extension == "json");
     crate::overwrite::note(path);
     if !is_json {
-        return Ok((read(shell, path)?, Told::default()));
+        return Ok((read(shell, path)?, RunTold::default()));
     }
     let limit = shell.global.limits.max_file_size;
-    let run = world::read(path, limit)?;
+    let run = RunFile::read(&read_bytes(path, limit)?).map_err(|reason| {
+        Failure::usage_with_help(
+            format!("{} is no run of a program: {reason}", path.display()),
+            "spec/run.md lists what the file of a run has",
+        )
+    })?;
     let beside = |name: &str| -> PathBuf { path.parent().unwrap_or(Path::new("")).join(name) };
     let Some(log) = run.log.clone() else {
         return Err(Failure::usage_with_help(
@@ -96,52 +100,12 @@ fn find(shell: &Shell, path: &Path) -> Result<(Recording, Told), Failure> {
         ));
     };
     crate::overwrite::note(&beside(&log));
-    Ok((read(shell, &beside(&log))?, run.told(&beside, limit)?))
-}
-
-/// What tells a run from the others.
-fn name(recording: &Recording, others: &[ProgramRun]) -> String {
-    let name = if recording.pace == "real" { "real time" } else { "virtual time" };
-    match others.iter().filter(|run| run.name.starts_with(name)).count() {
-        0 => name.to_string(),
-        n => format!("{name} {}", n + 1),
-    }
-}
-
-fn verdict_in_words(verdict: &Verdict, way: Way, recording: &Recording) -> Held {
-    let (way, many) = (way.words(), |n: usize| ::report::count(n as u64));
-    match verdict {
-        Verdict::Conforms { events, steps, after } => {
-            let after = match after {
-                0 => String::new(),
-                more => format!("; {} after the tasks were asked to stop are not compared", many(*more)),
-            };
-            let steps = ::report::count(*steps);
-            let words =
-                format!("conforms to the model {way}: {} events, {steps} steps of the model{after}", many(*events));
-            Held { conforms: Some(true), words }
-        }
-        Verdict::Unknown { events, reason } => Held {
-            conforms: None,
-            words: format!(
-                "not known whether it conforms to the model: {reason}; {} events agree before",
-                many(*events)
-            ),
-        },
-        Verdict::Parts(parted) => {
-            let Parted { event, tick, task, claims, agreed, .. } = parted.as_ref();
-            let at_ns = event.as_ref().map_or(tick * recording.tick_ns, |event| event.time_ns);
-            let did = event.as_ref().map_or("nothing more".to_string(), |event| event.words());
-            let claims: Vec<String> = claims.iter().map(|claim| claim.event.words()).collect();
-            let model = if claims.is_empty() { "nothing".to_string() } else { claims.join("; ") };
-            let at = at_ns as f64 / 1e6;
-            let words = format!(
-                "parts from the model {way}, at {at:.4} ms, after {} events: {task} did: {did}; the model: {model}",
-                many(*agreed)
-            );
-            Held { conforms: Some(false), words }
-        }
-    }
+    let recording = read(shell, &beside(&log))?;
+    let told = run.told(&mut |picture| read_bytes(&beside(picture), limit)).map_err(|unseen| match unseen {
+        Unseen::Unread(failure) => failure,
+        Unseen::NoPng(picture) => Failure::usage(format!("{} is no PNG", beside(&picture).display())),
+    })?;
+    Ok((recording, told))
 }
 
 fn tell(shell: &mut Shell, program: &Program, written: Option<&Path>) -> Result<(), Failure> {

@@ -1,19 +1,15 @@
 //! The JSON of a run (spec/run.md) → what a controller did to its world.
 //!
-//! Whatever is not there is not shown. Columns that belong together are read as far as the shortest goes.
-
-use std::path::{Path, PathBuf};
+//! In: the bytes of the file, and whoever finds the pictures that it names. Out: [`RunTold`]. Whatever is not there is not shown. Columns
+//! that belong together are read as far as the shortest goes.
 
 use ::report::{ClosedLoop, Joint, Tally, View};
 use serde::Deserialize;
 
-use crate::failure::Failure;
-use crate::files::read_bytes;
-
 /// The file.
 #[derive(Debug, Default, Deserialize)]
 #[serde(default)]
-pub struct Run {
+pub struct RunFile {
     title: Option<String>,
     note: Option<String>,
     time: String,
@@ -72,7 +68,7 @@ struct Ending {
 
 /// What the file tells for the page.
 #[derive(Debug, Default)]
-pub struct Told {
+pub struct RunTold {
     /// The title.
     pub title: Option<String>,
     /// A sentence or two below it.
@@ -81,22 +77,31 @@ pub struct Told {
     pub closed_loop: Option<ClosedLoop>,
 }
 
-/// Reads the file.
-pub fn read(path: &Path, limit: u64) -> Result<Run, Failure> {
-    let bytes = read_bytes(path, limit)?;
-    serde_json::from_slice(&bytes).map_err(|error| {
-        Failure::usage_with_help(
-            format!("{} is no run of a program: {error}", path.display()),
-            "spec/run.md lists what the file of a run has",
-        )
-    })
+/// A picture of a run that is none, or that cannot be read.
+#[derive(Debug)]
+pub enum Unseen<X> {
+    /// It cannot be read.
+    Unread(X),
+    /// The file of this name is no PNG.
+    NoPng(String),
 }
 
-impl Run {
-    /// What it tells, with the pictures that it names.
-    pub fn told(self, beside: &dyn Fn(&str) -> PathBuf, limit: u64) -> Result<Told, Failure> {
+impl RunFile {
+    /// What the bytes of a file say.
+    ///
+    /// # Errors
+    /// It is no run of a program; a sentence.
+    pub fn read(bytes: &[u8]) -> Result<RunFile, String> {
+        serde_json::from_slice(bytes).map_err(|error| error.to_string())
+    }
+
+    /// What it tells, with the pictures that it names, which `read` finds.
+    ///
+    /// # Errors
+    /// The first picture that is not there.
+    pub fn told<X>(self, read: &mut dyn FnMut(&str) -> Result<Vec<u8>, X>) -> Result<RunTold, Unseen<X>> {
         let Some(end) = &self.verdict else {
-            return Ok(Told { title: self.title, note: self.note, closed_loop: None });
+            return Ok(RunTold { title: self.title, note: self.note, closed_loop: None });
         };
         // How a run in real time ends depends on what else the machine does: it is told, not judged.
         let reached = (end.good || self.time != "real").then_some(end.good);
@@ -113,11 +118,11 @@ impl Run {
             goals_s: self.goals.iter().map(|goal| goal.at_s).collect(),
             bound: self.converged_below,
             error: self.servoing.t_s.iter().copied().zip(self.servoing.error.iter().copied()).collect(),
-            views: self.views.iter().map(|picture| view(picture, beside, limit)).collect::<Result<_, _>>()?,
+            views: self.views.iter().map(|picture| view(picture, read)).collect::<Result<_, _>>()?,
             joints: joints(&self.robot),
             image_ages: known.filter(|(_, tally)| !tally.is_empty()).collect(),
         };
-        Ok(Told { title: self.title, note: self.note, closed_loop: Some(closed_loop) })
+        Ok(RunTold { title: self.title, note: self.note, closed_loop: Some(closed_loop) })
     }
 }
 
@@ -128,11 +133,10 @@ fn tally(ages_ms: &[Option<f64>]) -> Tally {
     tally
 }
 
-fn view(picture: &Picture, beside: &dyn Fn(&str) -> PathBuf, limit: u64) -> Result<View, Failure> {
-    let path = beside(&picture.file);
-    let png = read_bytes(&path, limit)?;
+fn view<X>(picture: &Picture, read: &mut dyn FnMut(&str) -> Result<Vec<u8>, X>) -> Result<View, Unseen<X>> {
+    let png = read(&picture.file).map_err(Unseen::Unread)?;
     if !png.starts_with(b"\x89PNG\r\n\x1a\n") {
-        return Err(Failure::usage(format!("{} is no PNG", path.display())));
+        return Err(Unseen::NoPng(picture.file.clone()));
     }
     Ok(View { png, caption: format!("after {:.2} s, on the way to goal {}", picture.t_s, picture.target) })
 }
@@ -160,8 +164,8 @@ mod tests {
             "servoing":{"t_s":[0.1,0.2],"error":[null,0.5],"image_age_ms":[12.5,null]},
             "robot":{"t_s":[0.1,0.2],"set_point_rad":[[1,2],[3,4]],"measured_rad":[[5,6],[7,8]]},
             "verdict":{"good":false,"words":"not converged"}}"#;
-        let run: Run = serde_json::from_str(text).expect("a run");
-        let told = run.told(&|name| PathBuf::from(name), u64::MAX).expect("it is whole");
+        let run: RunFile = serde_json::from_str(text).expect("a run");
+        let told = run.told(&mut |name| Err(name.to_string())).expect("it is whole");
         let world = told.closed_loop.expect("a closed loop");
         assert_eq!((world.reached, world.goals_s.as_slice()), (Some(false), [0.0, 5.0].as_slice()));
         assert_eq!(world.error, [(0.1, None), (0.2, Some(0.5))]);
@@ -174,8 +178,9 @@ mod tests {
 
     #[test]
     fn a_run_in_real_time_is_not_judged_by_where_it_came() {
-        let run: Run = serde_json::from_str(r#"{"time":"real","verdict":{"good":false,"words":"w"}}"#).expect("a run");
-        let told = run.told(&|name| PathBuf::from(name), u64::MAX).expect("it is whole");
+        let run: RunFile =
+            serde_json::from_str(r#"{"time":"real","verdict":{"good":false,"words":"w"}}"#).expect("a run");
+        let told = run.told(&mut |name| Err(name.to_string())).expect("it is whole");
         assert_eq!(told.closed_loop.and_then(|world| world.reached), None);
     }
 }

@@ -1,0 +1,50 @@
+//! Runs of a program that was made for a model, as their report tells them.
+
+use conform::{Parted, Recording, Verdict, Way};
+use report::{Held, ProgramRun};
+
+/// What tells a run from the others.
+pub fn run_name(recording: &Recording, others: &[ProgramRun]) -> String {
+    let name = if recording.pace == "real" { "real time" } else { "virtual time" };
+    match others.iter().filter(|run| run.name.starts_with(name)).count() {
+        0 => name.to_string(),
+        n => format!("{name} {}", n + 1),
+    }
+}
+
+/// A verdict, as the page says it.
+pub fn held_in_words(verdict: &Verdict, way: Way, recording: &Recording) -> Held {
+    let (way, many) = (way.words(), |n: usize| report::count(n as u64));
+    match verdict {
+        Verdict::Conforms { events, steps, after } => {
+            let after = match after {
+                0 => String::new(),
+                more => format!("; {} after the tasks were asked to stop are not compared", many(*more)),
+            };
+            let steps = report::count(*steps);
+            let words =
+                format!("conforms to the model {way}: {} events, {steps} steps of the model{after}", many(*events));
+            Held { conforms: Some(true), words }
+        }
+        Verdict::Unknown { events, reason } => Held {
+            conforms: None,
+            words: format!(
+                "not known whether it conforms to the model: {reason}; {} events agree before",
+                many(*events)
+            ),
+        },
+        Verdict::Parts(parted) => {
+            let Parted { event, tick, task, claims, agreed, .. } = parted.as_ref();
+            let at_ns = event.as_ref().map_or(tick * recording.tick_ns, |event| event.time_ns);
+            let did = event.as_ref().map_or("nothing more".to_string(), |event| event.words());
+            let claims: Vec<String> = claims.iter().map(|claim| claim.event.words()).collect();
+            let model = if claims.is_empty() { "nothing".to_string() } else { claims.join("; ") };
+            let at = at_ns as f64 / 1e6;
+            let words = format!(
+                "parts from the model {way}, at {at:.4} ms, after {} events: {task} did: {did}; the model: {model}",
+                many(*agreed)
+            );
+            Held { conforms: Some(false), words }
+        }
+    }
+}

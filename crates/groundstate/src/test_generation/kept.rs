@@ -1,0 +1,28 @@
+//! Which of the generated scenarios are kept.
+
+use machine::Limits;
+use model::Loader;
+use scenario::{FirstCandidate, Options};
+use syntax::SourceFile;
+
+use crate::{SeededChoices, Suite};
+
+/// Whether a scenario passes whatever is chosen where it picks nothing: one that does not needs a choice that no scenario can pick. What
+/// it covers is added to the suite if it does.
+pub fn passes_whatever_is_chosen(
+    suite: &mut Suite,
+    source: &SourceFile,
+    loader: &mut dyn Loader,
+    limits: Limits,
+) -> bool {
+    let mut passes = |coverage: bool, seed: Option<u64>| {
+        let options = Options { limits, coverage, ..Options::default() };
+        let tested = match seed {
+            None => suite.test(source.clone(), loader, options, &mut FirstCandidate),
+            Some(seed) => suite.test(source.clone(), loader, options, &mut SeededChoices::new(seed)),
+        };
+        tested.passed()
+    };
+    // The last time as `groundstate test --coverage` will run it.
+    [None, Some(1), Some(2)].into_iter().all(|seed| passes(false, seed)) && passes(true, Some(0))
+}
