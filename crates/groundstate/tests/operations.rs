@@ -5,9 +5,10 @@ use std::sync::Arc;
 use groundstate::conform::Recording;
 use groundstate::job::{
     self, Cancel, ConformRequest, Events, Folder, GenerateJob, NoTail, NotConformed, NotGenerated, Piece,
-    ReviewRequest, RunEvent, RunRequest, Tail,
+    ReviewRequest, RunEvent, RunRequest, Tail, TestsRequest,
 };
 use groundstate::reporting::{Prepared, prepare_report};
+use groundstate::test_generation::Method;
 use groundstate::verify::review::{Meta, Outcome};
 use groundstate::verify::{NoStart, Options, Stop};
 use groundstate::workspace::{Absent, Files};
@@ -96,6 +97,25 @@ fn a_report() {
     assert_eq!((told, last), (2, 5_000));
     let report = job.finish().expect("no panic").finish();
     assert_eq!((report.ticks, report.stopped), (5_000, None));
+}
+
+#[test]
+fn tests_of_a_model() {
+    let generate = |cancel| {
+        let loaded = toggle();
+        let request = TestsRequest {
+            files: [loaded.model.root].into(),
+            model: loaded.model,
+            program: loaded.program,
+            path: "Toggle.asm".to_string(),
+            options: Options::default(),
+            method: Method::Search,
+        };
+        job::generate_tests(request, cancel).expect("a thread").finish().expect("no panic")
+    };
+    let tests = generate(Cancel::new()).expect("there is an initial state");
+    assert!(tests.goals.iter().all(|goal| goal.reached) && tests.scenarios.len() == 1, "{tests:?}");
+    assert_eq!(generate(cancelled()).err(), Some(NoStart::Stopped(Stop::Asked)));
 }
 
 fn folder(job: GenerateJob) -> Result<Folder, NotGenerated> {

@@ -9,9 +9,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
-use groundstate::test_generation::{
-    Goal, Method, Subject, Tests, chart_turns, generate_tests, passes_whatever_is_chosen,
-};
+use groundstate::job::{self, Cancel, TestsEvent, TestsRequest};
+use groundstate::test_generation::{Goal, Method, Tests, passes_whatever_is_chosen};
 use groundstate::verify::{Reason, Stop};
 use groundstate::{Suite, own_files};
 use syntax::FileId;
@@ -22,6 +21,7 @@ use crate::coverage;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::{read_source, write_text};
+use crate::interrupt;
 use crate::load::load;
 use crate::shell::Shell;
 use crate::verify::{Bounded, Teller, no_start, relative};
@@ -65,7 +65,6 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     };
     let folder = &arguments.output;
     std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
-    let turns = chart_turns(&loaded.model);
     let program = Arc::clone(&loaded.program);
     let (bounded, by_default) = match arguments.random {
         // Walks come to an end by themselves.
@@ -73,15 +72,25 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         None => arguments.bounded.with_end(),
     };
     let (options, mut watch) = bounded.options(shell, &program, &beside)?;
-    let (root, users) = (loaded.model.root, own_files(&sources));
-    let own = |file: FileId| file == root || (arguments.imports && users(file));
-    let path = relative(&arguments.model, folder);
-    let subject = Subject { model: &loaded.model, program: &program, turns: &turns, path: &path };
-    let method = match arguments.random {
-        Some(walks) => Method::Random(walks, arguments.steps, arguments.seed),
-        None => Method::Search,
+    let users = own_files(&sources);
+    let is_told = |file: FileId| file == loaded.model.root || (arguments.imports && users(file));
+    let request = TestsRequest {
+        model: Arc::clone(&loaded.model),
+        program: Arc::clone(&program),
+        path: relative(&arguments.model, folder),
+        options,
+        method: match arguments.random {
+            Some(walks) => Method::Random(walks, arguments.steps, arguments.seed),
+            None => Method::Search,
+        },
+        files: sources.iter().map(|(file, _)| file).filter(|file| is_told(*file)).collect(),
     };
-    let generated = generate_tests(subject, &options, method, &own, &mut |progress| watch.at(progress));
+    let started = job::generate_tests(request, Cancel::from(interrupt::request()));
+    let job = started.map_err(|error| Failure::usage(format!("the search cannot be started: {error}")))?;
+    while let Some(TestsEvent(progress)) = job.next_event() {
+        watch.at(&progress);
+    }
+    let generated = job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0));
     let timed_out = watch.done();
     let teller = Teller::new(&program, &sources, timed_out);
     let tests = match generated {

@@ -1,7 +1,7 @@
 //! A trace file being written. It has its name only when the run has ended; a step taken back leaves no line.
 
 use std::path::{Path, PathBuf};
-use wire::Line;
+use wire::{Kept, Line};
 
 use crate::failure::Failure;
 use crate::files::Unfinished;
@@ -12,32 +12,30 @@ pub struct TraceFile {
     path: PathBuf,
     file: Unfinished,
     /// At a prompt lines are held back, since a step may be taken back.
-    held: Option<Vec<Line>>,
+    held: Option<Kept>,
 }
 
 impl TraceFile {
     pub fn create(path: &Path, interactive: bool) -> Result<Self, Failure> {
-        Ok(TraceFile { path: path.to_path_buf(), file: Unfinished::create(path)?, held: interactive.then(Vec::new) })
+        Ok(TraceFile {
+            path: path.to_path_buf(),
+            file: Unfinished::create(path)?,
+            held: interactive.then(Kept::default),
+        })
     }
 
     pub fn write(&mut self, line: &Line) -> Result<(), Failure> {
         match (&mut self.held, line) {
             (None, line) => put(&mut self.file, &self.path, line),
-            (Some(held), Line::Back { .. }) => {
-                if matches!(held.last(), Some(Line::Step(_))) {
-                    held.pop();
-                }
-                Ok(())
-            }
             (Some(held), line) => {
-                held.push(line.clone());
+                held.add(line.clone());
                 Ok(())
             }
         }
     }
 
     pub fn finish(mut self) -> Result<(), Failure> {
-        for line in self.held.take().into_iter().flatten() {
+        for line in self.held.take().into_iter().flat_map(Kept::into_lines) {
             put(&mut self.file, &self.path, &line)?;
         }
         self.file.finish()

@@ -6,6 +6,7 @@
 
 mod conform;
 mod generate;
+mod generate_tests;
 mod review;
 mod run;
 mod test;
@@ -23,6 +24,7 @@ pub use conform::{
     ConformEvent, ConformJob, ConformRequest, Conformed, Events, NoTail, NotConformed, Piece, Tail, conform,
 };
 pub use generate::{Folder, GenerateEvent, GenerateJob, Headers, NotGenerated, generate_model, generate_system};
+pub use generate_tests::{TestsEvent, TestsJob, TestsRequest, generate_tests};
 pub use review::{ReviewEvent, ReviewJob, ReviewRequest, review};
 pub use run::{Command, Remote, RunEvent, RunJob, RunRequest, at_once, report, run};
 pub use test::{TestEvent, test};

@@ -1,0 +1,57 @@
+//! The generation of tests as a job.
+//!
+//! In: a [`TestsRequest`]. Out: progress of the search; at the end scenarios and goals, or why there are none.
+
+use std::collections::BTreeSet;
+use std::io;
+use std::sync::Arc;
+
+use model::Model;
+use program::Program;
+use syntax::FileId;
+use verify::{NoStart, Options, Progress};
+
+use crate::job::{Cancel, Job};
+use crate::test_generation::{Method, Subject, Tests, chart_turns};
+
+/// The tests that are wanted.
+#[derive(Debug)]
+pub struct TestsRequest {
+    /// The model.
+    pub model: Arc<Model>,
+    /// Its program.
+    pub program: Arc<Program>,
+    /// The path by which the scenarios load the model.
+    pub path: String,
+    /// How far the search goes.
+    pub options: Options,
+    /// How what can be reached is looked for.
+    pub method: Method,
+    /// What stands in other files is no goal.
+    pub files: BTreeSet<FileId>,
+}
+
+/// The search is so far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TestsEvent(pub Progress);
+
+/// A generation of tests; cancelled, it gives those for what was reached until then.
+pub type TestsJob = Job<TestsEvent, Result<Tests, NoStart>>;
+
+/// Starts to generate tests.
+///
+/// # Errors
+/// The system gives no thread.
+pub fn generate_tests(request: TestsRequest, cancel: Cancel) -> io::Result<TestsJob> {
+    let TestsRequest { model, program, path, options, method, files } = request;
+    let options = Options { interrupt: cancel.interrupt().clone(), ..options };
+    Job::start("generate-tests", cancel, move |port| {
+        let turns = chart_turns(&model);
+        let subject = Subject { model: &model, program: &program, turns: &turns, path: &path };
+        let own = |file: FileId| files.contains(&file);
+        crate::test_generation::generate_tests(subject, &options, method, &own, &mut |progress| {
+            port.mention(TestsEvent(*progress));
+            !port.is_cancelled()
+        })
+    })
+}
