@@ -6,6 +6,8 @@ mod system;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
+use groundstate::job::{Folder, GenerateJob, NotGenerated};
+use syntax::Sources;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -73,6 +75,24 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         return Err(Failure::usage("--wait-free and --namespace are for charts with a system"));
     }
     if chart { system::run(shell, arguments) } else { model::run(shell, arguments) }
+}
+
+/// What a generation came to; what cannot be generated is shown.
+fn finished(
+    shell: &mut Shell,
+    sources: &Sources,
+    job: std::io::Result<GenerateJob>,
+) -> Result<Result<Folder, Exit>, Failure> {
+    let job = job.map_err(|error| Failure::usage(format!("the generation cannot be started: {error}")))?;
+    match job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0)) {
+        Ok(folder) => Ok(Ok(folder)),
+        Err(NotGenerated::Refused(faults)) => {
+            shell.diagnostics(sources, &faults)?;
+            Ok(Err(Exit::Model))
+        }
+        Err(NotGenerated::NoSystem) => unreachable!("a chart without a system is refused before"),
+        Err(NotGenerated::Cancelled) => Ok(Err(Exit::Unknown)),
+    }
 }
 
 /// Writes a file of a generated folder, unless it is there with that text.

@@ -2,11 +2,13 @@
 
 use std::io::Write;
 
-use generate::system::{Form, Generated, generate, ungenerated};
+use generate::system::Form;
+use groundstate::job::{self, Cancel, Folder};
 
-use super::{Cpp, write};
+use super::{Cpp, finished, write};
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::interrupt;
 use crate::shell::Shell;
 
 include!(concat!(env!("OUT_DIR"), "/runtime_headers.rs"));
@@ -17,23 +19,19 @@ pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
         Ok(read) => read,
         Err(exit) => return Ok(exit),
     };
-    let Some(system) = &chart.system else {
+    if chart.system.is_none() {
         return Err(Failure::usage_with_help(
             format!("{} has no system", arguments.file.display()),
             "tasks are generated from the components of a system",
         ));
-    };
-    let faults = ungenerated(system);
-    if !faults.is_empty() {
-        shell.diagnostics(&sources, &faults)?;
-        return Ok(Exit::Model);
     }
     let name = arguments.file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let form = Form { wait_free: arguments.wait_free, namespace: arguments.namespace.clone() };
-    let Generated { mut decided, once } = generate(&chart, system, &name, &form);
-    let headers =
-        HEADERS.iter().map(|(name, text)| (format!("generated/include/groundstate/{name}"), text.to_string()));
-    decided.extend(headers);
+    let job = job::generate_system(chart, name, form, HEADERS, Cancel::from(interrupt::request()));
+    let Folder { decided, once, .. } = match finished(shell, &sources, job)? {
+        Ok(folder) => folder,
+        Err(exit) => return Ok(exit),
+    };
     for (path, text) in &decided {
         write(shell, &arguments.output.join(path), text)?;
     }
