@@ -110,7 +110,7 @@ impl Session {
         if head.tick_ns <= 0 {
             return Err("the recording does not say how long a tick is".to_string().into());
         }
-        let mut machine = Machine::new(Arc::new(program.clone()), limits);
+        let mut machine = Machine::new(Arc::new(program.clone()), limits.clone());
         machine.start(&mut machine::Closed).map_err(|fault| fault.show(&program).to_string())?;
         Vocabulary::new(&program, &machine)?;
         let steps = match Steps::add(&head.wait_free, &mut sources, &mut model, &mut program) {
@@ -118,7 +118,7 @@ impl Session {
             Err(faults) => return Err(Refusal::Model(sources, faults)),
         };
         let program = Arc::new(program);
-        let replay = Replay::begin(&program, limits, &steps, head, by_order)?;
+        let replay = Replay::begin(&program, limits.clone(), &steps, head, by_order)?;
         Ok(Session { sources, program, steps, limits, replay, suspected_ns: None, in_order: Vec::new() })
     }
 
@@ -128,7 +128,7 @@ impl Session {
     /// # Errors
     /// It cannot be replayed.
     pub fn begin_again(&mut self, head: &Recording, by_order: bool) -> Result<(), Refusal> {
-        self.replay = Replay::begin(&self.program, self.limits, &self.steps, head, by_order)?;
+        self.replay = Replay::begin(&self.program, self.limits.clone(), &self.steps, head, by_order)?;
         match &mut self.replay {
             Replay::Timed(replay) => replay.interpret(),
             Replay::Untimed(replay) => replay.interpret(),
@@ -167,7 +167,7 @@ impl Session {
     }
 
     fn begin_by_order(&mut self, recording: &Recording) -> Result<(), Refusal> {
-        let replay = untimed::Replay::new(&self.program, self.limits, &self.steps, recording)?;
+        let replay = untimed::Replay::new(&self.program, self.limits.clone(), &self.steps, recording)?;
         self.replay = Replay::Untimed(Box::new(replay));
         Ok(())
     }

@@ -127,8 +127,9 @@ impl Suite {
         let Some((script, program)) = script else {
             return Tested { sources, name, verdict: None, diagnostics, program: None };
         };
+        let covers = options.coverage;
         let (verdict, counts) = scenario::run(&script, Arc::clone(&program), options, choices);
-        if let (true, Some(model)) = (options.coverage, model) {
+        if let (true, Some(model)) = (covers, model) {
             self.counts.entry(model).or_default().merge(&counts);
         }
         Tested { sources, name, verdict: Some(verdict), diagnostics, program: Some(program) }

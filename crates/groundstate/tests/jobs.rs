@@ -181,7 +181,7 @@ fn a_run_ends_when_it_is_cancelled_or_its_owner_is_gone() {
         );
         let (job, _remote) = job::run(request(), Cancel::new()).expect("a thread");
         job.next_event().expect("the initial state");
-        let cancel = *job.cancel();
+        let cancel = job.cancel().clone();
         drop(job);
         while step != text && Arc::strong_count(&loaded.program) > 1 {
             std::thread::yield_now();

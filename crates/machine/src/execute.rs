@@ -152,7 +152,7 @@ pub(crate) struct Executor<'a> {
     pub program: &'a Program,
     pub core: &'a mut Core,
     pub environment: &'a mut dyn Environment,
-    pub limits: Limits,
+    pub limits: &'a Limits,
 }
 
 impl Executor<'_> {

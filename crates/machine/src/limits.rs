@@ -3,7 +3,7 @@
 use crate::interrupt::Interrupt;
 
 /// The limits of a machine; `groundstate run --max-…` sets them.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Limits {
     /// Rounds of `while`, `whilerec` and `iterate` in one step, all together.
     pub iterations: u64,
@@ -20,7 +20,7 @@ pub struct Limits {
     /// copied or looked through. Compiled code counts fewer: it may make a step that is too long for the interpreter.
     pub work: u64,
     /// Looked at within steps: whoever waits may have had enough, or there may be no more memory.
-    pub interrupt: Option<&'static Interrupt>,
+    pub interrupt: Interrupt,
 }
 
 impl Default for Limits {
@@ -32,7 +32,7 @@ impl Default for Limits {
             updates: 10_000_000,
             locations: 50_000_000,
             work: 1_000_000_000,
-            interrupt: None,
+            interrupt: Interrupt::default(),
         }
     }
 }

@@ -9,6 +9,7 @@ use crate::coverage::Coverage;
 use crate::environment::{Closed, Environment};
 use crate::execute::{Core, Executor, Outcome};
 use crate::fault::{Fault, FaultKind};
+use crate::interrupt::Interrupt;
 use crate::limits::Limits;
 use crate::location::{Location, LocationRef};
 use crate::native::{Ended, Engine};
@@ -107,19 +108,19 @@ pub struct Machine {
 impl Machine {
     /// A machine whose locations are all undef: see [`Machine::start`].
     pub fn new(program: Arc<Program>, limits: Limits) -> Machine {
-        let core = Core::new(&program, limits);
+        let core = Core::new(&program, &limits);
         let engine = EngineState::default();
         Machine { program, limits, core, steps: 0, settled: false, engine, stale: false }
     }
 
     /// From now on steps are made to their end, whoever waits: to tell again what was found before.
     pub fn ignore_interrupts(&mut self) {
-        self.limits.interrupt = None;
+        self.limits.interrupt = Interrupt::default();
     }
 
     /// From now on what these limits name is looked at within steps.
     pub fn mind_interrupts(&mut self, limits: &Limits) {
-        self.limits.interrupt = limits.interrupt;
+        self.limits.interrupt = limits.interrupt.clone();
     }
 
     /// The program.
@@ -136,7 +137,7 @@ impl Machine {
         core.frames.clear();
         core.calls.clear();
         (core.base, core.depth, core.work) = (0, 0, Work::none());
-        let mut executor = Executor { program, core, environment, limits: *limits };
+        let mut executor = Executor { program, core, environment, limits };
         body(&mut executor, program).map_err(|fault| *fault)
     }
 
@@ -146,7 +147,7 @@ impl Machine {
     /// An initial value that cannot be evaluated.
     pub fn start(&mut self, environment: &mut dyn Environment) -> Result<(), Fault> {
         let (coverage, exploring, unset) = (self.core.coverage.take(), self.core.exploring, self.core.unset);
-        self.core = Core::new(&self.program, self.limits);
+        self.core = Core::new(&self.program, &self.limits);
         // A state from before may still be gone back to, with what was set to undef in it.
         (self.core.coverage, self.core.exploring, self.core.unset) = (coverage, exploring, unset);
         self.steps = 0;
@@ -292,7 +293,7 @@ impl Machine {
         let Machine { program, core, limits, engine, .. } = self;
         let Some(engine) = &mut engine.codes[engine.running].engine else { return false };
         core.clear_calls();
-        let mut executor = Executor { program, core, environment, limits: *limits };
+        let mut executor = Executor { program, core, environment, limits };
         let computed = engine.run(&mut executor);
         if !computed {
             self.repeat();
@@ -307,7 +308,7 @@ impl Machine {
         let Some(engine) = &mut engine.codes[engine.running].engine else { return Ended::Enough };
         core.clear_calls();
         let before = passed.steps;
-        let mut executor = Executor { program, core, environment, limits: *limits };
+        let mut executor = Executor { program, core, environment, limits };
         let ended = engine.pass(&mut executor, self.stale, wanted, passed);
         self.steps += passed.steps - before;
         (self.settled, self.stale) = (true, true);

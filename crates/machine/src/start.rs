@@ -30,7 +30,7 @@ const EAGER_LIMIT: u64 = 1 << 20;
 
 impl Core {
     /// A core with all locations undef, laid out for the program.
-    pub fn new(program: &Program, limits: Limits) -> Core {
+    pub fn new(program: &Program, limits: &Limits) -> Core {
         let mut core = Core {
             store: Store::new(program, &|_| None, limits.locations),
             updates: Updates::default(),

@@ -11,7 +11,6 @@ use syntax::Span;
 
 use crate::execute::{Executor, Outcome};
 use crate::fault::FaultKind;
-use crate::interrupt::Interrupt;
 use crate::value::Value;
 
 /// Work between two looks.
@@ -54,7 +53,7 @@ impl Executor<'_> {
     /// Looks whether the step is to end.
     #[cold]
     pub fn look(&mut self, span: Span) -> Outcome<()> {
-        if let Some(cause) = self.limits.interrupt.and_then(Interrupt::cause) {
+        if let Some(cause) = self.limits.interrupt.cause() {
             return self.fault(span, FaultKind::Interrupted(cause));
         }
         let done = self.core.work.done;

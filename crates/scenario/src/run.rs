@@ -19,7 +19,7 @@ use crate::story::{PassageKind, Story};
 use crate::verdict::{Failure, FailureKind, Judgement, Remark, Verdict};
 
 /// How a scenario is run.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Options {
     /// The machine's limits.
     pub limits: Limits,
@@ -39,7 +39,7 @@ impl Default for Options {
 
 /// Runs a script on the program it was resolved with.
 pub fn run(script: &Script, program: Arc<Program>, options: Options, choices: &mut dyn Choices) -> (Verdict, Counts) {
-    let mut machine = Machine::new(Arc::clone(&program), options.limits);
+    let mut machine = Machine::new(Arc::clone(&program), options.limits.clone());
     if options.coverage {
         machine.enable_coverage();
     }

@@ -48,7 +48,7 @@ impl Environment for Given<'_> {
 
 /// Whether a run is one, and what is looked for is at its end; none is a run that violates by its steps alone.
 pub(crate) fn made_again(program: &Arc<Program>, settings: &Settings, trace: &Trace, target: Option<Target>) -> bool {
-    let mut machine = Machine::new(Arc::clone(program), settings.limits);
+    let mut machine = Machine::new(Arc::clone(program), settings.limits.clone());
     machine.use_engine(EngineChoice::Interpreted);
     if machine.start(&mut Given::new(&trace.start)).is_err() {
         return false;

@@ -406,7 +406,7 @@ impl Questions {
     fn of(program: &Program, options: &Options) -> Questions {
         let mut bounds = assumed_bounds(program);
         bounds.extend(options.bounds.iter().map(|(function, values)| (*function, values.clone())));
-        let mut settings = Settings { limits: options.limits, bounds: Arc::new(bounds), ..Settings::default() };
+        let mut settings = Settings { limits: options.limits.clone(), bounds: Arc::new(bounds), ..Settings::default() };
         settings.forgetful = options.forgetful;
         settings.interrupt = options.interrupt.clone();
         let mut plan = Plan {

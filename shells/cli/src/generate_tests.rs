@@ -122,7 +122,7 @@ fn write(shell: &mut Shell, folder: &Path, tests: &Tests, suite: &mut Suite) -> 
         let path = folder.join(format!("{}.avalla", scenario.name));
         write_text(&path, &scenario.text)?;
         let source = read_source(&path, shell.global.limits.max_file_size)?;
-        if !passes_whatever_is_chosen(suite, &source, &mut shell.disk(), limits) {
+        if !passes_whatever_is_chosen(suite, &source, &mut shell.disk(), limits.clone()) {
             std::fs::remove_file(&path).map_err(|error| Failure::of_file("write", &path, error))?;
             left_out.push(scenario.name.clone());
             continue;

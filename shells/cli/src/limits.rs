@@ -62,13 +62,13 @@ impl Limits {
             updates: self.max_updates,
             locations: self.max_locations,
             work: self.max_work,
-            interrupt: Some(interrupt::request()),
+            interrupt: interrupt::request().clone(),
         }
     }
 
     /// The same for steps that are made to their end, whoever asks: a verdict hangs on each of them.
     pub fn uninterrupted(&self) -> machine::Limits {
-        machine::Limits { interrupt: None, ..self.machine() }
+        machine::Limits { interrupt: machine::Interrupt::default(), ..self.machine() }
     }
 
     /// The option that raises a limit of the machine.

@@ -97,7 +97,7 @@ impl Explorer {
         interner: &Arc<Interner>,
         known: Option<&Arc<Starts>>,
     ) -> Result<Explorer, Trouble> {
-        let mut machine = Machine::new(Arc::clone(program), settings.limits);
+        let mut machine = Machine::new(Arc::clone(program), settings.limits.clone());
         machine.use_engine(EngineChoice::Interpreted);
         machine.enable_coverage();
         machine.explore();
@@ -116,7 +116,7 @@ impl Explorer {
             begun.add(machine);
             Ok(if known.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
         })?;
-        machine.mind_interrupts(&settings.limits);
+        machine.mind_interrupts(&settings.limits.clone());
         let seen = match known {
             Some(known) => Arc::clone(&known.seen),
             None => Arc::new(begun.seen()),
@@ -394,7 +394,7 @@ impl Explorer {
 
     /// From now on this is looked at between alternatives.
     pub fn mind_interrupts(&mut self, interrupt: Interrupt) {
-        self.machine.mind_interrupts(&self.settings.limits);
+        self.machine.mind_interrupts(&self.settings.limits.clone());
         self.settings.interrupt = interrupt;
     }
 

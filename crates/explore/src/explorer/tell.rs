@@ -36,7 +36,7 @@ impl Explorer {
 
     /// What an initial state took from outside.
     pub fn told_of_start(&self, start: Start) -> Told {
-        let mut machine = Machine::new(self.program.clone(), self.settings.limits);
+        let mut machine = Machine::new(self.program.clone(), self.settings.limits.clone());
         machine.use_engine(EngineChoice::Interpreted);
         machine.ignore_interrupts();
         machine.explore();

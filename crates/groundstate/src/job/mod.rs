@@ -54,13 +54,13 @@ pub struct Job<E, T> {
 pub struct Crashed(pub String);
 
 /// Ends a job from anywhere.
-#[derive(Debug, Clone, Copy)]
-pub struct Cancel(&'static Interrupt);
+#[derive(Debug, Clone)]
+pub struct Cancel(Interrupt);
 
 impl Cancel {
-    /// For one job. LIMIT: a few bytes of each are never given back, since every machine that looks at them may outlive the job.
+    /// For one job, by way of any of its clones.
     pub fn new() -> Cancel {
-        Cancel(Box::leak(Box::new(Interrupt::new())))
+        Cancel(Interrupt::new())
     }
 
     /// Asks the job to end. It looks at this between steps and within them.
@@ -74,8 +74,8 @@ impl Cancel {
     }
 
     /// What a machine and a search look at.
-    pub fn interrupt(&self) -> &'static Interrupt {
-        self.0
+    pub fn interrupt(&self) -> &Interrupt {
+        &self.0
     }
 }
 
@@ -86,8 +86,8 @@ impl Default for Cancel {
 }
 
 /// By what a shell asks all of its work to end, a signal for one.
-impl From<&'static Interrupt> for Cancel {
-    fn from(interrupt: &'static Interrupt) -> Cancel {
+impl From<Interrupt> for Cancel {
+    fn from(interrupt: Interrupt) -> Cancel {
         Cancel(interrupt)
     }
 }
@@ -158,7 +158,7 @@ impl<E: Send + 'static, T: Send + 'static> Job<E, T> {
         work: impl FnOnce(Port<E>) -> T + Send + 'static,
     ) -> Result<Job<E, T>, std::io::Error> {
         let (sender, events) = sync_channel(WAITING);
-        let port = Port { events: sender, held: RefCell::default(), cancel };
+        let port = Port { events: sender, held: RefCell::default(), cancel: cancel.clone() };
         let thread = Builder::new().name(name.to_string()).stack_size(STACK).spawn(move || work(port))?;
         Ok(Job { events, read: RefCell::default(), thread, cancel })
     }

@@ -15,7 +15,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::Duration;
 
-use machine::{Choice, Limits, Location, Show, Value};
+use machine::{Choice, Interrupt, Limits, Location, Show, Value};
 use model::Basic;
 use program::{DomainId, DomainKind, Program};
 use simulate::{Ask, Choices, Chooser, End, Inputs, Options, Record, Run, Signal, Source, read_value};
@@ -147,7 +147,9 @@ impl Remote {
 /// The system gives no thread.
 pub fn run(request: RunRequest, cancel: Cancel) -> io::Result<(RunJob, Remote)> {
     let (sender, commands) = channel();
-    let job = Job::start("run", cancel, move |port| go(request, Rc::new(port), commands, cancel, &mut |_, _| {}))?;
+    let looked_at = cancel.interrupt().clone();
+    let job =
+        Job::start("run", cancel, move |port| go(request, Rc::new(port), commands, looked_at, &mut |_, _| {}))?;
     Ok((job, Remote(sender)))
 }
 
@@ -162,8 +164,9 @@ pub fn report(
     cancel: Cancel,
 ) -> io::Result<(Job<RunEvent, Reporter>, Remote)> {
     let (sender, commands) = channel();
+    let looked_at = cancel.interrupt().clone();
     let job = Job::start("report", cancel, move |port| {
-        go(request, Rc::new(port), commands, cancel, &mut |record, run| reporter.note(record, run, &sources));
+        go(request, Rc::new(port), commands, looked_at, &mut |record, run| reporter.note(record, run, &sources));
         reporter
     })?;
     Ok((job, Remote(sender)))
@@ -370,7 +373,7 @@ fn go(
     request: RunRequest,
     port: Rc<Port<RunEvent>>,
     commands: Receiver<Command>,
-    cancel: Cancel,
+    interrupt: Interrupt,
     follow: &mut dyn FnMut(&Record, &mut Run),
 ) -> u64 {
     let RunRequest { program, limits, options, inputs, asks_inputs, asks_choices, paused, states, mut due } = request;
@@ -392,7 +395,7 @@ fn go(
     if asks_choices {
         sources = sources.choosing(Choices::asked(asking()));
     }
-    let limits = Limits { interrupt: Some(cancel.interrupt()), ..limits };
+    let limits = Limits { interrupt, ..limits };
     let mut run = Run::new(Arc::clone(&program), limits, sources, options);
     let mut initial = true;
     loop {

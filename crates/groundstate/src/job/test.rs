@@ -29,13 +29,14 @@ pub fn test(
     cancel: Cancel,
 ) -> io::Result<Job<TestEvent, Suite>> {
     let mut options = options;
-    options.limits.interrupt = Some(cancel.interrupt());
+    options.limits.interrupt = cancel.interrupt().clone();
     Job::start("test", cancel, move |port| {
         let mut suite = Suite::new();
         let mut scenarios = scenarios.into_iter();
         while !port.is_cancelled()
             && let Some(scenario) = scenarios.next()
         {
+            let options = options.clone();
             let tested = match seed {
                 None => suite.test(scenario, &mut loader, options, &mut FirstCandidate),
                 Some(seed) => suite.test(scenario, &mut loader, options, &mut SeededChoices::new(seed)),

@@ -146,10 +146,10 @@ fn loops_keep_one_version_of_what_they_write() {
 }
 
 /// A machine that works without end in its step, within all other limits.
-fn busy(engine: EngineChoice, interrupt: &'static Interrupt) -> Machine {
+fn busy(engine: EngineChoice, interrupt: &Interrupt) -> Machine {
     let program =
         Arc::clone(machine_of(&model("b := (forall $x in D, $y in D, $z in D, $w in D with $x > 0)")).program());
-    let limits = Limits { interrupt: Some(interrupt), work: u64::MAX, ..Limits::default() };
+    let limits = Limits { interrupt: interrupt.clone(), work: u64::MAX, ..Limits::default() };
     let mut machine = Machine::new(program, limits);
     machine.use_engine(engine);
     machine.start(&mut Counting::default()).unwrap();
@@ -160,8 +160,8 @@ fn busy(engine: EngineChoice, interrupt: &'static Interrupt) -> Machine {
 fn a_step_can_be_stopped() {
     for engine in [EngineChoice::Interpreted, EngineChoice::Compiled] {
         for cause in [Cause::Asked, Cause::Memory] {
-            let interrupt: &'static Interrupt = Box::leak(Box::new(Interrupt::new()));
-            let mut machine = busy(engine, interrupt);
+            let interrupt = Interrupt::new();
+            let mut machine = busy(engine, &interrupt);
             let before = machine.locations();
             let asks = std::thread::spawn(move || interrupt.raise(cause));
             let fault = machine.step(&mut Counting::default()).unwrap_err();

@@ -24,7 +24,7 @@ use crate::shard::{Shard, owner};
 use crate::storage::Store;
 
 /// Raised whenever what is written means something else.
-const VERSION: u64 = 1;
+const VERSION: u64 = 2;
 
 /// Where a checkpoint is kept: in a file, by a shell. Trouble with it is the shell's.
 pub trait Keeper {

@@ -52,7 +52,7 @@ struct Walk<'p> {
 
 /// See the module; none where the main rule is not of that form.
 pub fn footprints(program: &Arc<Program>, settings: &Settings, locations: &[Option<Location>]) -> Option<Footprints> {
-    let mut machine = Machine::new(Arc::clone(program), settings.limits);
+    let mut machine = Machine::new(Arc::clone(program), settings.limits.clone());
     // What is asked of it does not depend on the state, so a start that asks for inputs does as well.
     let _ = machine.start(&mut Closed);
     let mut fields: BTreeMap<FunctionId, Vec<(usize, &[Value])>> = BTreeMap::new();

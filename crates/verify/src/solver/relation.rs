@@ -87,7 +87,7 @@ impl Relation {
         let starts = starts(program, plan)?;
         let mut partial = BTreeSet::new();
         loop {
-            let mut machine = Machine::new(Arc::clone(program), plan.settings.limits);
+            let mut machine = Machine::new(Arc::clone(program), plan.settings.limits.clone());
             let mut given = Given::new(&starts[0].told);
             if let Err(fault) = machine.start(&mut given) {
                 return Err(Unrelated::Trouble(Trouble::Fault(Box::new(fault))));
@@ -295,7 +295,7 @@ fn starts(program: &Arc<Program>, plan: &Plan) -> Result<Vec<Start>, Unrelated> 
         return Err(Unrelated::Outside(Outside { what, span: nowhere }));
     }
     // A packed state leaves out values that are still the initial ones.
-    let mut machine = Machine::new(Arc::clone(program), plan.settings.limits);
+    let mut machine = Machine::new(Arc::clone(program), plan.settings.limits.clone());
     let mut starts = Vec::new();
     for start in distinct {
         let told = explorer.told_of_start(start);

@@ -82,7 +82,7 @@ pub(crate) fn replay(
     target: Target,
 ) -> Option<Trace> {
     let start = &relation.starts[found.start];
-    let mut machine = Machine::new(Arc::clone(program), plan.settings.limits);
+    let mut machine = Machine::new(Arc::clone(program), plan.settings.limits.clone());
     machine.use_engine(EngineChoice::Interpreted);
     machine.start(&mut Given::new(&start.told)).ok()?;
     let mut trace = Trace { start: start.told.clone(), values: start.values.clone(), ..Trace::default() };

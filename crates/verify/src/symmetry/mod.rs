@@ -90,7 +90,7 @@ impl Interchange {
         for (function, values) in plan.settings.bounds.iter() {
             telling.bound(*function, values);
         }
-        let mut machine = Machine::new(Arc::clone(program), plan.settings.limits);
+        let mut machine = Machine::new(Arc::clone(program), plan.settings.limits.clone());
         // The contents of domains do not depend on the state, so a start that asks for inputs does as well.
         let _ = machine.start(&mut Closed);
         let mut symmetry = Symmetry::default();

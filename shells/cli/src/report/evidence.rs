@@ -31,7 +31,7 @@ pub fn add(shell: &Shell, report: &mut Report, model: &Path, paths: &[PathBuf], 
         }
         let mut disk = shell.disk();
         let source = disk.root(path)?;
-        let tested = suite.test(source, &mut disk, options, &mut SeededChoices::new(seed));
+        let tested = suite.test(source, &mut disk, options.clone(), &mut SeededChoices::new(seed));
         report.scenarios.push(reported_scenario(path.display().to_string(), &tested));
         progress.at(index as u64 + 1);
     }

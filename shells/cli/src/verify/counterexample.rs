@@ -61,7 +61,8 @@ pub fn write(
                 written.extend([scenario, file]);
                 let limits = shell.global.limits.uninterrupted();
                 let header = writer.header(trace, subject);
-                let run = |program: &Arc<Program>| groundstate::counterexample_run(program, limits, trace, &header);
+                let run =
+                    |program: &Arc<Program>| groundstate::counterexample_run(program, limits.clone(), trace, &header);
                 if let Some(page) = page_of(shell, asked.clone(), model, &run)? {
                     let file = path.join(format!("{name}.html"));
                     write_text(&file, &page)?;

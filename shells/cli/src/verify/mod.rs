@@ -284,7 +284,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let mut teller = Teller::new(&program, &sources, false);
     teller.assumed(shell, &assumed)?;
     let mut live = Live::new(shell, &teller, watch);
-    let job = job::verify(request, Cancel::from(interrupt::request()), solver, checkpoint, live::impatience());
+    let job = job::verify(request, Cancel::from(interrupt::request().clone()), solver, checkpoint, live::impatience());
     let job = job.map_err(|error| Failure::usage(format!("the search cannot be started: {error}")))?;
     while let Some(event) = job.next_event() {
         if !live.hear(&event) {
