@@ -1,6 +1,6 @@
 //! What steps overwrote: a machine goes back a few steps without a copy of its state.
 //!
-//! From the first [`Mark`] on, each commit and each value set from outside notes what stood there before; going back puts
+//! From the first [`crate::Mark`] on, each commit and each value set from outside notes what stood there before; going back puts
 //! it back, the latest first. INVARIANT: the entries from a mark on, put back, give the state at that mark, and the numbers
 //! in them are those of the store.
 
@@ -10,18 +10,9 @@ use program::DomainId;
 
 use crate::layout::LocationIndex;
 use crate::location::Location;
-use crate::machine::Machine;
 use crate::store::{Carrier, Store};
 use crate::update::Updates;
 use crate::value::Value;
-
-/// A state that a machine can go back to, as long as it is not forgotten.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Mark {
-    /// The number of the first entry after it.
-    entry: u64,
-    steps: u64,
-}
 
 #[derive(Debug, Default)]
 pub(crate) struct Journal {
@@ -75,11 +66,13 @@ impl Journal {
         }
     }
 
-    fn end(&self) -> u64 {
+    /// The number that the next entry gets.
+    pub fn end(&self) -> u64 {
         self.first + self.entries.len() as u64
     }
 
-    fn go_back(&mut self, entry: u64, store: &mut Store) {
+    /// Puts back what stood there before this entry and those after it.
+    pub fn go_back(&mut self, entry: u64, store: &mut Store) {
         assert!(self.first <= entry, "the mark was forgotten");
         while self.end() > entry
             && let Some(entry) = self.entries.pop_back()
@@ -96,31 +89,11 @@ impl Journal {
             }
         }
     }
-}
 
-impl Machine {
-    /// The present state, to go back to. From the first mark on steps note what they overwrite.
-    pub fn mark(&mut self) -> Mark {
-        let journal = self.core.journal.get_or_insert_default();
-        Mark { entry: journal.end(), steps: self.steps() }
-    }
-
-    /// Goes back to a state of before, as [`Machine::restore`] does. Marks set since are void.
-    ///
-    /// # Panics
-    /// The mark was forgotten.
-    pub fn go_back(&mut self, mark: &Mark) {
-        self.unwind(mark.steps);
-        let journal = self.core.journal.get_or_insert_default();
-        journal.go_back(mark.entry, &mut self.core.store);
-        self.core.memo.changed();
-    }
-
-    /// No mark that was set before this one is gone back to any more.
-    pub fn forget_before(&mut self, mark: &Mark) {
-        let Some(journal) = &mut self.core.journal else { return };
-        let count = mark.entry.saturating_sub(journal.first).min(journal.entries.len() as u64);
-        journal.entries.drain(..count as usize);
-        journal.first += count;
+    /// Drops the entries before this one.
+    pub fn forget_before(&mut self, entry: u64) {
+        let count = entry.saturating_sub(self.first).min(self.entries.len() as u64);
+        self.entries.drain(..count as usize);
+        self.first += count;
     }
 }

@@ -166,7 +166,7 @@ impl Updates {
 
     /// Empties the update set, keeping its memory.
     pub fn release(&mut self) {
-        crate::native::clear(self);
+        self.clear_stack();
         self.log.clear();
         self.created.clear();
     }

@@ -11,6 +11,7 @@ use std::sync::Arc;
 
 use program::{DomainId, ProcedureId};
 
+// A value holds collections of values: these two files are one recursion of types.
 use crate::weighed::{Items, Weighed, Weight};
 
 /// A double without NaN and without negative zero, totally ordered.

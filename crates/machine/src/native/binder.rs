@@ -10,7 +10,6 @@ use program::{Binder, DomainId, DomainKind, Term, TermId};
 use crate::native::helper;
 use crate::native::shape::{Bound, Kind, Scalar};
 use crate::native::translate::Translator;
-use crate::value::Value;
 
 /// What a loop walks.
 enum Walk {
@@ -141,16 +140,4 @@ impl Translator<'_, '_> {
         let kind = self.kind(domain);
         self.walk_collection(elements, kind)
     }
-}
-
-/// The bounds of values that are consecutive numbers of one kind: integers, or elements of one domain.
-pub(super) fn consecutive(values: &[Value]) -> Option<(i64, i64)> {
-    let number = |value: &Value| match value {
-        Value::Integer(n) => Some(*n),
-        Value::Element(_, n) | Value::Enum(_, n) => Some(i64::from(*n)),
-        _ => None,
-    };
-    let (low, high) = (number(values.first()?)?, number(values.last()?)?);
-    let gapless = i128::from(high) - i128::from(low) + 1 == values.len() as i128;
-    gapless.then_some((low, high))
 }

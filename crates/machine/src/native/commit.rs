@@ -50,14 +50,16 @@ fn exchange(value: &mut Value, new: &mut Value, compound: &mut bool) -> bool {
     true
 }
 
-/// Empties the stack of an update set.
-pub(crate) fn clear(updates: &mut Updates) {
-    if updates.compound {
-        updates.stack.clear();
-        updates.compound = false;
-    } else {
-        // SAFETY: no value on the stack has memory of its own, so none needs to be dropped.
-        unsafe { updates.stack.set_len(0) };
+impl Updates {
+    /// Empties the stack.
+    pub fn clear_stack(&mut self) {
+        if self.compound {
+            self.stack.clear();
+            self.compound = false;
+        } else {
+            // SAFETY: no value on the stack has memory of its own, so none needs to be dropped.
+            unsafe { self.stack.set_len(0) };
+        }
     }
 }
 

@@ -32,11 +32,11 @@ use program::{ProcedureId, Program};
 
 use crate::execute::{Core, Executor};
 use crate::step::Passed;
-pub(crate) use commit::{apply, clear};
+pub(crate) use commit::apply;
 use context::Context;
 use helper::{Helpers, signature};
-use plan::{Fixed, Plan, Tables};
-use translate::{Translator, UnitKey};
+use plan::{Fixed, Plan, Tables, UnitKey};
+use translate::Translator;
 
 /// The compiled entry: the context, to a status that is not zero where the step is abandoned.
 type Entry = unsafe extern "C" fn(*mut Context) -> i64;

@@ -12,14 +12,19 @@ use crate::execute::Core;
 use crate::layout::Layout;
 use crate::membership::Membership;
 use crate::memo::{self, Shelf};
-use crate::native::binder::consecutive;
 use crate::native::helper::Helpers;
-use crate::native::shape::{Kind, Scalar};
+use crate::native::shape::{Kind, Scalar, consecutive};
 use crate::native::total::total_functions;
-use crate::native::translate::UnitKey;
 use crate::update::{Sequence, Unit};
 use crate::value::Value;
 use crate::weighed::Items;
+
+/// What is translated as one body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) enum UnitKey {
+    Procedure(ProcedureId),
+    Definition(FunctionId),
+}
 
 /// LIMIT: a body of more terms and rules is translated once, where it is called from more than one place.
 const INLINE: usize = 60;

@@ -135,6 +135,18 @@ impl From<Bound> for Operand {
     }
 }
 
+/// The bounds of values that are consecutive numbers of one kind: integers, or elements of one domain.
+pub(super) fn consecutive(values: &[Value]) -> Option<(i64, i64)> {
+    let number = |value: &Value| match value {
+        Value::Integer(n) => Some(*n),
+        Value::Element(_, n) | Value::Enum(_, n) => Some(i64::from(*n)),
+        _ => None,
+    };
+    let (low, high) = (number(values.first()?)?, number(values.last()?)?);
+    let gapless = i128::from(high) - i128::from(low) + 1 == values.len() as i128;
+    gapless.then_some((low, high))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

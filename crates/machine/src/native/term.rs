@@ -7,8 +7,9 @@ use program::{Builtin, CollectionKind, FunctionId, Quantifier, Term, TermId, Ter
 
 use crate::native::context::Offset;
 use crate::native::helper;
+use crate::native::plan::UnitKey;
 use crate::native::shape::{Bound, Kind, Operand, Scalar};
-use crate::native::translate::{Frame, Translator, UnitKey};
+use crate::native::translate::{Frame, Translator};
 use crate::value::Value;
 
 /// Where the branches of a term leave their value.

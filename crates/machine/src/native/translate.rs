@@ -11,11 +11,11 @@ use cranelift_codegen::ir::{
 };
 use cranelift_frontend::{FunctionBuilder, Variable};
 use cranelift_jit::JITModule;
-use program::{DomainId, FunctionId, ProcedureId, Program, TermId};
+use program::{DomainId, Program, TermId};
 
 use crate::native::context::Offset;
 use crate::native::helper::{self, Given, Helper};
-use crate::native::plan::Plan;
+use crate::native::plan::{Plan, UnitKey};
 use crate::native::shape::{Bound, Kind, Operand, Scalar};
 use crate::value::Value;
 
@@ -33,13 +33,6 @@ pub(super) struct Frame {
     /// How many slots the interpreter's frame has.
     pub size: u32,
     pub slots: Vec<Bound>,
-}
-
-/// What is translated as one body.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(super) enum UnitKey {
-    Procedure(ProcedureId),
-    Definition(FunctionId),
 }
 
 /// The function being built.

@@ -12,8 +12,9 @@ use program::{DomainId, FunctionId, ProcedureId, Program, Slot, TermId};
 
 use crate::native::context::Offset;
 use crate::native::helper::{self, signature};
+use crate::native::plan::UnitKey;
 use crate::native::shape::{Bound, Kind, Operand, Scalar};
-use crate::native::translate::{Frame, Translator, UnitKey};
+use crate::native::translate::{Frame, Translator};
 
 /// LIMIT: calls inside each other in compiled code; a step that needs more is interpreted.
 const NESTED: i64 = 400;
