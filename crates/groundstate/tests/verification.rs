@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use groundstate::scenario::{FirstCandidate, Options as Scenario};
 use groundstate::verify::solver::Method;
-use groundstate::verify::{Engine, NoStart, Options, Outcome, Reason, Report, Subject, verify};
+use groundstate::verify::{EngineKind, NoStart, Options, Outcome, Reason, Report, Subject, verify};
 use groundstate::{Suite, counterexample_scenario};
 use program::Program;
 use syntax::SourceFile;
@@ -107,7 +107,7 @@ fn the_pages_of_faults_show_them() {
     let text = outside.example("asmetal solver");
     let loaded = groundstate::load(SourceFile::new(file(text), text), &mut one_model(text));
     let program = loaded.unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics)).program;
-    let options = Options { engine: Engine::Solver(Method::Bounded), ..Options::default() };
+    let options = Options { engine: EngineKind::Solver(Method::Bounded), ..Options::default() };
     let trouble = verify(&program, &options, &mut |_| true);
     let Err(NoStart::Outside(outside)) = trouble else { panic!("{trouble:?}") };
     assert_eq!(groundstate::diagnose_outside(&outside).id, "outside-solver");

@@ -123,7 +123,7 @@ fn explored(loaded: &Loaded, program: &Arc<program::Program>) -> usize {
         steps += 1;
         steps < 10_000
     };
-    let options = engine(verify::Engine::Explicit);
+    let options = engine(verify::EngineKind::Explicit);
     stages += usize::from(verify::verify(program, &options, &mut watch).is_ok());
     let own = |file: FileId| file == loaded.model.root;
     if let Ok(review) = review(&loaded.model, program, &options, &Meta::ALL, &own, &mut watch) {

@@ -12,7 +12,7 @@ use explore::{ChoiceTaken, Settings, Told};
 use machine::{Choice, EngineChoice, Environment, FaultClass, Location, LocationRef, Machine, TimeUnit, Value};
 use program::{DomainId, Program};
 
-use crate::search::Target;
+use crate::target::Target;
 use crate::trace::Trace;
 
 /// What a step was told to take.

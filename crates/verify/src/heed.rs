@@ -6,8 +6,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::check::Subject;
-use crate::search::{Found, Progress, Target};
+use crate::progress::Progress;
+use crate::question::Subject;
+use crate::target::{Found, Target};
 use crate::trace::Trace;
 
 /// Whoever waits for verdicts.

@@ -11,10 +11,12 @@ use machine::Interrupt;
 use program::Program;
 use solve::session::{Session, Silence, Solvers};
 
-use crate::check::{Engine, NoStart, Options, Report, verify_request};
-use crate::checkpoint::Keeper;
+use crate::check::verify_request;
+use crate::checkpoint::keeper::Keeper;
 use crate::heed::Listener;
-use crate::search::Progress;
+use crate::options::{EngineKind, Options};
+use crate::progress::Progress;
+use crate::report::{NoStart, Report};
 use crate::storage::Storage;
 use crate::temporal::fairness::AgentFairness;
 
@@ -64,7 +66,7 @@ const APART: [(Part, Part); 5] = [
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Conflict {
     /// The engine that was chosen has no such part.
-    Engine(Part, Engine),
+    Engine(Part, EngineKind),
     /// The two do not go together.
     Parts(Part, Part),
 }
@@ -124,12 +126,12 @@ impl RequestBuilder {
 }
 
 /// Whether an engine has a part.
-fn has(engine: Engine, part: Part) -> bool {
+fn has(engine: EngineKind, part: Part) -> bool {
     match part {
         // Sets of states are not made level by level, and have no size that a user could bound.
-        Part::First | Part::MaxStates | Part::MaxDepth => engine != Engine::Symbolic,
+        Part::First | Part::MaxStates | Part::MaxDepth => engine != EngineKind::Symbolic,
         Part::PartialOrder | Part::Symmetry | Part::Storage | Part::Checkpoint | Part::Disk => {
-            matches!(engine, Engine::Automatic | Engine::Explicit)
+            matches!(engine, EngineKind::Automatic | EngineKind::Explicit)
         }
     }
 }
@@ -231,13 +233,13 @@ mod tests {
     #[test]
     fn what_does_not_go_together_is_refused() {
         let with = |engine| Options { engine, ..Options::default() };
-        check(with(Engine::Automatic), true, Ok(()));
-        check(Options { first: true, max_states: 7, ..with(Engine::Explicit) }, false, Ok(()));
-        check(Options { max_depth: 7, ..with(Engine::Solver(Method::Bounded)) }, false, Ok(()));
-        let sets = Engine::Symbolic;
+        check(with(EngineKind::Automatic), true, Ok(()));
+        check(Options { first: true, max_states: 7, ..with(EngineKind::Explicit) }, false, Ok(()));
+        check(Options { max_depth: 7, ..with(EngineKind::Solver(Method::Bounded)) }, false, Ok(()));
+        let sets = EngineKind::Symbolic;
         check(Options { first: true, ..with(sets) }, false, Err(Conflict::Engine(Part::First, sets)));
         check(Options { max_depth: 7, ..with(sets) }, false, Err(Conflict::Engine(Part::MaxDepth, sets)));
-        let solver = Engine::Solver(Method::Induction);
+        let solver = EngineKind::Solver(Method::Induction);
         check(Options { symmetry: true, ..with(solver) }, false, Err(Conflict::Engine(Part::Symmetry, solver)));
         check(with(solver), true, Err(Conflict::Engine(Part::Checkpoint, solver)));
         let both = Options { symmetry: true, partial_order: true, ..Options::default() };

@@ -90,7 +90,7 @@ fn straight(program: &Arc<Program>, options: &Options) -> Report {
 
 /// Interrupted again and again, with as many workers as stand there in turn, it ends as without.
 fn agrees(program: &Arc<Program>, options: &Options, steps: u64, workers: &[usize]) {
-    let whole = straight(program, &Options { workers: 1, engine: verify::Engine::Explicit, ..options.clone() });
+    let whole = straight(program, &Options { workers: 1, engine: verify::EngineKind::Explicit, ..options.clone() });
     let mut keeper = Memory::default();
     for (index, workers) in workers.iter().copied().cycle().enumerate() {
         let max_states = steps * (index as u64 + 1);
@@ -130,7 +130,7 @@ fn values_without_bound_are_numbered_again() {
 #[test]
 fn pauses_change_nothing() {
     for (program, every) in [(program("ChainXS"), 3), (growing(14), 2)] {
-        let whole = straight(&program, &Options { engine: verify::Engine::Explicit, ..Options::default() });
+        let whole = straight(&program, &Options { engine: verify::EngineKind::Explicit, ..Options::default() });
         for workers in [1, 2] {
             let mut keeper = Memory { every, ..Memory::default() };
             let report = check(&program, &Options { workers, ..Options::default() }, &mut keeper).expect("it starts");

@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex};
 use program::{Program, PropertyKind};
 use syntax::SourceFile;
 use testkit::repository;
-use verify::{Engine, Options, Outcome, Reason, Report, Stop, Subject, Tape, verify};
+use verify::{EngineKind, Options, Outcome, Reason, Report, Stop, Subject, Tape, verify};
 
 use crate::models::lowered;
 
@@ -89,7 +89,7 @@ fn told(program: &Program, report: &Report) -> String {
 
 /// Searches with so little memory that states go to files, with several numbers of workers; tells how many files there were.
 fn agrees(program: &Arc<Program>, options: &Options, bytes: u64) -> usize {
-    let options = Options { engine: Engine::Explicit, ..options.clone() };
+    let options = Options { engine: EngineKind::Explicit, ..options.clone() };
     let whole = check(program, &options);
     let mut least = usize::MAX;
     for workers in [1, 2, 3] {
@@ -131,8 +131,14 @@ fn limits_and_the_first_violation_end_it_alike() {
     // How many of a level are met by then depends on the workers.
     for workers in [1, 2, 3] {
         let disk = Some(Files::new(i64::MAX) as Arc<_>);
-        let options =
-            Options { max_states: 100, max_bytes: 0, engine: Engine::Explicit, workers, disk, ..Options::default() };
+        let options = Options {
+            max_states: 100,
+            max_bytes: 0,
+            engine: EngineKind::Explicit,
+            workers,
+            disk,
+            ..Options::default()
+        };
         let report = check(&program, &options);
         assert_eq!(report.stop, Some(Stop::States));
         assert!((100..110).contains(&report.progress.states), "{}", report.progress.states);
@@ -157,7 +163,7 @@ fn wide_states_and_numbered_values_come_to_the_same() {
 #[test]
 fn trouble_with_files_leaves_unknown_what_was_not_found() {
     let program = program("SwingUnlocked");
-    let options = Options { engine: Engine::Explicit, max_bytes: 0, ..Options::default() };
+    let options = Options { engine: EngineKind::Explicit, max_bytes: 0, ..Options::default() };
     let mut kept = 0;
     for left in (0..200_000).step_by(2_500) {
         for workers in [1, 2] {

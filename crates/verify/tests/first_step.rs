@@ -10,7 +10,7 @@ use std::sync::Arc;
 use machine::{Choice, EngineChoice, Environment, Limits, Location, LocationRef, Machine, TimeUnit, Value};
 use program::{DomainId, FunctionKind, Program, PropertyKind};
 use syntax::SourceFile;
-use verify::{Engine, Options, Outcome, Reason, Storage, Subject, verify};
+use verify::{EngineKind, Options, Outcome, Reason, Storage, Subject, verify};
 
 use crate::models::lowered;
 
@@ -178,15 +178,15 @@ fn state(machine: &Machine) -> State {
 
 /// The ways in which states are gone through.
 fn ways() -> Vec<(&'static str, Options)> {
-    let plain = Options { engine: Engine::Explicit, ..Options::default() };
+    let plain = Options { engine: EngineKind::Explicit, ..Options::default() };
     vec![
         ("explicit", plain.clone()),
         ("forgetful", Options { forgetful: true, ..plain.clone() }),
         ("two workers", Options { workers: 2, ..plain.clone() }),
         ("partial order", Options { partial_order: true, ..plain.clone() }),
         ("symmetry", Options { symmetry: true, ..plain.clone() }),
-        ("sets", Options { engine: Engine::Symbolic, ..plain.clone() }),
-        ("automatic", Options { engine: Engine::Automatic, ..plain.clone() }),
+        ("sets", Options { engine: EngineKind::Symbolic, ..plain.clone() }),
+        ("automatic", Options { engine: EngineKind::Automatic, ..plain.clone() }),
         ("compact", Options { storage: Storage::Compact, ..plain }),
     ]
 }

@@ -11,8 +11,8 @@ use machine::{Cause, Interrupt};
 use program::Program;
 use syntax::SourceFile;
 use verify::{
-    Engine, Listener, NoSolvers, NoStart, Options, Outcome, Progress, Reason, Report, Request, Stop, Storage, Subject,
-    Trace, verify,
+    EngineKind, Listener, NoSolvers, NoStart, Options, Outcome, Progress, Reason, Report, Request, Stop, Storage,
+    Subject, Trace, verify,
 };
 
 use crate::models::lowered;
@@ -108,7 +108,7 @@ fn who_has_had_enough_gets_the_reason() {
         for storage in [Storage::Exact, Storage::Compact] {
             let interrupt = Interrupt::new();
             let options = Options {
-                engine: Engine::Explicit,
+                engine: EngineKind::Explicit,
                 workers: 2,
                 storage,
                 interrupt: interrupt.clone(),
@@ -135,7 +135,7 @@ fn who_has_had_enough_gets_the_reason() {
 fn sets_of_states_are_not_waited_for() {
     let program = wide(20);
     let interrupt = Interrupt::new();
-    let options = Options { engine: Engine::Symbolic, interrupt: interrupt.clone(), ..Options::default() };
+    let options = Options { engine: EngineKind::Symbolic, interrupt: interrupt.clone(), ..Options::default() };
     let mut asked = |_: &Progress| {
         interrupt.raise(Cause::Asked);
         true
@@ -154,14 +154,14 @@ fn sets_of_states_are_not_waited_for() {
 fn a_limit_of_states_is_passed_by_the_steps_of_one_state_at_most() {
     let program = wide(40);
     for (workers, max_states) in [(1, 100), (2, 100), (1, 1599)] {
-        let options = Options { engine: Engine::Explicit, workers, max_states, ..Options::default() };
+        let options = Options { engine: EngineKind::Explicit, workers, max_states, ..Options::default() };
         let report = verify(&program, &options, &mut |_| true).expect("there is an initial state");
         assert_eq!((report.stop, report.progress.states), (Some(Stop::States), 1600), "all by the first state");
     }
     // Two choices: level by level twice as many states.
     let program = endless();
     for max_states in [50, 3_000, 5_000] {
-        let options = Options { engine: Engine::Explicit, workers: 1, max_states, ..Options::default() };
+        let options = Options { engine: EngineKind::Explicit, workers: 1, max_states, ..Options::default() };
         let report = verify(&program, &options, &mut |_| true).expect("there is an initial state");
         let states = report.progress.states;
         assert!(report.stop == Some(Stop::States) && (max_states..max_states + 2).contains(&states), "{states}");
@@ -172,7 +172,7 @@ fn a_limit_of_states_is_passed_by_the_steps_of_one_state_at_most() {
 fn states_without_end_are_never_gone_through_as_sets() {
     let report = verify(&endless(), &Options { max_bytes: 1 << 20, ..Options::default() }, &mut |_| true);
     let report = report.expect("there is an initial state");
-    assert_eq!((report.engine, report.stop), (Engine::Explicit, Some(Stop::Memory)));
+    assert_eq!((report.engine, report.stop), (EngineKind::Explicit, Some(Stop::Memory)));
     assert!(report.progress.transitions > 0);
 }
 

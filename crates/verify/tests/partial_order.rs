@@ -12,7 +12,7 @@ use machine::{Location, Value};
 use program::Program;
 use syntax::SourceFile;
 use testkit::repository;
-use verify::{Engine, Options, Outcome, Report, Subject, Trace, Unreduced, verify};
+use verify::{EngineKind, Options, Outcome, Report, Subject, Trace, Unreduced, verify};
 
 use crate::models::{Disk, lowered};
 
@@ -50,7 +50,7 @@ fn verdicts(report: &Report) -> Vec<(Subject, char)> {
 
 /// The states of all steps, and of those that are enough; the verdicts are the same, whatever the number of workers.
 fn agrees(program: &Arc<Program>, text: &str) -> (u64, u64) {
-    let options = Options { engine: Engine::Explicit, ..Options::default() };
+    let options = Options { engine: EngineKind::Explicit, ..Options::default() };
     let whole = check(program, &options);
     let mut states = Vec::new();
     for workers in [1, 2] {

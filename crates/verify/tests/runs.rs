@@ -9,7 +9,7 @@ use program::Program;
 use syntax::SourceFile;
 use testkit::repository;
 use verify::Trace;
-use verify::runs::{OfRuns, Question, Why, decide};
+use verify::runs::{OfRuns, RunPlan, Why, decide};
 use verify::temporal::fairness::AgentFairness;
 
 use crate::models::{Disk, lowered};
@@ -30,11 +30,11 @@ fn model(signature: &str, definitions: &str) -> Arc<Program> {
     lowered(SourceFile::new("example.asm", text))
 }
 
-fn unlimited() -> Question {
-    Question { max_states: u64::MAX, max_depth: u64::MAX, max_bytes: u64::MAX, ..Question::default() }
+fn unlimited() -> RunPlan {
+    RunPlan { max_states: u64::MAX, max_depth: u64::MAX, max_bytes: u64::MAX, ..RunPlan::default() }
 }
 
-fn ask(program: &Arc<Program>, question: &Question) -> Vec<(String, OfRuns)> {
+fn ask(program: &Arc<Program>, question: &RunPlan) -> Vec<(String, OfRuns)> {
     let answers = decide(program, question, &mut |_| true).expect("there is an initial state");
     answers.into_iter().map(|(index, answer)| (program.properties[index].name.clone(), answer)).collect()
 }
@@ -50,7 +50,7 @@ fn word(answer: &OfRuns) -> String {
     }
 }
 
-fn words(program: &Arc<Program>, question: &Question) -> Vec<String> {
+fn words(program: &Arc<Program>, question: &RunPlan) -> Vec<String> {
     ask(program, question).iter().map(|(name, answer)| format!("{name} {}", word(answer))).collect()
 }
 
@@ -59,14 +59,14 @@ fn the_consumer_of_the_swinging_buffer_needs_strong_fairness() {
     let plain = swing("");
     let free = words(&plain, &unlimited());
     assert_eq!(free[..3], ["ctlSpec_canRead holds", "ctlSpec_excluded holds", "ctlSpec_reads violated 3 + 1"]);
-    let weak = Question { agents: Some(AgentFairness::Weak), ..unlimited() };
+    let weak = RunPlan { agents: Some(AgentFairness::Weak), ..unlimited() };
     let answers = words(&plain, &weak);
     for (answer, name) in answers[2..5].iter().zip(["ctlSpec_reads", "ltlSpec_writes", "ltlSpec_reads"]) {
         assert!(answer.starts_with(&format!("{name} violated")), "{answer}");
     }
     assert_eq!(answers[5..], ["ltlSpec_readsIfLetIn holds", "ltlSpec_readsWhatWasWritten holds"]);
     // Strong fairness: of the agents, or said as an assumption on what the consumer gets.
-    let strong = Question { agents: Some(AgentFairness::Strong), ..unlimited() };
+    let strong = RunPlan { agents: Some(AgentFairness::Strong), ..unlimited() };
     let let_in = swing("COMPASSION (lock = FREE, place(CONSUMER) = 1)");
     let answers = words(&plain, &strong);
     assert!(answers.iter().all(|answer| answer.ends_with(" holds")), "{answers:?}");
@@ -83,7 +83,7 @@ fn who_asks_for_the_critical_section_gets_in_if_both_go_on() {
     let free = words(&program, &unlimited());
     assert!(free[..3].iter().all(|answer| answer.ends_with(" holds")), "{free:?}");
     assert_eq!(free[3..], ["ltlSpec_served violated 5 + 1", "ltlSpec_overtakenOnce holds"]);
-    let weak = words(&program, &Question { agents: Some(AgentFairness::Weak), ..unlimited() });
+    let weak = words(&program, &RunPlan { agents: Some(AgentFairness::Weak), ..unlimited() });
     assert!(weak.iter().all(|answer| answer.ends_with(" holds")), "{weak:?}");
 }
 
@@ -135,7 +135,7 @@ fn replay(program: &Arc<Program>, trace: &Trace) -> Vec<Vec<(machine::Location, 
 fn a_lasso_goes_round_when_it_is_run() {
     let plain = swing("");
     for agents in [None, Some(AgentFairness::Weak)] {
-        let answers = ask(&plain, &Question { agents, ..unlimited() });
+        let answers = ask(&plain, &RunPlan { agents, ..unlimited() });
         let (_, OfRuns::Violated(trace)) = &answers[4] else { panic!("{answers:?}") };
         let states = replay(&plain, trace);
         let turn = trace.turn.expect("a lasso");
@@ -196,7 +196,7 @@ fn assumptions_on_inputs_are_kept() {
     let condition = |property: &program::Property| (property.formula.clone(), true);
     let assumed = program.properties.iter().filter(|p| p.kind == program::PropertyKind::Invar).map(condition);
     let settings = explore::Settings { step_conditions: assumed.collect(), ..Default::default() };
-    assert_eq!(words(&program, &Question { settings, ..unlimited() }), ["ltlSpec_on holds", "ltlSpec_both holds"]);
+    assert_eq!(words(&program, &RunPlan { settings, ..unlimited() }), ["ltlSpec_on holds", "ltlSpec_both holds"]);
 }
 
 #[test]
@@ -210,14 +210,14 @@ fn nothing_is_said_to_hold_that_is_not_known() {
          main rule r_Main = count := count + 1
          default init s0: function count = 0",
     );
-    let few = Question { max_states: 20, ..unlimited() };
+    let few = RunPlan { max_states: 20, ..unlimited() };
     let answers = ask(&counter, &few);
     let unexplored = OfRuns::Unknown(Why::Unexplored(Some(verify::Stop::States)));
     assert_eq!(answers[0].1, unexplored);
     assert_eq!(word(&answers[1].1), "violated 5");
     assert_eq!(answers[2].1, unexplored);
     assert!(matches!(&answers[3].1, OfRuns::Unknown(Why::NoTruth(..))), "{:?}", answers[3]);
-    let shallow = Question { max_depth: 3, ..unlimited() };
+    let shallow = RunPlan { max_depth: 3, ..unlimited() };
     assert_eq!(ask(&counter, &shallow)[1].1, OfRuns::Unknown(Why::Unexplored(Some(verify::Stop::Depth))));
     let unfair = model(
         LAMP,
@@ -227,7 +227,7 @@ fn nothing_is_said_to_hold_that_is_not_known() {
          default init s0: function count = 0",
     );
     assert_eq!(ask(&unfair, &unlimited())[0].1, OfRuns::Unknown(Why::NoFairRun));
-    let weak = Question { agents: Some(AgentFairness::Weak), ..unlimited() };
+    let weak = RunPlan { agents: Some(AgentFairness::Weak), ..unlimited() };
     assert_eq!(ask(&unfair, &weak)[0].1, OfRuns::Unknown(Why::NoScheduler));
 }
 

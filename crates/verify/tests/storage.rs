@@ -9,7 +9,7 @@ use machine::{Location, Value};
 use program::{Program, PropertyKind};
 use syntax::SourceFile;
 use testkit::repository;
-use verify::{Engine, Options, Outcome, Reason, Report, Storage, Subject, Trace, verify};
+use verify::{EngineKind, Options, Outcome, Reason, Report, Storage, Subject, Trace, verify};
 
 use crate::models::{Disk, lowered};
 
@@ -46,7 +46,7 @@ fn is_a_run(trace: &Trace) {
 
 /// The same is violated after as many steps, and nothing holds.
 fn agrees(program: &Arc<Program>, options: &Options) {
-    let exact = check(program, &Options { engine: Engine::Explicit, ..options.clone() });
+    let exact = check(program, &Options { engine: EngineKind::Explicit, ..options.clone() });
     for (storage, workers) in
         [(Storage::Compact, 1), (Storage::Compact, 3), (Storage::BitState(8 << 20), 1), (Storage::BitState(8 << 20), 2)]
     {

@@ -9,7 +9,7 @@ use model::Basic;
 use program::{DomainKind, FunctionId, FunctionKind, Program};
 use syntax::{Severity, SourceFile};
 use testkit::repository;
-use verify::{Engine, Options, Outcome, Report, Subject, verify};
+use verify::{EngineKind, Options, Outcome, Report, Subject, verify};
 
 use crate::models::{Disk, lowered};
 
@@ -23,7 +23,7 @@ fn model(text: &str) -> Arc<Program> {
     lowered(SourceFile::new("example.asm", format!("asm example\nimport StandardLibrary\nsignature:\n{text}\n")))
 }
 
-fn by(engine: Engine, program: &Arc<Program>) -> Report {
+fn by(engine: EngineKind, program: &Arc<Program>) -> Report {
     let options = Options { engine, ..Options::default() };
     verify(program, &options, &mut |_| true).expect("there is an initial state")
 }
@@ -49,9 +49,9 @@ fn bounds(program: &Program) -> Bounds {
 
 #[track_caller]
 fn agree(program: &Arc<Program>) -> Report {
-    let explicit = by(Engine::Explicit, program);
-    let symbolic = by(Engine::Symbolic, program);
-    assert_eq!(symbolic.engine, Engine::Symbolic);
+    let explicit = by(EngineKind::Explicit, program);
+    let symbolic = by(EngineKind::Symbolic, program);
+    assert_eq!(symbolic.engine, EngineKind::Symbolic);
     assert_eq!(verdicts(&symbolic), verdicts(&explicit));
     assert_eq!(symbolic.progress.states, explicit.progress.states);
     assert_eq!(symbolic.unreachable, explicit.unreachable);
@@ -74,7 +74,7 @@ fn philosophers() {
     };
     assert_eq!(agree(&of(7)).progress.states, 3u64.pow(7) - 1);
     // No other engine would end.
-    let many = by(Engine::Symbolic, &of(24));
+    let many = by(EngineKind::Symbolic, &of(24));
     assert_eq!(many.progress.states, 3u64.pow(24) - 1);
     let stuck = verdicts(&many);
     assert!(stuck.contains(&(Subject::NoDeadlock, "violated in 24 steps".to_string())), "{stuck:?}");
@@ -154,12 +154,12 @@ fn random_models() {
         let program = Arc::new(program);
         let limits = Limits { iterations: 200, call_depth: 50, collection: 2000, ..Limits::default() };
         let options = Options { limits, bounds: bounds(&program), max_bytes: 4 << 20, ..Options::default() };
-        let few = Options { engine: Engine::Explicit, max_states: STATES, ..options.clone() };
+        let few = Options { engine: EngineKind::Explicit, max_states: STATES, ..options.clone() };
         let Ok(explicit) = verify(&program, &few, &mut |progress| progress.transitions < 20_000) else { continue };
         if explicit.stop.is_some() {
             continue;
         }
-        let sets = Options { engine: Engine::Symbolic, ..options };
+        let sets = Options { engine: EngineKind::Symbolic, ..options };
         let symbolic = verify(&program, &sets, &mut |_| true).expect("it has begun before");
         if symbolic.stop.is_some() {
             continue;

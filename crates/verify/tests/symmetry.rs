@@ -12,7 +12,7 @@ use machine::{Location, Show, Value};
 use program::Program;
 use syntax::SourceFile;
 use testkit::repository;
-use verify::{Distinct, Engine, Options, Outcome, Report, Storage, Subject, Symmetry, Trace, verify};
+use verify::{Distinct, EngineKind, Options, Outcome, Report, Storage, Subject, Symmetry, Trace, verify};
 
 use crate::models::{Disk, lowered};
 
@@ -47,7 +47,7 @@ fn verdicts(report: &Report) -> Vec<(Subject, String)> {
 
 /// All states, and those that represent them; the verdicts are the same, and runs as short.
 fn agrees(program: &Arc<Program>, text: &str) -> (u64, u64, Symmetry) {
-    let options = Options { engine: Engine::Explicit, ..Options::default() };
+    let options = Options { engine: EngineKind::Explicit, ..Options::default() };
     let whole = check(program, &options);
     let reduced = Options { symmetry: true, ..options };
     let mut reports = Vec::new();
@@ -334,7 +334,7 @@ fn the_repositorys_models_have_the_same_verdicts() {
         ("examples/production_cell/ProductionCell.asm", None::<&str>),
     ] {
         let program = lowered(Disk::read(&root.join(path)).expect("the model is there"));
-        let options = Options { engine: Engine::Explicit, max_states: 200_000, ..Options::default() };
+        let options = Options { engine: EngineKind::Explicit, max_states: 200_000, ..Options::default() };
         let whole = check(&program, &options);
         let reduced = check(&program, &Options { symmetry: true, ..options });
         if whole.complete {
@@ -466,7 +466,7 @@ fn random_models_have_the_same_verdicts() {
     for seed in seed..seed + cases {
         let text = random_model(seed);
         let program = lowered(SourceFile::new("Parts.asm", text.clone()));
-        let options = Options { engine: Engine::Explicit, max_states: 3_000, ..Options::default() };
+        let options = Options { engine: EngineKind::Explicit, max_states: 3_000, ..Options::default() };
         if !check(&program, &options).complete {
             continue;
         }

@@ -8,7 +8,7 @@ use std::fmt::{Debug, Write};
 use explore::Explorer;
 use program::Program;
 
-use crate::search::Plan;
+use crate::plan::Plan;
 
 /// FNV-1a over what is written.
 struct Hash(u64);

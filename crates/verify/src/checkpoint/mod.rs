@@ -7,57 +7,30 @@
 //! INVARIANT: a search that goes on from a checkpoint ends as it would have without.
 
 mod identity;
+pub(crate) mod journal;
+pub(crate) mod keeper;
 mod words;
 
 use std::sync::Arc;
 
-use explore::{Explorer, Interner, Trouble, Unbounded, UnboundedKind, Widening};
+use explore::{Explorer, Trouble, Unbounded, UnboundedKind, Widening};
 use model::FunctionId;
 use program::Program;
 use syntax::{FileId, Span};
 
 use crate::checkpoint::identity::{layout, question};
+use crate::checkpoint::journal::Journal;
+use crate::checkpoint::keeper::{Keeper, Refusal};
 use crate::checkpoint::words::{Reader, Writer};
+use crate::explicit::shard::{Shard, owner};
+use crate::explorers::Maker;
 use crate::partial_order::{Unreduced, reduction};
-use crate::search::{Found, Maker, Plan, Target};
-use crate::shard::{Shard, owner};
+use crate::plan::Plan;
 use crate::storage::Store;
+use crate::target::{Found, Target};
 
 /// Raised whenever what is written means something else.
 const VERSION: u64 = 2;
-
-/// Where a checkpoint is kept: in a file, by a shell. Trouble with it is the shell's.
-pub trait Keeper {
-    /// The model, by a number that another model does not have.
-    fn model(&self) -> u64;
-    /// Whether it is time to keep what there is.
-    fn is_due(&mut self) -> bool;
-    /// Begins to read the checkpoint; false where there is none.
-    fn open(&mut self) -> bool;
-    /// Reads on; false where there are not as many words.
-    fn read(&mut self, words: &mut [u64]) -> bool;
-    /// Writes on.
-    fn write(&mut self, words: &[u64]);
-    /// What was written is whole: it takes the place of the checkpoint before.
-    fn end(&mut self);
-    /// The search has ended: there is nothing to go on with.
-    fn remove(&mut self);
-}
-
-/// Why a search does not go on from a checkpoint.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Refusal {
-    /// It is none.
-    Foreign,
-    /// Another version of this program made it.
-    Version,
-    /// It is of another model.
-    Model,
-    /// It is of other properties, bounds or limits of the machine.
-    Question,
-    /// It is not as it was written.
-    Damaged,
-}
 
 /// What came before the search at hand: attempts that ended because states did not fit.
 #[derive(Debug, Clone, Default)]
@@ -67,31 +40,6 @@ pub(crate) struct Past {
     /// Of each attempt: words of a state, how many states, and the states whose steps made new values come up, the last of
     /// which did not fit.
     attempts: Vec<u64>,
-}
-
-/// Which states' steps made new values come up.
-#[derive(Debug)]
-pub(crate) struct Journal {
-    interner: Arc<Interner>,
-    known: usize,
-    /// The places of the states.
-    pub places: Vec<u64>,
-}
-
-impl Journal {
-    /// A journal of a search whose values are numbered here, all of them so far being those of the initial states.
-    pub fn new(interner: &Arc<Interner>) -> Journal {
-        Journal { interner: Arc::clone(interner), known: interner.len(), places: Vec::new() }
-    }
-
-    /// The steps of the state of this place were made.
-    pub fn note(&mut self, place: usize) {
-        let known = self.interner.len();
-        if known > self.known {
-            self.known = known;
-            self.places.push(place as u64);
-        }
-    }
 }
 
 impl Past {

@@ -3,7 +3,7 @@
 //! In: a [`Keeper`], which is whoever has files. Out: what was written, or that it is not what was written. INVARIANT: no
 //! length is believed before as many words were read; nothing is used before the sum is right.
 
-use crate::checkpoint::{Keeper, Refusal};
+use crate::checkpoint::keeper::{Keeper, Refusal};
 
 /// The first word of a checkpoint: `gsverify`, as bytes.
 const MARK: u64 = u64::from_be_bytes(*b"gsverify");

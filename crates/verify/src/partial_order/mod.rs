@@ -21,7 +21,7 @@ use program::Program;
 
 use crate::partial_order::footprint::{Footprint, footprints};
 use crate::partial_order::located::located;
-use crate::search::Plan;
+use crate::plan::Plan;
 
 /// LIMIT: parts.
 const PARTS: usize = 64;

@@ -15,8 +15,9 @@ use model::Model;
 use program::{DomainId, FunctionId, Program};
 use syntax::{FileId, Span};
 
-use crate::check::{NoStart, Options, Reason};
-use crate::search::Progress;
+use crate::options::Options;
+use crate::progress::Progress;
+use crate::report::{NoStart, Reason};
 use crate::survey::{Survey, survey};
 use crate::trace::Trace;
 

@@ -5,6 +5,7 @@
 //! every state, and some run is fair.
 
 mod close;
+pub(crate) mod outcome;
 mod scheduler;
 mod states;
 
@@ -13,12 +14,11 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use explore::{Outcome as Came, Settings, Told, Trouble};
-use machine::{Location, Value};
 use program::Program;
 use syntax::Span;
 
 use crate::graph::{Bits, Label};
-use crate::search::{Progress, Stop};
+use crate::progress::{Progress, Stop};
 use crate::temporal::budget::{Budget, Ended, Limits};
 use crate::temporal::checker::Checker;
 use crate::temporal::fairness::{AgentFairness, Fairness};
@@ -30,11 +30,12 @@ use crate::temporal::{Verdict, decide_ctl, decide_ltl};
 use crate::trace::Trace;
 use states::{Explored, Place, Source, explore, has_letter};
 
+pub use outcome::{OfRuns, Why};
 pub use scheduler::scheduler;
 
-/// What is asked.
+/// How the runs of a program are gone through.
 #[derive(Debug, Clone, Default)]
-pub struct Question {
+pub struct RunPlan {
     /// How steps are made: bounds, and the assumptions among the conditions.
     pub settings: Settings,
     /// The conditions on states that are assumptions.
@@ -51,43 +52,13 @@ pub struct Question {
     pub first: bool,
 }
 
-/// What a property of runs comes to.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum OfRuns {
-    /// On all fair runs of a complete graph.
-    Holds,
-    /// Not on this run.
-    Violated(Box<Trace>),
-    /// Not known.
-    Unknown(Why),
-}
-
-/// Why it is not known whether a property of runs holds.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Why {
-    /// States were left unexplored, by a limit or because alternatives cannot be gone through.
-    Unexplored(Option<Stop>),
-    /// A proposition of it is neither true nor false in some state: where it stands, and the values of that state.
-    NoTruth(Span, Vec<(Location, Value)>),
-    /// No run is fair.
-    NoFairRun,
-    /// The main rule does not choose who moves, so that no choice of it could be fair.
-    NoScheduler,
-    /// Deciding it took more than a limit allows.
-    TooLarge(&'static str, u64),
-    /// Whoever watches has had enough.
-    Asked,
-    /// The formula, or an assumption about runs, has a fault, or a value in it cannot be written down: what it is.
-    Unread(String),
-}
-
 /// Decides all temporal properties of a program, by their indices.
 ///
 /// # Errors
 /// There is no initial state.
 pub fn decide(
     program: &Arc<Program>,
-    question: &Question,
+    plan: &RunPlan,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Vec<(usize, OfRuns)>, Trouble> {
     let temporal = |kind| matches!(kind, program::PropertyKind::Ctl | program::PropertyKind::Ltl);
@@ -95,7 +66,7 @@ pub fn decide(
         let formulas = program.properties.iter().enumerate().filter(|(_, property)| temporal(property.kind));
         formulas.map(|(index, _)| (index, OfRuns::Unknown(why.clone()))).collect()
     };
-    if question.agents.is_some() && scheduler(program).is_none() {
+    if plan.agents.is_some() && scheduler(program).is_none() {
         return Ok(all(Why::NoScheduler));
     }
     let (properties, faults) = read_each(program);
@@ -107,7 +78,7 @@ pub fn decide(
         }
         unread.entry(index).or_insert(what);
     }
-    let (source, unwritten) = source(program, question, &properties);
+    let (source, unwritten) = source(program, plan, &properties);
     let properties = match without(properties, &unwritten, &mut unread) {
         Ok(properties) => properties,
         Err(why) => return Ok(all(why)),
@@ -120,16 +91,16 @@ pub fn decide(
         Err(Trouble::Interrupted(cause)) => return Ok(all(Why::Unexplored(Some(cause.into())))),
         explored => explored?,
     };
-    let fairness = fairness(&explored, &properties, question.agents);
+    let fairness = fairness(&explored, &properties, plan.agents);
     let progress = Progress {
         states: explored.states.len() as u64,
         transitions: explored.graph.edges() as u64,
         ..Progress::default()
     };
-    let interrupt = question.settings.interrupt.clone();
+    let interrupt = plan.settings.interrupt.clone();
     let mut stop = || interrupt.is_raised() || !watch(&progress);
     let mut budget = Budget::new(Limits::default(), &mut stop);
-    let verdicts = verdicts(&explored, &fairness, &properties, question.first, &mut budget);
+    let verdicts = verdicts(&explored, &fairness, &properties, plan.first, &mut budget);
     let spans: Vec<Span> = properties.propositions.iter().map(|proposition| proposition.span(program)).collect();
     let decided = verdicts.into_iter().map(|(index, verdict)| (index, told(verdict, &mut explored, &spans)));
     let mut all: Vec<(usize, OfRuns)> = decided.chain(unread).collect();
@@ -221,10 +192,10 @@ fn speaks_of(properties: &Properties, formula: Formula) -> Vec<u32> {
     }
 }
 
-/// The propositions as conditions behind those of the question; those that cannot be written down stand for nothing.
-fn source(program: &Arc<Program>, question: &Question, properties: &Properties) -> (Source, BTreeSet<u32>) {
+/// The propositions as conditions behind those of the plan; those that cannot be written down stand for nothing.
+fn source(program: &Arc<Program>, plan: &RunPlan, properties: &Properties) -> (Source, BTreeSet<u32>) {
     let mut extended = (**program).clone();
-    let mut settings = question.settings.clone();
+    let mut settings = plan.settings.clone();
     let (mut places, mut unwritten) = (Vec::new(), BTreeSet::new());
     for (number, proposition) in properties.propositions.iter().enumerate() {
         let expression = close::closed(&mut extended, proposition).unwrap_or_else(|| {
@@ -241,14 +212,14 @@ fn source(program: &Arc<Program>, question: &Question, properties: &Properties) 
         }
     }
     let source = Source {
-        scheduler: question.agents.and_then(|_| scheduler(&extended)),
+        scheduler: plan.agents.and_then(|_| scheduler(&extended)),
         program: Arc::new(extended),
         settings,
-        assumed: question.assumed.clone(),
+        assumed: plan.assumed.clone(),
         propositions: places,
-        max_states: question.max_states,
-        max_depth: question.max_depth,
-        max_bytes: question.max_bytes,
+        max_states: plan.max_states,
+        max_depth: plan.max_depth,
+        max_bytes: plan.max_bytes,
     };
     (source, unwritten)
 }

@@ -16,7 +16,7 @@ use rustc_hash::FxBuildHasher;
 use syntax::Span;
 
 use crate::graph::{Builder, Graph, Label, StateId};
-use crate::search::{Progress, Stop};
+use crate::progress::{Progress, Stop};
 
 /// What the graph is made from.
 #[derive(Debug, Clone)]

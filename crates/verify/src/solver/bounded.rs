@@ -11,10 +11,11 @@ use solve::Outside;
 use solve::session::{Silence, Verdict};
 use solve::shared::Node;
 
-use crate::search::{Plan, Target};
+use crate::plan::Plan;
 use crate::solver::relation::Relation;
 use crate::solver::replay::replay;
 use crate::solver::unrolling::{Patience, Unrolling};
+use crate::target::Target;
 use crate::trace::Trace;
 
 /// The search for runs.

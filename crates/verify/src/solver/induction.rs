@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 use solve::session::{Session, Silence, Verdict};
 use solve::shared::Node;
 
-use crate::search::Target;
 use crate::solver::relation::Relation;
 use crate::solver::unrolling::{Patience, Unrolling};
+use crate::target::Target;
 
 /// LIMIT: times for which states are told to be different.
 const SIMPLE: usize = 40;

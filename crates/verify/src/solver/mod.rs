@@ -6,8 +6,11 @@
 //! nothing that the solver was not told.
 
 mod bounded;
+pub(crate) mod engine;
+mod given;
 mod horn;
 mod induction;
+pub(crate) mod method;
 mod relation;
 mod replay;
 mod unrolling;
@@ -20,65 +23,15 @@ use program::Program;
 pub use solve::Outside;
 use solve::session::{Silence, Solvers};
 
-use crate::search::{Plan, Progress, Target};
-use crate::trace::Trace;
+use crate::plan::Plan;
+use crate::progress::Progress;
+use crate::target::Target;
 use bounded::Bounded;
 use induction::Induction;
+use method::Solved;
+pub use method::{Left, Method, Proof};
 use relation::{Relation, Unrelated};
 use unrolling::Patience;
-
-/// How a solver is asked.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Method {
-    /// Bounded model checking: runs only.
-    Bounded,
-    /// Bounded model checking and k-induction.
-    Induction,
-    /// Property-directed reachability; runs by bounded model checking.
-    Reachability,
-    /// k-induction for a while, then property-directed reachability.
-    Portfolio,
-}
-
-/// How a property was proved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Proof {
-    /// By induction over so many steps.
-    Induction(usize),
-    /// By a set of states that leaves out what is looked for.
-    Reachability,
-}
-
-/// Why a solver left something open.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Left {
-    /// So many steps were looked at.
-    Depth(usize),
-    /// The solver did not answer in time, or does not know; of runs of so many steps.
-    Late(usize),
-    /// Whoever waits has had enough.
-    Stopped,
-    /// The solver has failed: a clause.
-    Broken(String),
-    /// The machine may do what the solver was not told.
-    Beyond(Outside),
-    /// The solver told of a run that the machine does not make.
-    Odd,
-    /// Inputs without number would have to be gone through.
-    Untold,
-}
-
-/// What came out.
-#[derive(Debug, Default)]
-pub(crate) struct Solved {
-    pub found: BTreeMap<Target, Trace>,
-    pub proved: BTreeMap<Target, Proof>,
-    pub left: BTreeMap<Target, Left>,
-    /// How many steps were looked at.
-    pub depth: u64,
-    /// The solver.
-    pub solver: String,
-}
 
 /// Why nothing came out.
 #[derive(Debug)]

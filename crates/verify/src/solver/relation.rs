@@ -14,10 +14,12 @@ use solve::Outside;
 use solve::shared::{Kind, Node, Op, Terms, VariableId};
 use syntax::Span;
 
-use crate::search::{Plan, Target, widened};
-use crate::solver::replay::Given;
+use crate::explorers::widened;
+use crate::plan::Plan;
 use solve::encode::{Choice, Encoder, Input, InputKind, Place};
+use crate::solver::given::Given;
 use solve::symbol::{Codes, Open, Shape, Symbol, constant};
+use crate::target::Target;
 
 /// LIMIT: initial states.
 const STARTS: usize = 256;

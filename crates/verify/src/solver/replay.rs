@@ -3,82 +3,30 @@
 //! In: values of the inputs of each step. Out: the run as a trace, if the machine goes the same way and comes to what was
 //! looked for. The machine's semantics judges the solver, and our translation.
 
-use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 
-use explore::{ChoiceTaken, Told};
-use machine::{Choice, Draw, EngineChoice, Environment, FaultClass, Location, LocationRef, Machine, TimeUnit, Value};
-use program::{DomainId, Program};
+use explore::Told;
+use machine::{EngineChoice, FaultClass, Location, Machine, Value};
+use program::Program;
 use rustc_hash::FxHashMap;
 use solve::session::Constant;
 use solve::shared::{VariableId, value_at};
 
-use crate::search::{Plan, Target};
+use crate::plan::Plan;
+use crate::solver::given::Given;
 use crate::solver::relation::Relation;
+use crate::solver::unrolling::SolverRun;
+use crate::target::Target;
 use crate::trace::Trace;
 use solve::encode::InputKind;
 use solve::symbol::{Symbol, value_of};
-
-/// What a solver says of a run.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Found {
-    /// Which initial state.
-    pub start: usize,
-    /// By step, the values of inputs, in the order of the relation's.
-    pub steps: Vec<Vec<Option<Constant>>>,
-}
-
-/// An environment that gives what was decided.
-#[derive(Debug, Default)]
-pub(crate) struct Given {
-    inputs: BTreeMap<Location, Value>,
-    choices: VecDeque<Vec<Value>>,
-    numbers: VecDeque<Value>,
-    taken: Vec<ChoiceTaken>,
-}
-
-impl Given {
-    /// What a step was told to take.
-    pub fn new(told: &Told) -> Given {
-        Given {
-            inputs: told.inputs.iter().cloned().collect(),
-            choices: told.choices.iter().map(|choice| choice.values.clone()).collect(),
-            ..Given::default()
-        }
-    }
-}
-
-impl Environment for Given {
-    fn monitored(&mut self, _: &Program, location: LocationRef<'_>, _: DomainId) -> Result<Value, String> {
-        self.inputs.get(&location.to_location()).cloned().ok_or_else(|| "an input that was not given".to_string())
-    }
-
-    fn choose(&mut self, _: &Program, choice: &Choice<'_>) -> Result<usize, String> {
-        let wanted = self.choices.pop_front().ok_or("a choice that was not made")?;
-        let found = (0..choice.candidates()).find(|index| choice.candidate(*index) == wanted);
-        self.taken.push(ChoiceTaken { span: choice.span, values: wanted });
-        found.ok_or_else(|| "a candidate that there is not".to_string())
-    }
-
-    fn number(&mut self, _: &Program, _: &Draw) -> Result<Value, String> {
-        self.numbers.pop_front().ok_or_else(|| "a number that was not drawn".to_string())
-    }
-
-    fn picks(&self, _: &Draw) -> bool {
-        true
-    }
-
-    fn time(&mut self, _: TimeUnit) -> Result<i64, String> {
-        Err("the clock".to_string())
-    }
-}
 
 /// The run as the machine makes it; none where it goes another way.
 pub(crate) fn replay(
     program: &Arc<Program>,
     plan: &Plan,
     relation: &Relation,
-    found: &Found,
+    found: &SolverRun,
     target: Target,
 ) -> Option<Trace> {
     let start = &relation.starts[found.start];
@@ -134,7 +82,7 @@ pub(crate) fn replay(
 }
 
 /// What the environment gives in each step.
-fn decided(relation: &Relation, found: &Found) -> Option<Vec<Given>> {
+fn decided(relation: &Relation, found: &SolverRun) -> Option<Vec<Given>> {
     let inputs = relation.input_variables();
     let place: FxHashMap<VariableId, usize> = inputs.iter().copied().zip(0..).collect();
     let begin =

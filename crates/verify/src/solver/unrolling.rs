@@ -9,7 +9,15 @@ use solve::session::{Constant, Session, Silence, Verdict, constants, verdict};
 use solve::shared::{Kind, Node, Script, Terms, VariableId};
 
 use crate::solver::relation::Relation;
-use crate::solver::replay::Found;
+
+/// What a solver says of a run.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct SolverRun {
+    /// Which initial state.
+    pub start: usize,
+    /// By step, the values of inputs, in the order of the relation's.
+    pub steps: Vec<Vec<Option<Constant>>>,
+}
 
 /// How long a solver may think about one question, and who says that it is enough.
 pub(crate) struct Patience<'w> {
@@ -162,7 +170,7 @@ impl<'r> Unrolling<'r> {
     }
 
     /// The run that was found possible.
-    pub fn run(&mut self, patience: &mut Patience<'_>) -> Result<Found, Silence> {
+    pub fn run(&mut self, patience: &mut Patience<'_>) -> Result<SolverRun, Silence> {
         let terms = &self.relation.terms;
         let mut names = Vec::new();
         let mut kinds = Vec::new();
@@ -184,6 +192,6 @@ impl<'r> Unrolling<'r> {
             _ => 0,
         };
         let steps = (0..self.scripts.len()).map(|_| values.by_ref().take(self.inputs.len()).collect()).collect();
-        Ok(Found { start: start.min(self.relation.starts.len() - 1), steps })
+        Ok(SolverRun { start: start.min(self.relation.starts.len() - 1), steps })
     }
 }

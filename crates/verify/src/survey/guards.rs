@@ -11,7 +11,7 @@ use machine::{Observation, Truths, conditions_of};
 use program::{Program, TermId};
 use syntax::Span;
 
-use crate::survey::Sighting;
+use crate::survey::surveyor::Sighting;
 
 /// A guard of several conditions.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -9,9 +9,11 @@ use explore::{Explorer, Interner, Outcome, Trouble, Truth, Widening};
 use machine::{Interrupt, Observation};
 use program::Program;
 
-use crate::check::{NoStart, Options};
-use crate::search::{Plan, widened};
-use crate::survey::{Sighting, Survey, plan_for};
+use crate::explorers::widened;
+use crate::options::Options;
+use crate::plan::Plan;
+use crate::report::NoStart;
+use crate::survey::surveyor::{Sighting, Survey, plan_for};
 use crate::trace::{Trace, picks_between, tell_way};
 
 /// A run and what happens in it.

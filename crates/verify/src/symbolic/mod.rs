@@ -3,8 +3,7 @@
 //! Where a model has many states for few reasons (philosophers who do not know of each other), a set of them is small even
 //! if it has 10¹¹ members. The verdicts are those of [`crate::verify`], on the same machine.
 
+pub(crate) mod apart;
 mod bdd;
 mod order;
 mod reach;
-
-pub(crate) use reach::Reach;

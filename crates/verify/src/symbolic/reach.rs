@@ -1,6 +1,6 @@
 //! Reachability by sets: all states that can be reached, as one binary decision diagram.
 //!
-//! In: a program and what is asked of its states, as for [`crate::search`]. Out: a [`Reach`] with what was found. The steps
+//! In: a program and what is asked of its states, as for [`crate::explicit`]. Out: a [`Reach`] with what was found. The steps
 //! of a set are the machine's own, learned as far as they are reached ([`explore::StateSets`]). The closure takes
 //! one part of the step after the other (chaining: O. Roig, J. Cortadella, E. Pastor, *Verification of asynchronous circuits
 //! by BDD-based model checking of Petri nets*, 1995), which needs fewer rounds than level by level; only where something is
@@ -15,9 +15,11 @@ use explore::{
 use program::Program;
 use rustc_hash::FxHashSet;
 
-use crate::search::{Found, Plan, Progress, Stop, Target};
+use crate::plan::Plan;
+use crate::progress::{Progress, Stop};
 use crate::symbolic::bdd::{Diagrams, Full, Set};
 use crate::symbolic::order::force;
+use crate::target::{Found, Target};
 use crate::trace::{Trace, tell};
 
 /// LIMIT: so many states are gone through one by one first, to see what steps look at.

@@ -6,6 +6,7 @@
 //! element that decides) is watched while searching: where it happens the search begins anew without. INVARIANT: a permutation
 //! of a class takes steps to steps, and changes the truth of no condition.
 
+mod element;
 mod telling;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -16,30 +17,13 @@ use machine::{Closed, Machine, Value};
 use program::{DomainId, DomainKind, FunctionId, Program};
 use syntax::Span;
 
-use crate::search::Plan;
+use crate::plan::Plan;
+pub use crate::symmetry::element::Distinct;
+use crate::symmetry::element::{count, element};
 use crate::symmetry::telling::Telling;
 
 /// LIMIT: elements of a class.
 const ELEMENTS: usize = 64;
-
-/// Why the elements of a domain are not interchangeable.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Distinct {
-    /// An element is named here.
-    Named(Span),
-    /// An operation here tells elements apart, or shows an order of them.
-    Told(Span),
-    /// An input is tried with some of them.
-    Bounded(FunctionId),
-    /// Elements of some domain are made here, in an order.
-    Extended(Span),
-    /// A fault was met among them here, which may depend on their order.
-    Ordered(Span),
-    /// Each is in other subsets of the domain.
-    Subsets,
-    /// There are too many, or states are packed so that they cannot be permuted.
-    Packed,
-}
 
 /// What was found about elements of domains.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -64,22 +48,6 @@ pub(crate) struct Interchange {
 fn candidates(program: &Program) -> Vec<DomainId> {
     let all = (0..program.domains.len()).map(|index| DomainId(index as u32));
     all.filter(|domain| count(program, *domain) >= 2).collect()
-}
-
-fn count(program: &Program, domain: DomainId) -> usize {
-    match &program.domain(domain).kind {
-        // If it grows it is found to be extended.
-        DomainKind::Abstract { elements, .. } => elements.len(),
-        DomainKind::Enum { literals } => literals.len(),
-        _ => 0,
-    }
-}
-
-fn element(program: &Program, domain: DomainId, index: u32) -> Value {
-    match program.domain(domain).kind {
-        DomainKind::Enum { .. } => Value::Enum(domain, index),
-        _ => Value::Element(domain, index),
-    }
 }
 
 impl Interchange {

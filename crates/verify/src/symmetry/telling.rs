@@ -15,7 +15,7 @@ use program::{
 };
 use syntax::Span;
 
-use crate::symmetry::{Distinct, element};
+use crate::symmetry::element::{Distinct, count, element};
 
 /// See the module.
 #[derive(Debug, Default)]
@@ -87,7 +87,7 @@ impl Telling {
             }
             // An order that shows is as good as all elements' names.
             for (domain, span) in told {
-                let count = crate::symmetry::count(program, domain) as u32;
+                let count = count(program, domain) as u32;
                 of_initial.extend((0..count).map(|index| (element(program, domain, index), span)));
             }
             ranges.extend(more);

@@ -12,7 +12,7 @@ use syntax::{Severity, SourceFile};
 use testkit::repository;
 use testkit::solver::solvers;
 use verify::solver::{Left, Method, Proof};
-use verify::{Engine, NoStart, Options, Outcome, Progress, Reason, Report, Request, Subject, verify};
+use verify::{EngineKind, NoStart, Options, Outcome, Progress, Reason, Report, Request, Subject, verify};
 
 use crate::models::{Disk, lowered};
 
@@ -22,7 +22,7 @@ fn model(text: &str) -> Arc<Program> {
 
 /// What each solver says.
 fn ask(program: &Arc<Program>, method: Method, depth: u64) -> Vec<Result<Report, NoStart>> {
-    let options = Options { engine: Engine::Solver(method), max_depth: depth, ..Options::default() };
+    let options = Options { engine: EngineKind::Solver(method), max_depth: depth, ..Options::default() };
     let horn = matches!(method, Method::Reachability | Method::Portfolio);
     let mut solvers = solvers(horn);
     let request = Request::of(program, options).build().expect("nothing is in conflict");
@@ -154,7 +154,8 @@ fn examples() {
             for outcome in ask(&program, Method::Bounded, DEPTH) {
                 match outcome {
                     Ok(solved) => {
-                        let options = Options { engine: Engine::Explicit, max_depth: DEPTH + 1, ..Options::default() };
+                        let options =
+                            Options { engine: EngineKind::Explicit, max_depth: DEPTH + 1, ..Options::default() };
                         let explicit = explicit.get_or_insert_with(|| {
                             verify(&program, &options, &mut |progress| progress.states < 300_000).expect("it starts")
                         });
@@ -197,7 +198,7 @@ fn random_models() {
         let program = Arc::new(program);
         let limits = Limits { iterations: 200, call_depth: 50, collection: 2000, ..Limits::default() };
         let bounds = bounds(&program);
-        let few = Options { limits, bounds, engine: Engine::Explicit, max_states: 400, ..Options::default() };
+        let few = Options { limits, bounds, engine: EngineKind::Explicit, max_states: 400, ..Options::default() };
         let Ok(explicit) = verify(&program, &few, &mut |progress| progress.transitions < 20_000) else { continue };
         if explicit.stop.is_some() {
             continue;
@@ -205,7 +206,7 @@ fn random_models() {
         let mut solvers = solvers(false);
         let turn = seed as usize % solvers.len().max(1);
         let Some(solver) = solvers.get_mut(turn) else { return };
-        let engine = Engine::Solver(Method::Induction);
+        let engine = EngineKind::Solver(Method::Induction);
         let options = Options { engine, max_states: u64::MAX, max_depth: DEPTH, ..few };
         let request = Request::of(&program, options).build().expect("nothing is in conflict");
         match request.verify(solver, &mut |_: &Progress| true) {

@@ -38,7 +38,9 @@ fn case(seed: u64, operators: Operators, with_fairness: bool) -> bool {
         let word = Word { graph: &graph, states: states(&graph, start, edges), turn };
         let holds = Evaluation::new(&formulas, word).holds(root, 0);
         match &verdict {
-            Verdict::Holds { vacuous } => assert!(holds && !vacuous, "seed {seed}: {start} {edges:?} {turn} violates"),
+            Verdict::Holds { vacuous } => {
+                assert!(holds && !vacuous, "seed {seed}: {start} {edges:?} {turn} violates")
+            }
             Verdict::Violated { run: Run { turn: None, edges: path, start: from }, .. } => {
                 let through = *from == start && (0..path.len()).all(|i| at(edges, turn, i) == path[i]);
                 assert!(!(through && holds), "seed {seed}: the path {path:?} can be made good by {edges:?} {turn}");

@@ -1,6 +1,6 @@
 //! Options of `verify` that do not go together, in the words of the command line.
 
-use groundstate::verify::{Conflict, Engine, Part};
+use groundstate::verify::{Conflict, EngineKind, Part};
 
 use crate::failure::Failure;
 
@@ -21,7 +21,7 @@ fn option(part: Part) -> &'static str {
 /// Says why a request cannot be carried out.
 pub fn conflict(conflict: Conflict) -> Failure {
     let (message, help) = match conflict {
-        Conflict::Engine(part @ (Part::First | Part::MaxStates | Part::MaxDepth), Engine::Symbolic) => (
+        Conflict::Engine(part @ (Part::First | Part::MaxStates | Part::MaxDepth), EngineKind::Symbolic) => (
             format!("{} does not work with --engine bdd", option(part)),
             "bound sets of states by --max-memory and --time, or leave out --engine bdd".to_string(),
         ),

@@ -132,14 +132,14 @@ enum Engine {
 }
 
 impl Engine {
-    fn chosen(self) -> groundstate::verify::Engine {
+    fn chosen(self) -> groundstate::verify::EngineKind {
         match self {
-            Engine::Auto => groundstate::verify::Engine::Automatic,
-            Engine::Explicit => groundstate::verify::Engine::Explicit,
-            Engine::Bdd => groundstate::verify::Engine::Symbolic,
-            Engine::Bmc => groundstate::verify::Engine::Solver(Method::Bounded),
-            Engine::Induction => groundstate::verify::Engine::Solver(Method::Induction),
-            Engine::Pdr => groundstate::verify::Engine::Solver(Method::Reachability),
+            Engine::Auto => groundstate::verify::EngineKind::Automatic,
+            Engine::Explicit => groundstate::verify::EngineKind::Explicit,
+            Engine::Bdd => groundstate::verify::EngineKind::Symbolic,
+            Engine::Bmc => groundstate::verify::EngineKind::Solver(Method::Bounded),
+            Engine::Induction => groundstate::verify::EngineKind::Solver(Method::Induction),
+            Engine::Pdr => groundstate::verify::EngineKind::Solver(Method::Reachability),
         }
     }
 }

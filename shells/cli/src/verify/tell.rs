@@ -9,7 +9,7 @@ use groundstate::Said;
 use groundstate::verify::runs::Why;
 use groundstate::verify::solver::{Left, Proof};
 use groundstate::verify::{
-    Engine, Outcome, Progress, Reason, Report, Stop, Storage, Subject, Trace, Unreduced, Verdict,
+    EngineKind, Outcome, Progress, Reason, Report, Stop, Storage, Subject, Trace, Unreduced, Verdict,
 };
 use machine::{Location, Show, Value};
 use program::Program;
@@ -68,7 +68,7 @@ impl Teller<'_> {
                 self.verdict(shell, verdict, report)?;
             }
         }
-        if let (Engine::Solver(_), false) = (report.engine, shell.json()) {
+        if let (EngineKind::Solver(_), false) = (report.engine, shell.json()) {
             if shell.talks() {
                 let solver = report.solver.as_deref().unwrap_or("a solver");
                 let steps = plural(report.progress.depth as usize, "step");
@@ -85,7 +85,7 @@ impl Teller<'_> {
         let symmetry = report.symmetry.as_ref().map(|symmetry| self.symmetry_lines(symmetry));
         let omission = report.omission.map(|expected| expected.0);
         let reduced = report.reduced.map(|reduced| reduced.map_or_else(why_unreduced, |()| "reduced"));
-        let sets = report.engine == Engine::Symbolic;
+        let sets = report.engine == EngineKind::Symbolic;
         let explored = Explored { bits: Some(report.width.1), omission, partial_order: reduced, symmetry, sets };
         self.explored(shell, &report.progress, report.complete, &explored)
     }

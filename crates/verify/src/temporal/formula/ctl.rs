@@ -5,7 +5,8 @@
 
 use program::TemporalOperator;
 
-use super::{Arena, Connective, FormulaId, Logic, Node};
+use super::arena::{Arena, FormulaId};
+use super::logic::{Connective, Logic, Node};
 
 /// A formula over formulas of the same table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

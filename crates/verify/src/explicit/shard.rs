@@ -12,12 +12,14 @@ use std::sync::{Arc, Barrier, Mutex, PoisonError};
 use explore::{Expansion, Explorer, Orbits, Trouble, Truth, Unbounded, Widening};
 use syntax::Span;
 
-use crate::checkpoint::Journal;
-use crate::lineage::Lineage;
+use crate::checkpoint::journal::Journal;
+use crate::explicit::lineage::Lineage;
 use crate::partial_order::Reduction;
-use crate::search::{Found, Plan, Stop, Target};
+use crate::plan::Plan;
+use crate::progress::{Progress, Stop};
 use crate::storage::{Storage, Store};
 use crate::table::hash;
+use crate::target::{Found, Target};
 
 /// How many states a worker expands before all exchange successors.
 const ROUND: usize = 1 << 12;
@@ -72,7 +74,7 @@ fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
 #[derive(Debug)]
 struct Board {
     /// By worker.
-    reports: Vec<Report>,
+    reports: Vec<Tally>,
     decision: Decision,
     /// How many successors each worker may make in the next round before it expands no further state, so that there are not many
     /// more states than are allowed.
@@ -84,7 +86,7 @@ struct Board {
 
 /// What a worker tells the leader.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Report {
+pub(crate) struct Tally {
     pub states: u64,
     pub transitions: u64,
     /// States of this level that are still to be expanded.
@@ -110,6 +112,22 @@ pub(crate) struct Report {
     pub broken: bool,
 }
 
+impl Tally {
+    /// How far a search is whose workers report this.
+    pub fn progress(reports: &[Tally], depth: u64) -> Progress {
+        let sum = |of: fn(&Tally) -> u64| reports.iter().map(of).sum::<u64>();
+        let fresh = sum(|report| report.fresh);
+        Progress {
+            states: sum(|report| report.states),
+            transitions: sum(|report| report.transitions),
+            queue: sum(|report| report.left + report.pending) + fresh,
+            depth: if fresh > 0 { depth } else { depth.saturating_sub(1) },
+            bytes: sum(|report| report.bytes),
+            spilled: sum(|report| report.spilled),
+        }
+    }
+}
+
 /// How it goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Decision {
@@ -124,7 +142,7 @@ pub(crate) enum Decision {
 }
 
 /// Decides how it goes on, from what all workers report and the depth of the states that come in.
-pub(crate) type Leader<'a> = dyn FnMut(&[Report], u64) -> Decision + 'a;
+pub(crate) type Leader<'a> = dyn FnMut(&[Tally], u64) -> Decision + 'a;
 
 impl Crew<'_> {
     /// Lets the workers of the shards work until the leader decides to stop. `starts` are states that come in first, each
@@ -144,7 +162,7 @@ impl Crew<'_> {
         }
         let barrier = Barrier::new(count);
         let board = Mutex::new(Board {
-            reports: vec![Report::default(); count],
+            reports: vec![Tally::default(); count],
             decision: Decision::Round,
             quota: 0,
             void: false,
@@ -257,7 +275,7 @@ impl Shard {
             });
             self.order_mattered = explorer.order_mattered();
             let broken = panic.is_some();
-            lock(board).reports[index] = Report { broken, ..self.report() };
+            lock(board).reports[index] = Tally { broken, ..self.report() };
             barrier.wait();
             if index == 0 {
                 let reports = lock(board).reports.clone();
@@ -310,9 +328,9 @@ impl Shard {
         })
     }
 
-    fn report(&self) -> Report {
+    fn report(&self) -> Tally {
         let end = self.levels.last().copied().unwrap_or(0);
-        Report {
+        Tally {
             states: self.store.len() as u64,
             transitions: self.transitions,
             left: (end - self.next) as u64,

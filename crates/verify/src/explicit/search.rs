@@ -1,7 +1,7 @@
 //! The search: all states that can be reached, level by level.
 //!
 //! In: a program and what is asked of its states. Out: a [`Search`] that has ended, with the states by their distance and
-//! the first state of each kind that was looked for. Each worker ([`crate::shard`]) owns the states whose hash is its
+//! the first state of each kind that was looked for. Each worker ([`crate::explicit::shard`]) owns the states whose hash is its
 //! own. A level is ended before the next begins, so what is found is
 //! at the least distance, and of several states the least in canonical order: INVARIANT: what comes out is the same for
 //! any number of workers.
@@ -9,177 +9,26 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use explore::{Explorer, Interner, Orbits, Settings, Starts, Trouble, Unbounded, Widening};
-use machine::{Cause, Interrupt};
+use explore::{Explorer, Orbits, Unbounded};
+use machine::Cause;
 use program::Program;
 use syntax::Span;
 
 use crate::again::made_again;
-use crate::checkpoint::{Journal, Keeper, Past, Resumed, Unfit, keep, made, resume};
+use crate::checkpoint::journal::Journal;
+use crate::checkpoint::keeper::Keeper;
+use crate::checkpoint::{Past, Resumed, Unfit, keep, made, resume};
+use crate::explicit::shard::{Crew, Decision, Shard, Tally, note};
+use crate::explicit::ways::ways;
+use crate::explorers::{Maker, representatives};
 use crate::heed::Heed;
 use crate::partial_order::{Reduction, Unreduced, reduction};
-use crate::shard::{Crew, Decision, Report, Shard, note};
-use crate::storage::disk::Disk;
+use crate::plan::Plan;
+use crate::progress::{Progress, Stop};
 use crate::storage::{Storage, Store};
 use crate::symmetry::{Distinct, Interchange, Symmetry};
-use crate::trace::{tell, ways};
-
-/// What is looked for in a state.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Target {
-    /// A step that is a fault, by its class.
-    Fault(usize),
-    /// No step changes the state.
-    Rest,
-    /// A condition that does not hold, by its number.
-    Condition(usize),
-    /// A condition on the step that does not hold in one of its steps, by its number.
-    StepCondition(usize),
-}
-
-/// What the search is to do.
-#[derive(Debug, Clone, Default)]
-pub struct Plan {
-    /// What explorers are made with.
-    pub settings: Settings,
-    /// The conditions on states that are assumptions: states in which one does not hold are left out.
-    pub assumed: Vec<usize>,
-    /// The condition on states that may rest.
-    pub terminal: Option<usize>,
-    /// The conditions on states that are looked for where they do not hold.
-    pub wanted: Vec<usize>,
-    /// The conditions on steps that are looked for where they do not hold.
-    pub wanted_steps: Vec<usize>,
-    /// How many workers.
-    pub workers: usize,
-    /// The search ends with the first level in which something is found.
-    pub first: bool,
-    /// The most states.
-    pub max_states: u64,
-    /// The most steps from an initial state.
-    pub max_depth: u64,
-    /// The most bytes for states.
-    pub max_bytes: u64,
-    /// What is kept of each state.
-    pub storage: Storage,
-    /// Draws the hash, where less than the state is kept.
-    pub seed: u64,
-    /// Of moves that do not concern each other one order is enough.
-    pub partial_order: bool,
-    /// States that differ by a permutation of interchangeable elements are one; not with `partial_order`, nor where the search is
-    /// kept.
-    pub symmetry: bool,
-    /// Where states go that memory has no room for; only where all of them is kept, and the search is not.
-    pub disk: Option<Arc<dyn Disk>>,
-}
-
-/// How far a search is.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Progress {
-    /// States met.
-    pub states: u64,
-    /// Steps that change the state.
-    pub transitions: u64,
-    /// States that are still to be expanded.
-    pub queue: u64,
-    /// The greatest distance of a state from an initial one.
-    pub depth: u64,
-    /// Bytes of memory that states take.
-    pub bytes: u64,
-    /// Bytes of files.
-    pub spilled: u64,
-}
-
-impl Progress {
-    /// What workers report, all together.
-    pub(crate) fn of(reports: &[Report], depth: u64) -> Progress {
-        let sum = |of: fn(&Report) -> u64| reports.iter().map(of).sum::<u64>();
-        let fresh = sum(|report| report.fresh);
-        Progress {
-            states: sum(|report| report.states),
-            transitions: sum(|report| report.transitions),
-            queue: sum(|report| report.left + report.pending) + fresh,
-            depth: if fresh > 0 { depth } else { depth.saturating_sub(1) },
-            bytes: sum(|report| report.bytes),
-            spilled: sum(|report| report.spilled),
-        }
-    }
-}
-
-/// Why a search ended before it had met all states.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Stop {
-    /// As many states as are allowed.
-    States,
-    /// As deep as is allowed.
-    Depth,
-    /// As many bytes as are allowed.
-    Memory,
-    /// A file could not be written or read.
-    Disk,
-    /// Whoever watches the search has had enough.
-    Asked,
-    /// Something was found and that is enough.
-    Found,
-}
-
-impl From<Cause> for Stop {
-    fn from(cause: Cause) -> Stop {
-        match cause {
-            Cause::Asked => Stop::Asked,
-            Cause::Memory => Stop::Memory,
-        }
-    }
-}
-
-/// Where something was found first.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Found {
-    /// What.
-    pub target: Target,
-    /// The distance of the state.
-    pub depth: usize,
-    /// The state.
-    pub state: Box<[u64]>,
-}
-
-/// Makes explorers that pack states alike.
-#[derive(Debug, Clone)]
-pub(crate) struct Maker {
-    program: Arc<Program>,
-    settings: Settings,
-    widening: Widening,
-    pub interner: Arc<Interner>,
-    /// The initial states, once some explorer has made them.
-    starts: Option<Arc<Starts>>,
-}
-
-impl Maker {
-    /// Of explorers with room for what did not fit.
-    pub fn new(program: &Arc<Program>, plan: &Plan, widening: &Widening) -> Maker {
-        let (settings, interner) = (plan.settings.clone(), Arc::default());
-        Maker { program: Arc::clone(program), settings, widening: widening.clone(), interner, starts: None }
-    }
-
-    /// One of explorers that go through all alternatives however long that takes.
-    pub fn tireless(mut self) -> Maker {
-        self.settings.interrupt = Interrupt::default();
-        self
-    }
-
-    /// The first one, whose initial states the others take.
-    pub fn first(&mut self) -> Result<Explorer, Trouble> {
-        let explorer = self.explorer()?;
-        self.starts = Some(explorer.starts());
-        Ok(explorer)
-    }
-
-    /// One more.
-    pub fn explorer(&self) -> Result<Explorer, Trouble> {
-        let Maker { program, settings, widening, interner, starts } = self;
-        Explorer::like(program, settings.clone(), widening, interner, starts.as_ref())
-    }
-}
+use crate::target::Found;
+use crate::trace::tell;
 
 /// A search that has ended.
 #[derive(Debug)]
@@ -355,16 +204,6 @@ fn ordered(shards: &[Shard]) -> Option<Span> {
     shards.iter().find_map(|shard| shard.order_mattered).or(unbounded.min())
 }
 
-/// The initial states, up to interchangeable elements.
-pub(crate) fn representatives(explorer: &mut Explorer, orbits: Option<&Orbits>) -> Vec<u64> {
-    let mut starts = Vec::with_capacity(explorer.initial().len() * explorer.words());
-    explorer.initial().iter().for_each(|(state, _)| starts.extend_from_slice(state));
-    if let Some(orbits) = orbits {
-        explorer.normalise(orbits, &mut starts);
-    }
-    starts
-}
-
 /// Searches until all states are met or something ends it, with pauses in which the search is kept.
 fn search<'k>(
     maker: &Maker,
@@ -383,7 +222,7 @@ fn search<'k>(
     let mut heard = 0;
     loop {
         let (mut paused, mut news) = (false, 0);
-        let mut decide = |reports: &[Report], depth: u64| {
+        let mut decide = |reports: &[Tally], depth: u64| {
             let decision = decide(reports, depth, plan, &mut progress, &mut |progress| heed.at(progress));
             let goes_on = !matches!(decision, Decision::Stop(_));
             let certain: usize = reports.iter().map(|report| report.certain).sum();
@@ -437,28 +276,17 @@ fn tell_news(maker: &Maker, plan: &Plan, explorer: &mut Explorer, shards: &mut [
     explorer.mind_interrupts(interrupt);
 }
 
-/// Attempts a search again and again, each time with room for what did not fit the time before.
-pub(crate) fn widened<T>(mut attempt: impl FnMut(&Widening) -> Result<T, Trouble>) -> Result<T, Trouble> {
-    let mut widening = Widening::default();
-    loop {
-        match attempt(&widening) {
-            Err(Trouble::TooNarrow(more)) => widening.merge(&more),
-            outcome => return outcome,
-        }
-    }
-}
-
 fn decide(
-    reports: &[Report],
+    reports: &[Tally],
     depth: u64,
     plan: &Plan,
     progress: &mut Progress,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Decision {
-    let sum = |of: fn(&Report) -> u64| reports.iter().map(of).sum::<u64>();
-    let any = |of: fn(&Report) -> bool| reports.iter().any(of);
+    let sum = |of: fn(&Tally) -> u64| reports.iter().map(of).sum::<u64>();
+    let any = |of: fn(&Tally) -> bool| reports.iter().any(of);
     let (left, fresh, pending) = (sum(|report| report.left), sum(|report| report.fresh), sum(|report| report.pending));
-    *progress = Progress::of(reports, depth);
+    *progress = Tally::progress(reports, depth);
     let go_on = watch(progress);
     if any(|report| report.narrow || report.broken) {
         return Decision::Stop(None);

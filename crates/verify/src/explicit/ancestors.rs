@@ -9,47 +9,17 @@
 use std::collections::BTreeMap;
 
 use machine::Interrupt;
-use rustc_hash::FxHashSet;
 
-use crate::search::{Found, Progress, Search, Stop, representatives};
-use crate::shard::{Crew, Decision, Report, Shard};
+use crate::explicit::lineage::{At, Lineage, Wanted};
+use crate::explicit::search::Search;
+use crate::explicit::shard::{Crew, Decision, Shard, Tally};
+use crate::explorers::representatives;
+use crate::progress::{Progress, Stop};
 use crate::storage::Store;
+use crate::target::Found;
 
-/// What a worker does on such a pass.
-#[derive(Debug, Clone)]
-pub(crate) struct Lineage {
-    /// States of the levels that are multiples of this are taken along.
-    every: usize,
-    /// The states whose ancestors are asked for, by level.
-    wanted: Wanted,
-    /// What was asked for.
-    ancestors: Vec<(At, Box<[u64]>)>,
-}
-
-/// A state and its level.
-type At = (usize, Box<[u64]>);
-/// States by their level.
-type Wanted = BTreeMap<usize, FxHashSet<Box<[u64]>>>;
 /// The states on the way to one, by their level, as far as they are known.
 type Way = BTreeMap<usize, Box<[u64]>>;
-
-impl Lineage {
-    /// What the successors of a state of this level take along.
-    pub fn ancestor<'a>(&self, store: &'a Store, place: usize, level: usize) -> &'a [u64] {
-        match store {
-            Store::Compact(compact) if !level.is_multiple_of(self.every) => compact.more(place),
-            store => store.state(place),
-        }
-    }
-
-    /// Notes the ancestor of a new state that is wanted.
-    pub fn meet(&mut self, level: usize, item: &[u64]) {
-        let (state, ancestor) = item.split_at(item.len() / 2);
-        if self.wanted.get(&level).is_some_and(|wanted| wanted.contains(state)) {
-            self.ancestors.push(((level, state.into()), ancestor.into()));
-        }
-    }
-}
 
 impl Search {
     /// The states on the way to each state found.
@@ -109,8 +79,8 @@ impl Search {
         let starts = representatives(&mut self.explorer, self.orbits.as_deref());
         let starts: Vec<u64> = starts.chunks_exact(words).flat_map(|state| [state, state].concat()).collect();
         let deepest = lineage.wanted.last_key_value().map_or(0, |(level, _)| *level as u64);
-        let mut decide = |reports: &[Report], depth: u64| {
-            let progress = Progress::of(reports, depth);
+        let mut decide = |reports: &[Tally], depth: u64| {
+            let progress = Tally::progress(reports, depth);
             // What was found is to be told, however long that takes.
             watch(&progress);
             let broken = reports.iter().any(|report| report.narrow || report.broken);

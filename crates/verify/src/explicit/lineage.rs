@@ -1,0 +1,40 @@
+//! What a worker does on a pass that looks for nothing but ancestors of some states: see [`crate::explicit::ancestors`].
+
+use std::collections::BTreeMap;
+
+use rustc_hash::FxHashSet;
+
+use crate::storage::Store;
+
+/// What a worker does on such a pass.
+#[derive(Debug, Clone)]
+pub(crate) struct Lineage {
+    /// States of the levels that are multiples of this are taken along.
+    pub every: usize,
+    /// The states whose ancestors are asked for, by level.
+    pub wanted: Wanted,
+    /// What was asked for.
+    pub ancestors: Vec<(At, Box<[u64]>)>,
+}
+
+/// A state and its level.
+pub(crate) type At = (usize, Box<[u64]>);
+/// States by their level.
+pub(crate) type Wanted = BTreeMap<usize, FxHashSet<Box<[u64]>>>;
+impl Lineage {
+    /// What the successors of a state of this level take along.
+    pub fn ancestor<'a>(&self, store: &'a Store, place: usize, level: usize) -> &'a [u64] {
+        match store {
+            Store::Compact(compact) if !level.is_multiple_of(self.every) => compact.more(place),
+            store => store.state(place),
+        }
+    }
+
+    /// Notes the ancestor of a new state that is wanted.
+    pub fn meet(&mut self, level: usize, item: &[u64]) {
+        let (state, ancestor) = item.split_at(item.len() / 2);
+        if self.wanted.get(&level).is_some_and(|wanted| wanted.contains(state)) {
+            self.ancestors.push(((level, state.into()), ancestor.into()));
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! How a search came to a state: the steps of a shortest way, told one by one.
+//!
+//! In: what a search has found. Out: a [`Trace`] for each. No way is kept while searching; it is found again backwards,
+//! level by level: of the states of the level before that lead to the state, the least in canonical order is taken, and of
+//! its steps the first. So a trace does not depend on the number of workers, and a state costs no link to its parent. Where
+//! states were not kept, ways are found by searching again ([`crate::explicit::ancestors`]).
+
+use crate::explicit::search::Search;
+use crate::explicit::ways::ways;
+use crate::heed::Heed;
+use crate::progress::Stop;
+use crate::storage::Storage;
+use crate::target::Found;
+use crate::trace::{Trace, tell};
+
+impl Search {
+    /// A shortest run to each state found, in the order of `found`. Where files cannot be read, nothing was found.
+    pub(crate) fn traces(&mut self, heed: &mut Heed<'_>) -> Vec<Trace> {
+        // What was found is to be told, however long that takes.
+        self.explorer.ignore_interrupts();
+        let told = |found: &Found| heed.told.get(&found.target).filter(|(depth, _)| *depth == found.depth);
+        let known: Vec<Option<Trace>> = self.found.iter().map(|found| Some(told(found)?.1.clone())).collect();
+        let untold: Vec<Found> = self
+            .found
+            .iter()
+            .zip(&known)
+            .filter(|(_, known)| known.is_none())
+            .map(|(found, _)| found.clone())
+            .collect();
+        let chains = match self.plan.storage {
+            Storage::Exact => ways(&mut self.explorer, &mut self.shards, self.orbits.as_deref(), &untold),
+            _ => Ok(self.chains_again(&mut |progress| heed.at(progress))),
+        };
+        let Ok(chains) = chains else {
+            self.found.clear();
+            self.stop = Some(Stop::Disk);
+            return Vec::new();
+        };
+        let chains: Vec<_> = chains.into_iter().map(|chain| self.concrete(chain)).collect();
+        let explorer = &mut self.explorer;
+        explorer.look_in_order();
+        let mut traces = untold.iter().zip(&chains).map(|(found, chain)| tell(explorer, chain, found));
+        known.into_iter().map(|known| known.unwrap_or_else(|| traces.next().expect("a way to each"))).collect()
+    }
+
+    /// A run that has these representatives: each state is one that the state before leads to. From the representative before
+    /// lead steps to a state that the next one represents; the permutation that leads from there to the run's own state leads
+    /// to the run's next state, too.
+    fn concrete(&mut self, chain: Vec<Box<[u64]>>) -> Vec<Box<[u64]>> {
+        let Some(orbits) = self.orbits.clone() else { return chain };
+        let explorer = &mut self.explorer;
+        let starts: Vec<Box<[u64]>> = explorer.initial().iter().map(|(state, _)| state.clone()).collect();
+        let mut represented = starts.into_iter().map(|state| {
+            let (representative, permutation) = explorer.normalised(&orbits, &state);
+            (state, representative, permutation)
+        });
+        let (start, _, permutation) =
+            represented.find(|(_, representative, _)| *representative == chain[0]).expect("a run begins with it");
+        drop(represented);
+        // From the representative to the run's own state.
+        let (mut way, mut back) = (vec![start], permutation.inverse());
+        let words = explorer.words();
+        for pair in chain.windows(2) {
+            let mut successors = Vec::new();
+            let _ = explorer.expand(&pair[0], &mut successors);
+            let (successor, permutation) = successors
+                .chunks_exact(words)
+                .find_map(|state| {
+                    let (representative, permutation) = explorer.normalised(&orbits, state);
+                    (representative == pair[1]).then_some((state, permutation))
+                })
+                .expect("the step was made before");
+            way.push(explorer.permuted(&orbits, successor, &back));
+            back = permutation.inverse().then(&back);
+        }
+        way
+    }
+}

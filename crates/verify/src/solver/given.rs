@@ -1,0 +1,52 @@
+//! What a step was told to take, as the machine's environment.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use explore::{ChoiceTaken, Told};
+use machine::{Choice, Draw, Environment, Location, LocationRef, TimeUnit, Value};
+use program::{DomainId, Program};
+
+/// An environment that gives what was decided.
+#[derive(Debug, Default)]
+pub(crate) struct Given {
+    pub inputs: BTreeMap<Location, Value>,
+    pub choices: VecDeque<Vec<Value>>,
+    pub numbers: VecDeque<Value>,
+    pub taken: Vec<ChoiceTaken>,
+}
+
+impl Given {
+    /// What a step was told to take.
+    pub fn new(told: &Told) -> Given {
+        Given {
+            inputs: told.inputs.iter().cloned().collect(),
+            choices: told.choices.iter().map(|choice| choice.values.clone()).collect(),
+            ..Given::default()
+        }
+    }
+}
+
+impl Environment for Given {
+    fn monitored(&mut self, _: &Program, location: LocationRef<'_>, _: DomainId) -> Result<Value, String> {
+        self.inputs.get(&location.to_location()).cloned().ok_or_else(|| "an input that was not given".to_string())
+    }
+
+    fn choose(&mut self, _: &Program, choice: &Choice<'_>) -> Result<usize, String> {
+        let wanted = self.choices.pop_front().ok_or("a choice that was not made")?;
+        let found = (0..choice.candidates()).find(|index| choice.candidate(*index) == wanted);
+        self.taken.push(ChoiceTaken { span: choice.span, values: wanted });
+        found.ok_or_else(|| "a candidate that there is not".to_string())
+    }
+
+    fn number(&mut self, _: &Program, _: &Draw) -> Result<Value, String> {
+        self.numbers.pop_front().ok_or_else(|| "a number that was not drawn".to_string())
+    }
+
+    fn picks(&self, _: &Draw) -> bool {
+        true
+    }
+
+    fn time(&mut self, _: TimeUnit) -> Result<i64, String> {
+        Err("the clock".to_string())
+    }
+}

@@ -1,0 +1,254 @@
+//! The survey: all states met one after the other, with what happens in their steps for the first time, and where.
+//!
+//! In: a program and bounds. Out: a [`Survey`]: sightings, each with a shortest run to it; the values that locations have;
+//! how far it came. Review and test generation read it. INVARIANT: there is one worker, so that what comes first is the
+//! same each time; steps are those of the explorer that verification uses.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use explore::{Explorer, Interner, Met, Told, Trouble, Truth, Unbounded, Widening};
+use machine::{Cause, Location, Observation, Value};
+use program::{DomainId, Program};
+
+use crate::explorers::widened;
+use crate::options::Options;
+use crate::plan::Plan;
+use crate::progress::{Progress, Stop};
+use crate::question::Question;
+use crate::report::{NoStart, Reason};
+use crate::table::Table;
+
+/// How many states are expanded before whoever watches is asked.
+const ROUND: usize = 1 << 6;
+/// Stands for the parent of an initial state.
+const NONE: u32 = u32::MAX;
+
+/// Something that happens in some step, and where it did first.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Sighting {
+    /// What happens.
+    pub observation: Observation,
+    /// The step can be made; it is no fault.
+    pub made: bool,
+    /// The distance of its state from an initial one.
+    pub depth: u32,
+    pub(super) state: u32,
+    pub(super) picks: Vec<u32>,
+}
+
+impl Sighting {
+    /// Something that a walk at random has met; where it was first is not known.
+    pub fn at_random(observation: Observation) -> Sighting {
+        Sighting { observation, made: true, depth: 0, state: NONE, picks: Vec::new() }
+    }
+
+    /// Whether both are of one step of one state.
+    pub fn same_step(&self, other: &Sighting) -> bool {
+        self.state == other.state && self.picks == other.picks
+    }
+}
+
+/// A survey that has ended.
+#[derive(Debug)]
+pub struct Survey {
+    pub(super) explorer: Explorer,
+    pub(super) table: Table,
+    parents: Vec<u32>,
+    /// In the order in which they came, the nearest first.
+    pub sightings: Vec<Sighting>,
+    met: Met,
+    /// By state: the step that it was met by, once that was told, and what happens in it.
+    pub(super) told: BTreeMap<u32, (Told, Vec<Observation>)>,
+    /// Why it ended early; none where all states were met.
+    pub stop: Option<Stop>,
+    /// How far it came.
+    pub progress: Progress,
+    /// Why something that was not seen may still be.
+    pub reasons: Vec<Reason>,
+}
+
+/// Surveys the states of a program. With `lawful` states and steps in which an invariant does not hold are left out.
+///
+/// # Errors
+/// There is no initial state.
+pub fn survey(
+    program: &Arc<Program>,
+    options: &Options,
+    lawful: bool,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Survey, NoStart> {
+    let plan = plan_for(program, options, lawful);
+    let mut survey = widened(|widening| Surveyor::begin(program, &plan, widening)?.run(watch))?;
+    let mut reasons: BTreeSet<Reason> = survey.reasons.drain(..).collect();
+    reasons.extend(survey.stop.map(Reason::Stopped));
+    reasons.extend(survey.explorer.unbounded().iter().copied().map(Reason::Unbounded));
+    reasons.extend(options.bounds.keys().copied().map(Reason::Bounded));
+    survey.reasons = reasons.into_iter().collect();
+    // What was seen is to be told, however long that takes.
+    survey.explorer.ignore_interrupts();
+    Ok(survey)
+}
+
+pub(crate) fn plan_for(program: &Program, options: &Options, lawful: bool) -> Plan {
+    let mut plan = Question::of(program, options).plan;
+    plan.settings.observed = true;
+    if lawful {
+        plan.assumed.append(&mut plan.wanted);
+        plan.settings.step_conditions.iter_mut().for_each(|(_, assumed)| *assumed = true);
+    }
+    plan
+}
+
+struct Surveyor<'p> {
+    plan: &'p Plan,
+    survey: Survey,
+    depth: u32,
+    transitions: u64,
+    /// The truth of an assumption is not known in some state.
+    unclear: bool,
+}
+
+impl<'p> Surveyor<'p> {
+    fn begin(program: &Arc<Program>, plan: &'p Plan, widening: &Widening) -> Result<Surveyor<'p>, Trouble> {
+        let explorer = Explorer::new(program, plan.settings.clone(), widening, &Arc::new(Interner::default()))?;
+        let survey = Survey {
+            table: Table::new(explorer.words()),
+            explorer,
+            parents: Vec::new(),
+            sightings: Vec::new(),
+            met: Met::default(),
+            told: BTreeMap::new(),
+            stop: None,
+            progress: Progress::default(),
+            reasons: Vec::new(),
+        };
+        Ok(Surveyor { plan, survey, depth: 0, transitions: 0, unclear: false })
+    }
+
+    fn run(mut self, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<Survey, Trouble> {
+        let mut states = Vec::new();
+        for (state, _) in self.survey.explorer.initial() {
+            states.extend_from_slice(state);
+        }
+        self.take_in(NONE, &states);
+        let (mut next, mut level) = (0, self.survey.table.len());
+        let mut successors = Vec::new();
+        while next < self.survey.table.len() {
+            if next == level {
+                self.depth += 1;
+                level = self.survey.table.len();
+            }
+            self.survey.stop = self.stop(next, watch);
+            if self.survey.stop.is_some() {
+                break;
+            }
+            let state: Box<[u64]> = self.survey.table.state(next).into();
+            successors.clear();
+            let expansion = self.survey.explorer.expand(&state, &mut successors).map_err(Trouble::TooNarrow)?;
+            if expansion.interrupted {
+                let cause = self.plan.settings.interrupt.cause().unwrap_or(Cause::Memory);
+                self.survey.stop = Some(cause.into());
+                break;
+            }
+            self.transitions += u64::from(expansion.moved);
+            for seen in self.survey.explorer.sightings() {
+                let (observation, made) = (seen.observation, seen.made);
+                let (depth, state) = (self.depth, next as u32);
+                self.survey.sightings.push(Sighting { observation, made, depth, state, picks: seen.picks });
+            }
+            self.take_in(next as u32, &successors);
+            next += 1;
+        }
+        self.survey.progress = self.progress(next);
+        if self.unclear {
+            self.survey.reasons.push(Reason::Undecided);
+        }
+        Ok(self.survey)
+    }
+
+    fn stop(&self, next: usize, watch: &mut dyn FnMut(&Progress) -> bool) -> Option<Stop> {
+        if u64::from(self.depth) >= self.plan.max_depth {
+            return Some(Stop::Depth);
+        }
+        if self.survey.table.len() as u64 >= self.plan.max_states {
+            return Some(Stop::States);
+        }
+        if let Some(cause) = self.plan.settings.interrupt.cause() {
+            return Some(cause.into());
+        }
+        if !next.is_multiple_of(ROUND) {
+            return None;
+        }
+        let progress = self.progress(next);
+        if !watch(&progress) {
+            return Some(Stop::Asked);
+        }
+        (progress.bytes > self.plan.max_bytes || self.survey.table.is_full()).then_some(Stop::Memory)
+    }
+
+    fn progress(&self, next: usize) -> Progress {
+        let states = self.survey.table.len();
+        Progress {
+            states: states as u64,
+            transitions: self.transitions,
+            queue: (states - next) as u64,
+            depth: u64::from(self.depth),
+            bytes: (self.survey.table.bytes() + 4 * self.survey.parents.len()) as u64,
+            spilled: 0,
+        }
+    }
+
+    /// Adds states that no assumption leaves out.
+    fn take_in(&mut self, parent: u32, states: &[u64]) {
+        let Survey { explorer, table, parents, met, .. } = &mut self.survey;
+        let mut admitted = Vec::with_capacity(states.len());
+        for state in states.chunks_exact(explorer.words()) {
+            let truths = self.plan.assumed.iter().map(|condition| explorer.truth(*condition, state)).max();
+            match truths {
+                None | Some(Truth::True) => admitted.extend_from_slice(state),
+                Some(Truth::Fault | Truth::Unknown) => self.unclear = true,
+                _ => {}
+            }
+        }
+        table.insert_all(&admitted, &mut |state| {
+            parents.push(parent);
+            explorer.meet(state, met);
+        });
+    }
+}
+
+impl Survey {
+    /// Whether what was not seen never happens.
+    pub fn is_complete(&self) -> bool {
+        self.reasons.is_empty()
+    }
+
+    /// What could not be gone through.
+    pub fn unbounded(&self) -> &BTreeSet<Unbounded> {
+        self.explorer.unbounded()
+    }
+
+    /// The states of a shortest run to one, by their places.
+    pub(super) fn places(&self, state: u32) -> Vec<u32> {
+        let parent = |place: &u32| Some(self.parents[*place as usize]).filter(|parent| *parent != NONE);
+        let mut places: Vec<u32> = std::iter::successors(Some(state), parent).collect();
+        places.reverse();
+        places
+    }
+
+    /// The location of a number that an observation names.
+    pub fn location(&self, index: u32) -> Location {
+        self.explorer.location(index)
+    }
+
+    /// The elements of a domain that are the same in all states, if they are no more than `most`.
+    pub fn elements(&mut self, domain: DomainId, most: usize) -> Option<Vec<Value>> {
+        self.explorer.elements(domain, most)
+    }
+
+    /// The values that locations have in the states met.
+    pub fn values(&mut self) -> BTreeMap<Location, BTreeSet<Value>> {
+        self.explorer.values_met(&self.met)
+    }
+}
