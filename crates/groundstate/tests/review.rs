@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use groundstate::verify::Options;
-use groundstate::verify::review::{Meta, Outcome, review};
+use groundstate::verify::review::{Meta, MetaOutcome, review};
 use groundstate::{REVIEW_IDS, diagnose_finding};
 use syntax::SourceFile;
 use testkit::{NoFiles, Page};
@@ -21,9 +21,9 @@ fn findings(text: &str) -> String {
     let mut told = String::new();
     for (meta, outcome) in &review.outcomes {
         let word = match outcome {
-            Outcome::Holds => "holds",
-            Outcome::Violated => "violated",
-            Outcome::Unknown => "unknown",
+            MetaOutcome::Holds => "holds",
+            MetaOutcome::Violated => "violated",
+            MetaOutcome::Unknown => "unknown",
         };
         let _ = writeln!(told, "MP{} {word}", meta.number());
         for finding in review.findings.iter().filter(|finding| finding.meta == *meta) {

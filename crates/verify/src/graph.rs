@@ -19,20 +19,20 @@ impl Label {
 
 /// A set of numbers below a bound, one bit each.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Bits {
+pub struct StateSet {
     words: Vec<u64>,
     len: usize,
 }
 
-impl Bits {
+impl StateSet {
     /// The empty set of numbers below `len`.
-    pub fn none(len: usize) -> Bits {
-        Bits { words: vec![0; len.div_ceil(64)], len }
+    pub fn none(len: usize) -> StateSet {
+        StateSet { words: vec![0; len.div_ceil(64)], len }
     }
 
     /// All numbers below `len`.
-    pub fn all(len: usize) -> Bits {
-        let mut bits = Bits { words: vec![u64::MAX; len.div_ceil(64)], len };
+    pub fn all(len: usize) -> StateSet {
+        let mut bits = StateSet { words: vec![u64::MAX; len.div_ceil(64)], len };
         bits.trim();
         bits
     }
@@ -88,18 +88,18 @@ impl Bits {
     }
 
     /// Keeps what is in both.
-    pub fn intersect(&mut self, other: &Bits) {
+    pub fn intersect(&mut self, other: &StateSet) {
         self.words.iter_mut().zip(&other.words).for_each(|(mine, theirs)| *mine &= theirs);
     }
 
     /// Adds what is in the other.
-    pub fn unite(&mut self, other: &Bits) {
+    pub fn unite(&mut self, other: &StateSet) {
         self.words.iter_mut().zip(&other.words).for_each(|(mine, theirs)| *mine |= theirs);
     }
 
     /// The numbers that are not in it.
-    pub fn complement(&self) -> Bits {
-        let mut bits = Bits { words: self.words.iter().map(|word| !word).collect(), len: self.len };
+    pub fn complement(&self) -> StateSet {
+        let mut bits = StateSet { words: self.words.iter().map(|word| !word).collect(), len: self.len };
         bits.trim();
         bits
     }
@@ -132,9 +132,9 @@ pub struct Graph {
     targets: Vec<StateId>,
     labels: Vec<Label>,
     initial: Vec<StateId>,
-    propositions: Vec<Bits>,
+    propositions: Vec<StateSet>,
     /// Met, but their steps were not made.
-    unexplored: Bits,
+    unexplored: StateSet,
     /// Propositions whose truth is not known in these.
     unknown: Vec<usize>,
 }
@@ -180,12 +180,12 @@ impl Graph {
     }
 
     /// The states in which a proposition holds, by the number it was given to the search with.
-    pub fn proposition(&self, index: usize) -> &Bits {
+    pub fn proposition(&self, index: usize) -> &StateSet {
         &self.propositions[index]
     }
 
     /// The states that were met and whose steps were not made, because a limit ended the search.
-    pub fn unexplored(&self) -> &Bits {
+    pub fn unexplored(&self) -> &StateSet {
         &self.unexplored
     }
 
@@ -246,7 +246,7 @@ pub struct Builder {
 impl Builder {
     /// A graph without states whose states will be marked with so many propositions.
     pub fn new(propositions: usize) -> Builder {
-        let propositions = vec![Bits::default(); propositions];
+        let propositions = vec![StateSet::default(); propositions];
         Builder { graph: Graph { first_edge: vec![0], propositions, ..Graph::default() } }
     }
 
@@ -358,13 +358,13 @@ mod tests {
 
     #[test]
     fn sets_of_bits_are_sets() {
-        let mut bits = Bits::none(130);
+        let mut bits = StateSet::none(130);
         assert!(bits.insert(0) && bits.insert(129) && !bits.insert(129));
         assert_eq!(bits.iter().collect::<Vec<_>>(), [0, 129]);
         assert_eq!(bits.complement().count(), 128);
-        assert_eq!(Bits::all(130).complement(), Bits::none(130));
+        assert_eq!(StateSet::all(130).complement(), StateSet::none(130));
         assert!(bits.remove(0) && !bits.contains(0) && bits.contains(129));
-        let mut pushed = Bits::default();
+        let mut pushed = StateSet::default();
         (0..70).for_each(|index| pushed.push(index % 3 == 0));
         assert_eq!((pushed.len(), pushed.count()), (70, 24));
     }

@@ -10,7 +10,7 @@ use clap::Args;
 use groundstate::job::{self, Cancel, ReviewEvent, ReviewRequest};
 use groundstate::own_files;
 use groundstate::tell::says;
-use groundstate::verify::review::{Finding, Meta, Outcome, Review};
+use groundstate::verify::review::{Finding, Meta, MetaOutcome, Review};
 use groundstate::verify::{Reason, Stop};
 use syntax::FileId;
 use wire::{Fault, MetaProperty};
@@ -118,13 +118,13 @@ fn summary(shell: &mut Shell, teller: &Teller<'_>, review: &Review) -> Result<()
     for (meta, outcome) in &review.outcomes {
         let findings = review.findings.iter().filter(|finding| finding.meta == *meta).count();
         let reasons = match outcome {
-            Outcome::Unknown => review.reasons.iter().map(|reason| teller.reason(reason)).collect(),
+            MetaOutcome::Unknown => review.reasons.iter().map(|reason| teller.reason(reason)).collect(),
             _ => Vec::new(),
         };
         let word = match outcome {
-            Outcome::Holds => "holds",
-            Outcome::Violated => "violated",
-            Outcome::Unknown => "unknown",
+            MetaOutcome::Holds => "holds",
+            MetaOutcome::Violated => "violated",
+            MetaOutcome::Unknown => "unknown",
         };
         let number = format!("MP{}", meta.number());
         if shell.json() {
@@ -132,9 +132,9 @@ fn summary(shell: &mut Shell, teller: &Teller<'_>, review: &Review) -> Result<()
         } else if shell.talks() {
             let says = says(*meta);
             let more = match outcome {
-                Outcome::Holds => String::new(),
-                Outcome::Violated => format!(": {}", plural(findings, "finding")),
-                Outcome::Unknown => format!(": {}", reasons.join("; ")),
+                MetaOutcome::Holds => String::new(),
+                MetaOutcome::Violated => format!(": {}", plural(findings, "finding")),
+                MetaOutcome::Unknown => format!(": {}", reasons.join("; ")),
             };
             writeln!(shell.out(), "{number} {word:<9} {says}{more}")?;
         }
@@ -144,9 +144,9 @@ fn summary(shell: &mut Shell, teller: &Teller<'_>, review: &Review) -> Result<()
 
 fn exit(review: &Review) -> Exit {
     let any = |wanted| review.outcomes.iter().any(|(_, outcome)| *outcome == wanted);
-    if any(Outcome::Violated) {
+    if any(MetaOutcome::Violated) {
         Exit::Model
-    } else if any(Outcome::Unknown) {
+    } else if any(MetaOutcome::Unknown) {
         Exit::Unknown
     } else {
         Exit::Good

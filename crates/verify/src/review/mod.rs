@@ -103,7 +103,7 @@ pub struct Finding {
 
 /// What a meta-property comes to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Outcome {
+pub enum MetaOutcome {
     /// Of every rule, element and location.
     Holds,
     /// Of some not.
@@ -116,7 +116,7 @@ pub enum Outcome {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Review {
     /// By meta-property that was asked for.
-    pub outcomes: Vec<(Meta, Outcome)>,
+    pub outcomes: Vec<(Meta, MetaOutcome)>,
     /// In the order of meta-properties, then of the text. Of a meta-property that is unknown: what has not been seen yet.
     pub findings: Vec<Finding>,
     /// How far the search came.
@@ -148,9 +148,9 @@ pub fn review(
     let outcome = |meta: Meta| {
         let found = findings.iter().any(|finding| finding.meta == meta);
         match (found, survey.is_complete()) {
-            (true, complete) if complete || meta.by_event() => Outcome::Violated,
-            (false, complete) if complete || !meta.by_event() => Outcome::Holds,
-            _ => Outcome::Unknown,
+            (true, complete) if complete || meta.by_event() => MetaOutcome::Violated,
+            (false, complete) if complete || !meta.by_event() => MetaOutcome::Holds,
+            _ => MetaOutcome::Unknown,
         }
     };
     let outcomes = Meta::ALL.iter().filter(|meta| metas.contains(meta)).map(|meta| (*meta, outcome(*meta)));

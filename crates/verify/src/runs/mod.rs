@@ -17,16 +17,16 @@ use explore::{Outcome as Came, Settings, Told, Trouble};
 use program::Program;
 use syntax::Span;
 
-use crate::graph::{Bits, Label};
+use crate::graph::{Label, StateSet};
 use crate::progress::{Progress, Stop};
-use crate::temporal::budget::{Budget, Ended, Limits};
+use crate::temporal::budget::{Allowance, Budget, Spent};
 use crate::temporal::checker::Checker;
 use crate::temporal::fairness::{AgentFairness, Fairness};
 use crate::temporal::formula::{Ctl, CtlFormulas, FormulaId};
 use crate::temporal::ltl::propositions;
 use crate::temporal::read::{Formula, Properties, read_each};
 use crate::temporal::run::Run;
-use crate::temporal::{Verdict, decide_ctl, decide_ltl};
+use crate::temporal::{FormulaVerdict, decide_ctl, decide_ltl};
 use crate::trace::Trace;
 use states::{Explored, Place, Source, explore, has_letter};
 
@@ -99,7 +99,7 @@ pub fn decide(
     };
     let interrupt = plan.settings.interrupt.clone();
     let mut stop = || interrupt.is_raised() || !watch(&progress);
-    let mut budget = Budget::new(Limits::default(), &mut stop);
+    let mut budget = Budget::new(Allowance::default(), &mut stop);
     let verdicts = verdicts(&explored, &fairness, &properties, plan.first, &mut budget);
     let spans: Vec<Span> = properties.propositions.iter().map(|proposition| proposition.span(program)).collect();
     let decided = verdicts.into_iter().map(|(index, verdict)| (index, told(verdict, &mut explored, &spans)));
@@ -114,7 +114,7 @@ fn verdicts(
     properties: &Properties,
     first: bool,
     budget: &mut Budget<'_>,
-) -> Vec<(usize, Option<Result<Verdict, usize>>)> {
+) -> Vec<(usize, Option<Result<FormulaVerdict, usize>>)> {
     let checker = Checker::new(&explored.graph, fairness, budget);
     let assumed = properties.justice.iter().chain(properties.compassion.iter().flat_map(|(p, q)| [p, q]));
     let assumed_undecided = assumed.into_iter().find(|number| explored.undecided[**number].is_some());
@@ -127,7 +127,7 @@ fn verdicts(
         }
         let checker = match &checker {
             Ok(checker) => checker,
-            Err(ended) => return Ok(Verdict::Ended(ended.clone())),
+            Err(ended) => return Ok(FormulaVerdict::Spent(ended.clone())),
         };
         Ok(match formula {
             Formula::Ltl(formula) => decide_ltl(checker, &properties.ltl, formula, budget),
@@ -137,13 +137,13 @@ fn verdicts(
     let (mut decide, mut is_enough) = (decide, false);
     let mut unless_enough = |formula: Formula| {
         let verdict = (!is_enough).then(|| decide(formula));
-        is_enough |= first && matches!(verdict, Some(Ok(Verdict::Violated { .. })));
+        is_enough |= first && matches!(verdict, Some(Ok(FormulaVerdict::Violated { .. })));
         verdict
     };
     properties.formulas.iter().map(|(index, formula)| (*index, unless_enough(*formula))).collect()
 }
 
-fn told(verdict: Option<Result<Verdict, usize>>, explored: &mut Explored, propositions: &[Span]) -> OfRuns {
+fn told(verdict: Option<Result<FormulaVerdict, usize>>, explored: &mut Explored, propositions: &[Span]) -> OfRuns {
     let Some(verdict) = verdict else { return OfRuns::Unknown(Why::Unexplored(Some(Stop::Found))) };
     match verdict {
         Err(number) => {
@@ -151,14 +151,14 @@ fn told(verdict: Option<Result<Verdict, usize>>, explored: &mut Explored, propos
             let values = state.map(|state| explored.explorer.values(&state)).unwrap_or_default();
             OfRuns::Unknown(Why::NoTruth(propositions[number], values))
         }
-        Ok(Verdict::Holds { vacuous: false }) => OfRuns::Holds,
-        Ok(Verdict::Holds { vacuous: true }) => OfRuns::Unknown(Why::NoFairRun),
-        Ok(Verdict::Violated { run, whole }) => {
+        Ok(FormulaVerdict::Holds { vacuous: false }) => OfRuns::Holds,
+        Ok(FormulaVerdict::Holds { vacuous: true }) => OfRuns::Unknown(Why::NoFairRun),
+        Ok(FormulaVerdict::Violated { run, whole }) => {
             OfRuns::Violated(Box::new(Trace { branch: !whole, ..explored.trace(&run) }))
         }
-        Ok(Verdict::Unexplored) => OfRuns::Unknown(Why::Unexplored(explored.stop)),
-        Ok(Verdict::Ended(Ended::Stopped)) => OfRuns::Unknown(Why::Asked),
-        Ok(Verdict::Ended(Ended::Limit { of, value })) => OfRuns::Unknown(Why::TooLarge(of, value)),
+        Ok(FormulaVerdict::Unexplored) => OfRuns::Unknown(Why::Unexplored(explored.stop)),
+        Ok(FormulaVerdict::Spent(Spent::Stopped)) => OfRuns::Unknown(Why::Asked),
+        Ok(FormulaVerdict::Spent(Spent::Limit { of, value })) => OfRuns::Unknown(Why::TooLarge(of, value)),
     }
 }
 
@@ -246,7 +246,7 @@ fn fairness(explored: &Explored, properties: &Properties, agents: Option<AgentFa
 
 /// The propositions of a formula of CTL.
 fn propositions_of_ctl(formulas: &CtlFormulas, formula: FormulaId) -> Vec<u32> {
-    let mut seen = Bits::none(formulas.nodes().len());
+    let mut seen = StateSet::none(formulas.nodes().len());
     let mut found = BTreeSet::new();
     let mut open = vec![formula];
     while let Some(formula) = open.pop() {

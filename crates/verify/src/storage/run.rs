@@ -1,6 +1,6 @@
 //! A sorted set of states in a file.
 //!
-//! In: states in the order of their words, each once. Out: a [`Run`] that takes out of other states those it holds, and
+//! In: states in the order of their words, each once. Out: a [`SortedRun`] that takes out of other states those it holds, and
 //! merges with another. The first state of each block stays in memory, so that blocks in which nothing is looked for are
 //! not read. INVARIANT: the states of a run never change.
 
@@ -14,7 +14,7 @@ const BLOCK: usize = 1 << 12;
 
 /// See the module.
 #[derive(Debug)]
-pub(crate) struct Run {
+pub(crate) struct SortedRun {
     words: usize,
     tape: Box<dyn Tape>,
     /// How many states.
@@ -39,14 +39,14 @@ fn block(words: usize) -> usize {
 
 /// Writes a run.
 struct Writer {
-    run: Run,
+    run: SortedRun,
     filled: Vec<u64>,
 }
 
 impl Writer {
     fn new(words: usize, disk: &Arc<dyn Disk>) -> Result<Writer, Lost> {
         let tape = disk.tape().ok_or(Lost)?;
-        let run = Run { words, tape, len: 0, fences: Vec::new() };
+        let run = SortedRun { words, tape, len: 0, fences: Vec::new() };
         Ok(Writer { run, filled: Vec::with_capacity(block(words) * words) })
     }
 
@@ -66,7 +66,7 @@ impl Writer {
         if written { Ok(()) } else { Err(Lost) }
     }
 
-    fn end(mut self) -> Result<Run, Lost> {
+    fn end(mut self) -> Result<SortedRun, Lost> {
         self.flush()?;
         Ok(self.run)
     }
@@ -74,14 +74,14 @@ impl Writer {
 
 /// Reads a run from its first state to its last.
 struct Reader<'r> {
-    run: &'r mut Run,
+    run: &'r mut SortedRun,
     next: usize,
     states: Vec<u64>,
     at: usize,
 }
 
 impl Reader<'_> {
-    fn new(run: &mut Run) -> Reader<'_> {
+    fn new(run: &mut SortedRun) -> Reader<'_> {
         Reader { run, next: 0, states: Vec::new(), at: 0 }
     }
 
@@ -99,9 +99,9 @@ impl Reader<'_> {
     }
 }
 
-impl Run {
+impl SortedRun {
     /// The run of sorted states of so many words.
-    pub fn new(words: usize, sorted: &[u64], disk: &Arc<dyn Disk>) -> Result<Run, Lost> {
+    pub fn new(words: usize, sorted: &[u64], disk: &Arc<dyn Disk>) -> Result<SortedRun, Lost> {
         let mut writer = Writer::new(words, disk)?;
         sorted.chunks_exact(words).try_for_each(|state| writer.put(state))?;
         writer.end()
@@ -176,7 +176,7 @@ impl Run {
     }
 
     /// The run of the states of two.
-    pub fn merged(mut self, mut other: Run, disk: &Arc<dyn Disk>) -> Result<Run, Lost> {
+    pub fn merged(mut self, mut other: SortedRun, disk: &Arc<dyn Disk>) -> Result<SortedRun, Lost> {
         let words = self.words;
         let mut writer = Writer::new(words, disk)?;
         let (mut left, mut right) = (Reader::new(&mut self), Reader::new(&mut other));

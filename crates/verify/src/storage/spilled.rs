@@ -10,7 +10,7 @@
 use std::sync::Arc;
 
 use crate::storage::disk::{Disk, Lost, Tape};
-use crate::storage::run::Run;
+use crate::storage::run::SortedRun;
 use crate::table::Table;
 
 /// So many states are taken in at a time.
@@ -37,7 +37,7 @@ struct Out {
     /// How many.
     len: usize,
     /// All of them, each in one.
-    runs: Vec<Run>,
+    runs: Vec<SortedRun>,
     /// Some of them, for who reads them.
     window: Vec<u64>,
     first: usize,
@@ -67,13 +67,13 @@ impl Spilled {
 
     /// How many bytes of memory it takes.
     pub fn bytes(&self) -> usize {
-        let out = |out: &Out| 8 * out.window.capacity() + out.runs.iter().map(Run::bytes).sum::<usize>();
+        let out = |out: &Out| 8 * out.window.capacity() + out.runs.iter().map(SortedRun::bytes).sum::<usize>();
         self.table.bytes() + self.out.as_ref().map_or(0, out)
     }
 
     /// How many bytes of files.
     pub fn spilled(&self) -> usize {
-        let states = |out: &Out| out.len + out.runs.iter().map(Run::len).sum::<usize>();
+        let states = |out: &Out| out.len + out.runs.iter().map(SortedRun::len).sum::<usize>();
         8 * self.words * self.out.as_ref().map_or(0, states)
     }
 
@@ -131,7 +131,7 @@ impl Spilled {
             let mut arrived = self.disk.tape().ok_or(Lost)?;
             let len = table.len();
             table.chunks().all(|chunk| arrived.write(chunk)).then_some(()).ok_or(Lost)?;
-            let run = Run::new(self.words, &table.sorted(), &self.disk)?;
+            let run = SortedRun::new(self.words, &table.sorted(), &self.disk)?;
             self.out = Some(Out { arrived, len, runs: vec![run], window: Vec::new(), first: 0 });
             return Ok(());
         };
@@ -147,7 +147,7 @@ impl Spilled {
         if sorted.is_empty() {
             return Ok(());
         }
-        let mut run = Run::new(self.words, &sorted, &self.disk)?;
+        let mut run = SortedRun::new(self.words, &sorted, &self.disk)?;
         drop(sorted);
         while let Some(before) = out.runs.pop_if(|before| before.len() < 2 * run.len()) {
             run = before.merged(run, &self.disk)?;

@@ -2,7 +2,7 @@
 
 /// What ended a decision early.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Ended {
+pub enum Spent {
     /// The caller said to stop.
     Stopped,
     /// A limit was reached.
@@ -14,9 +14,9 @@ pub enum Ended {
     },
 }
 
-/// Limits of a decision; the defaults keep it within a few gigabytes.
+/// Allowance of a decision; the defaults keep it within a few gigabytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Limits {
+pub struct Allowance {
     /// States of the product of graph and automaton.
     pub product_states: u64,
     /// States of the automaton.
@@ -25,16 +25,16 @@ pub struct Limits {
     pub covers: u64,
 }
 
-impl Default for Limits {
-    fn default() -> Limits {
-        Limits { product_states: 200_000_000, automaton_states: 1_000_000, covers: 1_000_000 }
+impl Default for Allowance {
+    fn default() -> Allowance {
+        Allowance { product_states: 200_000_000, automaton_states: 1_000_000, covers: 1_000_000 }
     }
 }
 
 /// A running account: limits, and whether to stop.
 pub struct Budget<'a> {
     /// The limits.
-    pub limits: Limits,
+    pub limits: Allowance,
     stop: &'a mut dyn FnMut() -> bool,
     work: u32,
 }
@@ -44,29 +44,29 @@ const PIECES: u32 = 1 << 14;
 
 impl<'a> Budget<'a> {
     /// A fresh account; `stop` is asked now and then.
-    pub fn new(limits: Limits, stop: &'a mut dyn FnMut() -> bool) -> Budget<'a> {
+    pub fn new(limits: Allowance, stop: &'a mut dyn FnMut() -> bool) -> Budget<'a> {
         Budget { limits, stop, work: 0 }
     }
 
     /// Counts a piece of work.
     ///
     /// # Errors
-    /// [`Ended::Stopped`].
+    /// [`Spent::Stopped`].
     #[inline]
-    pub fn work(&mut self) -> Result<(), Ended> {
+    pub fn work(&mut self) -> Result<(), Spent> {
         self.work += 1;
         if self.work < PIECES {
             return Ok(());
         }
         self.work = 0;
-        if (self.stop)() { Err(Ended::Stopped) } else { Ok(()) }
+        if (self.stop)() { Err(Spent::Stopped) } else { Ok(()) }
     }
 
     /// Holds a number against its limit.
     ///
     /// # Errors
-    /// [`Ended::Limit`].
-    pub fn within(&self, number: usize, limit: u64, of: &'static str) -> Result<(), Ended> {
-        if number as u64 > limit { Err(Ended::Limit { of, value: limit }) } else { Ok(()) }
+    /// [`Spent::Limit`].
+    pub fn within(&self, number: usize, limit: u64, of: &'static str) -> Result<(), Spent> {
+        if number as u64 > limit { Err(Spent::Limit { of, value: limit }) } else { Ok(()) }
     }
 }

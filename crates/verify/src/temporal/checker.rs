@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 use std::rc::Rc;
 
-use crate::graph::{Bits, Graph, Predecessors, StateId};
-use crate::temporal::budget::{Budget, Ended};
+use crate::graph::{Graph, Predecessors, StateId, StateSet};
+use crate::temporal::budget::{Budget, Spent};
 use crate::temporal::component::{Acceptance, Marks, accepting_components};
 use crate::temporal::fairness::{EdgeMarks, Fairness};
 use crate::temporal::search::Marked;
@@ -14,11 +14,11 @@ const FIRST_MARK: usize = 64;
 
 /// Where something holds, and where it may hold.
 #[derive(Debug, Clone)]
-pub struct Truth {
+pub struct Bracket {
     /// It holds whatever the unexplored states lead to.
-    pub must: Rc<Bits>,
+    pub must: Rc<StateSet>,
     /// It holds for some continuation of the unexplored states. On a complete graph the same set.
-    pub may: Rc<Bits>,
+    pub may: Rc<StateSet>,
 }
 
 /// Which of the two sets is computed.
@@ -28,14 +28,14 @@ pub(crate) enum Side {
     May,
 }
 
-impl Truth {
+impl Bracket {
     /// The same set for both.
-    pub(crate) fn known(set: Bits) -> Truth {
+    pub(crate) fn known(set: StateSet) -> Bracket {
         let set = Rc::new(set);
-        Truth { must: Rc::clone(&set), may: set }
+        Bracket { must: Rc::clone(&set), may: set }
     }
 
-    pub(crate) fn side(&self, side: Side) -> &Bits {
+    pub(crate) fn side(&self, side: Side) -> &StateSet {
         match side {
             Side::Must => &self.must,
             Side::May => &self.may,
@@ -50,7 +50,7 @@ pub struct Checker<'g> {
     pub(crate) predecessors: Predecessors,
     acceptance: Acceptance,
     marks: EdgeMarks,
-    fair: Truth,
+    fair: Bracket,
 }
 
 impl<'g> Checker<'g> {
@@ -58,10 +58,10 @@ impl<'g> Checker<'g> {
     ///
     /// # Errors
     /// Told to stop, or too many constraints.
-    pub fn new(graph: &'g Graph, fairness: &Fairness, budget: &mut Budget<'_>) -> Result<Checker<'g>, Ended> {
+    pub fn new(graph: &'g Graph, fairness: &Fairness, budget: &mut Budget<'_>) -> Result<Checker<'g>, Spent> {
         let most = 128 - FIRST_MARK;
         budget.within(fairness.marks(), most as u64, "fairness constraints, a compassion counting twice")?;
-        let all = Truth::known(Bits::all(graph.states()));
+        let all = Bracket::known(StateSet::all(graph.states()));
         let mut checker = Checker {
             graph,
             predecessors: graph.predecessors(),
@@ -81,7 +81,7 @@ impl<'g> Checker<'g> {
     }
 
     /// The states that a fair run starts in.
-    pub fn fair(&self) -> &Truth {
+    pub fn fair(&self) -> &Bracket {
         &self.fair
     }
 
@@ -106,22 +106,22 @@ impl<'g> Checker<'g> {
     }
 
     /// Computes both sets; on a complete graph one stands for both.
-    pub(crate) fn both(&self, mut compute: impl FnMut(Side) -> Result<Bits, Ended>) -> Result<Truth, Ended> {
+    pub(crate) fn both(&self, mut compute: impl FnMut(Side) -> Result<StateSet, Spent>) -> Result<Bracket, Spent> {
         let must = compute(Side::Must)?;
         if self.graph.is_complete() {
-            return Ok(Truth::known(must));
+            return Ok(Bracket::known(must));
         }
-        Ok(Truth { must: Rc::new(must), may: Rc::new(compute(Side::May)?) })
+        Ok(Bracket { must: Rc::new(must), may: Rc::new(compute(Side::May)?) })
     }
 
     /// The unexplored states, for the side on which anything may lie behind them.
-    pub(crate) fn open(&self, side: Side) -> Option<&Bits> {
+    pub(crate) fn open(&self, side: Side) -> Option<&StateSet> {
         (side == Side::May && !self.graph.is_complete()).then(|| self.graph.unexplored())
     }
 
     /// The states from which a fair run stays within a set for ever.
-    pub(crate) fn staying(&self, always: &Bits, side: Side, budget: &mut Budget<'_>) -> Result<Bits, Ended> {
-        let mut found = Bits::none(self.graph.states());
+    pub(crate) fn staying(&self, always: &StateSet, side: Side, budget: &mut Budget<'_>) -> Result<StateSet, Spent> {
+        let mut found = StateSet::none(self.graph.states());
         if let Some(open) = self.open(side) {
             found.unite(open);
             found.intersect(always);
@@ -137,7 +137,12 @@ impl<'g> Checker<'g> {
     }
 
     /// Adds every state of `through` from which a path in it leads to the set.
-    pub(crate) fn backward(&self, set: &mut Bits, through: &Bits, budget: &mut Budget<'_>) -> Result<(), Ended> {
+    pub(crate) fn backward(
+        &self,
+        set: &mut StateSet,
+        through: &StateSet,
+        budget: &mut Budget<'_>,
+    ) -> Result<(), Spent> {
         let mut open: Vec<StateId> = set.iter().collect();
         while let Some(state) = open.pop() {
             budget.work()?;

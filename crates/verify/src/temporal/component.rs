@@ -7,8 +7,8 @@
 
 use std::ops::{BitAnd, BitOr, BitOrAssign, ControlFlow, Range};
 
-use crate::graph::Bits;
-use crate::temporal::budget::{Budget, Ended};
+use crate::graph::StateSet;
+use crate::temporal::budget::{Budget, Spent};
 
 /// A set of marks, at most 128.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -121,11 +121,11 @@ pub struct Component {
 /// Told to stop.
 pub fn accepting_components(
     edges: &impl Edges,
-    within: &Bits,
+    within: &StateSet,
     acceptance: &Acceptance,
     budget: &mut Budget<'_>,
     mut found: impl FnMut(Component) -> ControlFlow<()>,
-) -> Result<(), Ended> {
+) -> Result<(), Spent> {
     let mut search = Search::new(edges.nodes());
     let first = Problem { nodes: within.iter().collect(), region: search.fresh_region(), avoided: Marks::NONE };
     for node in &first.nodes {
@@ -201,7 +201,7 @@ impl Search {
         edges: &impl Edges,
         problem: &Problem,
         budget: &mut Budget<'_>,
-    ) -> Result<Vec<Vec<u32>>, Ended> {
+    ) -> Result<Vec<Vec<u32>>, Spent> {
         let mut found = Vec::new();
         let mut visited = 0;
         let mut stack: Vec<u32> = Vec::new();
@@ -259,7 +259,7 @@ impl Search {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::temporal::budget::Limits;
+    use crate::temporal::budget::Allowance;
 
     /// Edges with their targets and marks, by node.
     struct Rows(Vec<Vec<(u32, u128)>>);
@@ -285,9 +285,9 @@ mod tests {
         let acceptance = Acceptance { again: Marks(again), pairs };
         let rows = Rows(rows);
         let mut go_on = || false;
-        let mut budget = Budget::new(Limits::default(), &mut go_on);
+        let mut budget = Budget::new(Allowance::default(), &mut go_on);
         let mut found = Vec::new();
-        accepting_components(&rows, &Bits::all(rows.nodes()), &acceptance, &mut budget, |component| {
+        accepting_components(&rows, &StateSet::all(rows.nodes()), &acceptance, &mut budget, |component| {
             found.push(component.nodes);
             ControlFlow::Continue(())
         })

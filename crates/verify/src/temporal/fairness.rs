@@ -5,14 +5,14 @@
 //! of edges; a set of states is the set of edges that leave them. A run that has an edge in a set infinitely often meets
 //! it again and again.
 
-use crate::graph::{Bits, Graph, StateId};
+use crate::graph::{Graph, StateId, StateSet};
 use crate::temporal::component::{Acceptance, Marks};
 
 /// The constraints; a run is fair if it keeps all.
 #[derive(Debug, Clone, Default)]
 pub struct Fairness {
-    justice: Vec<Bits>,
-    compassion: Vec<(Bits, Bits)>,
+    justice: Vec<StateSet>,
+    compassion: Vec<(StateSet, StateSet)>,
 }
 
 /// How fair the scheduling of agents is taken to be.
@@ -44,12 +44,12 @@ impl Fairness {
     }
 
     /// One of these states comes up again and again.
-    pub fn add_justice(&mut self, graph: &Graph, states: &Bits) {
+    pub fn add_justice(&mut self, graph: &Graph, states: &StateSet) {
         self.justice.push(leaving(graph, states));
     }
 
     /// If one of the first states comes up again and again, so does one of the second.
-    pub fn add_compassion(&mut self, graph: &Graph, premise: &Bits, conclusion: &Bits) {
+    pub fn add_compassion(&mut self, graph: &Graph, premise: &StateSet, conclusion: &StateSet) {
         self.compassion.push((leaving(graph, premise), leaving(graph, conclusion)));
     }
 
@@ -57,8 +57,8 @@ impl Fairness {
     /// agent which changes something.
     /// In a state without such an edge it cannot move.
     pub fn add_agent(&mut self, graph: &Graph, fairness: AgentFairness, moves: impl Fn(StateId, usize) -> bool) {
-        let mut taken = Bits::none(graph.edges());
-        let mut enabled = Bits::none(graph.states());
+        let mut taken = StateSet::none(graph.edges());
+        let mut enabled = StateSet::none(graph.states());
         for state in 0..graph.states() as StateId {
             for edge in graph.edges_of(state) {
                 if moves(state, edge) {
@@ -95,7 +95,7 @@ impl Fairness {
             return EdgeMarks::default();
         }
         let pairs = self.compassion.iter().flat_map(|(premise, conclusion)| [premise, conclusion]);
-        let sets: Vec<&Bits> = self.justice.iter().chain(pairs).collect();
+        let sets: Vec<&StateSet> = self.justice.iter().chain(pairs).collect();
         let mut classes = Vec::with_capacity(graph.edges());
         let mut marks: Vec<Marks> = Vec::new();
         let mut known = std::collections::BTreeMap::new();
@@ -116,8 +116,8 @@ impl Fairness {
 }
 
 /// The edges that leave states of a set.
-fn leaving(graph: &Graph, states: &Bits) -> Bits {
-    let mut edges = Bits::none(graph.edges());
+fn leaving(graph: &Graph, states: &StateSet) -> StateSet {
+    let mut edges = StateSet::none(graph.edges());
     for state in states.iter() {
         graph.edges_of(state).for_each(|edge| {
             edges.insert(edge as u32);

@@ -5,8 +5,8 @@
 
 use std::ops::ControlFlow;
 
-use crate::graph::Bits;
-use crate::temporal::budget::{Budget, Ended};
+use crate::graph::StateSet;
+use crate::temporal::budget::{Budget, Spent};
 use crate::temporal::component::{Acceptance, Component, Edges, accepting_components};
 use crate::temporal::search::{Finder, turn};
 
@@ -32,10 +32,10 @@ pub struct Lasso {
 pub fn accepted_lasso(
     edges: &impl Edges,
     starts: &[u32],
-    within: &Bits,
+    within: &StateSet,
     acceptance: &Acceptance,
     budget: &mut Budget<'_>,
-) -> Result<Option<Lasso>, Ended> {
+) -> Result<Option<Lasso>, Spent> {
     let starts: Vec<u32> = starts.iter().copied().filter(|start| within.contains(*start)).collect();
     let Reached { set, distance } = reach(edges, &starts, within, budget)?;
     let mut components = Vec::new();
@@ -61,7 +61,7 @@ fn shortest<E: Edges>(
     distance: &[u32],
     acceptance: &Acceptance,
     budget: &mut Budget<'_>,
-) -> Result<Option<(u32, Vec<usize>)>, Ended> {
+) -> Result<Option<(u32, Vec<usize>)>, Spent> {
     let mut places: Vec<(u32, usize, u32)> = Vec::new();
     for (index, component) in components.iter().enumerate() {
         let mut nodes: Vec<(u32, u32)> = component.nodes.iter().map(|node| (distance[*node as usize], *node)).collect();
@@ -84,13 +84,13 @@ fn shortest<E: Edges>(
 }
 
 struct Reached {
-    set: Bits,
+    set: StateSet,
     /// By node; meaningless for one that was not reached.
     distance: Vec<u32>,
 }
 
-fn reach(edges: &impl Edges, starts: &[u32], within: &Bits, budget: &mut Budget<'_>) -> Result<Reached, Ended> {
-    let mut set = Bits::none(edges.nodes());
+fn reach(edges: &impl Edges, starts: &[u32], within: &StateSet, budget: &mut Budget<'_>) -> Result<Reached, Spent> {
+    let mut set = StateSet::none(edges.nodes());
     let mut distance = vec![0; edges.nodes()];
     let mut queue: Vec<u32> = starts.iter().copied().filter(|start| set.insert(*start)).collect();
     let mut next = 0;

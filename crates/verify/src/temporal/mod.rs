@@ -1,6 +1,6 @@
 //! Temporal properties over an explored graph: CTL and LTL with past, under fairness.
 //!
-//! In: a [`crate::graph::Graph`], formulas over its propositions, fairness. Out: a [`Verdict`]. It knows neither how the
+//! In: a [`crate::graph::Graph`], formulas over its propositions, fairness. Out: a [`FormulaVerdict`]. It knows neither how the
 //! graph came about nor what the propositions say. INVARIANT: Holds is said only of a complete graph.
 
 pub mod budget;
@@ -16,4 +16,4 @@ pub mod run;
 mod search;
 mod verdict;
 
-pub use verdict::{Verdict, decide_ctl, decide_ltl};
+pub use verdict::{FormulaVerdict, decide_ctl, decide_ltl};

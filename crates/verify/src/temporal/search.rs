@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use crate::temporal::budget::{Budget, Ended};
+use crate::temporal::budget::{Budget, Spent};
 use crate::temporal::component::{Acceptance, Component, Edges, Marks};
 
 /// A breadth-first search that can be made again and again on one graph.
@@ -39,7 +39,7 @@ impl<'a, E: Edges> Finder<'a, E> {
         budget: &mut Budget<'_>,
         allowed: impl Fn(usize, u32) -> bool,
         wanted: impl Fn(usize, u32) -> bool,
-    ) -> Result<Option<(u32, Vec<usize>)>, Ended> {
+    ) -> Result<Option<(u32, Vec<usize>)>, Spent> {
         self.searches += 1;
         let mut queue: Vec<u32> = starts.to_vec();
         starts.iter().for_each(|start| self.visited[*start as usize] = self.searches);
@@ -89,7 +89,7 @@ pub fn turn<E: Edges>(
     acceptance: &Acceptance,
     start: u32,
     budget: &mut Budget<'_>,
-) -> Result<Vec<usize>, Ended> {
+) -> Result<Vec<usize>, Spent> {
     let edges = finder.edges;
     let allowed = |edge: usize, target: u32| {
         !edges.marks(edge).meets(component.avoided) && component.nodes.binary_search(&target).is_ok()

@@ -1,6 +1,6 @@
 //! Verdicts on temporal properties.
 
-use super::budget::{Budget, Ended};
+use super::budget::{Budget, Spent};
 use super::checker::Checker;
 use super::formula::{CtlFormulas, FormulaId, LtlFormulas};
 use super::run::Run;
@@ -8,7 +8,7 @@ use super::{ctl, ltl};
 
 /// What was found out about a temporal property.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Verdict {
+pub enum FormulaVerdict {
     /// It holds on every fair run (LTL), in every initial state (CTL).
     Holds {
         /// There is no fair run at all: everything holds of all of them.
@@ -24,7 +24,7 @@ pub enum Verdict {
     /// Not found out: the graph is not complete, and no violation stands in what was explored.
     Unexplored,
     /// Not found out: ended early.
-    Ended(Ended),
+    Spent(Spent),
 }
 
 /// Decides a formula of computation tree logic: whether it holds in every initial state.
@@ -33,7 +33,7 @@ pub fn decide_ctl(
     formulas: &CtlFormulas,
     formula: FormulaId,
     budget: &mut Budget<'_>,
-) -> Verdict {
+) -> FormulaVerdict {
     let decide = || {
         let truths = ctl::label(checker, formulas, budget)?;
         let truth = &truths[formula.index()];
@@ -55,19 +55,19 @@ pub fn decide_ltl(
     formulas: &LtlFormulas,
     formula: FormulaId,
     budget: &mut Budget<'_>,
-) -> Verdict {
+) -> FormulaVerdict {
     verdict(checker, || Ok(ltl::violating_run(checker, formulas, formula, budget)?.map(|run| (run, true))))
 }
 
-fn verdict(checker: &Checker<'_>, violation: impl FnOnce() -> Result<Option<(Run, bool)>, Ended>) -> Verdict {
+fn verdict(checker: &Checker<'_>, violation: impl FnOnce() -> Result<Option<(Run, bool)>, Spent>) -> FormulaVerdict {
     let graph = checker.graph();
     match violation() {
-        Err(ended) => Verdict::Ended(ended),
-        Ok(Some((run, whole))) => Verdict::Violated { run, whole },
-        Ok(None) if !graph.is_complete() => Verdict::Unexplored,
+        Err(ended) => FormulaVerdict::Spent(ended),
+        Ok(Some((run, whole))) => FormulaVerdict::Violated { run, whole },
+        Ok(None) if !graph.is_complete() => FormulaVerdict::Unexplored,
         Ok(None) => {
             let fair = &checker.fair().must;
-            Verdict::Holds { vacuous: !graph.initial().iter().any(|state| fair.contains(*state)) }
+            FormulaVerdict::Holds { vacuous: !graph.initial().iter().any(|state| fair.contains(*state)) }
         }
     }
 }

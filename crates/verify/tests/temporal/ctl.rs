@@ -1,20 +1,20 @@
 //! Computation tree logic against fixpoints written down naively, state by state.
 
 use verify::graph::Graph;
-use verify::temporal::budget::{Budget, Limits};
+use verify::temporal::budget::{Allowance, Budget};
 use verify::temporal::checker::Checker;
 use verify::temporal::ctl::{evidence_against, label};
 use verify::temporal::fairness::Fairness;
 use verify::temporal::formula::{Ctl, CtlFormulas, FormulaId};
 use verify::temporal::run::Run;
-use verify::temporal::{Verdict, decide_ctl};
+use verify::temporal::{FormulaVerdict, decide_ctl};
 
 use crate::temporal::naive::{fair_within, is_fair};
 use crate::temporal::random::{Constraint, Operators, Random, constraints, fairness, formula, sample};
 
-pub fn decide(graph: &Graph, fairness: &Fairness, formulas: &CtlFormulas, root: FormulaId) -> Verdict {
+pub fn decide(graph: &Graph, fairness: &Fairness, formulas: &CtlFormulas, root: FormulaId) -> FormulaVerdict {
     let mut go_on = || false;
-    let mut budget = Budget::new(Limits::default(), &mut go_on);
+    let mut budget = Budget::new(Allowance::default(), &mut go_on);
     let checker = Checker::new(graph, fairness, &mut budget).expect("few constraints");
     decide_ctl(&checker, formulas, root, &mut budget)
 }
@@ -67,7 +67,7 @@ fn case(seed: u64, with_fairness: bool) -> bool {
     let expected = naive(&graph, &constraints, &formulas);
     let fairness = fairness(&graph, &constraints);
     let mut go_on = || false;
-    let mut budget = Budget::new(Limits::default(), &mut go_on);
+    let mut budget = Budget::new(Allowance::default(), &mut go_on);
     let checker = Checker::new(&graph, &fairness, &mut budget).unwrap();
     let found = label(&checker, &formulas, &mut budget).unwrap();
     for (formula, (found, expected)) in found.iter().zip(&expected).enumerate() {
@@ -88,8 +88,8 @@ fn case(seed: u64, with_fairness: bool) -> bool {
     }
     let holds = graph.initial().iter().all(|state| expected[root.index()][*state as usize]);
     match decide_ctl(&checker, &formulas, root, &mut budget) {
-        Verdict::Holds { .. } => assert!(holds, "seed {seed}"),
-        Verdict::Violated { run, .. } => assert!(!holds && graph.initial().contains(&run.start), "seed {seed}"),
+        FormulaVerdict::Holds { .. } => assert!(holds, "seed {seed}"),
+        FormulaVerdict::Violated { run, .. } => assert!(!holds && graph.initial().contains(&run.start), "seed {seed}"),
         other => panic!("seed {seed}: {other:?}"),
     }
     holds

@@ -1,7 +1,7 @@
 //! Equivalences that the books prove, on random graphs with random fairness.
 
 use program::TemporalOperator as T;
-use verify::temporal::Verdict;
+use verify::temporal::FormulaVerdict;
 use verify::temporal::formula::{CtlFormulas, FormulaId, Logic, LtlFormulas};
 
 use crate::temporal::random::{Operators, Random, constraints, fairness, formula, sample};
@@ -109,7 +109,7 @@ fn linear_equivalences_hold_on_every_graph() {
             let (left, right) = pair(&mut formulas, p, q);
             let same = formulas.iff(left, right);
             let verdict = ltl::decide(&graph, &fairness, &formulas, same);
-            assert!(matches!(verdict, Verdict::Holds { .. }), "seed {seed}: {name}: {verdict:?}");
+            assert!(matches!(verdict, FormulaVerdict::Holds { .. }), "seed {seed}: {name}: {verdict:?}");
         }
     }
 }
@@ -130,7 +130,7 @@ fn one_path_quantifier_in_front_says_the_same_in_both_logics() {
             let (line, tree) = (op(&mut linear, line, &lines), op(&mut branching, tree, &trees));
             let left = ltl::decide(&graph, &fairness, &linear, line);
             let right = ctl::decide(&graph, &fairness, &branching, tree);
-            let holds = |verdict: &Verdict| matches!(verdict, Verdict::Holds { .. });
+            let holds = |verdict: &FormulaVerdict| matches!(verdict, FormulaVerdict::Holds { .. });
             assert_eq!(holds(&left), holds(&right), "seed {seed}: {left:?} {right:?}");
         }
     }

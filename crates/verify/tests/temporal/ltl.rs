@@ -1,20 +1,20 @@
 //! Linear temporal logic: what is found violates, and where nothing is found no short lasso does.
 
 use verify::graph::{Builder, Graph, Label};
-use verify::temporal::budget::{Budget, Limits};
+use verify::temporal::budget::{Allowance, Budget};
 use verify::temporal::checker::Checker;
 use verify::temporal::fairness::Fairness;
 use verify::temporal::formula::{FormulaId, Logic, LtlFormulas};
 use verify::temporal::ltl::meaning::holds_on_lasso;
 use verify::temporal::run::Run;
-use verify::temporal::{Verdict, decide_ltl};
+use verify::temporal::{FormulaVerdict, decide_ltl};
 
 use crate::temporal::naive::{Evaluation, Word, each_lasso, is_fair, states};
 use crate::temporal::random::{Constraint, Operators, Random, constraints, fairness, formula, sample};
 
-pub fn decide(graph: &Graph, fairness: &Fairness, formulas: &LtlFormulas, root: FormulaId) -> Verdict {
+pub fn decide(graph: &Graph, fairness: &Fairness, formulas: &LtlFormulas, root: FormulaId) -> FormulaVerdict {
     let mut go_on = || false;
-    let mut budget = Budget::new(Limits::default(), &mut go_on);
+    let mut budget = Budget::new(Allowance::default(), &mut go_on);
     let checker = Checker::new(graph, fairness, &mut budget).expect("few constraints");
     decide_ltl(&checker, formulas, root, &mut budget)
 }
@@ -38,23 +38,23 @@ fn case(seed: u64, operators: Operators, with_fairness: bool) -> bool {
         let word = Word { graph: &graph, states: states(&graph, start, edges), turn };
         let holds = Evaluation::new(&formulas, word).holds(root, 0);
         match &verdict {
-            Verdict::Holds { vacuous } => {
+            FormulaVerdict::Holds { vacuous } => {
                 assert!(holds && !vacuous, "seed {seed}: {start} {edges:?} {turn} violates")
             }
-            Verdict::Violated { run: Run { turn: None, edges: path, start: from }, .. } => {
+            FormulaVerdict::Violated { run: Run { turn: None, edges: path, start: from }, .. } => {
                 let through = *from == start && (0..path.len()).all(|i| at(edges, turn, i) == path[i]);
                 assert!(!(through && holds), "seed {seed}: the path {path:?} can be made good by {edges:?} {turn}");
             }
-            Verdict::Violated { .. } => {}
+            FormulaVerdict::Violated { .. } => {}
             other => panic!("seed {seed}: {other:?}"),
         }
     });
     match verdict {
-        Verdict::Holds { vacuous } => {
+        FormulaVerdict::Holds { vacuous } => {
             assert_eq!(vacuous, !any, "seed {seed}");
             true
         }
-        Verdict::Violated { run, whole } => {
+        FormulaVerdict::Violated { run, whole } => {
             assert!(whole && run.is_run_of(&graph), "seed {seed}");
             if let Some(turn) = run.turn {
                 assert!(is_fair(&graph, &constraints, &run.edges[turn..]), "seed {seed}: {run:?} is not fair");
@@ -128,12 +128,12 @@ fn a_lasso_is_shortest_where_it_is_easy() {
     let p = formulas.proposition(0);
     let some_time = formulas.finally(p);
     let again = formulas.globally(some_time);
-    let Verdict::Violated { run, .. } = decide(&graph, &Fairness::none(), &formulas, again) else { panic!() };
+    let FormulaVerdict::Violated { run, .. } = decide(&graph, &Fairness::none(), &formulas, again) else { panic!() };
     assert_eq!(run, Run { start: 0, edges: vec![0, 2], turn: Some(1) });
     let fair = fairness(&graph, &[Constraint::Justice(vec![true, false])]);
-    assert_eq!(decide(&graph, &fair, &formulas, again), Verdict::Holds { vacuous: false });
+    assert_eq!(decide(&graph, &fair, &formulas, again), FormulaVerdict::Holds { vacuous: false });
     let always = formulas.globally(p);
-    let Verdict::Violated { run, .. } = decide(&graph, &fair, &formulas, always) else { panic!() };
+    let FormulaVerdict::Violated { run, .. } = decide(&graph, &fair, &formulas, always) else { panic!() };
     assert_eq!(run, Run { start: 0, edges: vec![0], turn: None });
 }
 
@@ -143,5 +143,5 @@ fn without_a_fair_run_a_formula_holds_of_nothing() {
     let mut formulas = LtlFormulas::default();
     let never = formulas.constant(false);
     let fair = fairness(&graph, &[Constraint::Compassion(vec![true, true], vec![false, false])]);
-    assert_eq!(decide(&graph, &fair, &formulas, never), Verdict::Holds { vacuous: true });
+    assert_eq!(decide(&graph, &fair, &formulas, never), FormulaVerdict::Holds { vacuous: true });
 }

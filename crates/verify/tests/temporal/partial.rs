@@ -1,6 +1,6 @@
 //! Graphs that were not explored to their end: a verdict there is that of every graph they are a part of.
 
-use verify::temporal::Verdict;
+use verify::temporal::FormulaVerdict;
 use verify::temporal::formula::{CtlFormulas, LtlFormulas};
 
 use crate::temporal::random::{Operators, Random, constraints, fairness, formula, sample};
@@ -32,12 +32,12 @@ fn a_violation_in_a_part_is_one_of_the_whole_and_a_part_never_holds() {
         ];
         for (whole, part) in verdicts {
             match part {
-                Verdict::Violated { run, .. } => {
-                    let too = matches!(whole, Verdict::Violated { .. });
+                FormulaVerdict::Violated { run, .. } => {
+                    let too = matches!(whole, FormulaVerdict::Violated { .. });
                     assert!(too || !told, "seed {seed}: {run:?} in the part only");
                     violated += 1;
                 }
-                Verdict::Unexplored => unknown += 1,
+                FormulaVerdict::Unexplored => unknown += 1,
                 other => panic!("seed {seed}: {other:?}"),
             }
         }

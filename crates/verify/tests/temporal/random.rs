@@ -1,7 +1,7 @@
 //! Random graphs, fairness and formulas, from a seed.
 
 use program::TemporalOperator;
-use verify::graph::{Bits, Builder, Graph, Label};
+use verify::graph::{Builder, Graph, Label, StateSet};
 use verify::temporal::fairness::{AgentFairness, Fairness};
 use verify::temporal::formula::{FormulaId, Logic};
 
@@ -96,8 +96,8 @@ pub fn constraints(random: &mut Random, states: usize) -> Vec<Constraint> {
     constraints
 }
 
-fn bits(set: &[bool]) -> Bits {
-    let mut bits = Bits::none(set.len());
+fn bits(set: &[bool]) -> StateSet {
+    let mut bits = StateSet::none(set.len());
     set.iter().enumerate().filter(|(_, inside)| **inside).for_each(|(index, _)| {
         bits.insert(index as u32);
     });

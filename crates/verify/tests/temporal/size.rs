@@ -1,8 +1,8 @@
 //! Formulas of unusual size: decided, or ended by a limit that is named.
 
 use verify::graph::{Builder, Graph, Label};
-use verify::temporal::Verdict;
-use verify::temporal::budget::{Budget, Ended, Limits};
+use verify::temporal::FormulaVerdict;
+use verify::temporal::budget::{Allowance, Budget, Spent};
 use verify::temporal::checker::Checker;
 use verify::temporal::fairness::Fairness;
 use verify::temporal::formula::{CtlFormulas, FormulaId, Logic, LtlFormulas};
@@ -19,7 +19,7 @@ fn ring(states: usize) -> Graph {
     builder.finish()
 }
 
-fn linear(graph: &Graph, limits: Limits, formulas: &LtlFormulas, root: FormulaId) -> Verdict {
+fn linear(graph: &Graph, limits: Allowance, formulas: &LtlFormulas, root: FormulaId) -> FormulaVerdict {
     let mut go_on = || false;
     let mut budget = Budget::new(limits, &mut go_on);
     let checker = Checker::new(graph, &Fairness::none(), &mut budget).unwrap();
@@ -35,17 +35,17 @@ fn deep_nesting_costs_no_stack() {
         formula = formulas.next(formula);
     }
     // Position 100 000 is state 1 of the ring.
-    assert_eq!(linear(&graph, Limits::default(), &formulas, formula), Verdict::Holds { vacuous: false });
+    assert_eq!(linear(&graph, Allowance::default(), &formulas, formula), FormulaVerdict::Holds { vacuous: false });
     let mut formulas = CtlFormulas::default();
     let mut formula = formulas.proposition(1);
     for _ in 0..100_000 {
         formula = formulas.all_next(formula);
     }
     let mut go_on = || false;
-    let mut budget = Budget::new(Limits::default(), &mut go_on);
+    let mut budget = Budget::new(Allowance::default(), &mut go_on);
     let checker = Checker::new(&graph, &Fairness::none(), &mut budget).unwrap();
     let verdict = decide_ctl(&checker, &formulas, formula, &mut budget);
-    assert_eq!(verdict, Verdict::Holds { vacuous: false });
+    assert_eq!(verdict, FormulaVerdict::Holds { vacuous: false });
 }
 
 #[test]
@@ -59,9 +59,9 @@ fn twenty_untils_that_happen_in_turn_are_decided() {
         let again = formulas.globally(some_time);
         all = formulas.and(all, again);
     }
-    assert_eq!(linear(&graph, Limits::default(), &formulas, all), Verdict::Holds { vacuous: false });
+    assert_eq!(linear(&graph, Allowance::default(), &formulas, all), FormulaVerdict::Holds { vacuous: false });
     let none = formulas.not(all);
-    assert!(matches!(linear(&graph, Limits::default(), &formulas, none), Verdict::Violated { .. }));
+    assert!(matches!(linear(&graph, Allowance::default(), &formulas, none), FormulaVerdict::Violated { .. }));
 }
 
 /// A state that goes on in itself; all of so many propositions hold.
@@ -89,10 +89,10 @@ fn too_many_obligations_end_at_a_limit_that_is_named() {
     let graph = point(20);
     let mut formulas = LtlFormulas::default();
     let formula = many_obligations(&mut formulas);
-    let limits = Limits { covers: 1000, ..Limits::default() };
+    let limits = Allowance { covers: 1000, ..Allowance::default() };
     let verdict = linear(&graph, limits, &formulas, formula);
     let of = "ways to satisfy a formula in one state";
-    assert_eq!(verdict, Verdict::Ended(Ended::Limit { of, value: 1000 }));
+    assert_eq!(verdict, FormulaVerdict::Spent(Spent::Limit { of, value: 1000 }));
     let mut formulas = LtlFormulas::default();
     let mut all = formulas.constant(true);
     let mut left = formulas.proposition(0);
@@ -103,8 +103,8 @@ fn too_many_obligations_end_at_a_limit_that_is_named() {
         all = formulas.and(all, left);
     }
     let all = formulas.not(all);
-    let verdict = linear(&graph, Limits::default(), &formulas, all);
-    assert_eq!(verdict, Verdict::Ended(Ended::Limit { of: "untils in a formula", value: 64 }));
+    let verdict = linear(&graph, Allowance::default(), &formulas, all);
+    assert_eq!(verdict, FormulaVerdict::Spent(Spent::Limit { of: "untils in a formula", value: 64 }));
 }
 
 #[test]
@@ -112,7 +112,7 @@ fn a_decision_can_be_stopped() {
     let graph = point(20);
     let mut formulas = LtlFormulas::default();
     let formula = many_obligations(&mut formulas);
-    let limits = Limits { covers: u64::MAX, ..Limits::default() };
+    let limits = Allowance { covers: u64::MAX, ..Allowance::default() };
     let mut questions = 0;
     let mut stop = || {
         questions += 1;
@@ -120,5 +120,5 @@ fn a_decision_can_be_stopped() {
     };
     let mut budget = Budget::new(limits, &mut stop);
     let checker = Checker::new(&graph, &Fairness::none(), &mut budget).unwrap();
-    assert_eq!(decide_ltl(&checker, &formulas, formula, &mut budget), Verdict::Ended(Ended::Stopped));
+    assert_eq!(decide_ltl(&checker, &formulas, formula, &mut budget), FormulaVerdict::Spent(Spent::Stopped));
 }

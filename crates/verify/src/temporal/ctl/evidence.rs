@@ -4,9 +4,9 @@
 //! path has to show something more, it goes on from there. What quantifies over all runs, and what has to hold in several
 //! states at once, no single run shows: then the evidence is a branch of a tree, and says so.
 
-use crate::graph::{Bits, StateId};
-use crate::temporal::budget::{Budget, Ended};
-use crate::temporal::checker::{Checker, Truth};
+use crate::graph::{StateId, StateSet};
+use crate::temporal::budget::{Budget, Spent};
+use crate::temporal::checker::{Bracket, Checker};
 use crate::temporal::formula::{Ctl, CtlFormulas, FormulaId};
 use crate::temporal::lasso::accepted_lasso;
 use crate::temporal::run::Run;
@@ -31,11 +31,11 @@ pub struct Evidence {
 pub fn evidence_against(
     checker: &Checker<'_>,
     formulas: &CtlFormulas,
-    truths: &[Truth],
+    truths: &[Bracket],
     formula: FormulaId,
     state: StateId,
     budget: &mut Budget<'_>,
-) -> Result<Evidence, Ended> {
+) -> Result<Evidence, Spent> {
     assert!(!truths[formula.index()].may.contains(state), "the formula fails in the state");
     let mut explanation = Explanation { checker, formulas, truths, temporal: temporal(formulas) };
     explanation.follow(formula, state, budget)
@@ -58,12 +58,12 @@ fn temporal(formulas: &CtlFormulas) -> Vec<bool> {
 struct Explanation<'a, 'g> {
     checker: &'a Checker<'g>,
     formulas: &'a CtlFormulas,
-    truths: &'a [Truth],
+    truths: &'a [Bracket],
     temporal: Vec<bool>,
 }
 
 impl Explanation<'_, '_> {
-    fn must(&self, formula: FormulaId) -> &Bits {
+    fn must(&self, formula: FormulaId) -> &StateSet {
         &self.truths[formula.index()].must
     }
 
@@ -71,7 +71,7 @@ impl Explanation<'_, '_> {
         !self.truths[formula.index()].may.contains(state)
     }
 
-    fn follow(&mut self, formula: FormulaId, state: StateId, budget: &mut Budget<'_>) -> Result<Evidence, Ended> {
+    fn follow(&mut self, formula: FormulaId, state: StateId, budget: &mut Budget<'_>) -> Result<Evidence, Spent> {
         let mut evidence = Evidence { run: Run::at(state), whole: true };
         // What is to be shown of the state that the run has come to: that the formula holds, or that it fails.
         let (mut formula, mut holds) = (formula, false);
@@ -122,7 +122,7 @@ impl Explanation<'_, '_> {
     }
 
     /// A shortest path through states with `p` to one with `q`.
-    fn path(&self, state: StateId, p: FormulaId, q: FormulaId, budget: &mut Budget<'_>) -> Result<Vec<usize>, Ended> {
+    fn path(&self, state: StateId, p: FormulaId, q: FormulaId, budget: &mut Budget<'_>) -> Result<Vec<usize>, Spent> {
         let goal = |state: StateId| self.must(q).contains(state) && self.fair(state);
         if goal(state) {
             return Ok(Vec::new());
@@ -133,7 +133,7 @@ impl Explanation<'_, '_> {
         Ok(found.expect("a state with E[p U q] has a path to one with q").1)
     }
 
-    fn lasso(&self, state: StateId, p: FormulaId, budget: &mut Budget<'_>) -> Result<Run, Ended> {
+    fn lasso(&self, state: StateId, p: FormulaId, budget: &mut Budget<'_>) -> Result<Run, Spent> {
         let edges = self.checker.edges();
         let found = accepted_lasso(&edges, &[state], self.must(p), self.checker.acceptance(), budget)?;
         let lasso = found.expect("a state with EG p has a fair run in it");

@@ -9,9 +9,9 @@ mod evidence;
 
 use std::rc::Rc;
 
-use crate::graph::{Bits, Graph};
-use crate::temporal::budget::{Budget, Ended};
-use crate::temporal::checker::{Checker, Side, Truth};
+use crate::graph::{Graph, StateSet};
+use crate::temporal::budget::{Budget, Spent};
+use crate::temporal::checker::{Bracket, Checker, Side};
 use crate::temporal::formula::{Ctl, CtlFormulas, FormulaId};
 
 pub use evidence::{Evidence, evidence_against};
@@ -20,17 +20,17 @@ pub use evidence::{Evidence, evidence_against};
 ///
 /// # Errors
 /// Told to stop.
-pub fn label(checker: &Checker<'_>, formulas: &CtlFormulas, budget: &mut Budget<'_>) -> Result<Vec<Truth>, Ended> {
+pub fn label(checker: &Checker<'_>, formulas: &CtlFormulas, budget: &mut Budget<'_>) -> Result<Vec<Bracket>, Spent> {
     let graph = checker.graph();
-    let mut truths: Vec<Truth> = Vec::with_capacity(formulas.nodes().len());
+    let mut truths: Vec<Bracket> = Vec::with_capacity(formulas.nodes().len());
     for node in formulas.nodes() {
         let of = |formula: &FormulaId| &truths[formula.index()];
         let truth = match node {
-            Ctl::Constant(true) => Truth::known(Bits::all(graph.states())),
-            Ctl::Constant(false) => Truth::known(Bits::none(graph.states())),
+            Ctl::Constant(true) => Bracket::known(StateSet::all(graph.states())),
+            Ctl::Constant(false) => Bracket::known(StateSet::none(graph.states())),
             Ctl::Proposition(number) => proposition(graph, *number as usize),
-            Ctl::Not(p) if graph.is_complete() => Truth::known(of(p).must.complement()),
-            Ctl::Not(p) => Truth { must: Rc::new(of(p).may.complement()), may: Rc::new(of(p).must.complement()) },
+            Ctl::Not(p) if graph.is_complete() => Bracket::known(of(p).must.complement()),
+            Ctl::Not(p) => Bracket { must: Rc::new(of(p).may.complement()), may: Rc::new(of(p).must.complement()) },
             Ctl::And(p, q) => checker.both(|side| Ok(intersection(of(p).side(side), of(q).side(side))))?,
             Ctl::ExistsNext(p) => checker.both(|side| next(checker, of(p).side(side), side, budget))?,
             Ctl::ExistsUntil(p, q) => {
@@ -43,20 +43,20 @@ pub fn label(checker: &Checker<'_>, formulas: &CtlFormulas, budget: &mut Budget<
     Ok(truths)
 }
 
-fn proposition(graph: &Graph, number: usize) -> Truth {
+fn proposition(graph: &Graph, number: usize) -> Bracket {
     let holds = graph.proposition(number);
     if graph.is_complete() || graph.is_known_where_unexplored(number) {
-        return Truth::known(holds.clone());
+        return Bracket::known(holds.clone());
     }
     let (mut must, mut may) = (holds.clone(), holds.clone());
     must.intersect(&graph.unexplored().complement());
     may.unite(graph.unexplored());
-    Truth { must: Rc::new(must), may: Rc::new(may) }
+    Bracket { must: Rc::new(must), may: Rc::new(may) }
 }
 
-fn next(checker: &Checker<'_>, goal: &Bits, side: Side, budget: &mut Budget<'_>) -> Result<Bits, Ended> {
+fn next(checker: &Checker<'_>, goal: &StateSet, side: Side, budget: &mut Budget<'_>) -> Result<StateSet, Spent> {
     let goal = intersection(goal, checker.fair().side(side));
-    let mut found = checker.open(side).map_or_else(|| Bits::none(checker.graph().states()), Bits::clone);
+    let mut found = checker.open(side).map_or_else(|| StateSet::none(checker.graph().states()), StateSet::clone);
     for state in goal.iter() {
         budget.work()?;
         checker.predecessors.of(state).iter().for_each(|before| {
@@ -68,11 +68,11 @@ fn next(checker: &Checker<'_>, goal: &Bits, side: Side, budget: &mut Budget<'_>)
 
 fn until(
     checker: &Checker<'_>,
-    through: &Bits,
-    goal: &Bits,
+    through: &StateSet,
+    goal: &StateSet,
     side: Side,
     budget: &mut Budget<'_>,
-) -> Result<Bits, Ended> {
+) -> Result<StateSet, Spent> {
     let mut found = intersection(goal, checker.fair().side(side));
     if let Some(open) = checker.open(side) {
         found.unite(&intersection(open, through));
@@ -81,7 +81,7 @@ fn until(
     Ok(found)
 }
 
-fn intersection(left: &Bits, right: &Bits) -> Bits {
+fn intersection(left: &StateSet, right: &StateSet) -> StateSet {
     let mut both = left.clone();
     both.intersect(right);
     both

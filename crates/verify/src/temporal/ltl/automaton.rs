@@ -16,7 +16,7 @@ use rustc_hash::FxBuildHasher;
 use super::facts::{MOST_BITS, MOST_GUESSES};
 use super::normal::{Normal, Want};
 use super::truths::Truths;
-use crate::temporal::budget::{Budget, Ended};
+use crate::temporal::budget::{Budget, Spent};
 use crate::temporal::component::Marks;
 use crate::temporal::formula::FormulaId;
 
@@ -66,14 +66,14 @@ impl Automaton {
     ///
     /// # Errors
     /// More untils, past operators or guesses than the limits allow.
-    pub fn new(normal: Normal) -> Result<Automaton, Ended> {
+    pub fn new(normal: Normal) -> Result<Automaton, Spent> {
         let limits = [
             (normal.facts.bits(), MOST_BITS, "past operators in a formula"),
             (normal.facts.guesses(), MOST_GUESSES, "formulas of the future under past operators"),
         ];
         for (number, limit, of) in limits {
             if number > limit {
-                return Err(Ended::Limit { of, value: limit as u64 });
+                return Err(Spent::Limit { of, value: limit as u64 });
             }
         }
         let mut until = Vec::new();
@@ -84,7 +84,7 @@ impl Automaton {
             until.push(is_until.then(|| Marks::one(untils)));
             untils += usize::from(is_until);
             if untils > MOST_UNTILS {
-                return Err(Ended::Limit { of: "untils in a formula", value: MOST_UNTILS as u64 });
+                return Err(Spent::Limit { of: "untils in a formula", value: MOST_UNTILS as u64 });
             }
             depends.push(match node {
                 Want::Constant(_) => 0,
@@ -135,7 +135,7 @@ impl Automaton {
         letter: u32,
         holds: impl Fn(u32) -> bool,
         budget: &mut Budget<'_>,
-    ) -> Result<Rc<[Transition]>, Ended> {
+    ) -> Result<Rc<[Transition]>, Spent> {
         if let Some(known) = self.transitions.get(&(state, letter)) {
             return Ok(Rc::clone(known));
         }
@@ -237,7 +237,7 @@ impl Automaton {
         facts: &[bool],
         truths: &mut Truths,
         budget: &mut Budget<'_>,
-    ) -> Result<Vec<(Vec<FormulaId>, Marks)>, Ended> {
+    ) -> Result<Vec<(Vec<FormulaId>, Marks)>, Spent> {
         let wants = &self.normal.wants;
         truths.begin(wants.nodes().len());
         let mut of = |formula: FormulaId| truths.of(wants, facts, formula);
@@ -297,7 +297,7 @@ impl Automaton {
     }
 
     /// Drops each way that another makes superfluous.
-    fn best(&self, ways: Vec<(State, Marks)>, budget: &mut Budget<'_>) -> Result<Vec<(State, Marks)>, Ended> {
+    fn best(&self, ways: Vec<(State, Marks)>, budget: &mut Budget<'_>) -> Result<Vec<(State, Marks)>, Spent> {
         if ways.len() > COMPARED {
             return Ok(ways);
         }

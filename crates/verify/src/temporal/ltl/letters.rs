@@ -3,8 +3,8 @@
 use hashbrown::HashMap;
 use rustc_hash::FxBuildHasher;
 
-use crate::graph::{Bits, Graph, StateId};
-use crate::temporal::budget::{Budget, Ended};
+use crate::graph::{Graph, StateId, StateSet};
+use crate::temporal::budget::{Budget, Spent};
 
 /// The letter of each state.
 #[derive(Debug)]
@@ -22,8 +22,8 @@ impl Letters {
     ///
     /// # Errors
     /// Told to stop.
-    pub fn of(graph: &Graph, propositions: Vec<u32>, budget: &mut Budget<'_>) -> Result<Letters, Ended> {
-        let columns: Vec<&Bits> = propositions.iter().map(|number| graph.proposition(*number as usize)).collect();
+    pub fn of(graph: &Graph, propositions: Vec<u32>, budget: &mut Budget<'_>) -> Result<Letters, Spent> {
+        let columns: Vec<&StateSet> = propositions.iter().map(|number| graph.proposition(*number as usize)).collect();
         let mut known: HashMap<Vec<u64>, u32, FxBuildHasher> = HashMap::default();
         let mut held = Vec::new();
         let mut letters = Vec::with_capacity(graph.states());

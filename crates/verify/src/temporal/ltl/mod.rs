@@ -19,8 +19,8 @@ use letters::Letters;
 use normal::Normal;
 use product::{Made, Product};
 
-use crate::graph::Bits;
-use crate::temporal::budget::{Budget, Ended};
+use crate::graph::StateSet;
+use crate::temporal::budget::{Budget, Spent};
 use crate::temporal::checker::Checker;
 use crate::temporal::component::{Acceptance, Edges, Marks};
 use crate::temporal::formula::{FormulaId, Ltl, LtlFormulas};
@@ -39,7 +39,7 @@ pub fn violating_run(
     formulas: &LtlFormulas,
     formula: FormulaId,
     budget: &mut Budget<'_>,
-) -> Result<Option<Run>, Ended> {
+) -> Result<Option<Run>, Spent> {
     let mut automaton = Automaton::new(Normal::of(formulas, formula, false))?;
     let letters = Letters::of(checker.graph(), propositions(formulas, formula), budget)?;
     let (product, made) = Product::make(checker, &mut automaton, &letters, budget)?;
@@ -48,7 +48,7 @@ pub fn violating_run(
         Made::Whole => {
             let acceptance =
                 Acceptance { again: automaton.marks(), pairs: Vec::new() }.with(checker.acceptance().clone());
-            let everywhere = Bits::all(product.nodes());
+            let everywhere = StateSet::all(product.nodes());
             let found = accepted_lasso(&product, &product.initial(), &everywhere, &acceptance, budget)?;
             found.map(|lasso| {
                 let turns_at = lasso.stem.last().map_or(lasso.start, |edge| product.target(*edge));

@@ -12,7 +12,7 @@ use rustc_hash::FxBuildHasher;
 use super::automaton::{Automaton, StateNumber};
 use super::letters::Letters;
 use crate::graph::StateId;
-use crate::temporal::budget::{Budget, Ended};
+use crate::temporal::budget::{Budget, Spent};
 use crate::temporal::checker::Checker;
 use crate::temporal::component::{Edges, Marks};
 use crate::temporal::run::Run;
@@ -52,7 +52,7 @@ impl Product {
         automaton: &mut Automaton,
         letters: &Letters,
         budget: &mut Budget<'_>,
-    ) -> Result<(Product, Made), Ended> {
+    ) -> Result<(Product, Made), Spent> {
         let mut making = Making::default();
         making.product.first_edge.push(0);
         let fair = &checker.fair().must;
