@@ -37,6 +37,7 @@ impl Truth {
         1 + self as End
     }
 
+    #[inline]
     pub(crate) fn of_end(end: End) -> Truth {
         Truth::ALL[end as usize - 1]
     }
