@@ -1,17 +1,21 @@
 //! What a solver prints → an answer: `sat` with values, `unsat`, or anything else.
 //!
-//! In: the solver's output. Out: [`Answer`]; values that are no constants of the formula (algebraic numbers, say) are left out.
+//! In: the solver's output. Out: [`Answer`]; values that are no constants of ours (algebraic numbers, say) are left out.
 
 use std::collections::BTreeMap;
 
-use crate::cases::State;
-use crate::formula::{Formula, Sort, Term, Value};
-use crate::script::Asked;
+use program::DomainId;
+
+use crate::cases::{State, value_in};
+use crate::question::Question;
+use crate::session::{Constant, constants};
+use crate::shared::Kind;
+use crate::symbol::Shape;
 
 /// A solver's answer.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Answer {
-    /// The formula holds in this state, of which some values may be missing.
+    /// The condition holds in this state, of which some values may be missing.
     Sat(State),
     /// It holds in none.
     Unsat,
@@ -26,8 +30,8 @@ pub(crate) enum Expression {
     List(Vec<Expression>),
 }
 
-/// Reads the output of a script that asked for these terms.
-pub(crate) fn answer(formula: &Formula, asked: &[Asked], output: &str) -> Answer {
+/// Reads the output of the script of a question.
+pub(crate) fn answer(question: &Question, output: &str) -> Answer {
     let first = output.lines().map(str::trim).find(|line| !line.is_empty()).unwrap_or("nothing");
     match first {
         "unsat" => return Answer::Unsat,
@@ -35,70 +39,34 @@ pub(crate) fn answer(formula: &Formula, asked: &[Asked], output: &str) -> Answer
         other => return Answer::Other(other.chars().take(120).collect()),
     }
     let rest = output.split_once("sat").map_or("", |(_, rest)| rest);
-    let values = match expressions(rest).into_iter().next() {
-        Some(Expression::List(pairs)) => pairs,
-        _ => Vec::new(),
-    };
-    let second = |pair: &Expression| match pair {
-        Expression::List(both) => both.get(1).cloned(),
-        Expression::Word(_) => None,
-    };
-    let values: Vec<Option<Expression>> = values.iter().map(second).collect();
-    let mut reader = Reader { formula, named: BTreeMap::new() };
-    let mut known: Vec<(&Term, Value)> = Vec::new();
-    for (asked, value) in asked.iter().zip(&values) {
-        let Some(value) = value else { continue };
-        match asked {
-            Asked::Element(carrier, index) => _ = reader.named.insert(spelled(value), (*carrier, *index)),
-            Asked::Term(term) => known.extend(reader.value(formula.sort(term), value).map(|value| (term, value))),
-        }
-    }
+    let kinds: Vec<Kind> = question.locations.iter().map(|location| question.terms.kind(*location)).collect();
+    let mut nameless: BTreeMap<(DomainId, i128), i128> = BTreeMap::new();
     let mut state = State::new();
-    for (term, value) in &known {
-        let Term::Apply(id, arguments) = term else { continue };
-        let constant = |term: &Term| match term {
-            Term::Constant(value) => Some(*value),
-            term => known.iter().find(|(known, _)| *known == term).map(|(_, value)| *value),
+    for (location, value) in question.locations.iter().zip(constants(rest, &kinds)) {
+        let (Some(value), Some((id, arguments))) = (value, question.location(*location)) else { continue };
+        let Some(unknown) = question.unknown(*location) else { continue };
+        let value = match (value, unknown.sort) {
+            // The solver has its own numbers for elements without names.
+            (Constant::Integer(number), sort @ (Shape::Element(_) | Shape::Coded, domain)) => {
+                let first = question.named(sort).1;
+                let next = first + nameless.keys().filter(|(of, _)| *of == domain).count() as i128;
+                Constant::Integer(match number >= first {
+                    true => *nameless.entry((domain, number)).or_insert(next),
+                    false => number,
+                })
+            }
+            (Constant::Integer(number), _) if i64::try_from(number).is_err() => continue,
+            (value, _) => value,
         };
-        let arguments: Option<Vec<Value>> = arguments.iter().map(constant).collect();
+        let arguments: Option<Vec<Constant>> =
+            arguments.iter().map(|argument| value_in(question, &state, *argument)).collect();
         if let Some(arguments) = arguments
-            && !state.iter().any(|(location, _)| *location == (*id, arguments.clone()))
+            && !state.iter().any(|(location, _)| *location == (id, arguments.clone()))
         {
-            state.push(((*id, arguments), *value));
+            state.push(((id, arguments), value));
         }
     }
     Answer::Sat(state)
-}
-
-struct Reader<'f> {
-    formula: &'f Formula,
-    /// The elements of open carriers by what the solver calls them.
-    named: BTreeMap<String, (usize, usize)>,
-}
-
-impl Reader<'_> {
-    fn value(&mut self, sort: Sort, value: &Expression) -> Option<Value> {
-        match sort {
-            Sort::Boolean => spelled(value).parse().ok().map(Value::Boolean),
-            Sort::Integer => integer(value).and_then(|number| i64::try_from(number).ok()).map(Value::Integer),
-            Sort::Real => real(value).map(Value::Real),
-            Sort::Carrier(carrier) => Some(self.element(carrier, &spelled(value))),
-        }
-    }
-
-    fn element(&mut self, carrier: usize, name: &str) -> Value {
-        let known = &self.formula.carriers[carrier];
-        if !known.open {
-            // `|NAME carrier.index|`
-            let number = name.trim_matches('|').rsplit_once('.').and_then(|(_, index)| index.parse().ok());
-            return Value::Element(carrier, number.unwrap_or(0));
-        }
-        let nameless =
-            self.named.values().filter(|(of, index)| *of == carrier && *index >= known.elements.len()).count();
-        let next = (carrier, known.elements.len() + nameless);
-        let (carrier, index) = *self.named.entry(name.to_string()).or_insert(next);
-        Value::Element(carrier, index)
-    }
 }
 
 pub(crate) fn spelled(expression: &Expression) -> String {

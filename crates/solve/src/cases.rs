@@ -1,13 +1,19 @@
 //! Going through cases: locations get values, one at a time, as the condition turns out to need them.
 //!
-//! In: a formula. Out: a state in which it holds, or that there is none, or that going through cases does not tell. A
-//! location over a finite domain has its values; an open carrier gets as many nameless elements as there are terms over it,
+//! In: a question. Out: a state in which it holds, or that there is none, or that going through cases does not tell. A
+//! location over a finite domain has its values; an open domain gets as many nameless elements as there are terms over it,
 //! which is enough, as elements can only be compared. A number that is only compared with constants has one value for each
-//! gap between these; other numbers get the same few values, so that a state may be found, but none found says nothing.
+//! gap between these. Other numbers get the same few values, then some near to what the condition says, so that a state may
+//! be found; that none is found says nothing.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use crate::formula::{Arithmetic, Formula, Order, Sort, SymbolId, Term, Value};
+use program::DomainId;
+
+use crate::question::Question;
+use crate::session::Constant;
+use crate::shared::{Bounds, Node, Op, VariableId};
+use crate::symbol::Shape;
 
 /// LIMIT: so many cases are gone through.
 pub(crate) const MAX_CASES: usize = 200_000;
@@ -33,70 +39,105 @@ pub(crate) enum Reason {
 }
 
 /// The values of some locations.
-pub(crate) type State = Vec<((SymbolId, Vec<Value>), Value)>;
+pub(crate) type State = Vec<((VariableId, Vec<Constant>), Constant)>;
 
 /// Looks for a state.
-pub(crate) fn cases(formula: &Formula) -> Cases {
-    let numbers = Numbers::of(formula);
-    let mut search = Search { formula, numbers: &numbers, state: Vec::new(), budget: MAX_CASES };
+pub(crate) fn cases(question: &Question) -> Cases {
+    let mut numbers = Numbers::of(question);
+    match searched(question, &numbers) {
+        Cases::None if !numbers.complete => {}
+        other => return other,
+    }
+    numbers.add_near(question);
+    match searched(question, &numbers) {
+        Cases::Found(state) => Cases::Found(state),
+        Cases::None | Cases::Open(_) => Cases::Open(Reason::Numbers),
+    }
+}
+
+fn searched(question: &Question, numbers: &Numbers) -> Cases {
+    let mut search = Search { question, numbers, state: Vec::new(), budget: MAX_CASES };
     match search.run() {
         Some(true) => Cases::Found(search.state),
-        Some(false) if numbers.complete => Cases::None,
-        Some(false) => Cases::Open(Reason::Numbers),
+        Some(false) => Cases::None,
         None => Cases::Open(Reason::Many),
     }
 }
 
 /// Whether the condition holds in a state; none where the state leaves it open.
-pub(crate) fn holds(formula: &Formula, state: &State) -> Option<bool> {
-    match evaluate(formula, state, &formula.condition) {
-        Outcome::Value(Value::Boolean(truth)) => Some(truth),
-        _ => None,
+pub(crate) fn holds(question: &Question, state: &State) -> Option<bool> {
+    value_in(question, state, question.condition).map(|value| value == Constant::Boolean(true))
+}
+
+/// The value of a term in a state; none where the state leaves it open.
+pub(crate) fn value_in(question: &Question, state: &State, node: Node) -> Option<Constant> {
+    match Evaluation::of(question, state).evaluate(node) {
+        Outcome::Value(value) => Some(value),
+        Outcome::Needs(_) | Outcome::Trouble => None,
     }
 }
 
 /// Values that numbers are tried with.
 struct Numbers {
-    integers: Vec<Value>,
-    reals: Vec<Value>,
+    integers: Vec<i128>,
+    reals: Vec<f64>,
     /// They stand for all numbers.
     complete: bool,
-    /// Nameless elements of each carrier.
-    nameless: Vec<usize>,
+    /// Nameless elements of each domain.
+    nameless: BTreeMap<DomainId, i128>,
 }
 
 impl Numbers {
-    fn of(formula: &Formula) -> Self {
-        let (mut whole, mut broken, mut complete) = (vec![0_i64], vec![0.0_f64], true);
-        let mut nameless: BTreeMap<usize, Vec<&Term>> = BTreeMap::new();
-        let unbounded = |term: &Term| match term {
-            Term::Apply(id, _) => {
-                let symbol = formula.symbol(*id);
-                symbol.values.is_none() && matches!(symbol.sort, Sort::Integer | Sort::Real)
-            }
-            _ => false,
+    fn of(question: &Question) -> Self {
+        let (terms, parts) = (&question.terms, question.terms.parts([question.condition]));
+        let numbers = numbers(question, &parts);
+        let (mut whole, mut broken, mut complete) = (vec![-1_i128, 0, 1], vec![0.0_f64], true);
+        let mut nameless = BTreeMap::new();
+        let unbounded = |node: Node| match question.unknown(node) {
+            Some(unknown) => unknown.values.is_none() && matches!(unknown.sort.0, Shape::Integer | Shape::Real),
+            None => false,
         };
-        formula.condition.walk(&mut |term| {
-            match term {
-                Term::Constant(Value::Integer(number)) => {
-                    whole.extend([number.saturating_sub(1), *number, number.saturating_add(1)]);
-                }
-                Term::Constant(Value::Real(number)) => broken.push(*number),
-                Term::Apply(id, _) => {
-                    if let Sort::Carrier(carrier) = formula.symbol(*id).sort {
-                        let known = nameless.entry(carrier).or_default();
-                        if !known.contains(&term) {
-                            known.push(term);
-                        }
-                    }
-                }
-                _ => {}
+        let mut constant = |node: Node| match terms.constant(node).filter(|_| numbers.contains(&node)) {
+            Some(Constant::Integer(number)) => {
+                whole.extend([number.saturating_sub(1), number, number.saturating_add(1)])
             }
-            let compares = matches!(term, Term::Equal(..) | Term::Compare(..));
-            let children = term.children();
-            let constant = children.iter().any(|child| matches!(child, Term::Constant(_)));
-            complete &= !children.iter().any(|child| unbounded(child)) || compares && constant;
-        });
+            Some(Constant::Real(number)) => broken.push(number),
+            Some(Constant::Boolean(_)) | None => {}
+        };
+        for node in parts {
+            let mut children = Vec::new();
+            terms.each_operand(node, &mut |child| children.push(child));
+            constant(node);
+            if let Some((Shape::Element(_) | Shape::Coded, domain)) = question.unknown(node).map(|one| one.sort) {
+                *nameless.entry(domain).or_insert(0) += 1;
+            }
+            let compares = matches!(terms.op(node), Op::Equal(..) | Op::Less(..));
+            let known = children.iter().any(|child| terms.constant(*child).is_some());
+            complete &= !children.iter().any(|child| unbounded(*child)) || compares && known;
+        }
+        let mut all = Numbers { integers: whole, reals: broken, complete, nameless };
+        all.arrange();
+        all
+    }
+
+    /// Adds numbers near to those that the condition held before it was simplified.
+    fn add_near(&mut self, question: &Question) {
+        for constant in question.terms.constants() {
+            match constant {
+                Constant::Integer(number) => {
+                    let near = [number.saturating_sub(1), number, number.saturating_add(1), number.saturating_neg()];
+                    self.integers.extend(near);
+                }
+                Constant::Real(number) => self.reals.extend([number, -number]),
+                Constant::Boolean(_) => {}
+            }
+        }
+        self.arrange();
+    }
+
+    /// Puts real numbers between those that there are, and what people would think of first to the front.
+    fn arrange(&mut self) {
+        let Numbers { integers: whole, reals: broken, .. } = self;
         whole.sort_unstable();
         whole.dedup();
         broken.sort_by(f64::total_cmp);
@@ -105,39 +146,98 @@ impl Numbers {
         let ends = [broken[0] - 1.0, broken[broken.len() - 1] + 1.0];
         broken.extend(between.into_iter().chain(ends));
         broken.sort_by(f64::total_cmp);
-        // What people would think of first comes first.
         whole.sort_by_key(|number| (*number < 0, number.unsigned_abs()));
         broken
             .sort_by(|a, b| (*a < 0.0, a.abs()).partial_cmp(&(*b < 0.0, b.abs())).unwrap_or(std::cmp::Ordering::Equal));
-        Numbers {
-            integers: whole.into_iter().map(Value::Integer).collect(),
-            reals: broken.into_iter().map(Value::Real).collect(),
-            complete,
-            nameless: (0..formula.carriers.len()).map(|carrier| nameless.get(&carrier).map_or(0, Vec::len)).collect(),
-        }
     }
 
-    fn values(&self, formula: &Formula, id: SymbolId) -> Vec<Value> {
-        let symbol = formula.symbol(id);
-        if let Some(values) = &symbol.values {
+    fn values(&self, question: &Question, node: Node) -> Vec<Constant> {
+        let Some(unknown) = question.unknown(node) else { return Vec::new() };
+        if let Some(values) = &unknown.values {
             return values.clone();
         }
-        match symbol.sort {
-            Sort::Boolean => vec![Value::Boolean(true), Value::Boolean(false)],
-            Sort::Integer => self.integers.clone(),
-            Sort::Real => self.reals.clone(),
-            Sort::Carrier(carrier) => {
-                let known = &formula.carriers[carrier];
-                let count = known.elements.len() + if known.open { self.nameless[carrier].max(1) } else { 0 };
-                (0..count).map(|index| Value::Element(carrier, index)).collect()
+        match unknown.sort {
+            (Shape::Boolean, _) => vec![Constant::Boolean(true), Constant::Boolean(false)],
+            (Shape::Integer, _) => {
+                let bounds = question.terms.bounds(node);
+                self.integers.iter().filter(|number| within(**number, bounds)).copied().map(Constant::Integer).collect()
+            }
+            (Shape::Real, _) => self.reals.iter().copied().map(Constant::Real).collect(),
+            (Shape::Enum(_) | Shape::Element(_) | Shape::Coded, domain) => {
+                let (named, first) = question.named(unknown.sort);
+                let count = self.nameless.get(&domain).copied().unwrap_or(0).max(1);
+                named.into_iter().chain(first..first + count).map(Constant::Integer).collect()
             }
         }
     }
 }
 
-struct Search<'f> {
-    formula: &'f Formula,
-    numbers: &'f Numbers,
+fn within(number: i128, (low, high): Bounds) -> bool {
+    low.is_none_or(|low| low <= number) && high.is_none_or(|high| number <= high)
+}
+
+fn is_numeric(shape: Shape) -> bool {
+    matches!(shape, Shape::Integer | Shape::Real)
+}
+
+/// Which terms are numbers of the model: elements are numbers of ours, too.
+fn numbers(question: &Question, parts: &[Node]) -> BTreeSet<Node> {
+    let mut found: BTreeSet<Node> = BTreeSet::new();
+    let is_location = |node: &Node| question.unknown(*node).is_some_and(|one| is_numeric(one.sort.0));
+    // By what they are made of, then by what is made of them.
+    for node in parts {
+        let numeric = match question.terms.op(*node) {
+            Op::Variable(_) | Op::Apply(..) => is_location(node),
+            Op::If(_, yes, no) => found.contains(yes) || found.contains(no),
+            Op::Add(..)
+            | Op::Subtract(..)
+            | Op::Multiply(..)
+            | Op::Quotient(..)
+            | Op::Remainder(..)
+            | Op::Divide(..)
+            | Op::ToReal(_)
+            | Op::Floor(_)
+            | Op::Real(_) => true,
+            Op::Boolean(_) | Op::Integer(_) | Op::Not(_) | Op::And(_) | Op::Or(_) | Op::Equal(..) | Op::Less(..) => {
+                false
+            }
+        };
+        found.extend(numeric.then_some(*node));
+    }
+    for node in parts.iter().rev() {
+        match question.terms.op(*node) {
+            Op::Equal(a, b) if found.contains(a) || found.contains(b) => found.extend([*a, *b]),
+            Op::If(_, yes, no) if found.contains(node) => found.extend([*yes, *no]),
+            Op::Less(a, b)
+            | Op::Add(a, b)
+            | Op::Subtract(a, b)
+            | Op::Multiply(a, b)
+            | Op::Quotient(a, b)
+            | Op::Remainder(a, b)
+            | Op::Divide(a, b) => found.extend([*a, *b]),
+            Op::ToReal(a) | Op::Floor(a) => _ = found.insert(*a),
+            Op::Apply(_, arguments) => {
+                let sorts = question.unknown(*node).map_or(&[][..], |unknown| &unknown.parameters);
+                let numeric = arguments.iter().zip(sorts).filter(|(_, (shape, _))| is_numeric(*shape));
+                found.extend(numeric.map(|(argument, _)| *argument));
+            }
+            Op::Boolean(_)
+            | Op::Integer(_)
+            | Op::Real(_)
+            | Op::Variable(_)
+            | Op::Not(_)
+            | Op::And(_)
+            | Op::Or(_)
+            | Op::Equal(..)
+            | Op::If(..) => {}
+        }
+    }
+    found
+}
+
+struct Search<'q> {
+    question: &'q Question,
+    numbers: &'q Numbers,
     state: State,
     budget: usize,
 }
@@ -146,114 +246,124 @@ impl Search<'_> {
     /// Whether the state can be completed; none when there are too many cases.
     fn run(&mut self) -> Option<bool> {
         self.budget = self.budget.checked_sub(1)?;
-        match evaluate(self.formula, &self.state, &self.formula.condition) {
-            Outcome::Value(value) => Some(value == Value::Boolean(true)),
-            Outcome::Trouble => Some(false),
-            Outcome::Needs(id, arguments) => {
-                for value in self.numbers.values(self.formula, id) {
-                    self.state.push(((id, arguments.clone()), value));
-                    if self.run()? {
-                        return Some(true);
-                    }
-                    self.state.pop();
-                }
-                Some(false)
+        let mut evaluation = Evaluation::of(self.question, &self.state);
+        let location = match evaluation.evaluate(self.question.condition) {
+            Outcome::Value(value) => return Some(value == Constant::Boolean(true)),
+            Outcome::Trouble => return Some(false),
+            Outcome::Needs(location) => location,
+        };
+        let Some((id, arguments)) = self.question.location(location) else { return Some(false) };
+        let Ok(arguments) = evaluation.evaluate_all(arguments) else { return Some(false) };
+        for value in self.numbers.values(self.question, location) {
+            self.state.push(((id, arguments.clone()), value));
+            if stacker::maybe_grow(64 << 10, 1 << 20, || self.run())? {
+                return Some(true);
             }
+            self.state.pop();
         }
+        Some(false)
     }
 }
 
+#[derive(Clone, Copy)]
 enum Outcome {
-    Value(Value),
-    /// This location must have a value first.
-    Needs(SymbolId, Vec<Value>),
+    Value(Constant),
+    /// This location must have a value first; its arguments have.
+    Needs(Node),
     /// No number results.
     Trouble,
 }
 
-fn evaluate(formula: &Formula, state: &State, term: &Term) -> Outcome {
-    let truth = |truth: bool| Outcome::Value(Value::Boolean(truth));
-    macro_rules! value {
-        ($term:expr) => {
-            match evaluate(formula, state, $term) {
-                Outcome::Value(value) => value,
-                other => return other,
-            }
+/// What terms come to in a state, each worked out once.
+struct Evaluation<'q> {
+    question: &'q Question,
+    state: &'q State,
+    known: BTreeMap<Node, Outcome>,
+}
+
+impl<'q> Evaluation<'q> {
+    fn of(question: &'q Question, state: &'q State) -> Self {
+        Evaluation { question, state, known: BTreeMap::new() }
+    }
+
+    fn evaluate(&mut self, node: Node) -> Outcome {
+        if let Some(outcome) = self.known.get(&node) {
+            return *outcome;
+        }
+        let outcome = stacker::maybe_grow(64 << 10, 1 << 20, || self.evaluate_here(node));
+        self.known.insert(node, outcome);
+        outcome
+    }
+
+    /// The values of all, or what the first has instead that has none.
+    fn evaluate_all(&mut self, nodes: &[Node]) -> Result<Vec<Constant>, Outcome> {
+        let value = |node: &Node| match self.evaluate(*node) {
+            Outcome::Value(value) => Ok(value),
+            other => Err(other),
         };
+        nodes.iter().map(value).collect()
     }
-    match term {
-        Term::Constant(value) => Outcome::Value(*value),
-        Term::Apply(id, arguments) => {
-            let mut values = Vec::with_capacity(arguments.len());
-            for argument in arguments {
-                values.push(value!(argument));
-            }
-            match state.iter().find(|((known, at), _)| known == id && *at == values) {
-                Some((_, value)) => Outcome::Value(*value),
-                None => Outcome::Needs(*id, values),
-            }
-        }
-        Term::Not(inner) => truth(value!(inner) == Value::Boolean(false)),
-        Term::And(terms) => junction(formula, state, terms, false),
-        Term::Or(terms) => junction(formula, state, terms, true),
-        Term::Equal(a, b) => truth(value!(a) == value!(b)),
-        Term::Compare(order, a, b) => match (value!(a).partial_cmp(&value!(b)), order) {
-            (Some(ordering), Order::Less) => truth(ordering.is_lt()),
-            (Some(ordering), Order::LessEqual) => truth(ordering.is_le()),
-            (None, _) => Outcome::Trouble,
-        },
-        Term::If(condition, yes, no) => {
-            evaluate(formula, state, if value!(condition) == Value::Boolean(true) { yes } else { no })
-        }
-        Term::Compute(operation, a, b) => {
-            compute(*operation, value!(a), value!(b)).map_or(Outcome::Trouble, Outcome::Value)
-        }
-        Term::ToReal(inner) => match value!(inner) {
-            Value::Integer(number) => Outcome::Value(Value::Real(number as f64)),
-            _ => Outcome::Trouble,
-        },
-        Term::Floor(inner) => match value!(inner) {
-            Value::Real(number) if number.abs() < 9.2e18 => Outcome::Value(Value::Integer(number.floor() as i64)),
-            _ => Outcome::Trouble,
-        },
-    }
-}
 
-/// One that decides is enough; trouble is for a condition elsewhere to exclude, so it decides nothing.
-fn junction(formula: &Formula, state: &State, terms: &[Term], deciding: bool) -> Outcome {
-    let mut open = None;
-    for term in terms {
-        match evaluate(formula, state, term) {
-            Outcome::Value(value) if value == Value::Boolean(deciding) => return Outcome::Value(value),
-            Outcome::Value(_) => {}
-            other if matches!(open, None | Some(Outcome::Trouble)) => open = Some(other),
-            _ => {}
+    fn evaluate_here(&mut self, node: Node) -> Outcome {
+        let question = self.question;
+        match question.terms.op(node) {
+            Op::Variable(_) | Op::Apply(..) => {
+                let Some((id, arguments)) = question.location(node) else { return Outcome::Trouble };
+                let arguments = match self.evaluate_all(arguments) {
+                    Ok(arguments) => arguments,
+                    Err(other) => return other,
+                };
+                let found = self.state.iter().find(|((known, at), _)| *known == id && *at == arguments);
+                found.map_or(Outcome::Needs(node), |(_, value)| Outcome::Value(*value))
+            }
+            Op::And(terms) => self.junction(terms, false),
+            Op::Or(terms) => self.junction(terms, true),
+            Op::If(condition, yes, no) => match self.evaluate(*condition) {
+                Outcome::Value(Constant::Boolean(true)) => self.evaluate(*yes),
+                Outcome::Value(_) => self.evaluate(*no),
+                other => other,
+            },
+            Op::Boolean(_)
+            | Op::Integer(_)
+            | Op::Real(_)
+            | Op::Not(_)
+            | Op::Equal(..)
+            | Op::Less(..)
+            | Op::Add(..)
+            | Op::Subtract(..)
+            | Op::Multiply(..)
+            | Op::Quotient(..)
+            | Op::Remainder(..)
+            | Op::Divide(..)
+            | Op::ToReal(_)
+            | Op::Floor(_) => {
+                let mut operands = Vec::new();
+                question.terms.each_operand(node, &mut |operand| operands.push(operand));
+                let values = match self.evaluate_all(&operands) {
+                    Ok(values) => values,
+                    Err(other) => return other,
+                };
+                let of = |node| operands.iter().position(|operand| *operand == node).map(|index| values[index]);
+                match question.terms.value_by(node, &of) {
+                    Some(Constant::Real(number)) if !number.is_finite() => Outcome::Trouble,
+                    Some(value) => Outcome::Value(value),
+                    None => Outcome::Trouble,
+                }
+            }
         }
     }
-    open.unwrap_or(Outcome::Value(Value::Boolean(!deciding)))
-}
 
-fn compute(operation: Arithmetic, a: Value, b: Value) -> Option<Value> {
-    match (a, b) {
-        (Value::Integer(a), Value::Integer(b)) => Some(Value::Integer(match operation {
-            Arithmetic::Add => a.checked_add(b)?,
-            Arithmetic::Subtract => a.checked_sub(b)?,
-            Arithmetic::Multiply => a.checked_mul(b)?,
-            Arithmetic::Quotient => a.checked_div(b)?,
-            Arithmetic::Remainder if b == 0 => return None,
-            Arithmetic::Remainder => a.wrapping_rem(b),
-            Arithmetic::Divide => return None,
-        })),
-        (Value::Real(a), Value::Real(b)) => {
-            let result = match operation {
-                Arithmetic::Add => a + b,
-                Arithmetic::Subtract => a - b,
-                Arithmetic::Multiply => a * b,
-                Arithmetic::Divide => a / b,
-                Arithmetic::Quotient | Arithmetic::Remainder => return None,
-            };
-            result.is_finite().then_some(Value::Real(result))
+    /// One that decides is enough; trouble is for a condition elsewhere to exclude, so it decides nothing.
+    fn junction(&mut self, terms: &[Node], deciding: bool) -> Outcome {
+        let mut open = None;
+        for term in terms {
+            match self.evaluate(*term) {
+                Outcome::Value(value) if value == Constant::Boolean(deciding) => return Outcome::Value(value),
+                Outcome::Value(_) => {}
+                other if matches!(open, None | Some(Outcome::Trouble)) => open = Some(other),
+                _ => {}
+            }
         }
-        _ => None,
+        open.unwrap_or(Outcome::Value(Constant::Boolean(!deciding)))
     }
 }

@@ -4,9 +4,11 @@
 //! there is none is said only of all cases, or by the solver.
 
 use crate::answer::{Answer, answer};
-use crate::cases::{Cases, MAX_CASES, Reason, cases, holds};
-use crate::formula::{Formula, Sort, Value};
+use crate::cases::{Cases, MAX_CASES, Reason, State, cases, holds, value_in};
+use crate::question::Question;
 use crate::script::script;
+use crate::session::Constant;
+use crate::shared::{Kind, Node, VariableId};
 
 /// Something that decides SMT-LIB scripts, such as a process of z3 or cvc5.
 pub trait Solver {
@@ -25,7 +27,7 @@ pub enum Decision {
     Unknown(String),
 }
 
-impl Formula {
+impl Question {
     /// Looks for a state in which the condition holds.
     pub fn decide(&self, solver: &mut dyn Solver) -> Decision {
         let reason = match cases(self) {
@@ -33,14 +35,13 @@ impl Formula {
             Cases::None => return Decision::Impossible,
             Cases::Open(reason) => reason,
         };
-        let (text, asked) = script(self);
         let why = match reason {
             Reason::Many => format!("there are more than {MAX_CASES} cases"),
             Reason::Numbers => "the numbers have too many values to go through".to_string(),
         };
-        match solver.solve(&text) {
+        match solver.solve(&script(self)) {
             Err(reason) => Decision::Unknown(format!("{why}, and {reason}")),
-            Ok(output) => match answer(self, &asked, &output) {
+            Ok(output) => match answer(self, &output) {
                 Answer::Unsat => Decision::Impossible,
                 Answer::Other(line) => Decision::Unknown(format!("{why}, and the solver says `{line}`")),
                 Answer::Sat(state) if holds(self, &state) == Some(true) || self.has_reals() => {
@@ -53,21 +54,31 @@ impl Formula {
 
     /// The SMT-LIB script that a solver is given.
     pub fn script(&self) -> String {
-        script(self).0
+        script(self)
     }
 
     fn has_reals(&self) -> bool {
-        let mut found = false;
-        self.condition.walk(&mut |term| found |= self.sort(term) == Sort::Real);
-        found
+        self.terms.parts([self.condition]).into_iter().any(|node| self.terms.kind(node) == Kind::Real)
     }
 
-    fn shown(&self, state: &[((crate::formula::SymbolId, Vec<Value>), Value)]) -> Vec<String> {
-        // That a location is defined is seen from its value.
-        let plain = |id: crate::formula::SymbolId, value: Value| {
-            !(self.symbol(id).definedness && value == Value::Boolean(true))
+    /// A state, location by location, in the order in which the condition reads them.
+    fn shown(&self, state: &State) -> Vec<String> {
+        let place = |(id, arguments): &(VariableId, Vec<Constant>)| {
+            let is_it = |node: &Node| {
+                let values = |terms: &[Node]| terms.iter().map(|term| value_in(self, state, *term)).collect::<Vec<_>>();
+                self.location(*node).is_some_and(|(symbol, terms)| {
+                    symbol == *id && values(terms).into_iter().eq(arguments.iter().copied().map(Some))
+                })
+            };
+            self.locations.iter().position(is_it)
         };
-        let shown = state.iter().filter(|((id, _), value)| plain(*id, *value));
-        shown.map(|((id, arguments), value)| self.show_location(*id, arguments, *value)).collect()
+        let mut placed: Vec<_> = state.iter().map(|one| (place(&one.0), one)).collect();
+        placed.sort_by_key(|(place, _)| *place);
+        // That a location is defined is seen from its value.
+        let is_defined = |id, value: &Constant| {
+            *value == Constant::Boolean(true) && self.unknowns.get(id).is_some_and(|unknown| unknown.definedness)
+        };
+        let shown = placed.into_iter().filter(|(_, ((id, _), value))| !is_defined(id, value));
+        shown.map(|(_, ((id, arguments), value))| self.show_location(*id, arguments, *value)).collect()
     }
 }

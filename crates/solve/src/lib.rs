@@ -1,12 +1,13 @@
-//! Whether a condition over a model can hold: in which state, by cases or by a solver of SMT-LIB.
+//! What is asked of solvers: terms and rules of programs as formulas, and whether a condition can hold.
 //!
-//! In: a checked term ([`translate()`]). Out: a [`Formula`], first-order logic without quantifiers over the locations that
-//! the term reads; [`Formula::decide`] looks for a state in which it holds. Where all locations that matter have finitely
-//! many values, or are only compared with constants, the cases are gone through; else the formula is written as SMT-LIB
-//! and a [`Solver`], which the shell brings, is asked. An answer is a state, none, or unknown with the reason.
+//! [`encode`] puts the terms and rules of a program into [`shared`] terms, of which each stands once; what a [`session`] with
+//! a solver was told it keeps. `verify` makes transition relations of these.
 //!
-//! Transition relations are too large for such trees: [`shared`] terms stand once, and a [`session`] with a solver keeps what
-//! it was told. [`encode`] puts the rules and terms of a program into them; `verify` makes relations of these.
+//! In: a program and a condition about a state that may be any ([`question()`]). Out: a [`Question`], first-order logic
+//! without quantifiers over the locations that it reads; [`Question::decide`] looks for a state in which it holds. Where
+//! all locations that matter have finitely many values, or are only compared with constants, the cases are gone through;
+//! else the question is written as SMT-LIB and a [`Solver`], which the shell brings, is asked. An answer is a state, none,
+//! or unknown with the reason.
 //!
 //! The meaning of terms is that of `machine`; tests hold the two to each other. It must not start a process.
 
@@ -14,13 +15,12 @@ mod answer;
 mod cases;
 mod decide;
 pub mod encode;
-mod formula;
+mod question;
 mod script;
 pub mod session;
 pub mod shared;
 pub mod symbol;
-mod translate;
 
 pub use decide::{Decision, Solver};
-pub use formula::{Arithmetic, Carrier, Formula, Order, Sort, Symbol, SymbolId, Term, Value};
-pub use translate::{Outside, translate};
+pub use encode::Outside;
+pub use question::{Question, question};

@@ -112,6 +112,11 @@ impl Codes {
         }) as i128
     }
 
+    /// The values that have codes, in their order.
+    pub fn values(&self) -> &[Value] {
+        &self.values
+    }
+
     /// The value of a code; of one that stands for none so far, a string that is not there.
     pub fn value(&self, code: i128) -> Value {
         let known = usize::try_from(code).ok().and_then(|code| self.values.get(code));

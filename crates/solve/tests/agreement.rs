@@ -1,14 +1,15 @@
-//! Formulas mean what the machine does: a generated condition holds in a state, by the machine's evaluation, exactly when the
-//! formula of "this state and the condition" is found possible. No solver is asked.
+//! Questions mean what the machine does: a generated condition holds in a state, by the machine's evaluation, exactly when the
+//! question of "this state and the condition" is found possible: by cases, and by the solvers that are installed.
 
 use std::sync::Arc;
 
 use machine::{Closed, Limits, Machine, Value};
 use model::check;
-use solve::{Decision, translate};
+use solve::session::{Session, Solvers, Verdict, verdict};
+use solve::{Decision, Question, question};
 use syntax::ast::{AstNode, TermFile};
 use syntax::{FileId, SourceFile};
-use testkit::{NoFiles, NoSolver};
+use testkit::{NoFiles, NoSolver, solver};
 
 /// Numbers that look random and are the same in every run.
 struct Dice(u64);
@@ -30,7 +31,7 @@ impl Dice {
                 .to_string();
         }
         let (a, b) = (self.truth(depth - 1), self.truth(depth - 1));
-        match self.throw(12) {
+        match self.throw(14) {
             0 => format!("(({a}) and ({b}))"),
             1 => format!("(({a}) or ({b}))"),
             2 => format!("(({a}) implies ({b}))"),
@@ -44,6 +45,8 @@ impl Dice {
             }
             8 => format!("(u = undef or u > {})", self.number(depth - 1)),
             9 => format!("({} in {{1, b, 3}})", self.number(depth - 1)),
+            10 => format!("({} {} {{-3 : b}})", self.number(depth - 1), self.one(&["in", "notin"])),
+            11 => format!("(exist unique $k in {{0 : 2}} with $k > {})", self.number(depth - 1)),
             _ => {
                 let (x, y) = (self.number(depth - 1), self.number(depth - 1));
                 format!("({x} {} {y})", self.one(&["<", "<=", ">", ">=", "=", "!="]))
@@ -58,7 +61,7 @@ impl Dice {
                 .to_string();
         }
         let (x, y) = (self.number(depth - 1), self.number(depth - 1));
-        match self.throw(10) {
+        match self.throw(11) {
             0 => format!("({x} + {y})"),
             1 => format!("({x} - {y})"),
             2 => format!("({x} * {y})"),
@@ -67,7 +70,8 @@ impl Dice {
             5 => format!("max({x}, {y})"),
             6 => format!("min({x}, {y})"),
             7 => format!("abs({x})"),
-            8 => format!("(if {} then {x} else {y} endif)", self.truth(depth - 1)),
+            8 => format!("(let ($y = {x}) in b - 1 endlet)"),
+            9 => format!("(if {} then {x} else {y} endif)", self.truth(depth - 1)),
             _ => format!("(switch m case HAND: {x} otherwise {y} endswitch)"),
         }
     }
@@ -85,6 +89,8 @@ const STATES: [[&str; 7]; 5] = [
 #[test]
 fn conditions_mean_what_the_machine_does() {
     let mut counts = [0; 3];
+    let started = solver::solvers(false).into_iter().map(|mut solver| solver.start().expect("it starts"));
+    let mut sessions: Vec<Box<dyn Session>> = started.collect();
     for (number, [a, b, u, m, p, f, q]) in STATES.iter().enumerate() {
         let text = format!(
             "asm Small import StandardLibrary signature: enum domain Mode = {{AUTO | HAND}} domain Half subsetof Integer \
@@ -101,11 +107,20 @@ fn conditions_mean_what_the_machine_does() {
             "a = {a} and b = {b} and {defined} and m = {m} and p = {p} and f({m}) = {f} and q({m}) = {q} and h = 4"
         );
         let mut dice = Dice(number as u64 + 1);
-        for _ in 0..160 {
+        for round in 0..160 {
             let depth = 1 + dice.throw(3);
             let condition = dice.truth(depth);
             let expected = evaluated(&mut checked, &condition);
-            let decided = decided(&mut checked, &format!("{given} and ({condition})"));
+            let question = asked(&mut checked, &format!("{given} and ({condition})"));
+            let decided = question.decide(&mut NoSolver);
+            for session in sessions.iter_mut().filter(|_| round % 4 == 0) {
+                let agree = match (told(&mut **session, &question), expected) {
+                    (Verdict::Possible, expected) => expected == Some(true),
+                    (Verdict::Impossible, expected) => expected != Some(true),
+                    (Verdict::Unknown, _) => true,
+                };
+                assert!(agree, "{given}\n{condition}\nthe machine says {expected:?}\n{}", question.script());
+            }
             let agree = match (&decided, expected) {
                 (Decision::Possible(_), Some(true)) | (Decision::Impossible, Some(false) | None) => true,
                 // Cases alone do not exclude what numbers they do not try might do.
@@ -119,13 +134,22 @@ fn conditions_mean_what_the_machine_does() {
     assert!(counts.iter().all(|count| *count > 50), "{counts:?}");
 }
 
-fn decided(checked: &mut model::Checked, condition: &str) -> Decision {
+/// What a solver says.
+fn told(session: &mut dyn Session, question: &Question) -> Verdict {
+    let script = question.script();
+    let (before, _) = script.split_once("(check-sat)").expect("it asks");
+    let answer = session.ask(&format!("(reset)\n{before}(check-sat)\n"), 20, &mut || true).expect("it answers");
+    verdict(&answer).expect("a verdict")
+}
+
+fn asked(checked: &mut model::Checked, condition: &str) -> Question {
     let parse = syntax::parse_term(FileId(9), condition);
     let term = TermFile::cast(parse.syntax()).and_then(|file| file.term()).expect("a term");
     let fragment = checked.model.check_condition(FileId(9), &term, "the condition");
     assert!(fragment.diagnostics.iter().all(|found| found.severity != syntax::Severity::Error), "{condition}");
-    let formula = translate(&checked.model, &fragment.item, &fragment.variables).expect("it is inside");
-    formula.decide(&mut NoSolver)
+    let mut program = program::lower(&checked.model).expect("it is lowered");
+    let lowered = program::lower_term(&mut program, &checked.model, &fragment.item, &fragment.variables);
+    question(&Arc::new(program), &lowered.expect("it is lowered")).expect("it is inside")
 }
 
 /// The truth of a condition in the initial state; none where evaluating it is a fault.

@@ -1,8 +1,10 @@
 //! Conditions over a small model: which can hold, in which state, and what is asked of a solver.
 
+use std::sync::Arc;
+
 use expect_test::{Expect, expect};
 use model::{Checked, check as check_model};
-use solve::{Decision, Formula, Solver, translate};
+use solve::{Decision, Question, Solver};
 use syntax::ast::{AstNode, TermFile};
 use syntax::{FileId, SourceFile};
 use testkit::NoFiles;
@@ -37,19 +39,27 @@ definitions:
 	main rule r_Main = skip
 ";
 
-fn model() -> Checked {
-    let checked = check_model(SourceFile::new("Plant.asm", MODEL), &mut NoFiles);
-    assert_eq!(checked.diagnostics, []);
+fn model(text: &str) -> Checked {
+    let checked = check_model(SourceFile::new("Plant.asm", text), &mut NoFiles);
+    // A static function without a definition is one that is not known.
+    let told = checked.diagnostics.iter().filter(|found| found.id != "undefined-function");
+    assert_eq!(told.count(), 0, "{:?}", checked.diagnostics);
     checked
 }
 
-fn formula(condition: &str) -> Result<Formula, String> {
-    let mut checked = model();
+fn question(condition: &str) -> Result<Question, String> {
+    question_of(MODEL, condition)
+}
+
+fn question_of(text: &str, condition: &str) -> Result<Question, String> {
+    let mut checked = model(text);
     let parse = syntax::parse_term(FileId(9), condition);
     let term = TermFile::cast(parse.syntax()).and_then(|file| file.term()).expect("a term");
     let fragment = checked.model.check_condition(FileId(9), &term, "the condition");
     assert_eq!(fragment.diagnostics, [], "{condition}");
-    translate(&checked.model, &fragment.item, &fragment.variables).map_err(|outside| outside.what)
+    let mut program = program::lower(&checked.model).expect("it is lowered");
+    let lowered = program::lower_term(&mut program, &checked.model, &fragment.item, &fragment.variables);
+    solve::question(&Arc::new(program), &lowered.expect("it is lowered")).map_err(|outside| outside.what)
 }
 
 /// Says what was recorded, and keeps the script.
@@ -64,16 +74,20 @@ impl Solver for Recorded {
 
 /// Decided without a solver.
 fn check(condition: &str, expected: Expect) {
+    expected.assert_eq(&decided(MODEL, condition));
+}
+
+fn decided(text: &str, condition: &str) -> String {
     let mut solver = Recorded(Err("there is no solver"), None);
-    let decision = match formula(condition) {
-        Ok(formula) => formula.decide(&mut solver),
+    let decision = match question_of(text, condition) {
+        Ok(question) => question.decide(&mut solver),
         Err(what) => Decision::Unknown(what),
     };
-    expected.assert_eq(&match decision {
+    match decision {
         Decision::Possible(state) => state.join(", "),
         Decision::Impossible => "never".to_string(),
         Decision::Unknown(reason) => format!("unknown: {reason}"),
-    });
+    }
 }
 
 #[test]
@@ -122,6 +136,61 @@ fn open_carriers_have_enough_elements() {
 }
 
 #[test]
+fn what_is_bound_is_evaluated() {
+    check("let ($x = idiv(1, level)) in mode = AUTO endlet", expect!["level = 1, mode = AUTO"]);
+    check("let ($x = idiv(1, 0)) in mode = AUTO endlet", expect!["never"]);
+}
+
+#[test]
+fn ranges_are_compared_with_their_ends() {
+    check(
+        "temperature in {3 : 1000000000000} and temperature notin {0 : 2000000000}",
+        expect!["temperature = 2000000001"],
+    );
+    check("level in {3 : count}", expect!["level = 3, count = 3"]);
+    check(
+        "count in {3 : level} and level < 3",
+        expect!["unknown: the numbers have too many values to go through, and there is no solver"],
+    );
+    check("(exist unique $l in Level with $l > level)", expect!["level = 3"]);
+}
+
+#[test]
+fn elements_of_a_module_may_have_others_beside_them_and_lists_have_not() {
+    let text = "module Plant
+import StandardLibrary
+export *
+signature:
+	abstract domain Valve
+	domain Inner subsetof Valve
+	domain Robot subsetof Agent
+	static inlet: Valve
+	static outlet: Inner
+	static arm: Robot
+	controlled current: Valve
+	controlled next: Inner
+	controlled busy: Robot
+	monitored name: String
+	monitored letter: Char
+	static limit: Integer
+	domain Fraction subsetof Real
+	monitored fraction: Fraction
+definitions:
+	domain Fraction = {0.5, 1.5}
+";
+    let check = |condition: &str, expected: Expect| expected.assert_eq(&decided(text, condition));
+    check("current != inlet and current != outlet", expect!["current = Valve!1"]);
+    check("next != outlet and next = current", expect!["next = inlet, current = inlet"]);
+    check("busy != arm", expect!["busy = Agent!1"]);
+    check("(exist $v in Valve with $v != inlet)", expect!["$v = outlet"]);
+    check("(forall $v in Valve with $v = inlet) and isDef(name)", expect!["unknown: a range over all of Valve"]);
+    check("name != \"a\" and letter != 'b' and letter != 'c'", expect!["name = String!1, letter = Char!1"]);
+    check("limit > 3", expect!["limit = 4"]);
+    check("fraction > 1.0", expect!["fraction = 1.5"]);
+    check("fraction > 1.5", expect!["never"]);
+}
+
+#[test]
 fn undef_counts_where_it_is_asked_for() {
     check("isDef(due) and due > 3", expect!["due = 4"]);
     check("isUndef(due) and due > 3", expect!["never"]);
@@ -146,8 +215,8 @@ fn a_solver_is_asked_where_cases_do_not_tell() {
 #[test]
 fn answers_of_a_solver() {
     let check = |condition: &str, output: Result<&'static str, &'static str>, expected: Expect| {
-        let formula = formula(condition).expect("it is inside");
-        expected.assert_eq(&format!("{:?}", formula.decide(&mut Recorded(output, None))));
+        let question = question(condition).expect("it is inside");
+        expected.assert_eq(&format!("{:?}", question.decide(&mut Recorded(output, None))));
     };
     let sum = "temperature + due = 7 and temperature - due = 101";
     check(sum, Ok("unsat\n(error \"line 9 column 11: model is not available\")\n"), expect!["Impossible"]);
@@ -184,19 +253,21 @@ fn answers_of_a_solver() {
 #[test]
 fn scripts() {
     let check =
-        |condition: &str, expected: Expect| expected.assert_eq(&formula(condition).expect("it is inside").script());
+        |condition: &str, expected: Expect| expected.assert_eq(&question(condition).expect("it is inside").script());
     check(
         "temperature + due > 7 and temperature mod due = -1",
         expect![[r#"
             (set-option :produce-models true)
             (set-logic ALL)
-            (declare-fun |temperature 0| () Int)
-            (declare-fun |due 1| () Int)
-            (assert (<= (- 9223372036854775808) |temperature 0| 9223372036854775807))
-            (assert (<= (- 9223372036854775808) |due 1| 9223372036854775807))
-            (assert (and (<= (- 9223372036854775808) (+ |temperature 0| |due 1|)) (<= (+ |temperature 0| |due 1|) 9223372036854775807) (or (not (< 7 (+ |temperature 0| |due 1|))) (not (= |due 1| 0))) (< 7 (+ |temperature 0| |due 1|)) (= (ite (>= |temperature 0| 0) (mod |temperature 0| |due 1|) (- (mod (- |temperature 0|) |due 1|))) (- 1))))
+            (declare-fun |temperature.0| () Int)
+            (declare-fun |due.1| () Int)
+            (assert (<= (- 9223372036854775808) |temperature.0| 9223372036854775807))
+            (assert (<= (- 9223372036854775808) |due.1| 9223372036854775807))
+            (assert (let ((n5 (+ |temperature.0| |due.1|)))
+            (let ((n15 (< 7 n5)))
+            (and (not (< n5 (- 9223372036854775808))) (not (< 9223372036854775807 n5)) n15 (not (and n15 (= |due.1| 0))) (= (ite (<= 0 |temperature.0|) (mod |temperature.0| |due.1|) (- (mod (- |temperature.0|) (+ 0 |due.1|)))) (- 1))))))
             (check-sat)
-            (get-value (|temperature 0| |due 1|))
+            (get-value (|temperature.0| |due.1|))
         "#]],
     );
     check(
@@ -204,36 +275,36 @@ fn scripts() {
         expect![[r#"
             (set-option :produce-models true)
             (set-logic ALL)
-            (declare-datatypes ((|Valve 0| 0)) (((|inlet 0.0|) (|outlet 0.1|))))
-            (declare-datatypes ((|Mode 1| 0)) (((|AUTO 1.0|) (|HAND 1.1|) (|STOPPED 1.2|))))
-            (declare-sort |Part 2| 0)
-            (declare-fun |$v 0| () |Valve 0|)
-            (declare-fun |next 1| (|Valve 0|) |Valve 0|)
-            (declare-fun |open 2| (|Valve 0|) Bool)
-            (declare-fun |mode 3| () |Mode 1|)
-            (declare-fun |held 4| () |Part 2|)
-            (declare-fun |wanted 5| () |Part 2|)
-            (declare-fun |pressure 6| () Real)
-            (assert (and (|open 2| (|next 1| |$v 0|)) (= |mode 3| |AUTO 1.0|) (not (= |held 4| |wanted 5|)) (< (- 0.5) (/ |pressure 6| 2.0))))
+            (declare-fun |$v.0| () Int)
+            (declare-fun |next.1| (Int) Int)
+            (declare-fun |open.2| (Int) Bool)
+            (declare-fun |mode.3| () Int)
+            (declare-fun |held.4| () Int)
+            (declare-fun |wanted.5| () Int)
+            (declare-fun |pressure.6| () Real)
+            (assert (<= 0 |$v.0| 1))
+            (assert (<= 0 (|next.1| |$v.0|) 1))
+            (assert (<= 0 |mode.3| 2))
+            (assert (<= 0 |held.4| 4294967296))
+            (assert (<= 0 |wanted.5| 4294967296))
+            (assert (and (|open.2| (|next.1| |$v.0|)) (= 0 |mode.3|) (not (= |held.4| |wanted.5|)) (< (- (/ 1.0 2.0)) (/ |pressure.6| 2.0))))
             (check-sat)
-            (get-value ((|next 1| |$v 0|) (|open 2| (|next 1| |$v 0|)) |$v 0| |mode 3| |held 4| |wanted 5| |pressure 6|))
+            (get-value (|$v.0| (|next.1| |$v.0|) (|open.2| (|next.1| |$v.0|)) |mode.3| |held.4| |wanted.5| |pressure.6|))
         "#]],
     );
     check(
         "isUndef(due) or name = \"a|b\" or level > 1",
         expect![[r#"
-        (set-option :produce-models true)
-        (set-logic ALL)
-        (declare-sort |String 0| 0)
-        (declare-const |"a_b" 0.0| |String 0|)
-        (declare-fun |due 0| () Int)
-        (declare-fun |isDef due 1| () Bool)
-        (declare-fun |name 2| () |String 0|)
-        (declare-fun |level 3| () Int)
-        (assert (or (= |level 3| 0) (= |level 3| 1) (= |level 3| 2) (= |level 3| 3) (= |level 3| 4)))
-        (assert (or (not |isDef due 1|) (= |name 2| |"a_b" 0.0|) (< 1 |level 3|)))
-        (check-sat)
-        (get-value (|"a_b" 0.0| |isDef due 1| |name 2| |level 3|))
-    "#]],
+            (set-option :produce-models true)
+            (set-logic ALL)
+            (declare-fun |isDef due.1| () Bool)
+            (declare-fun |name.2| () Int)
+            (declare-fun |level.3| () Int)
+            (assert (<= 0 |name.2| 4294967296))
+            (assert (<= 0 |level.3| 4))
+            (assert (or (not |isDef due.1|) (= |name.2| 0) (< 1 |level.3|)))
+            (check-sat)
+            (get-value (|isDef due.1| |name.2| |level.3|))
+        "#]],
     );
 }

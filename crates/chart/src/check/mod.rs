@@ -112,8 +112,8 @@ pub fn check(chart: &Chart, probed: &Probed, checked: &Checked, solver: &mut dyn
     faults.extend(of_links.into_iter().map(|(_, fault)| fault));
     let root = checked.model.root;
     if faults.is_empty() {
-        let mut model = checked.model.clone();
-        chart.machines.iter().for_each(|machine| paths::paths(chart, machine, &mut model, solver, &mut faults));
+        let mut guards = paths::Guards::over(&checked.model);
+        chart.machines.iter().for_each(|machine| paths::paths(chart, machine, &mut guards, solver, &mut faults));
         for (index, machine) in chart.machines.iter().enumerate() {
             one(chart, machine, &probe_name(index), &checked.model, &mut faults);
         }

@@ -2,12 +2,14 @@
 //! which none holds.
 //!
 //! In: a machine whose links resolve, its model, a solver. Out: faults with a state that shows the case, or that it is not
-//! known, and why. Each question is a condition written in AsmetaL over the guards of the paths, and so means what the
-//! guards mean. A state with a single guard waits for it; no gap is told of that.
+//! known, and why. Each question is a condition written in AsmetaL over the guards of the paths, which is lowered as guards
+//! of rules are, and so means what the guards mean. A state with a single guard waits for it; no gap is told of that.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use model::Model;
+use program::Program;
 use solve::{Decision, Solver};
 use syntax::ast::{AstNode, TermFile};
 use syntax::{Diagnostic, FileId, Severity, Span};
@@ -22,16 +24,57 @@ use crate::symbolic::Path;
 /// LIMIT: so many pairs of paths of one machine are compared.
 const MAX_PAIRS: usize = 2_000;
 
+/// What the guards of a chart are over.
+pub(super) struct Guards {
+    model: Model,
+    /// The model as the machine has it, with the questions so far; why there is none, as a clause.
+    program: Result<Arc<Program>, String>,
+}
+
+impl Guards {
+    /// Guards over a model without faults.
+    pub fn over(model: &Model) -> Guards {
+        Guards { model: model.clone(), program: program::lower(model).map(Arc::new).map_err(|faults| first(&faults)) }
+    }
+
+    /// Whether a condition over the model can hold.
+    fn ask(&mut self, text: &str, solver: &mut dyn Solver) -> Decision {
+        let file = FileId(u32::MAX);
+        let parse = syntax::parse_term(file, text);
+        let Some(term) = TermFile::cast(parse.syntax()).and_then(|file| file.term()) else {
+            return Decision::Unknown("the guards are no term".to_string());
+        };
+        let fragment = self.model.check_condition(file, &term, "the guard");
+        if fragment.diagnostics.iter().any(|found| found.severity == Severity::Error) {
+            return Decision::Unknown("the guards are no condition".to_string());
+        }
+        let program = match &mut self.program {
+            Ok(program) => program,
+            Err(reason) => return Decision::Unknown(reason.clone()),
+        };
+        let lowered = program::lower_term(Arc::make_mut(program), &self.model, &fragment.item, &fragment.variables);
+        match lowered.map(|condition| solve::question(program, &condition)) {
+            Ok(Ok(question)) => question.decide(solver),
+            Ok(Err(outside)) => Decision::Unknown(format!("{} cannot be decided", outside.what)),
+            Err(faults) => Decision::Unknown(first(&faults)),
+        }
+    }
+}
+
+fn first(faults: &[Diagnostic]) -> String {
+    faults.first().map_or_else(String::new, |fault| fault.message.clone())
+}
+
 /// The faults of a machine's paths.
 pub(super) fn paths(
     chart: &Chart,
     machine: &Machine,
-    model: &mut Model,
+    guards: &mut Guards,
     solver: &mut dyn Solver,
     faults: &mut Vec<Diagnostic>,
 ) {
     let all = transitions(chart, machine);
-    let mut asker = Asker { chart, machine, model, solver };
+    let mut asker = Asker { chart, machine, guards, solver };
     let mut origins: Vec<Origin> = all.iter().map(|one| one.origin).collect();
     origins.dedup();
     let mut budget = MAX_PAIRS;
@@ -45,7 +88,7 @@ pub(super) fn paths(
 struct Asker<'a> {
     chart: &'a Chart,
     machine: &'a Machine,
-    model: &'a mut Model,
+    guards: &'a mut Guards,
     solver: &'a mut dyn Solver,
 }
 
@@ -119,19 +162,7 @@ impl Asker<'_> {
             true => format!("{at}{condition}"),
             false => format!("(exist {} with {at}{condition})", binders.join(", ")),
         };
-        let file = FileId(u32::MAX);
-        let parse = syntax::parse_term(file, &text);
-        let Some(term) = TermFile::cast(parse.syntax()).and_then(|file| file.term()) else {
-            return Decision::Unknown("the guards are no term".to_string());
-        };
-        let fragment = self.model.check_condition(file, &term, "the guard");
-        if fragment.diagnostics.iter().any(|found| found.severity == Severity::Error) {
-            return Decision::Unknown("the guards are no condition".to_string());
-        }
-        match solve::translate(self.model, &fragment.item, &fragment.variables) {
-            Ok(formula) => formula.decide(self.solver),
-            Err(outside) => Decision::Unknown(format!("{} cannot be decided", outside.what)),
-        }
+        self.guards.ask(&text, self.solver)
     }
 
     /// The guards of a path, as the steps test them.

@@ -55,6 +55,9 @@ impl Encoder {
         if let Some(element) = declared.element {
             return Ok(Symbol::Known(Value::Element(self.program.base_domain(declared.codomain), element)));
         }
+        if self.free.is_some() {
+            return self.read_free(function, &arguments, span);
+        }
         if Some(function) == self.program.self_function {
             return Ok(self.agent.clone());
         }
@@ -188,7 +191,7 @@ impl Encoder {
     }
 
     /// A term is one of some constants.
-    fn one_of(&mut self, value: Node, nodes: &[Node]) -> Node {
+    pub(super) fn one_of(&mut self, value: Node, nodes: &[Node]) -> Node {
         let numbers: Option<Vec<i128>> = nodes.iter().map(|node| self.terms.whole(*node)).collect();
         if let Some(mut numbers) = numbers {
             numbers.sort_unstable();
@@ -352,7 +355,7 @@ impl Encoder {
         self.places_of(function, span).map(drop)
     }
 
-    fn shape_of(&self, domain: DomainId, span: Span) -> Result<Shape> {
+    pub(super) fn shape_of(&self, domain: DomainId, span: Span) -> Result<Shape> {
         let base = self.program.base_domain(domain);
         Ok(match self.program.domain(base).kind {
             DomainKind::Basic(Basic::Boolean) => Shape::Boolean,

@@ -1,20 +1,23 @@
 //! A step of the machine in terms of a solver: for each location, its next value as a function of the state, the inputs and
 //! the choices; and under which conditions the step is no step.
 //!
-//! In: a program. Out: what `verify` puts together to a transition relation. Rules are run in the machine's order with symbols for values;
-//! every branch that may be taken is. INVARIANT: for every state and answer, `faults` holds the class of the first fault
-//! that the machine meets, and the update set is the machine's; `beyond` holds where that is not so. Tests hold the two to
-//! each other, and nobody is told of a run that the machine does not make.
+//! In: a program. Out: what `verify` makes a transition relation of. Rules are run in the machine's order with symbols for
+//! values; every branch that may be taken is. INVARIANT: for every state and answer, `faults` holds the class of the first
+//! fault that the machine meets, and the update set is the machine's; `beyond` holds where that is not so. Tests hold the
+//! two to each other, and nobody is told of a run that the machine does not make.
 //!
-//! Each file owns one part: terms, builtins, numbers, ranges, rules, locations.
+//! Each file owns one part: terms, builtins, numbers, ranges, rules, locations; [`free`] a condition about a state that may
+//! be any, of which no step is made.
 
 mod builtin;
+pub(crate) mod free;
 mod location;
 mod number;
 mod range;
 mod rule;
 mod set;
 mod term;
+mod tested;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -24,9 +27,9 @@ use program::{Expression, FunctionId, Program, Slot, TermId};
 use rustc_hash::FxHashMap;
 use syntax::Span;
 
-use crate::Outside;
 use crate::shared::{Node, Terms};
 use crate::symbol::{Codes, Open, Shape, Symbol, constant, value_of};
+pub use free::Unknown;
 pub use location::Place;
 
 /// LIMIT: terms and rules that are gone through for one step.
@@ -35,6 +38,15 @@ const WORK: usize = 2_000_000;
 const TERMS: usize = 4_000_000;
 /// LIMIT: calls in each other, of which a solver is told all.
 const DEPTH: usize = 100;
+
+/// Why something has no place in terms.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Outside {
+    /// What it is, as a noun: "a term of the domain Seq(Integer)".
+    pub what: String,
+    /// Where it stands.
+    pub span: Span,
+}
 
 /// What is in terms, or why something has no place in them.
 pub type Result<T = Symbol> = std::result::Result<T, Outside>;
@@ -121,6 +133,8 @@ pub struct Encoder {
     depth: usize,
     /// A real number was computed.
     pub inexact: bool,
+    /// The unknowns, where the state may be any.
+    free: Option<free::Free>,
 }
 
 /// The state between two parts of an encoding.
@@ -165,6 +179,7 @@ impl Encoder {
             work: 0,
             depth: 0,
             inexact: false,
+            free: None,
         }
     }
 

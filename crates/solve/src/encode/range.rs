@@ -53,9 +53,13 @@ impl Encoder {
         let program = Arc::clone(&self.program);
         let span = program.term_span(range);
         if let Term::Domain(domain) = program.term(range) {
-            return match self.machine.elements(*domain) {
-                Ok(values) => Ok(values.into_iter().map(|value| (Terms::TRUE, Symbol::Known(value))).collect()),
-                Err(_) => self.outside(format!("a range over all of {}", program.domain(*domain).name), span),
+            let elements = match self.free {
+                Some(_) => self.elements_if_closed(*domain),
+                None => self.machine.elements(*domain).ok(),
+            };
+            return match elements {
+                Some(values) => Ok(values.into_iter().map(|value| (Terms::TRUE, Symbol::Known(value))).collect()),
+                None => self.outside(format!("a range over all of {}", program.domain(*domain).name), span),
             };
         }
         let value = self.evaluate(range)?;
@@ -97,6 +101,9 @@ impl Encoder {
 
     /// All elements of a domain, if they can be listed and are not too many.
     pub(super) fn elements_of(&mut self, domain: program::DomainId) -> Option<Vec<Value>> {
+        if self.free.is_some() {
+            return self.elements_if_closed(domain);
+        }
         let known = self.machine.elements(domain).ok()?;
         (known.len() <= BINDINGS).then_some(known)
     }

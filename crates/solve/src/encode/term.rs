@@ -9,7 +9,7 @@ use program::{
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use super::{Encoder, FaultClass, Result, components};
+use super::{Encoder, FaultClass, Result, components, free};
 use crate::shared::{Node, Terms};
 use crate::symbol::{Open, Shape, Symbol};
 
@@ -93,6 +93,9 @@ impl Encoder {
                 let domain = &program.domain(program.term_domain(id)).name;
                 self.outside(format!("a term of the domain {domain}"), span)
             }
+            Term::Missing(function) if self.free.is_some() && program.function(*function).parameters.is_empty() => {
+                self.read_free(*function, &[], span)
+            }
             Term::Rule(_) | Term::Unbound | Term::Missing(_) => self.outside("a term that is no value", span),
         }
     }
@@ -118,9 +121,14 @@ impl Encoder {
         if let Some(known) = self.fixed.get(&id) {
             return known.clone();
         }
-        let expression = Expression { parameters: Vec::new(), frame: 0, names: Vec::new(), body: id };
-        let closed = self.program.reads(&expression).is_some_and(|read| read.is_empty());
-        let free = closed.then(|| free(&self.program, id));
+        let closed = match self.free {
+            Some(_) => self.is_settled(id),
+            None => {
+                let expression = Expression { parameters: Vec::new(), frame: 0, names: Vec::new(), body: id };
+                self.program.reads(&expression).is_some_and(|read| read.is_empty())
+            }
+        };
+        let free = closed.then(|| free_in(&self.program, id));
         self.fixed.insert(id, free.clone());
         free
     }
@@ -254,6 +262,23 @@ impl Encoder {
                 let defined = self.terms.or([both, decided]);
                 Ok(self.symbol(Open { shape: Shape::Boolean, value, defined }))
             }
+            (builtin, _) if self.free.is_some() && free::depends_on_more(builtin) => {
+                let span = self.program.term_span(id);
+                self.outside(format!("the function `{}`", builtin.name()), span)
+            }
+            (
+                Builtin::SetContains | Builtin::SetNotIn | Builtin::SeqContains | Builtin::BagContains,
+                [collection, element],
+            ) if self.free.is_some() => {
+                if let Some(within) = self.is_written_in(*collection, *element)? {
+                    return match builtin {
+                        Builtin::SetNotIn => self.apply(Builtin::Not, &[within], id),
+                        _ => Ok(within),
+                    };
+                }
+                let operands = [self.evaluate(*collection)?, self.evaluate(*element)?];
+                self.apply(builtin, &operands, id)
+            }
             (Builtin::Pre, [term]) => {
                 let former = std::mem::replace(&mut self.before, true);
                 let value = self.evaluate(*term);
@@ -280,7 +305,7 @@ impl Encoder {
     }
 }
 
-fn free(program: &program::Program, id: TermId) -> Arc<[Slot]> {
+fn free_in(program: &program::Program, id: TermId) -> Arc<[Slot]> {
     let (mut used, mut bound, mut open) = (BTreeSet::new(), BTreeSet::new(), vec![id]);
     while let Some(id) = open.pop() {
         match program.term(id) {

@@ -3,6 +3,7 @@
 //! Real constants are compared but never computed with: the machine's arithmetic on them is rounded, that of solvers is not.
 
 use super::{Bounds, Kind, Node, Op, Terms, Variable, VariableId};
+use crate::session::Constant;
 
 /// The operands of which a result is the least, or the greatest.
 type Corner = Option<(i128, i128)>;
@@ -10,15 +11,35 @@ type Corner = Option<(i128, i128)>;
 impl Terms {
     /// A new variable.
     pub fn variable(&mut self, name: impl Into<String>, kind: Kind, bounds: Bounds) -> Node {
-        let id = VariableId(self.variables.len() as u32);
-        self.variables.push(Variable { name: name.into(), kind, bounds });
-        self.put(Op::Variable(id), kind, bounds)
+        let id = self.function(name, Vec::new(), kind, bounds);
+        self.apply(id, Vec::new())
+    }
+
+    /// A new function, of which nothing is known but the bounds of its values.
+    pub fn function(
+        &mut self,
+        name: impl Into<String>,
+        parameters: Vec<Kind>,
+        kind: Kind,
+        bounds: Bounds,
+    ) -> VariableId {
+        self.variables.push(Variable { name: name.into(), kind, parameters, bounds });
+        VariableId(self.variables.len() as u32 - 1)
+    }
+
+    /// The value of a function; of one without parameters it is a variable.
+    pub fn apply(&mut self, function: VariableId, arguments: Vec<Node>) -> Node {
+        let Variable { kind, bounds, .. } = self.variables[function.0 as usize];
+        let op = match arguments.is_empty() {
+            true => Op::Variable(function),
+            false => Op::Apply(function, arguments.into()),
+        };
+        self.put(op, kind, bounds)
     }
 
     /// A variable that there is.
     pub fn known(&mut self, id: VariableId) -> Node {
-        let Variable { kind, bounds, .. } = self.variables[id.0 as usize];
-        self.put(Op::Variable(id), kind, bounds)
+        self.apply(id, Vec::new())
     }
 
     /// A truth value.
@@ -34,6 +55,15 @@ impl Terms {
     /// A real number, which is finite.
     pub fn real(&mut self, number: f64) -> Node {
         self.put(Op::Real((number + 0.0).to_bits()), Kind::Real, (None, None))
+    }
+
+    /// A constant; a real one is finite.
+    pub fn of_constant(&mut self, constant: Constant) -> Node {
+        match constant {
+            Constant::Boolean(truth) => self.boolean(truth),
+            Constant::Integer(number) => self.integer(number),
+            Constant::Real(number) => self.real(number),
+        }
     }
 
     /// The integer of a constant.

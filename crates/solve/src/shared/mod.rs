@@ -31,13 +31,15 @@ pub enum Kind {
 /// Bounds of an integer, both included; none where there is none.
 pub type Bounds = (Option<i128>, Option<i128>);
 
-/// A variable.
+/// A variable, or a function of which nothing is known.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Variable {
     /// Its name, of which different variables may have the same.
     pub name: String,
     /// What its values are.
     pub kind: Kind,
+    /// The kinds of its arguments, where it is a function.
+    pub parameters: Vec<Kind>,
     /// The bounds of its values.
     pub bounds: Bounds,
 }
@@ -57,6 +59,8 @@ pub enum Op {
     Real(u64),
     /// A variable.
     Variable(VariableId),
+    /// The value of a function at arguments.
+    Apply(VariableId, Box<[Node]>),
     /// Negation.
     Not(Node),
     /// All of them.
@@ -169,7 +173,7 @@ impl Terms {
         match self.op(node) {
             Op::Boolean(_) | Op::Integer(_) | Op::Real(_) | Op::Variable(_) => {}
             Op::Not(a) | Op::ToReal(a) | Op::Floor(a) => visit(*a),
-            Op::And(all) | Op::Or(all) => all.iter().copied().for_each(visit),
+            Op::Apply(_, all) | Op::And(all) | Op::Or(all) => all.iter().copied().for_each(visit),
             Op::If(a, b, c) => [*a, *b, *c].into_iter().for_each(visit),
             Op::Equal(a, b)
             | Op::Less(a, b)
@@ -223,6 +227,7 @@ impl Terms {
             let new = match self.op(part).clone() {
                 Op::Variable(id) => by(id).unwrap_or(part),
                 Op::Boolean(_) | Op::Integer(_) | Op::Real(_) => part,
+                Op::Apply(id, all) => self.apply(id, all.iter().map(at).collect()),
                 Op::Not(a) => self.not(at(&a)),
                 Op::And(all) => self.and(all.iter().map(at).collect::<Vec<_>>()),
                 Op::Or(all) => self.or(all.iter().map(at).collect::<Vec<_>>()),

@@ -14,25 +14,30 @@ impl Terms {
         }
     }
 
+    /// The constants that there are, also those that simplification has left nothing of.
+    pub(crate) fn constants(&self) -> Vec<Constant> {
+        (0..self.count()).filter_map(|index| self.constant(Node(index as u32))).collect()
+    }
+
     /// The values of all terms, by their names; none where something has none, such as a quotient by zero. Reals are those of
     /// doubles.
     pub fn values(&self, variable: &dyn Fn(VariableId) -> Option<Constant>) -> Vec<Option<Constant>> {
         let mut values: Vec<Option<Constant>> = Vec::with_capacity(self.count());
         for index in 0..self.count() {
-            let value = self.value(Node(index as u32), &values, variable);
+            let node = Node(index as u32);
+            let value = match self.op(node) {
+                Op::Variable(id) => variable(*id),
+                _ => self.value_by(node, &|operand| values[operand.0 as usize]),
+            };
             values.push(value);
         }
         values
     }
 
-    fn value(
-        &self,
-        node: Node,
-        values: &[Option<Constant>],
-        variable: &dyn Fn(VariableId) -> Option<Constant>,
-    ) -> Option<Constant> {
+    /// The value of an operation by those of its operands; a variable or function has none.
+    pub(crate) fn value_by(&self, node: Node, of: &dyn Fn(Node) -> Option<Constant>) -> Option<Constant> {
         use Constant::{Boolean, Integer, Real};
-        let at = |node: &Node| values[node.0 as usize];
+        let at = |node: &Node| of(*node);
         let truth = |node: &Node| match at(node) {
             Some(Boolean(truth)) => Some(truth),
             _ => None,
@@ -52,7 +57,7 @@ impl Terms {
         };
         match self.op(node) {
             Op::Boolean(_) | Op::Integer(_) | Op::Real(_) => self.constant(node),
-            Op::Variable(id) => variable(*id),
+            Op::Variable(_) | Op::Apply(..) => None,
             Op::Not(a) => truth(a).map(|truth| Boolean(!truth)),
             Op::And(nodes) => all(nodes, false),
             Op::Or(nodes) => all(nodes, true),

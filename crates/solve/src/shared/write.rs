@@ -78,6 +78,11 @@ impl Script {
         text
     }
 
+    /// An integer.
+    pub fn whole(number: i128) -> String {
+        integer(number)
+    }
+
     /// The name of a kind.
     pub fn sort(kind: Kind) -> &'static str {
         sort(kind)
@@ -91,6 +96,16 @@ impl Script {
     /// The name of a variable within a quantifier.
     pub fn bound_name(terms: &Terms, id: VariableId) -> String {
         name(terms, id, None)
+    }
+
+    /// Declares functions and variables as they are named without a time.
+    pub fn declare_bound(terms: &Terms, functions: &[VariableId], out: &mut String) {
+        for id in functions {
+            let function = terms.variable_of(*id);
+            let parameters: Vec<&str> = function.parameters.iter().map(|kind| sort(*kind)).collect();
+            let parameters = parameters.join(" ");
+            let _ = writeln!(out, "(declare-fun {} ({parameters}) {})", name(terms, *id, None), sort(function.kind));
+        }
     }
 
     /// `(name sort)`, as quantifiers bind a variable.
@@ -142,6 +157,7 @@ fn put(terms: &Terms, node: Node, time: Option<usize>, named: &dyn Fn(Node) -> O
         Op::Integer(number) => out.push_str(&integer(*number)),
         Op::Real(bits) => out.push_str(&exact_real(f64::from_bits(*bits))),
         Op::Variable(id) => out.push_str(&name(terms, *id, time)),
+        Op::Apply(id, all) => list(&name(terms, *id, time), all, out),
         Op::Not(a) => list("not", &[*a], out),
         Op::And(all) => list("and", all, out),
         Op::Or(all) => list("or", all, out),
