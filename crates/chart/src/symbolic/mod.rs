@@ -5,6 +5,10 @@
 //! does; `if`, `switch` and `let` nested in any way come to the same. Tests of the control location are decided, all
 //! others are atoms, told apart by their text.
 //!
+//! Conditions stay terms of the model, and are not asked of `solve`: a difference is told in the words of the chart and of
+//! the rule, which the IR has no more, and charts and rules that are to agree have the same words. Of the encoder there
+//! only the connectives would be of use here: what it is about (numbers, undef, faults) is inside of atoms.
+//!
 //! LIMIT: rules behind `seq`, `forall`, `choose` and the like are effects as a whole; one that sets the control location
 //! inside is [`Reason::Hidden`]. Calls are followed [`MAX_DEPTH`] deep and [`MAX_EFFECTS`] effects are kept.
 
