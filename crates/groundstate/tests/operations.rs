@@ -9,7 +9,7 @@ use groundstate::job::{
 };
 use groundstate::reporting::{Prepared, prepare_report};
 use groundstate::test_generation::Method;
-use groundstate::verify::review::{Meta, Outcome};
+use groundstate::verify::review::{Meta, MetaOutcome};
 use groundstate::verify::{NoStart, Options, Stop};
 use groundstate::workspace::{Absent, Files};
 use groundstate::{Loaded, load};
@@ -57,7 +57,7 @@ fn a_review() {
     let loaded = toggle();
     let job = job::review(request(&loaded), Cancel::new()).expect("a thread");
     let review = job.finish().expect("no panic").expect("there is an initial state");
-    let violated = review.outcomes.iter().filter(|(_, outcome)| *outcome == Outcome::Violated).count();
+    let violated = review.outcomes.iter().filter(|(_, outcome)| *outcome == MetaOutcome::Violated).count();
     // Nothing reads or updates `idle`, and it is never false.
     assert_eq!((violated, review.findings.len()), (2, 3), "{:?}", review.findings);
     let job = job::review(request(&loaded), cancelled()).expect("a thread");

@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use machine::explore::Bounds;
+use machine::Bounds;
 use machine::{Limits, Machine, Value};
 use program::{DomainKind, Expression, Program};
 

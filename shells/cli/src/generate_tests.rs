@@ -85,7 +85,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         },
         files: sources.iter().map(|(file, _)| file).filter(|file| is_told(*file)).collect(),
     };
-    let started = job::generate_tests(request, Cancel::from(interrupt::request()));
+    let started = job::generate_tests(request, Cancel::from(interrupt::request().clone()));
     let job = started.map_err(|error| Failure::usage(format!("the search cannot be started: {error}")))?;
     while let Some(TestsEvent(progress)) = job.next_event() {
         watch.at(&progress);

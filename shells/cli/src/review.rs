@@ -72,7 +72,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         metas: if arguments.only.is_empty() { Meta::ALL.to_vec() } else { arguments.only.clone() },
         files: sources.iter().map(|(file, _)| file).filter(|file| is_told(*file)).collect(),
     };
-    let started = job::review(request, Cancel::from(interrupt::request()));
+    let started = job::review(request, Cancel::from(interrupt::request().clone()));
     let job = started.map_err(|error| Failure::usage(format!("the review cannot be started: {error}")))?;
     while let Some(ReviewEvent(progress)) = job.next_event() {
         watch.at(&progress);

@@ -119,7 +119,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         states: interactive || shell.talks() && arguments.show == Show::All,
         due: if interactive { job::at_once() } else { now_and_then() },
     };
-    let started = job::run(request, Cancel::from(interrupt::request()));
+    let started = job::run(request, Cancel::from(interrupt::request().clone()));
     let (job, remote) = started.map_err(|error| Failure::usage(format!("the run cannot be started: {error}")))?;
     let busy = interactive || shell.global.quiet || std::io::IsTerminal::is_terminal(&std::io::stdout());
     let mut progress = Progress::new(Some(arguments.steps), busy);

@@ -64,7 +64,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let seed = (arguments.choose == Chosen::Random).then_some(arguments.seed);
     let unread = Arc::new(Mutex::new(None));
     let scenarios = Scenarios { files: files.clone().into_iter(), disk: shell.disk(), unread: Arc::clone(&unread) };
-    let started = job::test(scenarios, shell.disk(), options, seed, Cancel::from(interrupt::request()));
+    let started = job::test(scenarios, shell.disk(), options, seed, Cancel::from(interrupt::request().clone()));
     let job = started.map_err(|error| Failure::usage(format!("the scenarios cannot be started: {error}")))?;
     let mut tally = Tally::default();
     let mut junit = Junit::default();

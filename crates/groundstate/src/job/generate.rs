@@ -59,8 +59,9 @@ pub fn generate_model(
     headers: Headers,
     cancel: Cancel,
 ) -> io::Result<GenerateJob> {
+    let limits = machine_limits(&cancel);
     Job::start("generate", cancel, move |port| {
-        let mut started = Machine::new(Arc::clone(&program), machine_limits(cancel));
+        let mut started = Machine::new(Arc::clone(&program), limits);
         // An initial value that asks the environment, or is at fault, does so again when the program starts.
         let _ = started.start(&mut Closed);
         go_on(&port)?;
@@ -103,8 +104,8 @@ pub fn generate_system(
     })
 }
 
-fn machine_limits(cancel: Cancel) -> Limits {
-    Limits { interrupt: Some(cancel.interrupt()), ..Limits::default() }
+fn machine_limits(cancel: &Cancel) -> Limits {
+    Limits { interrupt: cancel.interrupt().clone(), ..Limits::default() }
 }
 
 fn go_on(port: &Port<GenerateEvent>) -> Result<(), NotGenerated> {

@@ -148,8 +148,7 @@ impl Remote {
 pub fn run(request: RunRequest, cancel: Cancel) -> io::Result<(RunJob, Remote)> {
     let (sender, commands) = channel();
     let looked_at = cancel.interrupt().clone();
-    let job =
-        Job::start("run", cancel, move |port| go(request, Rc::new(port), commands, looked_at, &mut |_, _| {}))?;
+    let job = Job::start("run", cancel, move |port| go(request, Rc::new(port), commands, looked_at, &mut |_, _| {}))?;
     Ok((job, Remote(sender)))
 }
 

@@ -16,7 +16,7 @@ pub fn passes_whatever_is_chosen(
     limits: Limits,
 ) -> bool {
     let mut passes = |coverage: bool, seed: Option<u64>| {
-        let options = Options { limits, coverage, ..Options::default() };
+        let options = Options { limits: limits.clone(), coverage, ..Options::default() };
         let tested = match seed {
             None => suite.test(source.clone(), loader, options, &mut FirstCandidate),
             Some(seed) => suite.test(source.clone(), loader, options, &mut SeededChoices::new(seed)),

@@ -16,10 +16,10 @@ use syntax::Span;
 
 use crate::explorers::widened;
 use crate::plan::Plan;
-use solve::encode::{Choice, Encoder, Input, InputKind, Place};
 use crate::solver::given::Given;
-use solve::symbol::{Codes, Open, Shape, Symbol, constant};
 use crate::target::Target;
+use solve::encode::{Choice, Encoder, Input, InputKind, Place};
+use solve::symbol::{Codes, Open, Shape, Symbol, constant};
 
 /// LIMIT: initial states.
 const STARTS: usize = 256;

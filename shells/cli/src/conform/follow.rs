@@ -35,7 +35,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let tail = Tail { path: path.clone(), file: None, read: 0, limit, waits: false };
     let limits = shell.global.limits.uninterrupted();
     let request = ConformRequest { loaded, events: Events::Coming(tail), limits, by_order: arguments.untimed };
-    let job = job::conform(request, Cancel::from(interrupt::request())).map_err(not_started)?;
+    let job = job::conform(request, Cancel::from(interrupt::request().clone())).map_err(not_started)?;
     let status = Status::new(shell.talks());
     while let Some(event) = job.next_event() {
         match event {

@@ -79,7 +79,7 @@ pub fn hold(
     let limits = shell.global.limits.uninterrupted();
     let events = Events::<NoTail>::Whole(recording);
     let request = ConformRequest { loaded, events, limits, by_order: untimed };
-    let job = job::conform(request, Cancel::from(interrupt::request())).map_err(not_started)?;
+    let job = job::conform(request, Cancel::from(interrupt::request().clone())).map_err(not_started)?;
     match job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0)) {
         Ok(conformed) => Ok(Ok(conformed)),
         Err(NotConformed::Refused(refusal)) => refused(shell, path, refusal).map(Err),

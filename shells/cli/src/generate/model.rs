@@ -27,7 +27,7 @@ pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
     let folder = &arguments.output;
     std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
     let placed = placed(&loaded.sources, folder);
-    let cancel = Cancel::from(interrupt::request());
+    let cancel = Cancel::from(interrupt::request().clone());
     let job = job::generate_model(loaded.program, placed, options, MACHINE_HEADERS, cancel);
     let Folder { decided, renamed, .. } = match finished(shell, &loaded.sources, job)? {
         Ok(folder) => folder,

@@ -148,7 +148,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         states: false,
         due: now_and_then(),
     };
-    let started = job::report(request, reporter, sources.clone(), Cancel::from(interrupt::request()));
+    let started = job::report(request, reporter, sources.clone(), Cancel::from(interrupt::request().clone()));
     let (job, remote) = started.map_err(|error| Failure::usage(format!("the run cannot be started: {error}")))?;
     let mut progress = Progress::new(Some(arguments.steps), shell.global.quiet);
     let mut desk = Desk::new(&program, &remote);
