@@ -11,6 +11,7 @@ pub mod import;
 mod chart;
 mod check;
 mod defined;
+mod differ;
 mod dump;
 mod export;
 mod extract;

@@ -15,6 +15,7 @@ mod answer;
 mod cases;
 mod decide;
 pub mod encode;
+mod expression;
 mod question;
 mod script;
 pub mod session;

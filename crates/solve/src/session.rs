@@ -2,7 +2,7 @@
 //!
 //! In: commands of SMT-LIB. Out: what the solver answers, as [`Verdict`]s and [`Constant`]s. The process is the shell's.
 
-use crate::answer::{Expression, expressions, integer, real, spelled};
+use crate::expression::{Expression, expressions, integer, real, spelled};
 use crate::shared::Kind;
 
 /// Why a solver does not answer.

@@ -5,7 +5,7 @@
 //! that only one side has, each with the place on both sides; and notes of what is still to be refined.
 //!
 //! Both rules are executed symbolically for each value of the control variable; what they do under which tests is
-//! compared as propositional formulas over the tests, exactly. LIMIT: tests are told apart by their text; [`CASES`].
+//! compared as propositional formulas over the tests, exactly. LIMIT: tests are told apart by their text.
 
 mod ground;
 mod paths;
@@ -20,14 +20,12 @@ use syntax::{Diagnostic, Severity, Span, SyntaxKind};
 
 use crate::build::{call, machine_rule, rule_name, state_value};
 use crate::chart::{Chart, Control, Machine, ShapeKind};
+use crate::differ::{by_effect, difference};
 use crate::extract::{controls, origins};
 use crate::fault::{self, Sides};
 use crate::flow::{Origin, transitions};
 use crate::read::flat;
 use crate::symbolic::{Depth, Effect, Explorer, Guarded, Path, Reason, consistent};
-
-/// LIMIT: so many cases of one effect are told apart; beyond that it counts as a difference.
-const CASES: usize = 100_000;
 
 /// A specification with the chart's rules in it.
 #[derive(Debug, Clone)]
@@ -290,66 +288,4 @@ impl Side<'_> {
         });
         state.map_or(machine.span, |(_, shape)| shape.span)
     }
-}
-
-/// Effects by what they do.
-type ByEffect = BTreeMap<String, (Vec<Path>, Option<Span>)>;
-
-/// What is done, each under the paths on which it is; staying where the machine is counts as nothing.
-fn by_effect(effects: &[Guarded], control: &str, origin: &str) -> ByEffect {
-    let mut found = ByEffect::new();
-    for guarded in effects {
-        let key = match &guarded.effect {
-            Effect::Update { location, value, .. } if location == control && value == origin => continue,
-            Effect::Update { location, value, .. } => format!("{location} := {value}"),
-            Effect::Rule(text) => text.clone(),
-        };
-        let entry = found.entry(key).or_default();
-        entry.0.push(guarded.path.clone());
-        entry.1.get_or_insert(guarded.span);
-    }
-    found
-}
-
-/// Whether two rules do the same in one control state.
-pub(crate) fn same(one: &[Guarded], other: &[Guarded], control: &str, origin: &str) -> bool {
-    let (one, other) = (by_effect(one, control, origin), by_effect(other, control, origin));
-    let paths = |side: &ByEffect, key: &str| side.get(key).map_or(Vec::new(), |(paths, _)| paths.clone());
-    one.keys().chain(other.keys()).all(|key| difference(&paths(&one, key), &paths(&other, key)).is_none())
-}
-
-/// A case in which one side does something and the other does not, and whether it is the chart that does: both sides,
-/// formulas in disjunctive normal form, are expanded test by test until they part.
-fn difference(chart: &[Path], rule: &[Path]) -> Option<(Path, bool)> {
-    let mut budget = CASES;
-    let mut case = Vec::new();
-    let chart_does = parted(chart.to_vec(), rule.to_vec(), &mut case, &mut budget)?;
-    Some((case, chart_does))
-}
-
-fn parted(chart: Vec<Path>, rule: Vec<Path>, case: &mut Path, budget: &mut usize) -> Option<bool> {
-    let always = |paths: &[Path]| paths.iter().any(Vec::is_empty);
-    let (chart_always, rule_always) = (always(&chart), always(&rule));
-    if chart_always && rule_always || chart.is_empty() && rule.is_empty() {
-        return None;
-    }
-    // A test that is still open on a side that is not decided yet.
-    let open = |paths: &[Path], decided: bool| {
-        paths.iter().filter(|_| !decided).find_map(|path| path.first().map(|(atom, _)| atom.clone()))
-    };
-    let test = open(&chart, chart_always).or_else(|| open(&rule, rule_always)).filter(|_| *budget > 0);
-    let Some(atom) = test else { return Some(chart_always || !rule_always && !chart.is_empty()) };
-    *budget -= 1;
-    for value in [true, false] {
-        let under = |paths: &[Path]| -> Vec<Path> {
-            let fits = paths.iter().filter(|path| !path.contains(&(atom.clone(), !value)));
-            fits.map(|path| path.iter().filter(|(known, _)| *known != atom).cloned().collect()).collect()
-        };
-        case.push((atom.clone(), value));
-        if let Some(chart_does) = parted(under(&chart), under(&rule), case, budget) {
-            return Some(chart_does);
-        }
-        case.pop();
-    }
-    None
 }

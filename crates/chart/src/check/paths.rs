@@ -14,9 +14,9 @@ use solve::{Decision, Solver};
 use syntax::ast::{AstNode, TermFile};
 use syntax::{Diagnostic, FileId, Severity, Span};
 
-use super::difference;
 use crate::build::{call, origin_condition};
 use crate::chart::{Chart, Machine, ShapeId};
+use crate::differ::difference;
 use crate::fault;
 use crate::flow::{Origin, Target, Transition, transitions};
 use crate::symbolic::Path;

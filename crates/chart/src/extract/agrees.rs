@@ -11,7 +11,7 @@ use syntax::{FileId, Severity};
 use super::origins;
 use crate::build::machine_rule;
 use crate::chart::{Chart, Machine};
-use crate::check::same;
+use crate::differ::same;
 use crate::symbolic::{Depth, Explorer, Guarded, Reason};
 
 /// Judges the machines of one model.
