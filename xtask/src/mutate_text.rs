@@ -102,14 +102,17 @@ fn mutants(
             1 => mutated(&with_lines_mutated(&seed.text, elsewhere, &mut random), elsewhere, words, &mut random),
             _ => mutated(&seed.text, elsewhere, words, &mut random),
         };
-        let file = repository::root().join("target/mutant").with_extension(ending);
-        watched.begin(number, &file, &mutant);
+        let file = repository::root().join(format!("target/mutant-in-{}.{ending}", std::process::id()));
+        // What overflows the stack takes this process with it: the file is what is left.
+        std::fs::write(&file, &mutant).map_err(|error| format!("{}: {error}", file.display()))?;
+        watched.begin(number, &file);
         let came = match (COMMANDS.iter().find(|commands| commands.ending == ending), binary) {
             (Some(commands), _) => catch_unwind(AssertUnwindSafe(|| (commands.run)(&mutant))).ok(),
             (None, Some(binary)) => reported(binary, seed, &mutant)?,
             (None, None) => Some(0),
         };
         watched.set(None);
+        let _ = std::fs::remove_file(&file);
         let tally = tally.entry(ending).or_default();
         tally.0 += 1;
         match came {
@@ -137,7 +140,6 @@ fn mutants(
 struct Tried {
     number: u64,
     file: PathBuf,
-    mutant: Vec<u8>,
     began: Instant,
 }
 
@@ -150,8 +152,7 @@ impl Watched {
         let watched = Watched(Arc::clone(&shared));
         std::thread::spawn(move || {
             while let Ok(tried) = shared.lock().map(|mut tried| tried.take_if(|tried| tried.began.elapsed() > NO_END)) {
-                if let Some(Tried { number, file, mutant, .. }) = tried {
-                    let _ = std::fs::write(&file, mutant);
+                if let Some(Tried { number, file, .. }) = tried {
                     println!("mutant {number} comes to no end: {}", file.display());
                     std::process::exit(1);
                 }
@@ -161,8 +162,8 @@ impl Watched {
         watched
     }
 
-    fn begin(&self, number: u64, file: &Path, mutant: &[u8]) {
-        let tried = Tried { number, file: file.to_path_buf(), mutant: mutant.to_vec(), began: Instant::now() };
+    fn begin(&self, number: u64, file: &Path) {
+        let tried = Tried { number, file: file.to_path_buf(), began: Instant::now() };
         self.set(Some(tried));
     }
 

@@ -171,3 +171,16 @@ fn an_element_crowded_with_attributes_is_refused() {
     );
     assert!(scxml(FileId(0), &quoted, "C").text.is_some());
 }
+
+#[test]
+fn a_state_that_begins_in_itself_is_refused() {
+    let refused = |inner: &str| {
+        let document = format!("<scxml><state id='outer' initial='{inner}'><state id='inner'/></state></scxml>");
+        let imported = scxml(FileId(0), &document, "C");
+        imported.diagnostics.iter().any(|fault| fault.severity == Severity::Error)
+    };
+    assert!(!refused("inner"));
+    assert!(refused("outer"));
+    let twice = "<scxml><state id='s' initial='s'><state id='s'><state id='t'/></state></state></scxml>";
+    assert_eq!(scxml(FileId(0), twice, "C").text, None);
+}

@@ -269,13 +269,9 @@ impl<'d, 'f> Reader<'d, 'f> {
             self.faults.push(fault::left_out(place(self.file, content), "what is done by `initial`", help));
         }
         let first = match said {
-            Some(id) => {
-                let id = id.split_whitespace().next().unwrap_or_default();
-                let found = self.states.named(id);
-                if found.is_none() {
-                    self.faults.push(fault::unknown_target(place(self.file, node), id));
-                }
-                found
+            Some(ids) => {
+                let found = self.states.begins(ids.split_whitespace().next().unwrap_or_default(), parent);
+                found.map_err(|fault| self.faults.push(fault(place(self.file, node)))).ok()
             }
             None => self.states.first_in(parent),
         }?;

@@ -130,6 +130,17 @@ impl<'d> States<'d> {
         self.named.get(id).copied()
     }
 
+    /// The state in which one begins, or the whole machine, by its id.
+    pub(super) fn begins(&self, id: &str, parent: Option<usize>) -> Result<usize, impl Fn(Span) -> Diagnostic> {
+        let found = self.named(id);
+        let within = |state: &usize| parent.is_none_or(|parent| self.around(*state)[1..].contains(&parent));
+        found.filter(within).ok_or_else(|| {
+            let id = id.to_string();
+            let told = if found.is_none() { fault::unknown_target } else { fault::begins_outside };
+            move |place| told(place, &id)
+        })
+    }
+
     /// The states around one, itself first.
     pub(super) fn around(&self, state: usize) -> Vec<usize> {
         let mut around = vec![state];
