@@ -120,10 +120,11 @@ class MonotonicClock {
     void leave() noexcept {}
 
   private:
-    // A template, so that no compiler calls the cast useless where both types are the same.
-    template <class Time = decltype(timespec::tv_sec)>
+    // A template, so that no compiler calls a cast useless where both types are the same.
+    template <class Time = decltype(timespec::tv_sec), class Part = decltype(timespec::tv_nsec)>
     static timespec split(std::int64_t instant_ns) noexcept {
-        return {.tv_sec = static_cast<Time>(instant_ns / Futex::second_ns), .tv_nsec = instant_ns % Futex::second_ns};
+        return {.tv_sec = static_cast<Time>(instant_ns / Futex::second_ns),
+                .tv_nsec = static_cast<Part>(instant_ns % Futex::second_ns)};
     }
 };
 

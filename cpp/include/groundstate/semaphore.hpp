@@ -68,7 +68,7 @@ class Semaphore {
             // this exchange, or a later one of its release sequence (they are all exchanges), by an acquire.
             if (state_.compare_exchange_weak(state, released, std::memory_order_release, std::memory_order_relaxed)) {
                 if (line != 0) {
-                    call(std::size_t{(line & 0xff) - 1});
+                    call(static_cast<std::size_t>((line & 0xff) - 1));
                 }
                 return;
             }

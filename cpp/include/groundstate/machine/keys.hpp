@@ -18,6 +18,7 @@
 #endif
 
 #include "maybe.hpp"
+#include "size.hpp"
 
 namespace groundstate::machine {
 
@@ -173,9 +174,9 @@ struct Growing {
         static constexpr std::size_t most = 50'000'000;
 
         static std::size_t hash(const Key& key) {
-            std::size_t hash = 0;
+            std::uint64_t hash = 0;
             std::apply([&](const auto&... parts) { ((hash = (hash ^ hash_of(parts)) * 0x9e37'79b9'7f4a'7c15), ...); }, key);
-            return hash ^ (hash >> 32);
+            return to_size(hash ^ (hash >> 32));
         }
 
         void place(std::uint32_t number) {
