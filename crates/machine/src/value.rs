@@ -2,7 +2,7 @@
 //!
 //! A value is 16 bytes: small ones stand in it, compound ones are shared and immutable. INVARIANT: a set's
 //! elements are sorted and distinct; a bag's and a map's keys are sorted by their tree; no NaN occurs and no
-//! negative zero, so that equality is that of the derived order.
+//! negative zero, so that equality is that of the derived order. CIRCLE(values): a value holds collections of values.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -11,7 +11,6 @@ use std::sync::Arc;
 
 use program::{DomainId, ProcedureId};
 
-// A value holds collections of values: these two files are one recursion of types.
 use crate::weighed::{Items, Weighed, Weight};
 
 /// A double without NaN and without negative zero, totally ordered.

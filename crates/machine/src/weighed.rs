@@ -3,7 +3,7 @@
 //! Values share what they are made of: `s := [s, s]` takes a few words a step and doubles what printing, ordering and
 //! hashing walk through. So every collection keeps its *weight*, the number of values at its leaves, each counted as often
 //! as it occurs, and its depth; both are counted from those of its members when it is made. A limit on the weight bounds
-//! all that walks through a value ([`crate::measure`]).
+//! all that walks through a value ([`crate::measure`]). CIRCLE(values)
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -11,7 +11,6 @@ use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::ops::Deref;
 
-// A value holds these collections: the two files are one recursion of types.
 use crate::value::Value;
 
 /// The weight and the depth of a value.

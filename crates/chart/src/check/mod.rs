@@ -11,7 +11,7 @@ mod ground;
 mod paths;
 pub(crate) mod system;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use model::{Checked, FunctionId, Model, RuleId};
@@ -25,7 +25,7 @@ use crate::extract::{controls, origins};
 use crate::fault::{self, Sides};
 use crate::flow::{Origin, transitions};
 use crate::read::flat;
-use crate::symbolic::{Depth, Effect, Explorer, Guarded, Path, Reason, consistent};
+use crate::symbolic::{Depth, Explorer, Guarded, Path, Reason, consistent};
 
 /// A specification with the chart's rules in it.
 #[derive(Debug, Clone)]

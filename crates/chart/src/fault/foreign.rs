@@ -50,6 +50,6 @@ pub(crate) fn unknown_target(span: Span, id: &str) -> Diagnostic {
 /// A state that begins in one which does not lie within it.
 pub(crate) fn begins_outside(span: Span, id: &str) -> Diagnostic {
     Diagnostic::error(ID, span, format!("`{id}`, where this state begins, does not lie within it"))
-        .because("to enter the state would never end, or lead elsewhere")
+        .here("to enter the state would never end, or lead elsewhere")
         .with_help("name a state within it")
 }

@@ -9,6 +9,7 @@ use std::mem::offset_of;
 
 use crate::execute::{Core, Executor};
 use crate::native::Tables;
+use crate::native::memory::Memory;
 use crate::update::{Stamp, Update};
 use crate::value::Value;
 use crate::work::INTERVAL;
@@ -77,13 +78,6 @@ impl Offset {
     pub fn is_counter(offset: i32) -> bool {
         [Self::held, Self::temporary, Self::candidate, Self::depth, Self::budget].contains(&offset)
     }
-}
-
-/// The working memory of compiled code, kept from step to step.
-#[derive(Debug, Default)]
-pub(super) struct Memory {
-    temporaries: Vec<Value>,
-    candidates: Vec<Value>,
 }
 
 impl Context {

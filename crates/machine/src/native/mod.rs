@@ -14,6 +14,7 @@ mod context;
 mod helper;
 mod kleene;
 mod location;
+mod memory;
 mod plan;
 mod rule;
 mod runtime;

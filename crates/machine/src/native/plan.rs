@@ -56,7 +56,7 @@ pub(crate) struct Tables {
     /// Units and sequences open now.
     pub units: Vec<Unit>,
     pub sequences: Vec<(Sequence, memo::Version)>,
-    pub memory: super::context::Memory,
+    pub memory: super::memory::Memory,
     /// Arrays that code refers to.
     pinned: Vec<Arc<Items>>,
 }
