@@ -118,9 +118,10 @@ impl Reader<'_> {
                 self.import(&trees[at + 1..end], &[], module, public);
                 at = end;
             } else if word.as_deref() == Some("mod") {
-                match (ident(trees.get(at + 1)), group(trees.get(at + 2), Delimiter::Brace)) {
-                    (Some(name), Some(inner)) => self.read(&inner, &[module.as_slice(), &[name]].concat()),
-                    _ => {}
+                if let (Some(name), Some(inner)) =
+                    (ident(trees.get(at + 1)), group(trees.get(at + 2), Delimiter::Brace))
+                {
+                    self.read(&inner, &[module.as_slice(), &[name]].concat());
                 }
                 at += 3;
             } else if let Some(first) = word {
