@@ -37,6 +37,9 @@ fn a_faulty_text_stays() {
 fn a_file_of_comments_alone() {
     let text = "// one\n\n\n\n/* two */\n";
     assert_eq!(format(&parse_asmetal(FILE, text)), "// one\n\n/* two */\n");
+    let indented = "\t// one\n\t// two\n";
+    assert_invariants(indented.as_bytes());
+    assert_eq!(format(&parse_asmetal(FILE, indented)), "// one\n// two\n");
     assert_eq!(format(&parse_asmetal(FILE, "")), "");
 }
 

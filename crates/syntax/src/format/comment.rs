@@ -146,7 +146,9 @@ pub(super) fn at_end_of_file(root: &SyntaxNode) -> Document {
         if token.kind() == WHITESPACE {
             lines += token.text().matches('\n').count();
         } else if lines > 0 {
-            indented = if parts.is_empty() { column(&token) > 0 } else { indented && column(&token) > 0 };
+            // Where there are comments alone, there is nothing that an indented one could belong to.
+            let belongs = if parts.is_empty() { !starts_file } else { indented };
+            indented = belongs && column(&token) > 0;
             parts.push(if lines > 1 { Document::BlankLine } else { Document::HardLine });
             let comment = Document::OwnLineComment(token.text().trim_end().to_string());
             parts.push(if indented { Document::Indent(Box::new(comment)) } else { comment });
