@@ -1,5 +1,5 @@
-//! Tools for the tests of several crates: loaders, the blocks of Markdown pages, solver processes, the repository's
-//! files.
+//! Tools for the tests of several crates: loaders, the blocks of Markdown pages, solver processes, JSON Schema, the
+//! repository's files.
 //!
 //! It does I/O, which the crates under test must not, so it is a dev-dependency and nothing else. It knows `syntax`, `model`
 //! and `solve` for their traits. The unit tests of those three see another copy of these types: only their integration
@@ -14,6 +14,7 @@
 pub mod loader;
 pub mod page;
 pub mod repository;
+pub mod schema;
 pub mod solver;
 
 pub use loader::{Disk, EditedDisk, NoFiles, Patterns, Texts};
