@@ -40,12 +40,18 @@ impl<'m> Judge<'m> {
         if let Some(fault) = faults.iter().find(|fault| fault.severity == Severity::Error) {
             return Some(format!("its chart would be at fault: {}", fault.message));
         }
-        let drawn = back.machines.first()?;
+        let [drawn] = &back.machines[..] else {
+            return Some("its chart, as it is written, does not hold it alone".to_string());
+        };
         let Some(probe) = self.probe(&back, drawn) else {
             return Some("what it says cannot be written in a chart".to_string());
         };
         let names: Vec<String> = machine.parameters.iter().map(|parameter| parameter.variable.clone()).collect();
-        for origin in origins(self.model, function) {
+        let origins = origins(self.model, function);
+        if origins.is_empty() {
+            return Some("there is no control state in which the two could be compared".to_string());
+        }
+        for origin in origins {
             let done = |model, rule| -> Result<Vec<Guarded>, Reason> {
                 Explorer::new(model, function, location.to_string(), origin.clone(), Depth::Full).rule(rule, &names)
             };
