@@ -29,9 +29,9 @@ fn records(program: &Arc<Program>, steps: u64, seed: u64, all: bool) -> Vec<Reco
 }
 
 /// How many violations the runs recorded.
-fn check(program: &Arc<Program>, steps: u64, name: &str) -> usize {
+fn check(program: &Arc<Program>, steps: u64, seeds: u64, name: &str) -> usize {
     let mut violations = 0;
-    for seed in 0..2 {
+    for seed in 0..seeds {
         let (some, all) = (records(program, steps, seed, false), records(program, steps, seed, true));
         assert_eq!(some.len(), all.len(), "{name}, seed {seed}");
         for (index, (some, all)) in some.iter().zip(&all).enumerate() {
@@ -47,11 +47,12 @@ fn check(program: &Arc<Program>, steps: u64, name: &str) -> usize {
 #[test]
 fn the_models_of_this_project() {
     let found = ["examples", "library/patterns"].map(|folder| repository::files(folder, &["asm"])).concat();
+    let seeds = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 2 } else { 1 };
     let mut checked = 0;
     for path in found {
         let program = load(Disk::read(&path).expect("a model is a text"));
         if program.main.is_some() {
-            check(&program, 40, &path.display().to_string());
+            check(&program, 40, seeds, &path.display().to_string());
             checked += 1;
         }
     }
@@ -108,5 +109,5 @@ default init s0:
 #[test]
 fn everything_that_an_invariant_may_depend_on() {
     let program = load(SourceFile::new("test.asm", DEPENDENCIES));
-    assert!(check(&program, 150, "test.asm") > 300);
+    assert!(check(&program, 150, 2, "test.asm") > 300);
 }
