@@ -6,6 +6,7 @@
 //! [`machine`]; what comes out does not depend on what was remembered.
 
 mod alternatives;
+mod compiled;
 mod explorer;
 mod memory;
 mod packed;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use machine::{Bounds, Cause, Fault, Interrupt, Limits};
+use machine::{Bounds, Cause, EngineChoice, Fault, Interrupt, Limits};
 use program::Expression;
 
 use crate::alternatives::branches::Unbounded;
@@ -22,6 +22,8 @@ pub struct Settings {
     pub step_conditions: Vec<(Expression, bool)>,
     /// Nothing is remembered.
     pub forgetful: bool,
+    /// What makes the steps that are not remembered; by itself the explorer compiles them where remembering does not pay.
+    pub engine: EngineChoice,
     /// Looked at between the alternatives of a state, of which there may be many.
     pub interrupt: Interrupt,
     /// What happens within steps is told: see [`crate::Explorer::sightings`].

@@ -316,7 +316,7 @@ impl Executor<'_> {
 
     /// Asks for an input whose location has a number; false where the environment has none or it does not fit.
     pub fn ask_at(&mut self, function: FunctionId, arguments: &[Value], index: u32) -> bool {
-        if self.core.initials[function.0 as usize].is_some() {
+        if self.core.initials[function.0 as usize].is_some() || self.environment.alternatives().is_some() {
             return self.ask(function, arguments, self.program.function(function).span).is_ok();
         }
         let codomain = self.program.function(function).codomain;

@@ -8,10 +8,10 @@
 
 use std::sync::Arc;
 
-use program::{Builtin, DomainId, DomainKind, FunctionId, Program, Term};
+use program::{Builtin, DomainId, DomainKind, FunctionId, Program, RuleId, Term};
 use syntax::Span;
 
-use crate::environment::Closed;
+use crate::environment::{Closed, Environment};
 use crate::location::Location;
 use crate::machine::Machine;
 use crate::memo::{fixed_functions, is_fixed_term};
@@ -175,6 +175,33 @@ impl Machine {
     /// Whether it makes elements of a domain.
     pub fn creates(&self) -> bool {
         !self.core.updates.created().is_empty()
+    }
+}
+
+/// Steps by compiled code alone.
+impl Machine {
+    /// Compiles the main rule for the states that are reached from the present one; whether there is code. Where that is not
+    /// the `only` initial state, the code relies on nothing that might not be so in the others.
+    pub fn compile_steps(&mut self, only: bool) -> bool {
+        self.core.unset |= !only;
+        self.compile_main()
+    }
+
+    /// Computes the main rule's update set as [`Machine::prepare`] does, without noting what is looked at, by the code of
+    /// [`Machine::compile_steps`]. False where the code does not know, for a fault perhaps: then nothing is prepared.
+    #[inline]
+    pub fn prepare_compiled(&mut self, environment: &mut dyn Environment) -> bool {
+        self.begin();
+        let computed = self.runs_compiled(environment);
+        if !computed {
+            self.discard();
+        }
+        computed
+    }
+
+    /// Whether a rule has run in compiled code.
+    pub fn has_run_compiled(&self, rule: RuleId) -> bool {
+        self.main_engine().is_some_and(|engine| engine.has_run(rule))
     }
 }
 

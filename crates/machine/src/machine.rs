@@ -207,12 +207,7 @@ impl Machine {
         procedure: ProcedureId,
         environment: &mut dyn Environment,
     ) -> Result<(), Fault> {
-        self.discard();
-        self.settled = false;
-        if self.stale {
-            self.forget_inputs();
-        }
-        self.core.begin_step();
+        self.begin();
         if self.has_code(procedure) && self.runs_compiled(environment) {
             return Ok(());
         }
@@ -280,7 +275,7 @@ impl Machine {
         }
         if !*tried {
             *tried = true;
-            *engine = Engine::compile(&self.program, procedure, &self.core).map(Box::new);
+            *engine = Engine::compile(&self.program, procedure, &self.core, false).map(Box::new);
         }
         if choice == EngineChoice::Automatic && engine.as_ref().is_some_and(|engine| !engine.pays()) {
             *engine = None;
@@ -288,8 +283,32 @@ impl Machine {
         engine.is_some()
     }
 
+    /// Compiles the main rule now, to code that notes which rules run; whether there is such code.
+    pub(crate) fn compile_main(&mut self) -> bool {
+        let Some(main) = self.program.main else { return false };
+        let engine = Engine::compile(&self.program, main, &self.core, true).map(Box::new);
+        let code = self.engine.run(main);
+        (code.tried, code.engine) = (true, engine);
+        code.engine.is_some()
+    }
+
+    /// The code of the main rule, if it was compiled.
+    pub(crate) fn main_engine(&self) -> Option<&Engine> {
+        self.engine.codes.iter().find(|code| Some(code.procedure) == self.program.main)?.engine.as_deref()
+    }
+
+    /// Forgets the inputs of a step that was committed, and begins the next one.
+    pub(crate) fn begin(&mut self) {
+        self.discard();
+        self.settled = false;
+        if self.stale {
+            self.forget_inputs();
+        }
+        self.core.begin_step();
+    }
+
     /// Computes the update set of a step that has begun by compiled code; false where it is to be interpreted.
-    fn runs_compiled(&mut self, environment: &mut dyn Environment) -> bool {
+    pub(crate) fn runs_compiled(&mut self, environment: &mut dyn Environment) -> bool {
         let Machine { program, core, limits, engine, .. } = self;
         let Some(engine) = &mut engine.codes[engine.running].engine else { return false };
         core.clear_calls();

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use machine::{Bounds, Interrupt, Limits};
+use machine::{Bounds, EngineChoice, Interrupt, Limits};
 use program::Expression;
 
 use crate::solver::method::Method;
@@ -48,6 +48,8 @@ pub struct Options {
     pub terminal: Option<Expression>,
     /// Steps are always made by a machine, never remembered.
     pub forgetful: bool,
+    /// What makes the steps that are not remembered; `Automatic` compiles them where remembering does not pay.
+    pub steps: EngineChoice,
     /// What is kept of each state; where that is not all of it, nothing Holds.
     pub storage: Storage,
     /// Draws the hash, where less than the state is kept.
@@ -76,6 +78,7 @@ impl Default for Options {
             bounds: BTreeMap::new(),
             terminal: None,
             forgetful: false,
+            steps: EngineChoice::Automatic,
             storage: Storage::Exact,
             seed: 0,
             partial_order: false,

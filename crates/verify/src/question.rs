@@ -58,6 +58,7 @@ impl Question {
         bounds.extend(options.bounds.iter().map(|(function, values)| (*function, values.clone())));
         let mut settings = Settings { limits: options.limits.clone(), bounds: Arc::new(bounds), ..Settings::default() };
         settings.forgetful = options.forgetful;
+        settings.engine = options.steps;
         settings.interrupt = options.interrupt.clone();
         let mut plan = Plan {
             settings,

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
 
 use explore::{Explorer, Interner, Settings, Trouble, Widening};
-use machine::{Bounds, Show};
+use machine::{Bounds, EngineChoice, Show};
 use machine::{
     Choice, Draw, Environment, Fault, FaultKind, Limits, Location, LocationRef, Machine, Snapshot, TimeUnit, Value,
 };
@@ -139,11 +139,20 @@ fn bounds(program: &Program) -> Bounds {
         .collect()
 }
 
-fn explorers(program: &Arc<Program>, bounds: &Bounds, widening: &Widening) -> Result<[Explorer; 2], Trouble> {
+/// One that remembers, one that does not, and one whose steps are machine code where that is `wanted`.
+fn explorers(
+    program: &Arc<Program>,
+    bounds: &Bounds,
+    widening: &Widening,
+    wanted: bool,
+) -> Result<([Explorer; 2], Option<Explorer>), Trouble> {
     let interner = Arc::new(Interner::default());
     let settings = Settings { limits: limits(), bounds: Arc::new(bounds.clone()), ..Settings::default() };
     let slow = Settings { forgetful: true, ..settings.clone() };
-    Ok([Explorer::new(program, settings, widening, &interner)?, Explorer::new(program, slow, widening, &interner)?])
+    let compiled = Settings { engine: EngineChoice::Compiled, ..slow.clone() };
+    let quick = Explorer::new(program, settings, widening, &interner)?;
+    let compiled = wanted.then(|| Explorer::like(program, compiled, widening, &interner, Some(&quick.starts())));
+    Ok(([quick, Explorer::new(program, slow, widening, &interner)?], compiled.transpose()?))
 }
 
 fn limits() -> Limits {
@@ -155,6 +164,10 @@ struct Total {
     models: usize,
     states: usize,
     moves: usize,
+    /// States whose steps were made by machine code.
+    compiled: u64,
+    /// Of so many.
+    tried: u64,
 }
 
 /// The successors of the machine's state, itself left out; none where they cannot all be had.
@@ -204,9 +217,9 @@ fn same(program: &Program, ours: &[(Location, Value)], theirs: &[(Location, Valu
 }
 
 /// Compares the first states of a model.
-fn compare(program: &Arc<Program>, widening: &mut Widening, total: &mut Total) -> Result<(), Trouble> {
+fn compare(program: &Arc<Program>, widening: &mut Widening, compiles: bool, total: &mut Total) -> Result<(), Trouble> {
     let bounds = bounds(program);
-    let [mut quick, mut slow] = explorers(program, &bounds, widening)?;
+    let ([mut quick, mut slow], mut compiled) = explorers(program, &bounds, widening, compiles)?;
     let mut machine = Machine::new(Arc::clone(program), limits());
     if quick.initial().len() > 1 {
         return Ok(());
@@ -228,6 +241,14 @@ fn compare(program: &Arc<Program>, widening: &mut Widening, total: &mut Total) -
         let expansion = quick.expand(&state, &mut out).map_err(narrow)?;
         assert_eq!(slow.expand(&state, &mut again).map_err(narrow)?, expansion, "remembered or made");
         assert_eq!(out, again, "remembered or made");
+        if let Some(compiled) = &mut compiled {
+            again.clear();
+            let before = compiled.compiled_states();
+            assert_eq!(compiled.expand(&state, &mut again).map_err(narrow)?, expansion, "compiled or made");
+            assert_eq!(out, again, "compiled or made");
+            total.compiled += compiled.compiled_states() - before;
+            total.tried += 1;
+        }
         // Once more, now that all of it is remembered.
         again.clear();
         assert_eq!(quick.expand(&state, &mut again).map_err(narrow)?, expansion, "made and remembered");
@@ -267,6 +288,7 @@ fn explorers_do_what_the_machine_does() {
     let number =
         |name: &str, otherwise: u64| std::env::var(name).ok().and_then(|n| n.parse().ok()).unwrap_or(otherwise);
     let (cases, seed) = (number("GROUNDSTATE_CASES", 300), number("GROUNDSTATE_SEED", 1));
+    let full = std::env::var_os("GROUNDSTATE_FULL").is_some();
     let mut total = Total::default();
     for seed in seed..seed + cases {
         let text = oracle::generate::model(seed, 1).to_string();
@@ -278,7 +300,9 @@ fn explorers_do_what_the_machine_does() {
         let program = Arc::new(program);
         let attempt = std::panic::AssertUnwindSafe(|| {
             let mut widening = Widening::default();
-            while let Err(Trouble::TooNarrow(more)) = compare(&program, &mut widening, &mut total) {
+            // Compiling takes longer than all the rest.
+            let compiles = full || seed % 4 == 0;
+            while let Err(Trouble::TooNarrow(more)) = compare(&program, &mut widening, compiles, &mut total) {
                 widening.merge(&more);
             }
         });
@@ -289,4 +313,5 @@ fn explorers_do_what_the_machine_does() {
         total.models += 1;
     }
     assert!(total.models > cases as usize / 3 && total.moves > total.models, "{total:?}");
+    assert!(total.compiled > total.tried / 3, "{total:?}");
 }

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use machine::Show;
+use machine::{EngineChoice, Show};
 use program::Program;
 use testkit::repository;
 use verify::{Options, Outcome, Report, Subject, verify};
@@ -92,12 +92,19 @@ fn a_panic_ends_all_workers() {
 
 #[test]
 fn what_is_remembered_changes_nothing() {
+    use EngineChoice::{Automatic, Compiled};
     let program = program("ChainXS");
-    let reports = [(1, false), (1, true), (3, false)].map(|(workers, forgetful)| {
-        let report = check(&program, &Options { workers, forgetful, ..Options::default() });
+    let ways = [
+        (1, false, Automatic),
+        (1, true, Automatic),
+        (3, false, Automatic),
+        (1, false, Compiled),
+        (2, false, Compiled),
+    ];
+    let reports = ways.map(|(workers, forgetful, steps)| {
+        let report = check(&program, &Options { workers, forgetful, steps, ..Options::default() });
         assert_eq!(violated(&program, &report), []);
-        (report.progress.states, report.progress.transitions, report.progress.depth)
+        (report.progress.states, report.progress.transitions, report.progress.depth, report.unreachable)
     });
-    assert_eq!(reports[0], reports[1]);
-    assert_eq!(reports[0], reports[2]);
+    assert!(reports.iter().all(|report| *report == reports[0]), "{reports:?}");
 }

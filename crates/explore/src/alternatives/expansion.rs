@@ -46,6 +46,17 @@ impl Expansion {
             conditions.iter().fold(0, |bits, condition| bits | 1 << (*condition as usize).min(Expansion::TOLD));
     }
 
+    /// Counts an alternative that leads to a state, perhaps to the same one.
+    #[inline]
+    pub(crate) fn arrive(&mut self, state: &[u64], next: &[u64], found: &mut Successors<'_>) {
+        if state == next {
+            self.stayed += 1;
+        } else {
+            found.room(state.len()).extend_from_slice(next);
+            self.moved += 1;
+        }
+    }
+
     /// Counts an alternative, and lists what it leads to.
     #[inline]
     pub(crate) fn count(

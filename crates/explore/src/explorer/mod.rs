@@ -7,6 +7,7 @@
 
 mod inputs;
 mod judge;
+mod makers;
 pub(crate) mod orbit;
 pub(crate) mod paths;
 pub(crate) mod sets;
@@ -19,7 +20,7 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use machine::{Coverage, EngineChoice, Fault, FaultClass, Interrupt, Location, Machine, Observation, Value};
+use machine::{EngineChoice, Fault, FaultClass, Interrupt, Location, Machine, Observation, Value};
 use program::{Expression, Program};
 use rustc_hash::FxHashSet;
 use syntax::Span;
@@ -39,6 +40,7 @@ use crate::packed::words::{Overwrite, REST};
 use crate::settings::{Settings, Trouble};
 use crate::starts::origin::Origins;
 use crate::starts::{Begun, Start, Starts, each_start};
+use makers::Makers;
 use sighting::Sighting;
 
 /// What became of one alternative.
@@ -55,10 +57,11 @@ pub struct Explorer {
     pub(super) program: Arc<Program>,
     pub(super) machine: Machine,
     pub(super) branches: Branches,
-    pub(super) encoding: Encoding,
+    pub(super) encoding: Arc<Encoding>,
     pub(super) view: View,
     pub(super) settings: Settings,
     pub(super) steps: Steps,
+    makers: Makers,
     pub(super) conditions: Vec<Condition>,
     /// The packed state that the machine is in.
     loaded: Vec<u64>,
@@ -125,6 +128,7 @@ impl Explorer {
         origins.number(&machine);
         let kept = Kept::new(program, &settings, &seen.asked);
         let encoding = Encoding::new(program, &mut machine, &seen.rows, kept, origins.count(), widening);
+        let encoding = Arc::new(encoding);
         let mut view = View::new(Arc::clone(interner));
         let starts = match known {
             Some(known) => Arc::clone(known),
@@ -168,6 +172,7 @@ impl Explorer {
             view,
             settings,
             steps: Steps::default(),
+            makers: Makers::default(),
             conditions,
             is_loaded: false,
             starts,
@@ -203,11 +208,6 @@ impl Explorer {
         Arc::clone(&self.starts)
     }
 
-    /// Which rules ran, in all steps that a machine has made.
-    pub fn coverage(&self) -> &Coverage {
-        self.machine.coverage().expect("counted from the beginning")
-    }
-
     /// What could not be gone through, in all steps and conditions so far.
     pub fn unbounded(&self) -> &BTreeSet<Unbounded> {
         &self.unbounded
@@ -224,16 +224,27 @@ impl Explorer {
     /// # Errors
     /// A successor does not fit.
     pub fn expand(&mut self, state: &[u64], out: &mut Vec<u64>) -> Result<Expansion, Widening> {
+        self.note_state();
         let start = out.len();
         let (mut expansion, mut found) = (Expansion::default(), Successors::new(out));
         match self.steps.make(state, &self.settings.interrupt, &mut expansion, &mut found) {
-            Ok(()) => Ok(expansion),
-            Err(Unmade::Interrupted) => Ok(Expansion { interrupted: true, ..expansion }),
-            Err(Unmade::Unknown) => {
-                out.truncate(start);
-                self.expand_by_machine(state, out)
+            Ok(()) => return Ok(expansion),
+            Err(Unmade::Interrupted) => return Ok(Expansion { interrupted: true, ..expansion }),
+            Err(Unmade::Unknown) => out.truncate(start),
+        }
+        let interrupt = self.settings.interrupt.clone();
+        if let Some(code) = self.code() {
+            let (mut expansion, mut found) = (Expansion::default(), Successors::new(out));
+            match code.make(state, &interrupt, &mut expansion, &mut found) {
+                Ok(()) => {
+                    self.makers.made += 1;
+                    return Ok(expansion);
+                }
+                Err(Unmade::Interrupted) => return Ok(Expansion { interrupted: true, ..expansion }),
+                Err(Unmade::Unknown) => out.truncate(start),
             }
         }
+        self.expand_by_machine(state, out)
     }
 
     pub(super) fn expand_by_machine(&mut self, state: &[u64], out: &mut Vec<u64>) -> Result<Expansion, Widening> {
@@ -367,7 +378,7 @@ impl Explorer {
             branches.look_at(REST);
         }
         if rest_written || encoding.rest_may_change(machine) {
-            let mut rest = encoding.gather(program, machine, true);
+            let mut rest = encoding.gather_with(program, machine, true, &|location| machine.update_of(location));
             encoding.settle(machine, &mut rest);
             encoding.put_rest(rest, &mut next, view)?;
             if let Some(field) = encoding.rest {

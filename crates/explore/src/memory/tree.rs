@@ -90,6 +90,11 @@ impl Tree {
         !self.given_up
     }
 
+    /// Forgets all of it, and learns no more.
+    pub fn give_up(&mut self) {
+        *self = Tree { given_up: true, ..Tree::default() };
+    }
+
     /// How many nodes and links it has.
     pub fn size(&self) -> usize {
         self.nodes.len() + self.links.len() + self.wide.len()
@@ -115,7 +120,7 @@ impl Tree {
         // Making the steps costs more than what a walk saves where every fourth fails.
         let poor = self.walks >= TRIAL && self.failures * 4 > self.walks;
         if poor || self.links.len() + self.wide.len() > LINKS {
-            *self = Tree { given_up: true, ..Tree::default() };
+            self.give_up();
         } else if self.walks >= TRIAL {
             (self.walks, self.failures) = (self.walks / 2, self.failures / 2);
         }

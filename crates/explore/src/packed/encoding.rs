@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use machine::inside::{extended, is_kept};
 use machine::{Location, Machine, Value};
-use program::{DomainKind, FunctionId, FunctionKind, Program, Rule, Term};
+use program::{FunctionId, FunctionKind, Program, Rule, Term};
 
 use crate::packed::codes::{Codes, Coding, finite};
 use crate::packed::interner::{Rest, View};
@@ -40,6 +40,8 @@ pub(crate) struct Encoding {
     pub words: usize,
     /// By function: its initial values depend on its arguments alone and are evaluated when first read.
     lazy: Vec<bool>,
+    /// By domain, whether some rule makes elements of it.
+    pub growing: Vec<bool>,
     /// Some domain may grow.
     grows: bool,
     /// The inputs of initial states.
@@ -60,6 +62,7 @@ impl Encoding {
         widening: &Widening,
     ) -> Encoding {
         let assigned_undef = assigned_undef(program);
+        let growing = program.growing_domains();
         let mut encoding = Encoding {
             fields: Vec::new(),
             codes: vec![None; program.functions.len()],
@@ -69,10 +72,8 @@ impl Encoding {
             constant_rest: Arc::default(),
             words: 1,
             lazy: machine.late_initials(),
-            grows: program.domains.iter().any(|domain| match &domain.kind {
-                DomainKind::Abstract { dynamic, .. } | DomainKind::Concrete { dynamic, .. } => *dynamic,
-                _ => false,
-            }),
+            grows: growing.contains(&true),
+            growing,
             kept: Kept::default(),
             origin: None,
         };
@@ -90,10 +91,10 @@ impl Encoding {
             if function.library || function.kind == FunctionKind::Shared {
                 continue;
             }
-            let Some(locations) = declared_locations(program, machine, id) else { continue };
+            let Some(locations) = declared_locations(program, &encoding.growing, machine, id) else { continue };
             let found = || locations.iter().flat_map(|location| initial.iter().map(|state| &state[*location as usize]));
             let undefined = widening.undefined.contains(&id) || assigned_undef[index] || found().any(Value::is_undef);
-            let (codes, bits) = Codes::of(program, machine, function.codomain, found(), undefined);
+            let (codes, bits) = Codes::of(program, &encoding.growing, machine, function.codomain, found(), undefined);
             if used + bits * locations.len() > BITS {
                 continue;
             }
@@ -110,7 +111,7 @@ impl Encoding {
             }
         }
         encoding.of_location = of_location.into();
-        let mut rest = encoding.gather(program, machine, false);
+        let mut rest = encoding.gather(program, machine);
         encoding.settle(machine, &mut rest);
         encoding.constant_rest = Arc::new(rest);
         if widening.rest {
@@ -125,7 +126,9 @@ impl Encoding {
     }
 
     pub fn add_field(&mut self, location: u32, function: FunctionId, bits: usize) -> u32 {
-        let (mut word, mut shift) = match self.fields.last() {
+        // What needs no bits stands nowhere in particular; after a full word there would be no place for it.
+        let last = self.fields.iter().rev().find(|field| field.bits > 0).filter(|_| bits > 0);
+        let (mut word, mut shift) = match last {
             Some(last) => (last.word, u32::from(last.shift + last.bits)),
             None => (0, 0),
         };
@@ -190,7 +193,7 @@ impl Encoding {
         (inputs, origin): (&[(Location, Value)], u32),
         view: &mut View,
     ) -> Result<Box<[u64]>, TooNarrow> {
-        let mut rest = self.gather(program, machine, false);
+        let mut rest = self.gather(program, machine);
         self.settle(machine, &mut rest);
         self.add_inputs(&mut rest, inputs);
         let mut words = vec![0; self.words].into_boxed_slice();
@@ -211,6 +214,12 @@ impl Encoding {
         for field in self.fields.iter().filter(|field| field.location != NOWHERE) {
             store.overwrite(field.location, self.value(*field, words, view));
         }
+        self.unpack_rest(program, words, machine, view);
+    }
+
+    /// Puts the rest of a packed state into the machine.
+    pub fn unpack_rest(&self, program: &Program, words: &[u64], machine: &mut Machine, view: &mut View) {
+        let store = machine.store_mut();
         let rest = match self.rest {
             Some(field) => view.rest(self.fields[field as usize].code(words)),
             None => Arc::clone(&self.constant_rest),
@@ -231,14 +240,25 @@ impl Encoding {
         self.grows || !self.others.is_empty() || machine.store().len() > self.of_location.len()
     }
 
-    /// The rest of the state; with the updates of the running step, if these are wanted.
-    pub fn gather(&self, program: &Program, machine: &Machine, updated: bool) -> Rest {
+    /// The rest of the state.
+    pub fn gather(&self, program: &Program, machine: &Machine) -> Rest {
+        self.gather_with(program, machine, false, &|_| None)
+    }
+
+    /// The same after a step: with the elements that it `creates`, if these are wanted, and its updates.
+    pub fn gather_with<'m>(
+        &self,
+        program: &Program,
+        machine: &'m Machine,
+        creates: bool,
+        update_of: &dyn Fn(u32) -> Option<&'m Value>,
+    ) -> Rest {
         let store = machine.store();
         let sparse = self.of_location.len() as u32..store.len() as u32;
         let mut locations: Vec<(Location, Value)> = Vec::new();
         for index in self.others.iter().copied().chain(sparse) {
             let (mut value, mut given) = (store.value(index), store.is_given(index));
-            if updated && let Some(update) = machine.update_of(index) {
+            if let Some(update) = update_of(index) {
                 (value, given) = (update, true);
             }
             if value.is_undef() && !given {
@@ -257,7 +277,7 @@ impl Encoding {
             locations.push((location, value.clone()));
         }
         locations.sort_unstable();
-        let grown = if self.grows { machine.grown(updated) } else { Vec::new() };
+        let grown = if self.grows { machine.grown(creates) } else { Vec::new() };
         Rest { locations, grown }
     }
 
@@ -300,10 +320,15 @@ impl Encoding {
 }
 
 /// The dense locations whose arguments are in the declared domains, if these are finite.
-fn declared_locations(program: &Program, machine: &mut Machine, function: FunctionId) -> Option<Vec<u32>> {
+fn declared_locations(
+    program: &Program,
+    growing: &[bool],
+    machine: &mut Machine,
+    function: FunctionId,
+) -> Option<Vec<u32>> {
     let mut tuples = vec![Vec::new()];
     for parameter in &program.function(function).parameters {
-        let elements = finite(program, machine, *parameter)?;
+        let elements = finite(program, growing, machine, *parameter)?;
         if tuples.len() * elements.len() > FIELDS_OF_A_FUNCTION {
             return None;
         }

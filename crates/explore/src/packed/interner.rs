@@ -81,6 +81,11 @@ impl View {
         View { shared, seen: Tables::default() }
     }
 
+    /// What it is a view of.
+    pub fn shared(&self) -> &Arc<Interner> {
+        &self.shared
+    }
+
     fn renew(&mut self) {
         let shared = self.shared.tables.lock().unwrap_or_else(PoisonError::into_inner);
         for value in &shared.values.items[self.seen.values.items.len()..] {

@@ -24,12 +24,14 @@ mod total;
 mod translate;
 mod unit;
 
+use std::sync::atomic::Ordering;
+
 use cranelift_codegen::ir::{InstBuilder, UserFuncName, types};
 use cranelift_codegen::settings::{self, Configurable};
 use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
 use cranelift_jit::{JITBuilder, JITModule};
 use cranelift_module::{FuncId, Linkage, Module, default_libcall_names};
-use program::{ProcedureId, Program};
+use program::{ProcedureId, Program, RuleId};
 
 use crate::execute::{Core, Executor};
 use crate::step::Passed;
@@ -73,8 +75,9 @@ impl Drop for Engine {
 }
 
 impl Engine {
-    /// Compiles a procedure for a started machine; none on a machine that Cranelift has no code for.
-    pub fn compile(program: &Program, main: ProcedureId, core: &Core) -> Option<Engine> {
+    /// Compiles a procedure for a started machine; none on a machine that Cranelift has no code for. The code notes which
+    /// rules run if that is wanted.
+    pub fn compile(program: &Program, main: ProcedureId, core: &Core, notes_rules: bool) -> Option<Engine> {
         let mut flags = settings::builder();
         flags.set("opt_level", "speed").ok()?;
         flags.set("is_pic", "false").ok()?;
@@ -85,6 +88,9 @@ impl Engine {
         let mut module = JITModule::new(builder);
         let helpers = Helpers::declare(&mut module)?;
         let mut plan = Plan::new(program, main, core, helpers);
+        if notes_rules {
+            plan.note_rules(program);
+        }
 
         let entry = signature(&module, &[types::I64], &[types::I64]);
         let entry = module.declare_function("entry", Linkage::Local, &entry).ok()?;
@@ -104,6 +110,11 @@ impl Engine {
     /// Whether running the code has paid so far.
     pub fn pays(&self) -> bool {
         self.runs < TRIAL || self.abandoned * 8 < self.runs
+    }
+
+    /// Whether a rule has run in some step, as far as that is noted.
+    pub fn has_run(&self, rule: RuleId) -> bool {
+        self.tables.ran.get(rule.0 as usize).is_some_and(|ran| ran.load(Ordering::Relaxed) != 0)
     }
 
     /// Computes the update set of a step; false where the step must be rolled back and interpreted instead.

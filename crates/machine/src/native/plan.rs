@@ -4,6 +4,7 @@
 //! the [`Tables`] that compiled code refers to by number.
 
 use std::sync::Arc;
+use std::sync::atomic::AtomicU8;
 
 use cranelift_module::FuncId;
 use program::{Builtin, DomainId, DomainKind, FunctionId, ProcedureId, Program, Rule, RuleId, Term, TermId};
@@ -59,6 +60,8 @@ pub(crate) struct Tables {
     pub memory: super::memory::Memory,
     /// Arrays that code refers to.
     pinned: Vec<Arc<Items>>,
+    /// By rule, 1 where it has run; empty where that is not noted.
+    pub ran: Box<[AtomicU8]>,
 }
 
 /// The knowledge of one compilation.
@@ -127,6 +130,16 @@ impl Plan {
             queue: Vec::new(),
             tables: Tables { pinned: vec![constants], ..Tables::default() },
         }
+    }
+
+    /// From now on the code that is made notes which rules run.
+    pub fn note_rules(&mut self, program: &Program) {
+        self.tables.ran = program.rules.iter().map(|_| AtomicU8::new(0)).collect();
+    }
+
+    /// Where it is noted that a rule has run, if that is noted.
+    pub fn mark_of(&self, rule: RuleId) -> Option<*const AtomicU8> {
+        self.tables.ran.get(rule.0 as usize).map(std::ptr::from_ref)
     }
 
     /// The address of undef.

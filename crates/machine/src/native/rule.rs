@@ -9,13 +9,17 @@ use crate::native::context::Offset;
 use crate::native::helper;
 use crate::native::plan::UnitKey;
 use crate::native::shape::{Bound, Kind, Operand, Scalar};
-use crate::native::translate::{Frame, Translator};
+use crate::native::translate::{Frame, MARKS, Translator};
 use crate::value::Value;
 
 impl Translator<'_, '_> {
     /// Translates a rule.
     pub fn rule(&mut self, id: RuleId) {
         self.weight += 1;
+        if let Some(mark) = self.plan.mark_of(id) {
+            let (place, ran) = (self.address(mark), self.byte(1));
+            self.builder.ins().store(MARKS, ran, place, 0);
+        }
         let program = self.program;
         match program.rule(id) {
             Rule::Skip => {}

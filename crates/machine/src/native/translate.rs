@@ -21,6 +21,8 @@ use crate::value::Value;
 
 /// Memory that compiled code may read and write without a check: values, updates, stamps.
 pub(super) const FLAGS: MemFlags = MemFlags::trusted().with_alias_region(Some(AliasRegion::Heap));
+/// Memory that compiled code only writes.
+pub(super) const MARKS: MemFlags = MemFlags::trusted();
 /// Fields of the context that only helpers change.
 const FIXED: MemFlags = MemFlags::trusted().with_alias_region(Some(AliasRegion::Vmctx));
 /// Fields of the context that compiled code changes.

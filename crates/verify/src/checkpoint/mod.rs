@@ -30,7 +30,7 @@ use crate::storage::Store;
 use crate::target::{Found, Target};
 
 /// Raised whenever what is written means something else.
-const VERSION: u64 = 2;
+const VERSION: u64 = 3;
 
 /// What came before the search at hand: attempts that ended because states did not fit.
 #[derive(Debug, Clone, Default)]

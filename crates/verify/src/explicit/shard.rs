@@ -308,10 +308,10 @@ impl Shard {
                 }
                 Decision::Stop(stop) => {
                     self.unbounded.extend(explorer.unbounded());
-                    let executed = &explorer.coverage().executed;
+                    let executed = explorer.executed();
                     self.executed.resize(executed.len(), 0);
                     let pairs = self.executed.iter_mut().zip(executed);
-                    pairs.for_each(|(before, now)| *before = (*before).max(*now));
+                    pairs.for_each(|(before, now)| *before |= u64::from(now));
                     return stop;
                 }
             }

@@ -12,6 +12,7 @@ use std::sync::Arc;
 use explore::{
     Alternative, AlternativeKind, Explorer, Interner, SetTrouble, StateSets, Trouble, Truth, Unbounded, Widening,
 };
+use machine::EngineChoice;
 use program::Program;
 use rustc_hash::FxHashSet;
 
@@ -96,6 +97,8 @@ impl Reach {
         let interner = Arc::new(Interner::default());
         let mut settings = plan.settings.clone();
         settings.forgetful = false;
+        // Sets are walked over the tree of decisions.
+        settings.engine = EngineChoice::Interpreted;
         let mut explorer = Explorer::new(program, settings, widening, &interner)?;
         sample(&mut explorer).map_err(Trouble::TooNarrow)?;
         let fields = explorer.fields();
@@ -393,7 +396,7 @@ impl Reach {
 
     /// By rule, whether some step ran it.
     pub fn executed(&self) -> Vec<bool> {
-        self.explorer.coverage().executed.iter().map(|count| *count > 0).collect()
+        self.explorer.executed()
     }
 
     /// How many words a state has, and how many bits of them are used.

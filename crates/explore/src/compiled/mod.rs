@@ -1,0 +1,233 @@
+//! Steps made by machine code.
+//!
+//! In: packed states. Out: where their steps lead. A machine of its own, which notes nothing of what steps look at, is put into each
+//! state and runs the compiled main rule once for each alternative; only what differs from the state before is unpacked, and
+//! only what a step updates is packed again. Where compiled code gives up, at a fault for one, nothing is known of the state and the
+//! machine that explores makes the steps. INVARIANT: inputs and choices are asked for in the interpreter's order, so the
+//! alternatives come in the same order from both.
+
+mod codec;
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use machine::{EngineChoice, Interrupt, Machine, Value};
+use program::{Expression, FunctionKind, Program, RuleId};
+
+use crate::alternatives::branches::Branches;
+use crate::alternatives::expansion::Expansion;
+use crate::alternatives::successors::Successors;
+use crate::memory::maker::{StepMaker, Unmade};
+use crate::packed::codes::finite;
+use crate::packed::encoding::Encoding;
+use crate::packed::interner::{Interner, View};
+use crate::packed::words::{NOWHERE, REST};
+use crate::settings::Settings;
+use crate::starts::{Starts, each_start};
+use codec::Codec;
+
+/// See the module.
+#[derive(Debug)]
+pub(crate) struct Compiled {
+    program: Arc<Program>,
+    machine: Machine,
+    branches: Branches,
+    encoding: Arc<Encoding>,
+    view: View,
+    /// By field.
+    codecs: Vec<Codec>,
+    /// By word of a packed state, the fields in it.
+    fields: Vec<Vec<usize>>,
+    step_conditions: Vec<(Expression, bool)>,
+    /// The packed state that the machine is in.
+    loaded: Vec<u64>,
+    next: Vec<u64>,
+    failed: Vec<u32>,
+}
+
+/// What an alternative came to.
+enum Step {
+    Next,
+    Excluded,
+    Unknown,
+}
+
+impl Compiled {
+    /// Compiles the steps of a program; none where its states are more than fields, what steps look at matters, or there is
+    /// no compiler for this processor.
+    pub fn new(
+        program: &Arc<Program>,
+        settings: &Settings,
+        encoding: &Arc<Encoding>,
+        interner: &Arc<Interner>,
+        starts: &Starts,
+    ) -> Option<Compiled> {
+        let plain = encoding.origin.is_none() && encoding.kept.is_empty();
+        if !plain || settings.observed || !settings.unordered.is_empty() {
+            return None;
+        }
+        let mut machine = Machine::new(Arc::clone(program), settings.limits.clone());
+        machine.use_engine(EngineChoice::Interpreted);
+        let blank = machine.snapshot();
+        let mut branches = Branches::new(Arc::clone(&settings.bounds));
+        branches.first();
+        let interrupt = Interrupt::default();
+        let started =
+            each_start(&mut machine, &blank, &mut branches, &interrupt, &mut |_, _| Ok(ControlFlow::Break(())));
+        started.ok()?;
+        let state = machine.snapshot();
+        machine.restore(&state);
+        machine.forget_inputs();
+        branches.bounds = Arc::new(all_bounds(program, encoding, &mut machine, settings));
+        let mut view = View::new(Arc::clone(interner));
+        // Each location has the value that its field says from now on, not only those that differ.
+        let first = starts.states.first().map(|(state, _)| state.to_vec())?;
+        encoding.unpack(program, &first, &mut machine, &mut view);
+        if !machine.compile_steps(starts.states.len() == 1) {
+            return None;
+        }
+        let codecs = encoding.fields.iter().map(|field| Codec::of(encoding, *field)).collect();
+        let mut fields = vec![Vec::new(); encoding.words];
+        for (index, field) in encoding.fields.iter().enumerate().filter(|(_, field)| field.bits > 0) {
+            fields[field.word as usize].push(index);
+        }
+        Some(Compiled {
+            fields,
+            codecs,
+            program: Arc::clone(program),
+            machine,
+            branches,
+            encoding: Arc::clone(encoding),
+            view,
+            step_conditions: settings.step_conditions.clone(),
+            loaded: first,
+            next: Vec::new(),
+            failed: Vec::new(),
+        })
+    }
+
+    /// Whether a rule has run.
+    pub fn has_run(&self, rule: RuleId) -> bool {
+        self.machine.has_run_compiled(rule)
+    }
+
+    /// Puts the machine into a state.
+    fn load(&mut self, state: &[u64]) {
+        let Compiled { machine, encoding, view, codecs, fields, loaded, .. } = self;
+        machine.discard();
+        let mut rest = encoding.rest_may_change(machine);
+        let store = machine.store_mut();
+        for (word, (now, before)) in state.iter().zip(loaded.iter_mut()).enumerate() {
+            let differs = *now ^ *before;
+            if differs == 0 {
+                continue;
+            }
+            *before = *now;
+            for index in &fields[word] {
+                let field = encoding.fields[*index];
+                if differs & field.mask() == 0 {
+                    continue;
+                }
+                match field.location {
+                    NOWHERE => rest = true,
+                    location => store.overwrite(location, codecs[*index].value(field.code(state), view)),
+                }
+            }
+        }
+        if rest {
+            encoding.unpack_rest(&self.program, state, machine, view);
+        }
+        machine.forget_inputs();
+    }
+
+    /// Makes the step with the alternatives that are due; where it leads is packed.
+    fn step(&mut self, state: &[u64]) -> Step {
+        self.load(state);
+        if !self.machine.prepare_compiled(&mut self.branches) {
+            return Step::Unknown;
+        }
+        self.failed.clear();
+        for (index, (formula, assumed)) in self.step_conditions.iter().enumerate() {
+            match self.machine.evaluate(formula, &mut self.branches) {
+                Ok(Value::Boolean(true)) => {}
+                Ok(_) if *assumed => return Step::Excluded,
+                Ok(_) => self.failed.push(index as u32),
+                Err(_) => return Step::Unknown,
+            }
+        }
+        let Compiled { program, machine, encoding, view, codecs, next, .. } = self;
+        // Compiled code stamps no location that it knows to be updated once, so the updates are not found by their stamps.
+        let mut others: Vec<(u32, &Value)> = Vec::new();
+        next.clear();
+        next.extend_from_slice(state);
+        for (location, value) in machine.updates() {
+            match encoding.of_location.get(location as usize) {
+                Some(&NOWHERE) => {}
+                Some(&REST) | None => others.push((location, value)),
+                Some(index) => {
+                    let Some(code) = codecs[*index as usize].code(value, view) else { return Step::Unknown };
+                    encoding.fields[*index as usize].put(code, next);
+                }
+            }
+        }
+        if !others.is_empty() || machine.creates() || encoding.rest_may_change(machine) {
+            others.sort_unstable_by_key(|(location, _)| *location);
+            let update_of = |location: u32| {
+                let found = others.binary_search_by_key(&location, |(location, _)| *location);
+                found.ok().map(|index| others[index].1)
+            };
+            let mut rest = encoding.gather_with(program, machine, true, &update_of);
+            encoding.settle(machine, &mut rest);
+            if encoding.put_rest(rest, next, view).is_err() {
+                return Step::Unknown;
+            }
+        }
+        Step::Next
+    }
+}
+
+impl StepMaker for Compiled {
+    fn make(
+        &mut self,
+        state: &[u64],
+        interrupt: &Interrupt,
+        expansion: &mut Expansion,
+        found: &mut Successors<'_>,
+    ) -> Result<(), Unmade> {
+        self.branches.first();
+        loop {
+            if interrupt.is_raised() {
+                return Err(Unmade::Interrupted);
+            }
+            let step = self.step(state);
+            if self.branches.dead || self.branches.unbounded.is_some() {
+                return Err(Unmade::Unknown);
+            }
+            match step {
+                Step::Next => expansion.arrive(state, &self.next, found),
+                Step::Excluded => expansion.excluded += 1,
+                Step::Unknown => return Err(Unmade::Unknown),
+            }
+            if !self.failed.is_empty() && matches!(step, Step::Next) {
+                expansion.fail(&self.failed);
+            }
+            if !self.branches.next() {
+                return Ok(());
+            }
+        }
+    }
+}
+
+/// The values that inputs are given, and those of their domains where these are few and always the same.
+fn all_bounds(program: &Program, encoding: &Encoding, machine: &mut Machine, settings: &Settings) -> machine::Bounds {
+    let mut bounds = (*settings.bounds).clone();
+    for (function, declared) in (0..).map(program::FunctionId).zip(&program.functions) {
+        if declared.kind == FunctionKind::Monitored
+            && !bounds.contains_key(&function)
+            && let Some(values) = finite(program, &encoding.growing, machine, declared.codomain)
+        {
+            bounds.insert(function, values);
+        }
+    }
+    bounds
+}
