@@ -1,7 +1,7 @@
-//! Runs as Avalla: the inputs that are set and the choices that are picked for the steps of a trace.
+//! Writes runs as Avalla: sets the inputs and picks the choices of each step of a trace.
 //!
-//! In: what a step was given. Out: lines of a scenario. What no scenario can say is left out, with a comment where it is a
-//! choice. Counterexamples and generated tests are written with it.
+//! In: what a step was given. Out: lines of a scenario. A choice that no scenario can express becomes a comment.
+//! Counterexamples and generated tests are written with it.
 
 use std::fmt::Write;
 
@@ -9,7 +9,7 @@ use explore::ChoiceTaken;
 use machine::{Location, Show, Value};
 use program::{Program, Rule, RuleId};
 
-/// Sets inputs that are not what they were.
+/// Sets the inputs whose values changed since the last `set`.
 pub(crate) fn set(
     text: &mut String,
     program: &Program,
@@ -47,7 +47,7 @@ pub(crate) fn pick(text: &mut String, program: &Program, choice: &ChoiceTaken) {
     let _ = writeln!(text, "// a term chooses {} here, which no scenario can say", values.join(", "));
 }
 
-/// Whether a value can be written as a term: it holds no element without a name, and no rule.
+/// Whether a value can be written as a term: it contains no unnamed element and no rule.
 pub(crate) fn is_written(program: &Program, value: &Value) -> bool {
     match value {
         Value::Element(domain, index) => match &program.domain(*domain).kind {

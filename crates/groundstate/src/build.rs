@@ -1,8 +1,8 @@
-//! A chart to the model that it stands for, checked as every model is before anybody gets it.
+//! Builds the model that a chart means, and checks it like any other model.
 //!
-//! In: a chart's text, the name and the present text of the model's file, and a [`Loader`]. Out: the new text, or the faults:
-//! of the chart, of what it imports, of the text that is there, of what would be built. INVARIANT: what is given as built has
-//! no errors. Faults of what would be built are told at the chart where they come from a link of it.
+//! In: a chart's text, the name and the present text of the model's file, and a [`Loader`]. Out: the new text, or the
+//! faults of the chart, its imports, the present text or the model to be built. INVARIANT: a model that is returned has
+//! no errors. A fault of the model to be built is reported in the chart if one of its links causes it.
 
 use chart::{Built, Chart, Known, Loaded};
 use model::Loader;
@@ -13,18 +13,18 @@ use crate::{check, has_errors};
 /// Faults, and the texts that their places refer to.
 pub type Located = (Sources, Vec<Diagnostic>);
 
-/// A chart built, or why not.
+/// The result of building a chart.
 #[derive(Debug)]
 pub struct BuiltChart {
     /// The chart, with the imports that it needs.
     pub chart: Chart,
-    /// The model; none where a fault is an error.
+    /// The model; `None` if there is an error.
     pub built: Option<Built>,
-    /// Faults, those of each set of texts together.
+    /// The faults, grouped by the texts that they refer to.
     pub faults: Vec<Located>,
 }
 
-/// Builds the model of a chart under a name, into the text that is there.
+/// Builds the model of a chart under a name, into the existing text.
 pub fn build_chart(root: SourceFile, name: &str, existing: Option<&str>, loader: &mut dyn Loader) -> BuiltChart {
     let Loaded { sources, mut chart, diagnostics } = chart::load(root.clone(), loader);
     let whole = !has_errors(&diagnostics);
@@ -72,7 +72,7 @@ fn built(
     good.then_some(built)
 }
 
-/// The errors of a text that was built.
+/// The errors of the text that was built.
 fn faults_of(root: &SourceFile, chart: &Chart, name: &str, text: &str, loader: &mut dyn Loader) -> Located {
     let mut checked = check(SourceFile::new(name, text), loader);
     if !has_errors(&checked.diagnostics) {
@@ -82,7 +82,7 @@ fn faults_of(root: &SourceFile, chart: &Chart, name: &str, text: &str, loader: &
         return (checked.sources, checked.diagnostics);
     };
     checked = check(SourceFile::new(name, probed.text.as_str()), loader);
-    // The chart's own places, beside those of what is built.
+    // Faults of the built text may point into the chart, too.
     let loaded = chart::load_beside(std::mem::take(&mut checked.sources), root.clone(), loader);
     checked.sources = loaded.sources;
     let mut placed = loaded.chart;

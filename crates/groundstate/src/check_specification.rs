@@ -1,6 +1,6 @@
-//! A specification against its model, as `check` and an editor ask for it.
+//! Checks a specification against its model, for `check` and for editors.
 //!
-//! In: the text of `MODEL.report.yaml` or `MODEL.verify.yaml`, that of the model, [`Files`] for what both name. Out:
+//! In: the texts of `MODEL.report.yaml` or `MODEL.verify.yaml` and of the model, and [`Files`] for what both name. Out:
 //! [`Findings`]: the model's faults if it has errors, else those of the specification.
 
 use std::path::Path;
@@ -14,8 +14,8 @@ use crate::reporting::prepare_report;
 use crate::workspace::{Files, Findings};
 use crate::{check_verification, load};
 
-/// What is wrong with a specification; without a model, none of it is looked at. A file that is not named as a report
-/// specification is taken for what is to be verified.
+/// Checks a specification. Without a model, nothing is checked. A file that is not named as a report specification is
+/// read as a verification specification.
 pub fn check_specification<F: Files + Loader>(root: &SourceFile, model: Option<SourceFile>, files: &mut F) -> Findings {
     let path = Path::new(&root.name);
     let Some(model) = model else {

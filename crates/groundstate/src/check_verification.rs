@@ -1,6 +1,6 @@
-//! `MODEL.verify.yaml` against its model: the form of the file, its bounds, its terms.
+//! Checks `MODEL.verify.yaml` against its model: the file's form, its bounds, its terms.
 //!
-//! In: an [`Overlay`] of the model, and the text. Out: all faults. The overlay holds the file and its terms afterwards.
+//! In: an [`Overlay`] of the model, and the text. Out: all faults. Afterwards the overlay holds the file and its terms.
 
 use inputs::{bound, verification};
 use program::PropertyKind;
@@ -8,7 +8,7 @@ use syntax::{Diagnostic, SourceFile, Span};
 
 use crate::Overlay;
 
-/// The faults of a text against its model: its own, and those of its terms; `name` is what its texts are shown under.
+/// The faults of a specification's text and of its terms; messages show the text under `name`.
 pub fn check_verification(asked: &mut Overlay, name: &str, text: &str) -> Vec<Diagnostic> {
     let file = asked.add(SourceFile::new(name, text));
     let wanted = match verification::read(file, text) {

@@ -1,8 +1,8 @@
-//! A counterexample as something that can be run: a run of the simulator, and the text of a scenario.
+//! Makes a counterexample executable: as a run of the simulator, and as a scenario.
 //!
-//! In: the trace of a violated check. Out: a [`Run`] that takes its inputs and choices from it, whose records are a trace
-//! to replay; an Avalla text that makes the same steps and fails where the trace ends. Both go through the ordinary
-//! machine, so that they judge the search.
+//! In: the trace of a violated check. Out: a [`Run`] that takes its inputs and choices from the trace and whose records
+//! make a trace to replay; an Avalla text that makes the same steps and fails where the trace ends. Both run on the
+//! ordinary machine, so they check the search.
 
 use std::fmt::Write;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use verify::{Subject, Trace};
 
 use crate::avalla::{pick, set};
 
-/// The run of a counterexample. The header says how many steps it makes and what is done about invariants.
+/// The run of a counterexample. The header sets the number of steps and how invariants are treated.
 pub fn counterexample_run(program: &Arc<Program>, limits: Limits, trace: &Trace, header: &Header) -> Run {
     let decided = |told: &explore::Told| Decided {
         inputs: told.inputs.clone(),
@@ -25,7 +25,7 @@ pub fn counterexample_run(program: &Arc<Program>, limits: Limits, trace: &Trace,
     Run::new(Arc::clone(program), limits, Inputs::decided(steps), options)
 }
 
-/// The scenario of a counterexample; `model` is the model's path as the scenario is to load it.
+/// The scenario of a counterexample; `model` is the path that the scenario loads.
 pub fn counterexample_scenario(program: &Program, trace: &Trace, subject: Subject, name: &str, model: &str) -> String {
     let mut text = format!("scenario {name}\nload \"{model}\"\n");
     let mut given: Vec<(Location, Value)> = Vec::new();
@@ -55,7 +55,7 @@ pub fn counterexample_scenario(program: &Program, trace: &Trace, subject: Subjec
     text
 }
 
-/// No step changes the last state: the check that the next one does fails.
+/// Ends a deadlock's scenario with a check that fails because the next step changes nothing.
 fn rest(text: &mut String, program: &Program, trace: &Trace) {
     let mut state: Vec<(Location, Value)> = trace.values.clone();
     for change in trace.steps.iter().flat_map(|step| &step.changes) {

@@ -1,8 +1,8 @@
-//! Whether a model can be used: the one decision that all commands share.
+//! Decides whether a model can be used; all commands share this decision.
 //!
-//! In: the root file's text and a [`Loader`]. Out: what was read, its faults, and the program that runs. INVARIANT: there is
-//! a program if and only if no fault is an error; so a model of which [`check`](crate::check) tells no error is one that
-//! [`load`](crate::load) gives, and the other way round. A module has no main rule and need not have one; an `asm` must.
+//! In: the root file's text and a [`Loader`]. Out: the texts, the faults, and the program to run. INVARIANT: there is a
+//! program if and only if no fault is an error. So [`load`](crate::load) accepts a model exactly if
+//! [`check`](crate::check) reports no error. An `asm` must have a main rule; a module need not.
 
 use std::sync::Arc;
 
@@ -14,11 +14,11 @@ use syntax::{Diagnostic, SourceFile, Sources, Span};
 use crate::fault::run::{missing_main, start};
 use crate::has_errors;
 
-/// What the texts of a model come to.
+/// The result of reading a model's texts.
 pub(crate) struct Decision {
-    /// The model with its faults, those of lowering and of temporal formulas included.
+    /// The model with its faults, including those of lowering and of temporal formulas.
     pub(crate) checked: Checked,
-    /// What the machine runs; none where a fault is an error.
+    /// The program to run; `None` if a fault is an error.
     pub(crate) program: Option<Program>,
 }
 
@@ -44,7 +44,7 @@ pub(crate) fn decide(root: SourceFile, loader: &mut dyn Loader) -> Decision {
     Decision { checked, program }
 }
 
-/// The program again, if its temporal properties have a meaning.
+/// Returns the program if its temporal properties have a meaning.
 fn temporal(program: Program) -> Result<Program, Vec<Diagnostic>> {
     if !program.properties.iter().any(|property| matches!(property.kind, PropertyKind::Ctl | PropertyKind::Ltl)) {
         return Ok(program);
@@ -54,7 +54,7 @@ fn temporal(program: Program) -> Result<Program, Vec<Diagnostic>> {
     Ok(Arc::unwrap_or_clone(program))
 }
 
-/// An `asm` is there to be run; a module to be imported.
+/// Reports an `asm` without a main rule. A module needs none: it is only imported.
 fn no_main_rule(model: &Model, sources: &Sources) -> Option<Diagnostic> {
     if model.main.is_some() {
         return None;

@@ -1,8 +1,9 @@
-//! A fingerprint of all texts of a model: tells whether a trace was made of the same model.
+//! A fingerprint of a model's texts: shows whether a trace was made from the same model.
 
 use syntax::Sources;
 
-/// FNV-1a over the texts in the order read, as 16 hexadecimal digits. Names do not count: a moved model is the same.
+/// FNV-1a over the texts in the order they were read, as 16 hexadecimal digits. File names do not count, so a moved
+/// model keeps its fingerprint.
 pub fn fingerprint(sources: &Sources) -> String {
     let mut hash = 0xcbf2_9ce4_8422_2325_u64;
     let mut add = |byte: u8| hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);

@@ -1,10 +1,10 @@
-//! What a file of a project is: its name says so.
+//! Tells the kind of a project's file from its name.
 //!
-//! In: a path. Out: its [`Kind`], and for a specification the model that it is of. No file is looked at.
+//! In: a path. Out: its [`Kind`], and for a specification the path of its model. No file is read.
 
 use std::path::{Path, PathBuf};
 
-/// See the module.
+/// The kind of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// `.asm`: a model or a module.
@@ -13,17 +13,17 @@ pub enum Kind {
     Scenario,
     /// `.chart`.
     Chart,
-    /// `.report.yaml`: what a report shows of a model.
+    /// `.report.yaml`: what a report of a model shows.
     Report,
-    /// `.verify.yaml`: what is to be verified of a model.
+    /// `.verify.yaml`: what to verify in a model.
     Verification,
 }
 
 impl Kind {
-    /// The endings, without their dot.
+    /// The endings, without the leading dot.
     pub const ENDINGS: [&str; 5] = ["asm", "avalla", "chart", "report.yaml", "verify.yaml"];
 
-    /// The kind of a file by its name; none for a name that says nothing.
+    /// The kind of a file by its name; `None` if the ending is unknown.
     pub fn of(path: &Path) -> Option<Kind> {
         let kinds = [Kind::Model, Kind::Scenario, Kind::Chart, Kind::Report, Kind::Verification];
         let found = Kind::ENDINGS.iter().position(|ending| has_ending(path, ending))?;
@@ -31,13 +31,13 @@ impl Kind {
     }
 }
 
-/// Whether a file is called `….ENDING`.
+/// Whether a file's name ends with `.ENDING`.
 pub fn has_ending(path: &Path, ending: &str) -> bool {
     let name = path.file_name().and_then(|name| name.to_str()).and_then(|name| name.strip_suffix(ending));
     name.is_some_and(|rest| rest.len() > 1 && rest.ends_with('.'))
 }
 
-/// The model that a specification is of: that of `Model.report.yaml` and of `Model.verify.yaml` is `Model.asm`.
+/// The model of a specification: `Model.asm` for both `Model.report.yaml` and `Model.verify.yaml`.
 pub fn model_of(specification: &Path) -> PathBuf {
     specification.with_extension("").with_extension("asm")
 }

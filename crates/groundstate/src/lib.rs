@@ -1,8 +1,8 @@
 //! The whole flow in one place: text → checked model → program → a run, a verdict.
 //!
-//! In: the root file's text and a [`model::Loader`] that finds the others. Out: what each stage hands over, with all
-//! faults as [`syntax::Diagnostic`]s, run-time ones included. Shells build on this crate and, below it, on types
-//! only; it must not know files, terminals or wire formats.
+//! In: the root file's text and a [`model::Loader`] that finds the others. Out: the result of each stage, with all
+//! faults, including run-time faults, as [`syntax::Diagnostic`]s. Shells build on this crate and use only types of the
+//! crates below. It must not know files, terminals or wire formats.
 
 mod avalla;
 mod build;
@@ -48,39 +48,39 @@ pub use test::{SeededChoices, Suite, Tested, own_files};
 pub use workspace::Workspace;
 pub use {chart, conform, generate, inputs, machine, model, program, scenario, simulate, solve, syntax, verify};
 
-/// A model that is ready to run. It does not change: what is asked of it beside its text goes into an [`Overlay`].
+/// A model that is ready to run. It never changes: use an [`Overlay`] to add terms and properties.
 #[derive(Debug, Clone)]
 pub struct Loaded {
-    /// All texts read.
+    /// All texts that were read.
     pub sources: Sources,
     /// The checked model.
     pub model: Arc<Model>,
-    /// What the machine runs.
+    /// The program to run.
     pub program: Arc<Program>,
     /// Warnings and notes.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// What is wrong with a text that cannot be used.
+/// Why a text cannot be used.
 #[derive(Debug, Clone)]
 pub struct Faulty {
-    /// All texts read.
+    /// All texts that were read.
     pub sources: Sources,
     /// The faults, at least one of them an error.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Checks a model, its lowering and its temporal properties included: no error here means that [`load`] gives it.
+/// Checks a model, its lowering and its temporal properties. If it reports no error, [`load`] accepts the model.
 pub fn check(root: SourceFile, loader: &mut dyn Loader) -> Checked {
     decide::decide(root, loader).checked
 }
 
-/// Whether any of these stops the flow.
+/// Whether any of these is an error.
 pub fn has_errors(diagnostics: &[Diagnostic]) -> bool {
     diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
 }
 
-/// Checks a model as [`check`] does, and gives what runs.
+/// Checks a model like [`check`], and returns the program to run.
 ///
 /// # Errors
 /// The model has errors.
@@ -93,8 +93,8 @@ pub fn load(root: SourceFile, loader: &mut dyn Loader) -> Result<Loaded, Box<Fau
     }
 }
 
-/// A model as it would be if its root imported these libraries besides, `CTLLibrary` for one; none where it then has
-/// faults, since it has names of its own that are theirs. No line of the root moves.
+/// Loads the model again as if its root also imported these libraries, for example `CTLLibrary`. Returns `None` if the
+/// root has them already, or if the result has errors, such as a clash of names. The root's lines keep their numbers.
 pub fn with_libraries(loaded: &Loaded, libraries: &[&str], loader: &mut dyn Loader) -> Option<Loaded> {
     let root = loaded.sources.file(loaded.model.root);
     let there = |library: &str| loaded.sources.iter().any(|(_, file)| file.name == format!("<std>/{library}.asm"));
@@ -110,7 +110,7 @@ pub fn with_libraries(loaded: &Loaded, libraries: &[&str], loader: &mut dyn Load
     load(SourceFile::new(root.name.clone(), format!("{before}{imports}{after}")), loader).ok()
 }
 
-/// The variables that each choose rule binds, by the rule's place.
+/// The variables that each choose rule binds, keyed by the rule's place.
 pub fn choice_variables(program: &Program) -> BTreeMap<Span, Vec<String>> {
     let mut found = BTreeMap::new();
     for procedure in &program.procedures {

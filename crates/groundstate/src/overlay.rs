@@ -1,8 +1,9 @@
-//! Questions to a model that its texts do not hold: a term to stop at, a property to verify, what a report shows.
+//! Adds terms and properties to a model from outside its texts: a stop condition, a property to verify, what a report
+//! shows.
 //!
-//! In: a [`Loaded`], which stays as it is, and texts. Out: terms and properties of a program of the overlay's own. What is not
-//! added to is shared, so that an overlay costs nothing until it is asked. What is wrong with a text that stands in a file is told at its
-//! place there.
+//! In: a [`Loaded`], which never changes, and texts. Out: terms and properties in a program that the overlay owns. The
+//! model and the program are shared with the [`Loaded`] until something is added. A fault in a text that comes from a
+//! file is reported at its place in that file.
 
 use std::sync::Arc;
 
@@ -14,22 +15,22 @@ use syntax::{Diagnostic, FileId, SourceFile, Sources};
 
 use crate::{Loaded, fault, has_errors};
 
-/// See the module.
+/// A model with added terms and properties.
 #[derive(Debug, Clone)]
 pub struct Overlay {
-    /// The model's texts, and those that were added.
+    /// The model's texts and the added ones.
     pub sources: Sources,
-    /// The model, with the domains that the questions brought.
+    /// The model, with the domains that the added terms need.
     pub model: Arc<Model>,
-    /// The program, with the terms and properties of the questions.
+    /// The program, with the added terms and properties.
     pub program: Arc<Program>,
 }
 
-/// The text of a question.
+/// The text of an added term.
 #[derive(Debug, Clone, Copy)]
 pub struct Said<'t> {
     text: &'t str,
-    /// Where it stands, if in a file.
+    /// Its place, if it comes from a file.
     scalar: Option<&'t Scalar>,
 }
 
@@ -39,7 +40,7 @@ impl<'t> Said<'t> {
         self.text
     }
 
-    /// Faults of the text, which was read as a file of its own, at their places.
+    /// Moves faults of the text, which was parsed as a file of its own, to their places.
     fn placed(self, faults: Vec<Diagnostic>, read_as: FileId) -> Vec<Diagnostic> {
         match self.scalar {
             Some(scalar) => scalar.placed(faults, read_as),
@@ -67,7 +68,7 @@ impl<'t> From<&'t Scalar> for Said<'t> {
 }
 
 impl Loaded {
-    /// The model, ready to be asked.
+    /// An overlay of this model, with nothing added yet.
     pub fn overlay(&self) -> Overlay {
         let Loaded { sources, model, program, .. } = self;
         Overlay { sources: sources.clone(), model: Arc::clone(model), program: Arc::clone(program) }
@@ -75,12 +76,12 @@ impl Loaded {
 }
 
 impl Overlay {
-    /// Adds a text that questions stand in.
+    /// Adds a text that terms come from.
     pub fn add(&mut self, file: SourceFile) -> FileId {
         self.sources.add(file)
     }
 
-    /// A condition over the model, such as that of `--until`; `name` is what its text is shown under.
+    /// Adds a condition over the model, such as that of `--until`; messages show its text under `name`.
     ///
     /// # Errors
     /// The faults of the text.
@@ -90,7 +91,7 @@ impl Overlay {
         self.condition(file, name, said).map_err(|faults| said.placed(faults, file))
     }
 
-    /// Adds a property as if it stood in the model; `name` is what its text is shown under.
+    /// Adds a property as if it stood in the model; messages show its text under `name`.
     ///
     /// # Errors
     /// The faults of the text.
@@ -137,7 +138,7 @@ impl Overlay {
     }
 }
 
-/// The term that a text is.
+/// Parses a text as a term.
 fn term(file: FileId, text: &str) -> Result<Term, Vec<Diagnostic>> {
     let parsed = syntax::parse_term(file, text);
     if has_errors(&parsed.diagnostics) {

@@ -1,11 +1,11 @@
-//! The pattern library that comes with Groundstate: `import patterns/ControlTask` works wherever a model lies.
+//! The built-in pattern library: `import patterns/ControlTask` works wherever the model lies.
 //!
-//! In: the path of an import that leads to no file, or that stands in a module of the library itself. Out: the text, under
-//! the name `<patterns>/ControlTask.asm`, which tells where it came from. A file at the path wins: a loader asks here last.
+//! In: the path of an import that no file matches, or that stands in a module of the library. Out: the text, under the
+//! name `<patterns>/ControlTask.asm`, which shows its origin. A file at the path wins: a loader asks here last.
 
 use syntax::SourceFile;
 
-/// The folder that imports name, and the one that the library's own files lie in.
+/// The folder in the user's imports, and the prefix of the library's own file names.
 const FOLDER: &str = "patterns/";
 const HOME: &str = "<patterns>/";
 
@@ -15,7 +15,7 @@ macro_rules! files {
     };
 }
 
-/// Name and text of each file.
+/// The name and text of each file.
 const FILES: [(&str, &str); 12] = files![
     "Consumer.asm",
     "ControlTask.asm",
@@ -31,12 +31,12 @@ const FILES: [(&str, &str); 12] = files![
     "Task.asm",
 ];
 
-/// Whether a file of this name belongs to the library, so that what it imports is looked for there and nowhere else.
+/// Whether a file belongs to the library. Its imports are then looked up only in the library.
 pub fn is_pattern(name: &str) -> bool {
     name.starts_with(HOME)
 }
 
-/// The file of the library that an import in `importer` names, if it does.
+/// The library file that an import in `importer` names, if any.
 pub fn pattern(importer: &str, path: &str) -> Option<SourceFile> {
     let path = path.strip_prefix("./").unwrap_or(path);
     let name = if is_pattern(importer) { path } else { path.strip_prefix(FOLDER)? };
@@ -45,7 +45,7 @@ pub fn pattern(importer: &str, path: &str) -> Option<SourceFile> {
     Some(SourceFile::new(format!("{HOME}{name}"), *text))
 }
 
-/// What an import of a path that leads nowhere could have meant: the same module, as it is built in.
+/// The built-in module that a failed import may have meant.
 pub fn meant(path: &str) -> Option<String> {
     let at = path.rfind(FOLDER)?;
     let before = path[..at].chars().next_back();

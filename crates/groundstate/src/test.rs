@@ -1,7 +1,7 @@
-//! Scenarios against their models: parse, load the model, resolve, run.
+//! Runs scenarios against their models: parse, load the model, resolve, run.
 //!
-//! A [`Suite`] keeps the models it has loaded, so that a folder of scenarios loads each model once, and adds up
-//! what the scenarios of a model covered.
+//! A [`Suite`] keeps the models it has loaded, so a folder of scenarios loads each model once. It adds up what the
+//! scenarios of a model cover.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -15,35 +15,35 @@ use syntax::{Diagnostic, FileId, Severity, SourceFile, Sources};
 use crate::fault::scenario::unknown_model;
 use crate::{Faulty, Loaded, diagnose_failure, has_errors, load};
 
-/// Scenarios being run.
+/// Scenarios that share models and coverage.
 #[derive(Debug, Default)]
 pub struct Suite {
     models: BTreeMap<String, Result<Loaded, Box<Faulty>>>,
     counts: BTreeMap<String, Counts>,
 }
 
-/// What became of one scenario.
+/// The result of one scenario.
 #[derive(Debug)]
 pub struct Tested {
     /// All texts that places refer to.
     pub sources: Sources,
-    /// The scenario's name; that of the file where it has none.
+    /// The scenario's name, or its file's name if it has none.
     pub name: String,
-    /// The verdict; none where the scenario or its model has errors.
+    /// The verdict; `None` if the scenario or its model has errors.
     pub verdict: Option<Verdict>,
     /// Faults of the scenario or its model, warnings included.
     pub diagnostics: Vec<Diagnostic>,
-    /// The program it ran on.
+    /// The program that the scenario ran on.
     pub program: Option<Arc<Program>>,
 }
 
 impl Tested {
-    /// Whether it came to the end that it is to come to.
+    /// Whether the scenario ended as it should.
     pub fn passed(&self) -> bool {
         self.verdict.as_ref().is_some_and(Verdict::passed)
     }
 
-    /// What is wrong with one that did not pass.
+    /// Why the scenario did not pass.
     pub fn failures(&self) -> Vec<Diagnostic> {
         let (Some(verdict), Some(program)) = (&self.verdict, &self.program) else {
             let errors = self.diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Error);
@@ -52,7 +52,7 @@ impl Tested {
         verdict.failures().iter().flat_map(|failure| diagnose_failure(failure, program)).collect()
     }
 
-    /// The run of one that failed, where it was kept.
+    /// The run of a scenario that failed, if it was kept.
     pub fn story(&self) -> Option<(&Program, &Story)> {
         let verdict = self.verdict.as_ref().filter(|verdict| !verdict.passed())?;
         Some((self.program.as_deref()?, verdict.story.as_ref()?))
@@ -76,7 +76,7 @@ impl Choices for SeededChoices {
     }
 }
 
-/// Finds scenarios whose blocks are called the way imports are found.
+/// Finds scenarios whose blocks are called, in the same places as imports.
 struct BlockLoader<'a>(&'a mut dyn Loader);
 
 impl Blocks for BlockLoader<'_> {
@@ -85,7 +85,7 @@ impl Blocks for BlockLoader<'_> {
     }
 }
 
-/// Whether a file is the user's: not of a library that is built in.
+/// Whether a file is the user's, not one of a built-in library.
 pub fn own_files(sources: &Sources) -> impl Fn(FileId) -> bool + '_ {
     |file| {
         let name = &sources.file(file).name;
@@ -93,7 +93,7 @@ pub fn own_files(sources: &Sources) -> impl Fn(FileId) -> bool + '_ {
     }
 }
 
-/// A scenario resolved, or why not.
+/// A resolved scenario, or its faults.
 struct Ready {
     sources: Sources,
     name: String,
@@ -135,7 +135,7 @@ impl Suite {
         Tested { sources, name, verdict: Some(verdict), diagnostics, program: Some(program) }
     }
 
-    /// What the scenarios of each model covered of it, by the name of the model's file.
+    /// What the scenarios covered of each model, by the name of the model's file.
     pub fn coverage(&self) -> impl Iterator<Item = (&str, &Sources, Items)> {
         self.counts.iter().filter_map(|(name, counts)| {
             let loaded = self.models.get(name)?.as_ref().ok()?;
@@ -168,7 +168,7 @@ impl Suite {
             Err(faulty) => {
                 let mut diagnostics = faulty.diagnostics.clone();
                 let mut sources = faulty.sources.clone();
-                // The scenario's own faults are shown beside those of its model.
+                // The scenario's own faults are shown together with those of its model.
                 let file = sources.add(source);
                 diagnostics.extend(scenario::parse(&sources, file).diagnostics);
                 return refused(sources, diagnostics);

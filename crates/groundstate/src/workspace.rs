@@ -1,9 +1,9 @@
-//! The texts of a project, those that are being edited over those on the disk, and what is wrong with each.
+//! The texts of a project, with edited texts in front of those on the disk, and the faults of each.
 //!
-//! In: texts as an editor sends them, and [`Files`] for the rest. Out: faults of models, scenarios, charts and specifications,
-//! and models that are ready to run. A file is parsed again only when its text is another one; all else is checked anew, which
-//! takes milliseconds.
-//! INVARIANT: what [`Workspace::check`] says depends on the texts alone, not on the edits that led to them.
+//! In: texts as an editor sends them, and [`Files`] for the rest. Out: faults of models, scenarios, charts and
+//! specifications, and models that are ready to run. A text that did not change is not parsed again; everything else is
+//! checked anew, which takes milliseconds.
+//! INVARIANT: what [`Workspace::check`] reports depends on the texts alone, not on the edits that led to them.
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -17,12 +17,12 @@ use crate::{
     BuiltChart, Faulty, Kind, Loaded, Located, Suite, build_chart, check, check_specification, load, model_of, patterns,
 };
 
-/// Finds texts by their path.
+/// Reads texts by their path.
 pub trait Files {
-    /// The text at a path, under that name.
+    /// The text at a path, with the path as its name.
     ///
     /// # Errors
-    /// There is none, or it cannot be read.
+    /// There is no text, or it cannot be read.
     fn read(&mut self, path: &str) -> Result<SourceFile, Absent>;
 }
 
@@ -36,7 +36,7 @@ pub enum Absent {
 }
 
 impl Absent {
-    /// The same as a sentence.
+    /// The reason as a sentence.
     pub fn told(self, path: &str) -> String {
         match self {
             Absent::Missing => format!("there is no file {path}"),
@@ -45,17 +45,17 @@ impl Absent {
     }
 }
 
-/// A text that was sent is older than the one that is there.
+/// The text that was sent is older than the present one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Outdated {
-    /// The version that is there.
+    /// The version of the present text.
     pub present: i64,
 }
 
-/// LIMIT: so many texts are kept parsed.
+/// LIMIT: keeps at most this many parsed texts; when full, all are dropped.
 const PARSED: usize = 512;
 
-/// See the module.
+/// Edited texts over files.
 #[derive(Debug)]
 pub struct Workspace<F> {
     files: F,
@@ -64,17 +64,17 @@ pub struct Workspace<F> {
     parsed: Parsed,
 }
 
-/// What a path was seen to be, and what is wrong with it.
+/// The result of checking a path.
 #[derive(Debug, Clone, Default)]
 pub struct Findings {
-    /// Faults, those of each set of texts together.
+    /// The faults, grouped by the texts that they refer to.
     pub faults: Vec<Located>,
-    /// What could not be looked at, as a clause; *no faults* is not said then.
+    /// What could not be checked, as a clause. If set, having no faults does not mean *no faults*.
     pub open: Option<String>,
 }
 
 impl Findings {
-    /// Nothing was looked at, and why.
+    /// Nothing was checked, for this reason.
     pub fn not_checked(reason: impl Display) -> Findings {
         Findings { faults: Vec::new(), open: Some(format!("not checked: {reason}")) }
     }
@@ -84,22 +84,22 @@ impl Findings {
         self.faults.iter().flat_map(|(_, faults)| faults)
     }
 
-    /// Whether everything was looked at and nothing, not even a warning, found.
+    /// Whether everything was checked and nothing was found, not even a warning.
     pub fn is_clean(&self) -> bool {
         self.open.is_none() && self.diagnostics().next().is_none()
     }
 }
 
 impl<F: Files> Workspace<F> {
-    /// Nothing is being edited.
+    /// A workspace in which nothing is being edited.
     pub fn new(files: F) -> Workspace<F> {
         Workspace { files, open: BTreeMap::new(), parsed: Parsed::default() }
     }
 
-    /// From now on this is the text at a path, whatever the disk has.
+    /// Replaces the text at a path until it is closed, whatever the disk has.
     ///
     /// # Errors
-    /// A text of a later version is there.
+    /// The present text has a later version.
     pub fn set_text(&mut self, path: &str, version: i64, text: impl Into<Arc<str>>) -> Result<(), Outdated> {
         let path = tidy(path);
         match self.open.get(&path) {
@@ -111,12 +111,12 @@ impl<F: Files> Workspace<F> {
         }
     }
 
-    /// From now on the text at a path is that of the disk again.
+    /// Reads the text at a path from the disk again.
     pub fn close(&mut self, path: &str) {
         self.open.remove(&tidy(path));
     }
 
-    /// The text at a path, as it is being edited or as the disk has it.
+    /// The text at a path, as it is being edited or as it is on the disk.
     ///
     /// # Errors
     /// There is none.
@@ -124,8 +124,8 @@ impl<F: Files> Workspace<F> {
         self.texts().read(&tidy(path))
     }
 
-    /// What is wrong with the file at a path: a model (`.asm`), a scenario (`.avalla`), a chart (`.chart`), what is shown of a
-    /// model (`.report.yaml`) or verified (`.verify.yaml`).
+    /// Checks the file at a path: a model (`.asm`), a scenario (`.avalla`), a chart (`.chart`), a report specification
+    /// (`.report.yaml`) or a verification specification (`.verify.yaml`).
     ///
     /// # Errors
     /// There is no such file.
@@ -142,7 +142,7 @@ impl<F: Files> Workspace<F> {
                 let present = match loader.read(&model) {
                     Ok(source) => Some(source.text),
                     Err(Absent::Missing) => None,
-                    // Into a text that nobody can read nothing is built.
+                    // Nothing can be built into a text that cannot be read.
                     Err(Absent::Unreadable(reason)) => return Ok(Findings::not_checked(reason)),
                 };
                 let BuiltChart { faults, .. } = build_chart(root, &model, present.as_deref(), loader);
@@ -169,7 +169,7 @@ impl<F: Files> Workspace<F> {
         load(root, &mut self.texts()).map(Arc::new).map_err(NotLoaded::Faulty)
     }
 
-    /// Finds texts and what they import; the workspace cannot be edited meanwhile.
+    /// Reads texts and what they import. The workspace cannot be edited meanwhile.
     pub fn texts(&mut self) -> Texts<'_, F> {
         Texts { files: &mut self.files, open: &self.open, parsed: &mut self.parsed }
     }
@@ -185,7 +185,7 @@ fn specification<F: Files>(root: &SourceFile, texts: &mut Texts<'_, F>) -> Findi
     check_specification(root, model, texts)
 }
 
-/// Why a model is not there to be run.
+/// Why a model could not be loaded.
 #[derive(Debug)]
 pub enum NotLoaded {
     /// There is no file.
@@ -221,11 +221,11 @@ impl<F: Files> Loader for Texts<'_, F> {
     }
 }
 
-/// The text that an import leads to: beside the importing file, then from the working folder, then in the library that is built
-/// in. The library's own modules import each other, whatever lies in the working folder.
+/// Finds the text that an import names: beside the importing file, then in the working folder, then in the built-in
+/// library. The library's own modules import only each other, whatever lies in the working folder.
 ///
 /// # Errors
-/// It leads to none; a sentence for the user.
+/// There is none; a sentence for the user.
 pub fn imported(files: &mut impl Files, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
     let written = path.replace('\\', "/");
     if patterns::is_pattern(&importer.name) {
@@ -251,7 +251,7 @@ pub fn imported(files: &mut impl Files, importer: &SourceFile, path: &str) -> Re
     })
 }
 
-/// `a/b/../c` as `a/c`, so that one file has one name however it is reached.
+/// Normalises `a/b/../c` to `a/c`, so that a file has one name however it is reached.
 pub fn tidy(path: &str) -> String {
     let mut tidied = PathBuf::new();
     for component in Path::new(path).components() {
@@ -266,7 +266,7 @@ pub fn tidy(path: &str) -> String {
     tidied.to_string_lossy().into_owned()
 }
 
-/// Texts that were parsed, by their content.
+/// Parsed texts, by their content.
 #[derive(Debug, Default)]
 struct Parsed(BTreeMap<Arc<str>, Parse>);
 

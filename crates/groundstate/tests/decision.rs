@@ -1,5 +1,5 @@
-//! What `check` tells no error of, every command takes, and the other way round: over the models of the repository, the
-//! examples of the pages of faults, and mutants of all of them.
+//! Every command accepts a model exactly if `check` reports no error for it: on the models of the repository, the
+//! examples of the fault pages, and mutants of all of them.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use syntax::{Severity, SourceFile};
 use testkit::page::blocks;
 use testkit::{Disk, repository};
 
-/// The ids of the errors that `check` tells; what `load` does must fit.
+/// The ids of the errors that `check` reports; `load` must agree.
 fn errors(name: &str, text: &str) -> Vec<&'static str> {
     let root = SourceFile::new(name, text);
     let checked = groundstate::check(root.clone(), &mut Disk);
@@ -16,7 +16,7 @@ fn errors(name: &str, text: &str) -> Vec<&'static str> {
     match groundstate::load(root, &mut Disk) {
         Ok(loaded) => {
             assert_eq!(errors, [""; 0], "{name} is loaded:\n{text}");
-            // What starts a run is there.
+            // An `asm` that loads has a main rule.
             let module = !text.contains("asm ");
             assert!(loaded.program.main.is_some() || module || loaded.model.main.is_none(), "{name}");
         }
@@ -29,7 +29,7 @@ fn models() -> Vec<(String, String)> {
     let read = |path: &Path| (path.display().to_string(), repository::text(path));
     let files = ["library", "examples", "bench/models"].map(|folder| repository::files(folder, &["asm"])).concat();
     let mut models: Vec<(String, String)> = files.iter().map(|path| read(path)).collect();
-    // Models over all of the patterns take long to read; a fair sample of them is enough.
+    // Models that import all patterns take long to read, so a sample of them is tested.
     let mut count = 0;
     models.retain(|(_, text)| {
         let over_patterns = text.contains("library/");
@@ -50,7 +50,7 @@ fn the_models_of_the_repository() {
     }
 }
 
-/// Each mutant has one token less, one twice, or two exchanged, at places that a seed chooses.
+/// Each mutant has one token removed, one doubled, or two swapped, at places that a seed chooses.
 #[test]
 fn mutants_of_these() {
     let mut seed = 7_u64;

@@ -1,5 +1,5 @@
-//! An invariant that is not evaluated anew has the value that evaluating it would give: runs that evaluate only what may
-//! have changed, and runs that evaluate all, record the same.
+//! Skipping an invariant's evaluation does not change its value: runs that evaluate only invariants that may have
+//! changed record the same as runs that evaluate all.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ fn load(source: SourceFile) -> Arc<Program> {
     groundstate::load(source, &mut Disk).unwrap_or_else(|faulty| panic!("{name}: {faulty:#?}")).program
 }
 
-/// The records of a run; `all` lets every invariant be evaluated in every state.
+/// The records of a run; `all` evaluates every invariant in every state.
 fn records(program: &Arc<Program>, steps: u64, seed: u64, all: bool) -> Vec<Record> {
     let inputs = Inputs::new().with(RandomSource::new(seed, Bounds::default())).choosing(Choices::random(seed));
     let options = Options { steps: Some(steps), invariants: Invariants::Report, ..Options::default() };

@@ -1,4 +1,4 @@
-//! Work on its own thread: told of, steered, cancelled, left.
+//! Jobs: followed, steered, cancelled, dropped.
 
 use std::sync::Arc;
 
@@ -81,7 +81,7 @@ fn a_run_is_steered() {
     while let Some(event) = job.next_event() {
         match event {
             RunEvent::Paused => {
-                // With some of them it goes on waiting.
+                // After some of the commands the run stays paused.
                 for command in script.by_ref() {
                     let waits = matches!(command, Command::Set(..) | Command::Choose(_));
                     remote.send(command);
@@ -157,7 +157,7 @@ fn a_violation_is_told_with_what_is_wrong_and_can_be_taken_back() {
 
 #[test]
 fn a_run_ends_when_it_is_cancelled_or_its_owner_is_gone() {
-    // Neither steps nor the one step have an end that anybody would wait for.
+    // Neither the run nor its one step would end within anybody's patience.
     let steps = "asm Counter\nimport StandardLibrary\nsignature:\n\tcontrolled n: Integer\ndefinitions:\n\
                  \tmain rule r_Main = n := 1 - n\ndefault init s0:\n\tfunction n = 0\n";
     let step = "asm Counter\nimport StandardLibrary\nsignature:\n\tdomain D subsetof Integer\n\tcontrolled n: Boolean\n\

@@ -1,5 +1,5 @@
-//! What a diagnostic shows at its places adds to its message: no label says the same again. Over the examples of all pages of faults, and all
-//! transcripts of the command line.
+//! No label of a diagnostic repeats its message: on the examples of all fault pages and on all transcripts of the
+//! command line.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -23,7 +23,7 @@ impl Files for Examples {
     }
 }
 
-/// What file a block is, by what its info string says.
+/// The name of the file that a block is, by its info string.
 fn file_of(info: &str, text: &str) -> Option<String> {
     if let Some((_, name)) = info.split_once("file=") {
         return Some(name.to_string());
@@ -65,7 +65,7 @@ fn faults_of(page: &Page) -> Vec<Diagnostic> {
     found
 }
 
-/// What running a model, reviewing it and verifying it bring up.
+/// The diagnostics of running, reviewing and verifying a model.
 fn ran(loaded: &groundstate::Loaded, found: &mut Vec<Diagnostic>) {
     let program = &loaded.program;
     if program.main.is_none() {

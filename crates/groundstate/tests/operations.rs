@@ -1,4 +1,5 @@
-//! Operations as jobs: what a review, a report, generated C++ and a comparison come to, and that they end when they are cancelled.
+//! Operations as jobs: the results of a review, a report, generated C++ and a comparison, and that they end when
+//! cancelled.
 
 use std::sync::Arc;
 
@@ -93,7 +94,7 @@ fn a_report() {
             other => panic!("{other:?}"),
         }
     }
-    // The initial state and the end: nothing is wrong in between.
+    // The initial state and the end are reported; nothing is wrong in between.
     assert_eq!((told, last), (2, 5_000));
     let report = job.finish().expect("no panic").finish();
     assert_eq!((report.ticks, report.stopped), (5_000, None));
@@ -160,7 +161,7 @@ fn the_program_of_a_system() {
     assert_eq!(generate("chart Blink\n"), Err(NotGenerated::NoSystem));
 }
 
-/// Bytes that come one after the other; then nothing.
+/// Returns bytes one after the other, then nothing.
 struct Bytes(Vec<u8>);
 
 impl Tail for Bytes {

@@ -1,11 +1,11 @@
-//! Each kind of fault of a scenario has a page in spec/faults/, and the page's example yields it.
+//! Each kind of scenario fault has a page in spec/faults/, whose example shows it.
 
 use groundstate::scenario::{FirstCandidate, Options};
 use groundstate::{Suite, diagnose_failure};
 use syntax::SourceFile;
 use testkit::{Page, Texts};
 
-/// Every kind of fault that scenarios have beyond those of models and of running them.
+/// The kinds of faults that only scenarios have.
 const IDS: [&str; 14] = [
     "ambiguous-pick",
     "bound-reached",
@@ -44,8 +44,8 @@ fn every_fault_has_a_page_that_shows_it() {
     }
 }
 
-/// What their examples show is tested where the faults are made: here, in `review` and in `verification`; faults of a step by the
-/// machine's tests.
+/// Their examples are tested where the faults are made: here, in `review` and in `verification`; faults of a step in
+/// the tests of the machine.
 #[test]
 fn every_kind_of_fault_has_a_page() {
     assert!(groundstate::FAULT_IDS.is_sorted());

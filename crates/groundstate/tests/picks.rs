@@ -30,7 +30,7 @@ definitions:
         endpar
 ";
 
-/// Runs commands and says how it went.
+/// Runs commands and describes the result.
 fn check(commands: &str, expected: &str) {
     let source = SourceFile::new("test.avalla", format!("scenario test load Draw.asm set low := 1; {commands}"));
     let tested =

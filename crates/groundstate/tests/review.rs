@@ -1,5 +1,5 @@
-//! The examples of spec/review.md have the findings that stand below them, and the faults that only reviews find have pages
-//! whose examples show them.
+//! The examples of spec/review.md have the findings shown below them. Faults that only reviews find have pages whose
+//! examples show them.
 
 use std::fmt::Write;
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use groundstate::{REVIEW_IDS, diagnose_finding};
 use syntax::SourceFile;
 use testkit::{NoFiles, Page};
 
-/// The findings of a model: the outcome of each meta-property, and line and kind of each finding.
+/// The findings for a model: the outcome of each meta-property, then line and kind of each finding.
 fn findings(text: &str) -> String {
     let name = text.split_whitespace().nth(1).expect("it begins with `asm` and its name");
     let loaded = groundstate::load(SourceFile::new(format!("{name}.asm"), text), &mut NoFiles);
@@ -30,7 +30,7 @@ fn findings(text: &str) -> String {
             let diagnostic = diagnose_finding(finding, &review, &program);
             let line = loaded.sources.file(root).line_column(finding.span.start).line;
             let _ = writeln!(told, "  {line} {}", diagnostic.id);
-            // What happens is shown by a run that ends with the step.
+            // A finding about an event has a run that ends with the step.
             let happens = matches!(meta, Meta::Consistent | Meta::Complete);
             assert_eq!(finding.witness.is_some(), happens, "{told}");
         }
@@ -73,6 +73,6 @@ fn all_clashes_of_a_step_are_found() {
          \t\t\tseq\n\t\t\t\tc := true\n\t\t\t\tpar\n\t\t\t\t\tc := false\n\t\t\t\t\tc := true\n\t\t\t\tendpar\n\t\t\tendseq\n\
          \t\tendpar\ndefault init s0:\n\tfunction a = true\n\tfunction b = true\n\tfunction c = true\n",
     );
-    // Line by line: the second update of each pair that clashes. What is in sequence ends at its first.
+    // One for the second update of each pair that clashes. A `seq` ends at its first clash.
     assert_eq!(found.lines().filter(|line| line.ends_with("inconsistent-update")).count(), 3, "{found}");
 }

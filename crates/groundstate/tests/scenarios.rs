@@ -39,7 +39,7 @@ fn files() -> Texts {
     Texts::of([("Meter.asm", MODEL), ("shared.avalla", SHARED)])
 }
 
-/// Runs commands and says how it went: `passed N steps`, `expected`, or the messages of the failures.
+/// Runs commands and describes the result: `passed N steps`, `expected`, or the messages of the failures.
 fn check(commands: &str, expected: &str) {
     let source = SourceFile::new("test.avalla", format!("scenario test load Meter.asm {commands}"));
     let tested = Suite::new().test(source, &mut files(), Options::default(), &mut FirstCandidate);

@@ -1,5 +1,5 @@
-//! What is built from the charts of systems goes in lock-step with the models written by hand: the same locations have the
-//! same values in every state, for many lengths of the one elaboration whose time varies.
+//! Models built from the charts of systems go in lock-step with the models written by hand: the same locations have the
+//! same values in every state, for several durations of the one elaboration whose duration varies.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -7,7 +7,7 @@ use std::sync::Arc;
 use machine::{Closed, Limits, Machine, Show};
 use testkit::{EditedDisk, repository};
 
-/// Files on the disk; one of them with a changed time.
+/// The files on the disk, with the duration of one elaboration changed.
 fn disk(elaboration: u32) -> EditedDisk {
     EditedDisk { from: "case vs_elaborate: 120".to_string(), to: format!("case vs_elaborate: {elaboration}") }
 }
@@ -22,7 +22,7 @@ fn machine(name: &str, elaboration: u32) -> Machine {
     machine
 }
 
-/// The chart calls the waiting phase of visual servoing after the component.
+/// Renames the chart's waiting phase of visual servoing, which is called after the component.
 fn named(text: String) -> String {
     text.replace("visual_servoing_wait", "vs_wait")
 }
@@ -34,7 +34,7 @@ fn state(machine: &Machine) -> BTreeMap<String, String> {
         .collect()
 }
 
-/// Makes a step and tells what changes.
+/// Makes a step and returns what it changed.
 fn step(machine: &mut Machine) -> BTreeMap<String, String> {
     machine.prepare(&mut Closed).unwrap_or_else(|fault| panic!("{fault:?}"));
     let program = Arc::clone(machine.program());
@@ -62,7 +62,7 @@ fn check(by_hand: &str, built: &str, elaborations: &[u32], steps: u32) {
 
 #[test]
 fn the_visual_servoing_robot() {
-    // Below the period of the camera, as it is, and far above.
+    // Below the camera's period, as written, and far above.
     check("VisualServoing", "VisionSystem", &[50, 120, 230], 250);
 }
 
@@ -71,7 +71,7 @@ fn the_complete_controller() {
     check("CompleteController", "ControllerSystem", &[50, 120], 120);
 }
 
-/// What is built from the chart is what is committed: the elaborations are kept, the rest is the chart's.
+/// The committed models are what the charts build to: elaborations are kept, the rest comes from the chart.
 #[test]
 fn the_charts_are_built() {
     for name in ["VisionSystem", "ControllerSystem"] {

@@ -1,5 +1,5 @@
-//! Generated scenarios pass, and together they cover what is said to be reached: the goals and the coverage of scenarios are
-//! counted by different code, and must agree goal by goal.
+//! Generated scenarios pass, and together they cover what was said to be reached. Goals and scenario coverage are
+//! counted by different code and must agree goal by goal.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -29,7 +29,7 @@ fn generate(path: &Path, method: Method, options: &Options) -> Tests {
     generate_tests(subject, options, method, &|file| file == root, &mut |_| true).expect("there is an initial state")
 }
 
-/// Runs the scenarios beside the model: all pass; gives what they cover.
+/// Runs the scenarios beside the model, checks that all pass, and returns what they cover.
 fn run(path: &Path, tests: &Tests) -> Items {
     let mut suite = Suite::new();
     let mut checks = 0;
@@ -55,7 +55,7 @@ fn run(path: &Path, tests: &Tests) -> Items {
 
 type Covered = BTreeSet<(String, Span)>;
 
-/// What the scenarios cover, in the words of goals.
+/// What the scenarios cover, in terms of goals.
 fn covered(items: &Items) -> Covered {
     let single = items.rules.iter().chain(&items.branches).chain(&items.updates).filter(|item| item.covered);
     let mut all: Covered = single.map(|item| (item.what.to_string(), item.span)).collect();
@@ -66,7 +66,7 @@ fn covered(items: &Items) -> Covered {
     all
 }
 
-/// What is said to be reached, of what the coverage of scenarios counts.
+/// Which goals were said to be reached, of those that scenario coverage counts.
 fn stated(tests: &Tests) -> Covered {
     let reached = tests.goals.iter().filter(|goal| goal.reached);
     let words = reached.filter_map(|goal| {
@@ -121,7 +121,7 @@ fn no_scenario_is_superfluous() {
         for left_out in 0..tests.scenarios.len() {
             let mut fewer = tests.clone();
             let one = fewer.scenarios.remove(left_out);
-            // Conditions and transitions are no part of this coverage; a scenario may be there for them.
+            // Scenario coverage does not count conditions and transitions; a scenario may exist only for them.
             let conditions = tests.goals.iter().any(|goal| goal.kind == GoalKind::Condition);
             if fewer.scenarios.is_empty() || conditions {
                 continue;

@@ -1,5 +1,5 @@
-//! The examples of spec/verification.md have the verdicts that stand below them; the faults that only verification finds
-//! have pages whose examples show them; counterexamples fail as scenarios where they end.
+//! The examples of spec/verification.md have the verdicts shown below them. Faults that only verification finds have
+//! pages whose examples show them. Counterexamples fail as scenarios where they end.
 
 use std::sync::Arc;
 
@@ -78,7 +78,7 @@ fn counterexamples_fail_as_scenarios_where_they_end() {
             let tested = Suite::new().test(source, &mut loader, Scenario::default(), &mut FirstCandidate);
             let found = tested.verdict.unwrap_or_else(|| panic!("{:#?}\n{text}", tested.diagnostics));
             let made = trace.steps.iter().filter(|step| step.fault.is_none()).count() as u64;
-            // A deadlock shows in one more step, which changes nothing.
+            // A deadlock takes one more step to show, which changes nothing.
             let more = u64::from(verdict.subject == Subject::NoDeadlock);
             assert!(!found.failures().is_empty(), "{text}");
             assert_eq!(found.steps, made + more, "{text}");

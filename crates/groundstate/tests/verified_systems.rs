@@ -1,5 +1,5 @@
-//! The models that verify a system do what the system does: from the same initial state, with the lengths of elaborations that
-//! the system has, step by step, up to the quotient. So what is found of them is found of it.
+//! The models that verify a system behave like the system: from the same initial state and with the system's
+//! elaboration times, both agree step by step, up to the quotient. So what is verified of them holds for the system.
 
 use std::collections::BTreeMap;
 
@@ -8,13 +8,13 @@ use machine::{Choice, Environment, Limits, LocationRef, Machine, Show, TimeUnit,
 use program::{DomainId, Program};
 use testkit::{EditedDisk, repository};
 
-/// Files on the disk; one of them with a changed time.
+/// The files on the disk, with the duration of one elaboration changed.
 fn disk(elaboration: u32) -> EditedDisk {
     EditedDisk { from: "case vs_elaborate: 120".to_string(), to: format!("case vs_elaborate: {elaboration}") }
 }
 
-/// No fault is seeded; elaborations end when they do in the system. An endless one has to be told: the operator plans for
-/// 300 ticks.
+/// No fault is seeded; elaborations end when they do in the system. An endless one must be told to end: the operator
+/// plans for 300 ticks.
 #[derive(Default)]
 struct Nominal {
     planning: u32,
@@ -65,7 +65,7 @@ impl Run {
         self.machine.commit();
     }
 
-    /// What locations hold, undef left out.
+    /// The values of the locations, without undef.
     fn state(&self) -> BTreeMap<String, String> {
         let program = self.machine.program();
         let all = self.machine.locations().into_iter();
@@ -74,7 +74,7 @@ impl Run {
             .collect()
     }
 
-    /// What the quotient keeps: control states, locks and flags as they are, ticks as ages.
+    /// What the quotient keeps: control states, locks and flags unchanged, ticks as ages.
     fn quotient(&self) -> BTreeMap<String, String> {
         const SAME: [&str; 9] = [
             "scheduler_currentPhase",
@@ -95,7 +95,7 @@ impl Run {
             if SAME.contains(&function) {
                 return Some((location.clone(), value.clone()));
             }
-            // The period of an asynchronous task begins never.
+            // An asynchronous task has no period, so the quotient leaves its period's start out.
             let tick: i64 = value.parse().ok()?;
             (TICKS.contains(&function) && state.contains_key(&location.replace("periodStart", "period")))
                 .then(|| (location.clone(), (clock - tick).to_string()))
@@ -121,7 +121,7 @@ fn check(system: &str, verified: &str, elaborations: &[u32], steps: u32) {
 
 #[test]
 fn the_visual_servoing_robot() {
-    // As it is, and far above the period of the camera.
+    // As written, and far above the camera's period.
     check("visual_servoing/VisualServoing", "visual_servoing/verification/VisualServoingInTicks", &[120, 230], 260);
 }
 

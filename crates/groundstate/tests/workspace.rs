@@ -1,4 +1,4 @@
-//! A workspace says of edited texts what a fresh look at the same texts says.
+//! For edited texts a workspace reports the same as a fresh check of the same texts.
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
@@ -63,7 +63,7 @@ fn an_edit_is_seen_in_the_file_and_in_those_that_import_it() {
     workspace.set_text("./Parts.asm", 1, PARTS.replace("r_flip", "r_flop")).expect("the first");
     let faults = check(&mut workspace, "Lamp.asm");
     assert!(faults.len() == 1 && faults[0].starts_with("Lamp.asm:6:21 "), "{faults:?}");
-    // What came earlier does not come back.
+    // An older version does not replace a newer one.
     assert_eq!(workspace.set_text("Parts.asm", 0, PARTS), Err(Outdated { present: 1 }));
     assert_eq!(check(&mut workspace, "Lamp.asm"), faults);
     assert!(matches!(workspace.load("Lamp.asm"), Err(NotLoaded::Faulty(_))));
@@ -85,7 +85,7 @@ fn scenarios_charts_and_what_is_not_known_are_looked_at() {
     assert!(!workspace.check("notes.txt").expect("it is open").is_clean(), "nothing was looked at");
 }
 
-/// What is wrong with a file of this name and text beside the lamp.
+/// The faults of a file with this name and text beside the lamp.
 fn beside_the_lamp(name: &str, text: &str) -> Vec<String> {
     let mut workspace = Workspace::new(Memory::of(&[("Lamp.asm", LAMP), ("Parts.asm", PARTS)]));
     workspace.set_text(name, 1, text).expect("the first");
@@ -154,7 +154,7 @@ fn after_any_edits_it_says_what_a_fresh_one_says() {
         let chars: Vec<char> = text.chars().collect();
         let at = random.below(chars.len() as u64) as usize;
         let length = random.below(30.min(chars.len() as u64 - at as u64)) as usize;
-        // A piece is taken out, put in again elsewhere, or doubled.
+        // A piece is removed, moved elsewhere, or doubled.
         let (before, piece, after) = (&chars[..at], &chars[at..at + length], &chars[at + length..]);
         *text = match random.below(3) {
             0 => [before, after].concat().into_iter().collect(),

@@ -1,18 +1,18 @@
-//! What a review finds as diagnostics: where it is, what is wrong, what to do.
+//! Turns the findings of a review into diagnostics: where it is, what is wrong, what to do.
 
 use machine::{Location, Show, Value};
 use program::Program;
 use syntax::Diagnostic;
 use verify::review::{Finding, Matter, Review};
 
-/// How many values or locations are named.
+/// LIMIT: a message names at most this many values or locations.
 const NAMED: usize = 8;
 
-/// The kinds of diagnostics that reviews alone make.
+/// The kinds of diagnostics that only reviews produce.
 pub const REVIEW_IDS: &[&str] =
     &["incomplete-conditional", "trivial-update", "unused-element", "value-never-taken", "never-updated", "never-read"];
 
-/// A finding. Where not every state was met it is told as what has not been seen.
+/// A finding. If not every state was visited, the message counts those that were.
 pub fn diagnose_finding(finding: &Finding, review: &Review, program: &Program) -> Diagnostic {
     let span = finding.span;
     let seen = match (review.reasons.is_empty(), review.progress.states) {
@@ -88,7 +88,7 @@ fn named(values: &[Value], program: &Program) -> String {
     joined(values.iter().map(|value| value.show(program).to_string()), "or")
 }
 
-/// The first of some words in one phrase.
+/// Joins the first of some words into one phrase.
 fn joined(words: impl ExactSizeIterator<Item = String>, last: &str) -> String {
     let count = words.len();
     let mut words: Vec<String> = words.take(NAMED).collect();

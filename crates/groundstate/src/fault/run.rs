@@ -1,6 +1,6 @@
-//! What goes wrong in a run: where it happened, what the values were, what to do.
+//! Turns what goes wrong in a run into diagnostics: where it happened, the values involved, what to do.
 //!
-//! In: a fault of a step, a violated invariant, the program. Out: a diagnostic.
+//! In: a fault of a step or a violated invariant, and the program. Out: a diagnostic.
 
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ pub fn diagnose_fault(fault: &Fault, program: &Program) -> Diagnostic {
             let side = |value: &Value| format!("{location} becomes {} here", value.show(program).briefly());
             let clash = Diagnostic::error(fault.kind.id(), second.span, message).here(side(&second.value));
             if first.span == second.span {
-                // One rule, run twice: what it was run with tells the two apart.
+                // One rule that ran twice: its arguments tell the two runs apart.
                 clash.here(format!(
                     "{location} becomes {} and {} here",
                     first.value.show(program).briefly(),
@@ -48,7 +48,7 @@ pub fn diagnose_fault(fault: &Fault, program: &Program) -> Diagnostic {
     }
 }
 
-/// What is to be seen at the place.
+/// The reason, as the label at the place.
 fn reason(kind: &FaultKind) -> &'static str {
     match kind {
         FaultKind::UndefinedGuard => "this is undef",
@@ -78,10 +78,10 @@ fn help(kind: &FaultKind) -> Option<&'static str> {
     })
 }
 
-/// An invariant that does not hold; `step` is how many steps had been made.
+/// An invariant that does not hold; `step` is the number of steps made so far.
 ///
-/// The machine is in the state after the step; what the invariant reads there is shown, unless it speaks of the
-/// state before a step that has been made.
+/// The machine is in the state after the step. The values that the invariant reads there are shown, unless the
+/// violation is about the state before a step that has been made.
 pub fn diagnose_violation(violation: &Violation, step: u64, machine: &mut Machine) -> Diagnostic {
     let program = &Arc::clone(machine.program());
     let when = match (step, violation.before) {
@@ -108,7 +108,7 @@ pub fn diagnose_violation(violation: &Violation, step: u64, machine: &mut Machin
     }
 }
 
-/// What is wrong in the record that `run` has just made.
+/// The faults in the record that `run` has just made.
 pub fn diagnose_record(record: &Record, run: &mut Run) -> Vec<Diagnostic> {
     let mut violated = |violations: &[Violation], step: u64| {
         violations.iter().map(|violation| diagnose_violation(violation, step, run.machine_mut())).collect()
@@ -127,7 +127,7 @@ pub(super) fn with_readings(diagnostic: Diagnostic, reads: &[Reading], program: 
     })
 }
 
-/// A model that is to be run and has no main rule.
+/// A model that should run has no main rule.
 pub fn diagnose_no_main(model: &Model) -> Diagnostic {
     missing_main(start(model.root))
 }

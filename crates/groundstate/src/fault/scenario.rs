@@ -1,6 +1,6 @@
-//! What is wrong with a scenario's run: the failure, what came instead of what was expected, what was not used.
+//! Turns what is wrong with a scenario's run into diagnostics: the failure, the actual values, what was not used.
 //!
-//! In: a failure or a remark of a verdict, the program. Out: diagnostics, the failure first.
+//! In: a failure or a remark of a verdict, and the program. Out: diagnostics, the failure first.
 
 use machine::{Show, Value};
 use program::Program;
@@ -10,17 +10,17 @@ use syntax::{Diagnostic, Span};
 
 use super::run::{diagnose_fault, with_readings};
 
-/// The model that a scenario loads is not there.
+/// The model that a scenario loads does not exist.
 pub(crate) fn unknown_model(place: Span, message: String) -> Diagnostic {
     Diagnostic::error("unknown-model", place, message)
 }
 
-/// What is odd about a scenario although it passes.
+/// Something odd about a scenario that passes.
 pub fn diagnose_remark(remark: &Remark) -> Diagnostic {
     Diagnostic::warning("unused-pick", remark.span, remark.message.as_str())
 }
 
-/// A failure of a scenario: the failure, then what came instead of what was expected.
+/// A failure of a scenario, followed by the actual values.
 pub fn diagnose_failure(failure: &Failure, program: &Program) -> Vec<Diagnostic> {
     let steps = |count: u64| if count == 1 { "1 step".to_string() } else { format!("{count} steps") };
     let after = steps(failure.step);

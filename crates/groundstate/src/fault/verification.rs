@@ -1,6 +1,7 @@
-//! What a verification finds: rules that never run, properties that a run violates, what cannot be gone through.
+//! Turns the findings of a verification into diagnostics: unreachable rules, violated properties, domains that cannot
+//! be enumerated.
 //!
-//! In: parts of a report, the program, its texts. Out: a diagnostic each.
+//! In: parts of a report, the program, its texts. Out: one diagnostic for each.
 
 use explore::{Unbounded, UnboundedKind};
 use program::{Program, Property, PropertyKind};
@@ -8,7 +9,7 @@ use syntax::{Diagnostic, Sources, Span};
 use verify::Trace;
 use verify::solver::Outside;
 
-/// A part of a model that solvers have no place for.
+/// A part of the model that solvers do not support.
 pub fn diagnose_outside(outside: &Outside) -> Diagnostic {
     Diagnostic::error("outside-solver", outside.span, format!("{} has no place in what solvers are told", outside.what))
         .here("not told to solvers")
@@ -22,7 +23,7 @@ pub fn diagnose_unreachable(rule: Span) -> Diagnostic {
         .with_help("if it should run, its guard or what leads to it is wrong; else remove it")
 }
 
-/// A property that is not true of a run, or after it.
+/// A property that a run violates.
 pub fn diagnose_property(property: &Property, trace: &Trace) -> Diagnostic {
     let message = format!("{} does not hold", property.name);
     let (id, seen) = match property.kind {
@@ -35,7 +36,8 @@ pub fn diagnose_property(property: &Property, trace: &Trace) -> Diagnostic {
     Diagnostic::error(id, property.span, message).here(seen)
 }
 
-/// What cannot be gone through, with its place in the message: it is also told as a reason, without the text.
+/// A domain that cannot be enumerated. The message contains the place, since it is also shown as a reason, without the
+/// text.
 pub fn diagnose_unbounded(unbounded: &Unbounded, program: &Program, sources: &Sources) -> Diagnostic {
     let place = short_place(sources, unbounded.span);
     match unbounded.kind {

@@ -1,7 +1,7 @@
-//! Holding a running program to its model, as a job.
+//! Compares a running program with its model, as a job.
 //!
-//! In: a loaded model, and a recording, or a [`Tail`] that gives its bytes while the program writes it. Out: how far the two agree; at the
-//! end a verdict, at once where they part.
+//! In: a loaded model, and a recording, or a [`Tail`] that reads it while the program writes it. Out: progress; at the
+//! end a verdict, and a verdict at once where the two differ.
 
 use std::io;
 use std::sync::Arc;
@@ -13,15 +13,15 @@ use syntax::Sources;
 use crate::Loaded;
 use crate::job::{Cancel, Job};
 
-/// A recording that is being written.
+/// A recording that is still being written.
 pub trait Tail {
     /// Why it cannot be read.
     type Trouble;
 
-    /// The next bytes; waits for them where none are there yet, a moment at most.
+    /// The next bytes. If there are none yet, waits a moment at most.
     ///
     /// # Errors
-    /// It cannot be read.
+    /// The recording cannot be read.
     fn next(&mut self) -> Result<Piece, Self::Trouble>;
 }
 
@@ -30,11 +30,11 @@ pub trait Tail {
 pub struct Piece {
     /// The bytes.
     pub bytes: Vec<u8>,
-    /// More have not been written yet.
+    /// The program has not written more yet.
     pub is_all: bool,
 }
 
-/// For a recording that is whole: nobody writes it.
+/// For a complete recording, which nobody writes to.
 #[derive(Debug, Clone, Copy)]
 pub enum NoTail {}
 
@@ -46,16 +46,16 @@ impl Tail for NoTail {
     }
 }
 
-/// What is held to the model.
+/// The events to compare with the model.
 #[derive(Debug)]
 pub enum Events<T> {
-    /// All events are there. LIMIT: such a comparison goes on to its end, also where it is cancelled.
+    /// All events are there. LIMIT: cancelling does not end such a comparison early.
     Whole(Recording),
-    /// They come.
+    /// More events are still coming.
     Coming(T),
 }
 
-/// The comparison that is wanted.
+/// A comparison to make.
 #[derive(Debug)]
 pub struct ConformRequest<T> {
     /// The ground model.
@@ -64,20 +64,20 @@ pub struct ConformRequest<T> {
     pub events: Events<T>,
     /// The machine's limits.
     pub limits: Limits,
-    /// Compare the order of events alone, also where the recording follows the model's ticks.
+    /// Compare only the order of events, even if the recording follows the model's ticks.
     pub by_order: bool,
 }
 
-/// What a comparison tells.
+/// The progress of a comparison.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ConformEvent {
     /// No event has come yet.
     Awaits,
-    /// The two agree so far; how far, and who has been silent for long.
+    /// Program and model agree so far: how far, and which tasks have been silent for long.
     Agrees(String),
 }
 
-/// What it came to.
+/// The result of a comparison.
 #[derive(Debug)]
 pub struct Conformed {
     /// The texts that places of the verdict point into.
@@ -97,19 +97,19 @@ pub enum NotConformed<X> {
     Unread(X),
     /// It is damaged.
     Malformed(Malformed),
-    /// It cannot be held to the model.
+    /// It cannot be compared with the model.
     Refused(Refusal),
-    /// It was ended before the first event came.
+    /// The job was cancelled before the first event came.
     NoEvents,
 }
 
-/// A comparison. One that is cancelled looks at what is there, and at no more.
+/// A comparison. After it is cancelled, it compares what has been written so far, then ends.
 pub type ConformJob<X> = Job<ConformEvent, Result<Conformed, NotConformed<X>>>;
 
 /// Starts a comparison.
 ///
 /// # Errors
-/// The system gives no thread.
+/// The system cannot start a thread.
 pub fn conform<T>(request: ConformRequest<T>, cancel: Cancel) -> io::Result<ConformJob<T::Trouble>>
 where
     T: Tail + Send + 'static,
@@ -142,14 +142,14 @@ fn follow<T: Tail>(
     let mut reader = Reader::default();
     let mut replay: Option<Session> = None;
     loop {
-        // Asked before the last look, so that what was written till then is looked at.
+        // Cancellation is read before the last look, so that everything written until then is compared.
         let asked = is_cancelled();
         let Piece { bytes, is_all } = tail.next().map_err(NotConformed::Unread)?;
         let stops = asked && is_all;
         reader.feed(&bytes).map_err(NotConformed::Malformed)?;
         let recording = reader.recording();
         let more = !reader.has_ended() && !stops;
-        // The head stands before the first event.
+        // The recording's head is complete once the first event is there.
         if recording.events() > 0 || reader.has_ended() {
             if let Some(begin) = begin.take() {
                 replay = Some(begin(recording)?);

@@ -1,7 +1,7 @@
-//! C++ of models and of systems, as jobs: folders in memory.
+//! Generates C++ from models and systems, as jobs that make folders in memory.
 //!
-//! In: a program with its texts under the names that are to be told, or a chart with a system. Out: the files of a [`Folder`], those of the
-//! runtime included; what cannot be generated as diagnostics. Whoever writes them looks after the folder.
+//! In: a program with its texts under the names to show, or a chart with a system. Out: the files of a [`Folder`], with
+//! those of the runtime; what cannot be generated, as diagnostics. The caller writes the files and creates the folder.
 
 use std::io;
 use std::sync::Arc;
@@ -16,14 +16,14 @@ use syntax::{Diagnostic, Sources, Span};
 
 use crate::job::{Cancel, Job, Port};
 
-/// What is generated: paths within the folder, and texts.
+/// The generated files: paths within the folder, and texts.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Folder {
-    /// Written anew each time, the most important one first.
+    /// Overwritten each time; the most important file comes first.
     pub decided: Vec<(String, String)>,
-    /// The user's own: written where they are missing, never touched again.
+    /// The user's own files: written once if missing, never touched again.
     pub once: Vec<(String, String)>,
-    /// What C++ calls otherwise than the model: `(model's, C++'s)`.
+    /// Names that differ in C++: `(the model's, C++'s)`.
     pub renamed: Vec<(String, String)>,
 }
 
@@ -38,20 +38,20 @@ pub enum NotGenerated {
     Cancelled,
 }
 
-/// A file is there, of that path.
+/// A file has been generated, at this path.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct GenerateEvent(pub String);
 
 /// A generation.
 pub type GenerateJob = Job<GenerateEvent, Result<Folder, NotGenerated>>;
 
-/// Headers of the runtime, by name; a shell has them built in.
+/// Headers of the runtime, by name; the shell has them built in.
 pub type Headers = &'static [(&'static str, &'static str)];
 
-/// Starts to generate the class of a model. `sources` have the names that the source map is to tell.
+/// Starts to generate the class of a model. The source map shows the names in `sources`.
 ///
 /// # Errors
-/// The system gives no thread.
+/// The system cannot start a thread.
 pub fn generate_model(
     program: Arc<Program>,
     sources: Sources,
@@ -62,7 +62,7 @@ pub fn generate_model(
     let limits = machine_limits(&cancel);
     Job::start("generate", cancel, move |port| {
         let mut started = Machine::new(Arc::clone(&program), limits);
-        // An initial value that asks the environment, or is at fault, does so again when the program starts.
+        // If an initial value asks the environment or fails, it does so again when the program starts.
         let _ = started.start(&mut Closed);
         go_on(&port)?;
         let generated =
@@ -77,10 +77,10 @@ pub fn generate_model(
     })
 }
 
-/// Starts to generate the program of a chart's system; `file` names the chart in comments.
+/// Starts to generate the program of a chart's system; comments call the chart `file`.
 ///
 /// # Errors
-/// The system gives no thread.
+/// The system cannot start a thread.
 pub fn generate_system(
     chart: Chart,
     file: String,
@@ -120,8 +120,7 @@ fn told(port: &Port<GenerateEvent>, folder: Folder) -> Result<Folder, NotGenerat
     Ok(folder)
 }
 
-/// Which generated lines stand for which places of the model, which place each number in a fault is, and which names are
-/// others in C++.
+/// Maps generated lines to places of the model, the numbers in faults to places, and C++ names to the model's.
 fn source_map(generated: &Generated, sources: &Sources) -> Value {
     let place = |span: Span| {
         let file = sources.file(span.file);

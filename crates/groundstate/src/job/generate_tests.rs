@@ -1,4 +1,4 @@
-//! The generation of tests as a job.
+//! Generates tests, as a job.
 //!
 //! In: a [`TestsRequest`]. Out: progress of the search; at the end scenarios and goals, or why there are none.
 
@@ -14,7 +14,7 @@ use verify::{NoStart, Options, Progress};
 use crate::job::{Cancel, Job};
 use crate::test_generation::{Method, Subject, Tests, chart_turns};
 
-/// The tests that are wanted.
+/// The tests to generate.
 #[derive(Debug)]
 pub struct TestsRequest {
     /// The model.
@@ -25,23 +25,23 @@ pub struct TestsRequest {
     pub path: String,
     /// How far the search goes.
     pub options: Options,
-    /// How what can be reached is looked for.
+    /// How the search for goals works.
     pub method: Method,
-    /// What stands in other files is no goal.
+    /// Only parts of the model in these files are goals.
     pub files: BTreeSet<FileId>,
 }
 
-/// The search is so far.
+/// The progress of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TestsEvent(pub Progress);
 
-/// A generation of tests; cancelled, it gives those for what was reached until then.
+/// A generation of tests. If cancelled, it returns tests for what was reached until then.
 pub type TestsJob = Job<TestsEvent, Result<Tests, NoStart>>;
 
 /// Starts to generate tests.
 ///
 /// # Errors
-/// The system gives no thread.
+/// The system cannot start a thread.
 pub fn generate_tests(request: TestsRequest, cancel: Cancel) -> io::Result<TestsJob> {
     let TestsRequest { model, program, path, options, method, files } = request;
     let options = Options { interrupt: cancel.interrupt().clone(), ..options };

@@ -1,8 +1,9 @@
-//! Work on a thread of its own: it tells how it goes, can be cancelled, and gives its result at the end.
+//! Runs work on its own thread: it reports progress, can be cancelled, and returns its result at the end.
 //!
-//! In: what is to be done, with a [`Port`] to the one who waits. Out: a [`Job`]. Events go through a bounded channel: work that
-//! tells more than is read waits, so that nothing grows. Those that come by the thousand go in batches, which whoever reads does not see.
-//! INVARIANT: a job whose owner is gone ends as if it had been cancelled; events are read in the order in which they were told.
+//! In: the work, which gets a [`Port`] to its owner. Out: a [`Job`]. Events go through a bounded channel: a job that
+//! sends faster than its owner reads waits, so memory does not grow. Frequent events are sent in batches, which the
+//! reader does not see. INVARIANT: a job whose owner is gone ends as if it had been cancelled; events arrive in the
+//! order in which they were sent.
 
 mod conform;
 mod generate;
@@ -30,40 +31,40 @@ pub use run::{Command, Remote, RunEvent, RunJob, RunRequest, at_once, report, ru
 pub use test::{TestEvent, test};
 pub use verify::{NO_KEEPER, VerifyEvent, VerifyJob, verify};
 
-/// Batches that wait to be read.
+/// How many batches may wait to be read.
 const WAITING: usize = 64;
 
-/// The most events of a batch.
+/// The largest number of events in a batch.
 const BATCH: usize = 64;
 
-/// As much as a main thread has, and more: deep terms are evaluated by recursion.
+/// At least as large as a main thread's stack: deep terms are evaluated by recursion.
 const STACK: usize = 16 << 20;
 
-/// Work that is being done. `E` is what it tells while it goes on, `T` its result.
+/// Work in progress. `E` is its events, `T` its result.
 #[derive(Debug)]
 pub struct Job<E, T> {
     events: Receiver<Vec<E>>,
-    /// Those of the last batch that are not read yet.
+    /// Events of the last batch that were not read yet.
     read: RefCell<VecDeque<E>>,
     thread: JoinHandle<T>,
     cancel: Cancel,
 }
 
-/// The work ended by a panic, which is a bug of this program; what it said.
+/// The work panicked, which is a bug of this program; contains the panic's message.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Crashed(pub String);
 
-/// Ends a job from anywhere.
+/// Cancels a job, from any thread.
 #[derive(Debug, Clone)]
 pub struct Cancel(Interrupt);
 
 impl Cancel {
-    /// For one job, by way of any of its clones.
+    /// A handle for one job; its clones cancel the same job.
     pub fn new() -> Cancel {
         Cancel(Interrupt::new())
     }
 
-    /// Asks the job to end. It looks at this between steps and within them.
+    /// Asks the job to end. It checks for this between and within steps.
     pub fn cancel(&self) {
         self.0.raise(Cause::Asked);
     }
@@ -73,7 +74,7 @@ impl Cancel {
         self.0.cause() == Some(Cause::Asked)
     }
 
-    /// What a machine and a search look at.
+    /// The flag that machines and searches check.
     pub fn interrupt(&self) -> &Interrupt {
         &self.0
     }
@@ -85,14 +86,14 @@ impl Default for Cancel {
     }
 }
 
-/// By what a shell asks all of its work to end, a signal for one.
+/// Lets a shell cancel a job by an interrupt that it has already, such as one raised by a signal.
 impl From<Interrupt> for Cancel {
     fn from(interrupt: Interrupt) -> Cancel {
         Cancel(interrupt)
     }
 }
 
-/// The job's side: where it tells its events, and learns that it is to end.
+/// The job's side: sends events, and tells whether the job was cancelled.
 #[derive(Debug)]
 pub struct Port<E> {
     events: SyncSender<Vec<E>>,
@@ -101,13 +102,13 @@ pub struct Port<E> {
 }
 
 impl<E> Port<E> {
-    /// Tells an event; waits where too many are not read yet.
+    /// Sends an event; waits while too many are unread.
     pub fn tell(&self, event: E) {
         self.held.borrow_mut().push(event);
         self.flush();
     }
 
-    /// Tells an event with others, when there are enough of them or it `is_due`.
+    /// Collects an event, and sends the batch when it is full or the event `is_due`.
     pub fn add(&self, event: E, is_due: bool) {
         let mut held = self.held.borrow_mut();
         held.push(event);
@@ -117,7 +118,7 @@ impl<E> Port<E> {
         }
     }
 
-    /// Tells an event, unless too many are not read yet: for those that are out of date by the next.
+    /// Sends an event unless too many are unread. For events that the next one makes out of date.
     pub fn mention(&self, event: E) {
         if self.held.borrow().is_empty() {
             let _ = self.events.try_send(vec![event]);
@@ -131,13 +132,13 @@ impl<E> Port<E> {
         }
     }
 
-    /// Whether to end.
+    /// Whether the job was asked to end.
     pub fn is_cancelled(&self) -> bool {
         self.cancel.is_cancelled()
     }
 }
 
-/// What is held is told when the work ends.
+/// Sends the last batch when the work ends.
 impl<E> Drop for Port<E> {
     fn drop(&mut self) {
         let held = self.held.take();
@@ -148,10 +149,10 @@ impl<E> Drop for Port<E> {
 }
 
 impl<E: Send + 'static, T: Send + 'static> Job<E, T> {
-    /// Starts work. `name` is that of its thread.
+    /// Starts work on a thread called `name`.
     ///
     /// # Errors
-    /// The system gives no thread.
+    /// The system cannot start a thread.
     pub fn start(
         name: &str,
         cancel: Cancel,
@@ -165,23 +166,23 @@ impl<E: Send + 'static, T: Send + 'static> Job<E, T> {
 }
 
 impl<E, T> Job<E, T> {
-    /// The next event, when it comes; none when the work has ended.
+    /// Waits for the next event; `None` when the work has ended.
     pub fn next_event(&self) -> Option<E> {
         self.next_of(|events| events.recv()).ok()
     }
 
-    /// The next event if it comes within this time. The work has ended where that is [`RecvTimeoutError::Disconnected`].
+    /// Waits at most this long for the next event.
     ///
     /// # Errors
-    /// None came.
+    /// No event came in time, or the work has ended ([`RecvTimeoutError::Disconnected`]).
     pub fn next_event_within(&self, time: Duration) -> Result<E, RecvTimeoutError> {
         self.next_of(|events| events.recv_timeout(time))
     }
 
-    /// The next event if it is there.
+    /// The next event if there is one, without waiting.
     ///
     /// # Errors
-    /// None is.
+    /// There is none.
     pub fn poll(&self) -> Result<E, TryRecvError> {
         self.next_of(|events| events.try_recv())
     }
@@ -196,12 +197,12 @@ impl<E, T> Job<E, T> {
         }
     }
 
-    /// By what the job is cancelled, also from another thread.
+    /// Cancels the job, also from another thread.
     pub fn cancel(&self) -> &Cancel {
         &self.cancel
     }
 
-    /// Waits for the end; events that were not read are dropped.
+    /// Waits for the end, and drops unread events.
     ///
     /// # Errors
     /// The work panicked.
@@ -212,7 +213,7 @@ impl<E, T> Job<E, T> {
     }
 }
 
-/// What a panic said.
+/// The message of a panic.
 fn said(panic: &(dyn std::any::Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_string());
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default()

@@ -1,4 +1,4 @@
-//! A review as a job.
+//! Reviews a model, as a job.
 //!
 //! In: a [`ReviewRequest`]. Out: progress; at the end what is odd about the model, or why nothing is known of it.
 
@@ -14,7 +14,7 @@ use verify::{NoStart, Options, Progress};
 
 use crate::job::{Cancel, Job};
 
-/// The review that is wanted.
+/// The review to make.
 #[derive(Debug)]
 pub struct ReviewRequest {
     /// The model.
@@ -23,23 +23,23 @@ pub struct ReviewRequest {
     pub program: Arc<Program>,
     /// How far the search goes.
     pub options: Options,
-    /// What is asked.
+    /// The meta-properties to check.
     pub metas: Vec<Meta>,
-    /// What stands in other files is not told of.
+    /// Only findings in these files are reported.
     pub files: BTreeSet<FileId>,
 }
 
-/// The search of a review is so far.
+/// The progress of a review's search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReviewEvent(pub Progress);
 
-/// A review; cancelled, it tells what it found until then.
+/// A review. If cancelled, it reports what it found until then.
 pub type ReviewJob = Job<ReviewEvent, Result<Review, NoStart>>;
 
 /// Starts a review.
 ///
 /// # Errors
-/// The system gives no thread.
+/// The system cannot start a thread.
 pub fn review(request: ReviewRequest, cancel: Cancel) -> io::Result<ReviewJob> {
     let ReviewRequest { model, program, options, metas, files } = request;
     let options = Options { interrupt: cancel.interrupt().clone(), ..options };

@@ -1,11 +1,11 @@
-//! A run as a job that can be steered: stepped, paused, taken back, given inputs and choices.
+//! Runs a model as a job that can be steered: stepped, paused, taken back, given inputs and choices.
 //!
-//! In: a [`RunRequest`], and [`Command`]s while it goes on. Out: a [`RunEvent`] for each record, with what is wrong in it as
-//! diagnostics. Where an input or a choice is wanted that nobody gave, the run asks and waits for a command. INVARIANT: what it
-//! does depends on the request and the commands alone, not on when they come, unless the run is not paused.
+//! In: a [`RunRequest`], and [`Command`]s while it runs. Out: a [`RunEvent`] for each record, with its faults as
+//! diagnostics. If an input or a choice has no source, the run asks for it and waits for a command. INVARIANT: a paused
+//! run depends only on the request and the commands, not on when they arrive.
 //!
-//! A run makes hundreds of thousands of steps a second. So events go in batches, and a run whose records hold nothing
-//! ([`Options::keep`]) tells of a step only where something is wrong in it.
+//! A run makes hundreds of thousands of steps a second. So events are sent in batches, and a run that keeps no records
+//! ([`Options::keep`]) reports a step only if something is wrong in it.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, VecDeque};
@@ -25,33 +25,33 @@ use crate::diagnose_record;
 use crate::job::{Cancel, Job, Port};
 use crate::reporting::Reporter;
 
-/// Between two looks at whether a job that waits for a command is cancelled.
+/// While the job waits for a command, how often it checks whether it was cancelled.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// The run that is wanted.
+/// The run to make.
 pub struct RunRequest {
     /// What runs.
     pub program: Arc<Program>,
     /// The machine's limits.
     pub limits: Limits,
-    /// When it stops, and what its records hold. Only what [`Options::history`] keeps can be taken back.
+    /// When it stops, and what its records contain. Only steps that [`Options::history`] keeps can be taken back.
     pub options: Options,
-    /// Adds the sources of inputs, which are asked after those that [`Command::Set`] gave; made on the thread of the job.
+    /// Adds sources of inputs, which are asked after those set by [`Command::Set`]. Called on the job's thread.
     pub inputs: Box<dyn FnOnce(Inputs) -> Inputs + Send>,
-    /// Whether inputs are asked for that no source has; else that is a fault.
+    /// Whether to ask for inputs that no source has; otherwise such an input is a fault.
     pub asks_inputs: bool,
-    /// Whether choices are asked for, in place of those that `inputs` makes.
+    /// Whether to ask for choices, instead of making them as `inputs` says.
     pub asks_choices: bool,
-    /// Whether it waits for a command before the first step.
+    /// Whether to wait for a command before the first step.
     pub paused: bool,
-    /// Whether each event holds the whole state.
+    /// Whether each event contains the whole state.
     pub states: bool,
-    /// Asked after each record: whether what has happened is to be told now, and not with what happens next. The clock is the shell's;
-    /// [`at_once`] is for whoever looks at each record.
+    /// Called after each record: whether to send it now rather than with later ones. The clock is the shell's. Use
+    /// [`at_once`] to send each record immediately.
     pub due: Box<dyn FnMut() -> bool + Send>,
 }
 
-/// Every record is told when it is there.
+/// Sends every record immediately.
 pub fn at_once() -> Box<dyn FnMut() -> bool + Send> {
     Box::new(|| true)
 }
@@ -62,80 +62,80 @@ impl std::fmt::Debug for RunRequest {
     }
 }
 
-/// What a run is told.
+/// A command to a run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Command {
-    /// Make so many steps, then wait.
+    /// Make this many steps, then wait.
     Step(u64),
     /// Make steps until something stops it.
     Resume,
     /// Wait before the next step.
     Pause,
-    /// Take the last step back; where an input or a choice is asked for, give none and do the same.
+    /// Take the last step back. If an input or a choice is asked for, abandon the step instead.
     Back,
-    /// The input that is asked for has this value, this once.
+    /// Give the requested input this value, once.
     Answer(Value),
-    /// The input that is asked for cannot be given: a fault, with this sentence.
+    /// Refuse the requested input: a fault, with this sentence.
     Withhold(String),
-    /// From now on an input has this value.
+    /// Give an input this value from now on.
     Set(Location, Value),
-    /// From now on an input is asked for again.
+    /// Ask for an input again from now on.
     Unset(Location),
-    /// Take this candidate of the choice that is asked for, from 0.
+    /// Take this candidate of the requested choice, from 0.
     Choose(usize),
     /// End the run.
     Stop,
 }
 
-/// What a run tells.
+/// An event of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RunEvent {
     /// Something happened.
     Record {
-        /// What, as in a trace.
+        /// What happened, as in a trace.
         record: Box<Record>,
         /// How many steps have been made.
         steps: u64,
-        /// The state after it, where it is wanted.
+        /// The state after it, if requested.
         state: Option<Vec<(Location, Value)>>,
         /// What is wrong: a violated invariant, a fault.
         faults: Vec<Diagnostic>,
     },
-    /// So many steps have been made, where nobody is told of each.
+    /// This many steps have been made; sent if single steps are not reported.
     Progress(u64),
-    /// An input is wanted: it goes on with [`Command::Answer`] or [`Command::Set`].
+    /// An input is requested; continues with [`Command::Answer`] or [`Command::Set`].
     AsksInput {
-        /// The step that is being made, from 1; 0 while the initial state is made.
+        /// The step being made, from 1; 0 for the initial state.
         step: u64,
-        /// What is asked for.
+        /// The requested input.
         location: Location,
         /// The domain of its values.
         domain: DomainId,
-        /// The first hundred of the values themselves, where they are known.
+        /// The first hundred values of the domain, if they are known.
         values: Vec<Value>,
     },
-    /// A choice is wanted: it goes on with [`Command::Choose`].
+    /// A choice is requested; continues with [`Command::Choose`].
     AsksChoice {
         /// The choose rule or the term.
         span: Span,
-        /// The values of its variables, by candidate.
+        /// The values of its variables, for each candidate.
         candidates: Vec<Vec<Value>>,
     },
-    /// It waits for a command.
+    /// The run waits for a command.
     Paused,
-    /// A command that cannot be carried out now; a sentence.
+    /// A command cannot be carried out now; a sentence.
     Refused(String),
 }
 
-/// A run; its result is the last step's number.
+/// A run; its result is the number of the last step.
 pub type RunJob = Job<RunEvent, u64>;
 
-/// Steers a run from anywhere.
+/// Steers a run, from any thread.
 #[derive(Debug, Clone)]
 pub struct Remote(Sender<Command>);
 
 impl Remote {
-    /// Gives a command; `false` where the run has ended.
+    /// Sends a command; `false` if the run has ended.
     pub fn send(&self, command: Command) -> bool {
         self.0.send(command).is_ok()
     }
@@ -144,7 +144,7 @@ impl Remote {
 /// Starts a run.
 ///
 /// # Errors
-/// The system gives no thread.
+/// The system cannot start a thread.
 pub fn run(request: RunRequest, cancel: Cancel) -> io::Result<(RunJob, Remote)> {
     let (sender, commands) = channel();
     let looked_at = cancel.interrupt().clone();
@@ -152,10 +152,10 @@ pub fn run(request: RunRequest, cancel: Cancel) -> io::Result<(RunJob, Remote)> 
     Ok((job, Remote(sender)))
 }
 
-/// Starts a run that is followed for its report: it is told and steered as any other, and its result is who followed it.
+/// Starts a run for a report. It is steered like any other run; its result is the reporter.
 ///
 /// # Errors
-/// The system gives no thread.
+/// The system cannot start a thread.
 pub fn report(
     request: RunRequest,
     mut reporter: Reporter,
@@ -171,31 +171,31 @@ pub fn report(
     Ok((job, Remote(sender)))
 }
 
-/// Whether steps are made.
+/// How many steps to make.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Turn {
-    /// So many more.
+    /// This many more.
     Steps(u64),
     /// All.
     All,
 }
 
-/// Where commands come in. The run, its inputs and its choices share it.
+/// Receives the commands. The run, its inputs and its choices share it.
 struct Desk {
     port: Rc<Port<RunEvent>>,
     commands: Receiver<Command>,
-    /// Commands that came while something else was asked.
+    /// Commands that came while an input or a choice was requested.
     later: VecDeque<Command>,
     given: BTreeMap<Location, Value>,
     turn: Turn,
-    /// Who steers it is gone.
+    /// Nobody steers the run any more.
     alone: bool,
 }
 
-/// What came of waiting.
+/// The result of waiting.
 enum Waited {
     Command(Command),
-    /// The job is cancelled, or nobody is there to give a command.
+    /// The job was cancelled, or nobody is left to give a command.
     Over,
 }
 
@@ -213,7 +213,7 @@ impl Desk {
         }
     }
 
-    /// A command that changes how the run goes on.
+    /// Carries out a command, and returns what it makes the run do at once.
     fn heed(&mut self, command: Command) -> Option<Do> {
         match command {
             Command::Step(steps) => self.turn = Turn::Steps(steps),
@@ -266,7 +266,7 @@ enum Do {
     Stop,
 }
 
-/// Inputs as commands gave them.
+/// The inputs that commands set.
 struct Given(Rc<RefCell<Desk>>);
 
 impl Source for Given {
@@ -326,10 +326,10 @@ fn not_in(ask: &Ask<'_>, value: &Value) -> RunEvent {
     RunEvent::Refused(format!("{} is not in {domain}", value.show(ask.program)))
 }
 
-/// LIMIT: of a larger domain so many values are offered.
+/// LIMIT: at most this many values are offered.
 const OFFERED: usize = 100;
 
-/// The values of a small domain.
+/// The values to offer: all of a domain that is enumerable, up to the limit.
 fn offered(ask: &Ask<'_>) -> Vec<Value> {
     if let Some(elements) = ask.carriers.get(ask.codomain) {
         return elements.iter().take(OFFERED).cloned().collect();
@@ -398,7 +398,7 @@ fn go(
     let mut run = Run::new(Arc::clone(&program), limits, sources, options);
     let mut initial = true;
     loop {
-        // The initial state is there before anybody is asked how to go on.
+        // The initial state is made before the first pause.
         let what = if std::mem::take(&mut initial) { Do::Step } else { desk.borrow_mut().next() };
         let stops = what == Do::Stop;
         let record = match what {
@@ -421,7 +421,7 @@ fn go(
         let faults = diagnose_record(&record, &mut run);
         let state = states.then(|| run.machine().locations());
         if let (Record::End(_), Turn::Steps(steps)) = (&record, &mut desk.borrow_mut().turn) {
-            // Whoever steps by hand may take the last step back.
+            // Stay paused at the end of a run made step by step, so that the last step can be taken back.
             *steps = 0;
         }
         let is_due = due();

@@ -1,7 +1,7 @@
-//! Scenarios as a job.
+//! Runs scenarios, as a job.
 //!
-//! In: their texts and a loader. Out: each scenario's verdict as it is there; at the end the suite, which knows what they
-//! covered.
+//! In: their texts and a loader. Out: each scenario's verdict as soon as it is known; at the end the suite, which knows
+//! the coverage.
 
 use std::io;
 
@@ -12,15 +12,16 @@ use syntax::SourceFile;
 use crate::job::{Cancel, Job};
 use crate::{SeededChoices, Suite, Tested};
 
-/// What scenarios tell.
+/// The result of one scenario.
 #[derive(Debug)]
 pub struct TestEvent(pub Box<Tested>);
 
-/// Starts scenarios, one after the other as they come. Choices that no `pick` makes take the first candidate, or are drawn from a
-/// seed. One that was cancelled before it came to a good end is not told of, nor are those after it.
+/// Starts to run scenarios one after the other. A choice that no `pick` decides takes the first candidate, or is drawn
+/// from a seed. If the job is cancelled while a scenario runs, neither that scenario, unless it passed, nor those after
+/// it are reported.
 ///
 /// # Errors
-/// The system gives no thread.
+/// The system cannot start a thread.
 pub fn test(
     scenarios: impl IntoIterator<Item = SourceFile> + Send + 'static,
     mut loader: impl Loader + Send + 'static,

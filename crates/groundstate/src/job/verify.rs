@@ -1,7 +1,7 @@
-//! A verification as a job.
+//! Verifies a model, as a job.
 //!
-//! In: a [`Request`], SMT solvers, a keeper where the search is kept. Out: progress, and violations while the search goes on;
-//! at the end the report, and the keeper again.
+//! In: a [`Request`], SMT solvers, and a keeper if the search is kept. Out: progress, and violations while the search
+//! goes on; at the end the report, and the keeper.
 
 use std::io;
 
@@ -11,22 +11,22 @@ use solve::session::Solvers;
 
 use crate::job::{Cancel, Job, Port};
 
-/// What a verification tells.
+/// An event of a verification.
 #[derive(Debug, Clone, PartialEq)]
 pub enum VerifyEvent {
-    /// The search is so far.
+    /// The progress of the search.
     Progress(Progress),
-    /// A check is violated, at the end of this run; the report tells of it again.
+    /// A run that violates a check. The report contains it again.
     Violated(Subject, Box<Trace>),
 }
 
-/// A verification: its result is the report, or why there is none, and the keeper that was handed in.
+/// A verification: its result is the report, or why there is none, and the keeper that was passed in.
 pub type VerifyJob<K> = Job<VerifyEvent, (Result<Report, NoStart>, Option<K>)>;
 
 /// For a search that is not kept.
 pub const NO_KEEPER: Option<NoKeeper> = None;
 
-/// Nobody who keeps a search: it cannot be made.
+/// A keeper that cannot exist, for searches that are not kept.
 #[derive(Debug, Clone, Copy)]
 pub enum NoKeeper {}
 
@@ -80,14 +80,14 @@ impl<W: FnMut() -> bool> Listener for Told<'_, W> {
     }
 }
 
-/// Starts a verification. When it is cancelled it stops where it is, and its report has what it found until then. `wants` says
-/// whether it is time to be told of violations before the end, which takes a search for the run to each.
+/// Starts a verification. If cancelled, it stops where it is and reports what it found until then. `wants` tells
+/// whether to report violations before the end; each then costs a search for its run.
 ///
 /// # Errors
-/// The system gives no thread.
+/// The system cannot start a thread.
 ///
 /// # Panics
-/// There is a keeper although the request was built without one, or none although it was built with one.
+/// The request was built for a keeper and `keeper` is `None`, or the other way round.
 pub fn verify<S, K>(
     request: Request,
     cancel: Cancel,

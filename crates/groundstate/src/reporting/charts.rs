@@ -1,7 +1,7 @@
-//! The charts that a report specification names: read, drawn, and what is to be lit in them.
+//! The charts of a report specification: reads them, draws them, and finds what lights up when.
 //!
-//! In: the names of the files and of the elements that their machines work for. Out: pictures and terms in the
-//! specification. What is lit when, the charts say themselves.
+//! In: the file names, and the elements that their machines work for. Out: pictures, and terms in the specification.
+//! The charts themselves define what is lit when.
 
 use std::path::Path;
 
@@ -13,10 +13,10 @@ use syntax::{Diagnostic, Sources};
 use crate::has_errors;
 use crate::workspace::Files;
 
-/// The class of the pictures in the page.
+/// The CSS class of the pictures in the page.
 const CLASS: &str = "chart";
 
-/// Adds the charts that are wanted to the specification, which lies at `path`, and gives their faults.
+/// Adds the named charts to the specification, which lies at `path`, and returns their faults.
 pub fn add<F: Files + Loader>(
     files: &mut F,
     sources: &mut Sources,

@@ -1,6 +1,7 @@
-//! The report specification that a chart's system stands for: for a model that was built from it and has none of its own.
+//! Derives a report specification from a chart's system, for a model that was built from it and has no specification of
+//! its own.
 //!
-//! In: the chart that lies beside the model. Out: the text of a specification, as one written by hand: a lane for each
+//! In: the chart beside the model. Out: the text of a specification, like one written by hand: a lane for each
 //! component and channel, the deadlines, the picture of the system.
 
 use std::fmt::Write;
@@ -13,7 +14,7 @@ use syntax::SourceFile;
 
 use crate::has_errors;
 
-/// The text of the specification for the model that is built from this chart; none if the chart has errors, or no system.
+/// The specification for the model built from this chart; `None` if the chart has errors or no system.
 pub fn derived_specification(root: SourceFile, loader: &mut dyn Loader) -> Option<String> {
     let name = Path::new(&root.name).file_name().unwrap_or_default().to_string_lossy().into_owned();
     let loaded = chart::load(root, loader);
@@ -72,7 +73,7 @@ fn tasks(out: &mut String, system: &System) {
     );
 }
 
-/// The channels of a kind as the entries of a group.
+/// Writes the channels of a kind as the entries of a group.
 fn each(out: &mut String, system: &System, group: &str, of: impl Fn(&Channel) -> bool) -> bool {
     let channels: Vec<&Channel> = system.channels.iter().filter(|channel| of(channel)).collect();
     if channels.is_empty() {
@@ -106,7 +107,7 @@ fn queues(out: &mut String, system: &System) {
     }
 }
 
-/// Whether what was stored last in a shared value was read.
+/// Writes a series for each shared value: whether its last value has been read.
 fn values(out: &mut String, system: &System) {
     let values: Vec<&Channel> = system.channels.iter().filter(|channel| channel.kind == ChannelKind::Shared).collect();
     if values.is_empty() {
@@ -134,7 +135,7 @@ fn spoken(name: &str) -> String {
     name.replace('_', " ")
 }
 
-/// A text as a scalar of YAML: quoted as in JSON.
+/// A text as a YAML scalar, quoted as in JSON.
 fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }

@@ -1,7 +1,7 @@
-//! What scenarios add to a report: their verdicts, and what they covered of the model.
+//! What scenarios contribute to a report: their verdicts, and what they covered of the model.
 //!
-//! A thing is covered when any scenario, of whatever model, executed it at the same place of the same file: the
-//! tests of a module count for every model that imports it.
+//! A thing is covered if any scenario, of any model, executed it at the same place of the same file. So the tests of a
+//! module count for every model that imports it.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use syntax::{Severity, Sources, Span};
 
 use crate::{Suite, Tested, diagnose_failure};
 
-/// A scenario that was run, as the report shows it; `file` is where it stands.
+/// The result of a scenario, as the report shows it; `file` is its path.
 pub fn reported_scenario(file: String, tested: &Tested) -> Scenario {
     let (held, broken) = tested.verdict.as_ref().map_or((0, 0), |verdict| verdict.checks);
     let verdict = match tested.verdict.as_ref().map(|verdict| &verdict.judgement) {
@@ -28,7 +28,7 @@ pub fn reported_scenario(file: String, tested: &Tested) -> Scenario {
     }
 }
 
-/// The first thing that is wrong, and where.
+/// The first fault, and its place.
 fn why(tested: &Tested) -> String {
     let failures = match (&tested.verdict, &tested.program) {
         (Some(verdict), Some(program)) => {
@@ -41,14 +41,14 @@ fn why(tested: &Tested) -> String {
         .map_or_else(String::new, |found| format!("{}: {}", tested.sources.position(found.primary.span), found.message))
 }
 
-/// A thing in a text, whatever model it was read for.
+/// A thing in a text, whichever model it was read for.
 type Thing = (String, u32, u32, &'static str);
 
 fn thing(sources: &Sources, span: Span, what: &'static str) -> Thing {
     (sources.file(span.file).name.clone(), span.start, span.end, what)
 }
 
-/// What so many scenarios covered of the model that `is_reported` is true of, by the name of its file.
+/// What the scenarios covered of the model whose file name `is_reported` accepts; `scenarios` is how many ran.
 pub fn reported_coverage(suite: &Suite, is_reported: &dyn Fn(&str) -> bool, scenarios: usize) -> Option<Coverage> {
     let mut anywhere: BTreeMap<Thing, bool> = BTreeMap::new();
     let mut own: Option<(&Sources, Items)> = None;

@@ -1,7 +1,8 @@
-//! A run of a model as a report: what a specification says is to be shown, held to the model, then followed step by step.
+//! Makes the report of a run: checks the specification against the model, then follows the run step by step.
 //!
-//! In: a report specification, an [`Overlay`] of its model, [`Files`] for the charts that it names; the records of a run.
-//! Out: a [`Report`], or all faults of the specification. What a shell knows of the run beside, it adds to the report.
+//! In: a report specification, an [`Overlay`] of its model, [`Files`] for the charts that it names; the records of a
+//! run. Out: a [`Report`], or all faults of the specification. The shell adds to the report what else it knows of the
+//! run.
 
 mod charts;
 mod derived;
@@ -26,16 +27,16 @@ pub use derived::derived_specification;
 pub use evidence::{reported_coverage, reported_scenario};
 pub use recorded::{held_in_words, run_name};
 
-/// What reading a specification came to.
+/// The result of reading a specification.
 #[derive(Debug)]
 pub struct Prepared {
-    /// Ready for a run; none if a fault is an error.
+    /// Ready for a run; `None` if a fault is an error.
     pub reporter: Option<Reporter>,
-    /// Its faults, and those of the charts that it names.
+    /// The faults of the specification and of the charts that it names.
     pub faults: Vec<Diagnostic>,
 }
 
-/// Reads a specification and checks it against its model. What it names is looked for beside it.
+/// Reads a specification and checks it against its model. Files that it names are looked up beside it.
 ///
 /// # Errors
 /// A chart that it names cannot be drawn.
@@ -93,7 +94,7 @@ impl Reporter {
         })
     }
 
-    /// Takes in the record that `run` has just made.
+    /// Records what `run` has just done.
     pub fn note(&mut self, record: &Record, run: &mut Run, sources: &Sources) {
         match record {
             Record::Initial { violations, .. } => {
@@ -134,17 +135,17 @@ impl Reporter {
         }
     }
 
-    /// Whether the run met a fault, or violated an invariant.
+    /// Whether the run met a fault or violated an invariant.
     pub fn is_at_fault(&self) -> bool {
         self.at_fault
     }
 
-    /// Whether somebody stopped the run.
+    /// Whether the run was stopped from outside.
     pub fn was_interrupted(&self) -> bool {
         self.interrupted
     }
 
-    /// The report of what was noted.
+    /// The report of what was recorded.
     pub fn finish(self) -> Report {
         let mut report = self.builder.finish(&self.program.name);
         report.invariants = self.invariants;

@@ -1,9 +1,9 @@
-//! Runs of a program that was made for a model, as their report tells them.
+//! Names and verdicts of a program's runs, as its report shows them.
 
 use conform::{Parted, Recording, Verdict, Way};
 use report::{Held, ProgramRun};
 
-/// What tells a run from the others.
+/// A name that distinguishes a run from the others.
 pub fn run_name(recording: &Recording, others: &[ProgramRun]) -> String {
     let name = if recording.pace == "real" { "real time" } else { "virtual time" };
     match others.iter().filter(|run| run.name.starts_with(name)).count() {
@@ -12,7 +12,7 @@ pub fn run_name(recording: &Recording, others: &[ProgramRun]) -> String {
     }
 }
 
-/// A verdict, as the page says it.
+/// A verdict, in the words of the page.
 pub fn held_in_words(verdict: &Verdict, way: Way, recording: &Recording) -> Held {
     let (way, many) = (way.words(), |n: usize| report::count(n as u64));
     match verdict {

@@ -1,6 +1,6 @@
 //! The terms of a report specification: checked against a model, evaluated in each state.
 //!
-//! In: terms with their places. Out: to the [`ReportBuilder`], the values that changed.
+//! In: terms with their places. Out: the values that changed, to the [`ReportBuilder`].
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -32,7 +32,7 @@ impl Watch {
         for text in terms {
             match lower(asked, text, places[text]) {
                 Ok(term) => lowered.push(term),
-                // A term with `{}` stands for many; what is wrong with it is told once.
+                // A term with `{}` stands for many; its faults are reported once.
                 Err(found) => found.into_iter().for_each(|fault| {
                     if !faults.contains(&fault) {
                         faults.push(fault);
@@ -47,7 +47,7 @@ impl Watch {
         Ok(Watch { terms: lowered, values })
     }
 
-    /// Looks at the present state. What cannot be evaluated in it (an input that nobody gave) is undef.
+    /// Evaluates the terms in the present state. A term that cannot be evaluated, for want of an input, is undef.
     pub fn look(&mut self, machine: &mut Machine, builder: &mut ReportBuilder) {
         for (index, (term, last)) in self.terms.iter().zip(&mut self.values).enumerate() {
             let value = machine.evaluate(term, &mut Closed).unwrap_or(Value::Undef);
@@ -60,7 +60,7 @@ impl Watch {
 }
 
 fn lower(asked: &mut Overlay, text: &str, place: Span) -> Result<Expression, Vec<Diagnostic>> {
-    // As many blanks before the term as the file has bytes: places in the term are places in the file.
+    // Padding the term with blanks up to its place makes its places those of the file.
     let padded = " ".repeat(place.start as usize) + text;
     let parsed = syntax::parse_term(place.file, &padded);
     if has_errors(&parsed.diagnostics) {
@@ -78,7 +78,7 @@ fn lower(asked: &mut Overlay, text: &str, place: Span) -> Result<Expression, Vec
     lowered.map_err(|faults| within(faults, place))
 }
 
-/// A name put in for `{}` moves what follows it: places are kept within what the file has.
+/// A name put in for `{}` moves what follows it, so places are clamped to the term's place in the file.
 fn within(mut faults: Vec<Diagnostic>, place: Span) -> Vec<Diagnostic> {
     let kept = |span: &mut Span| {
         if span.file == place.file {

@@ -1,6 +1,6 @@
-//! What scenarios did not cover of a model, in words.
+//! Lists in words what scenarios did not cover of a model.
 //!
-//! In: the things that there are to cover. Out: those that were not covered, each with its place.
+//! In: the things to cover. Out: those that were not covered, each with its place.
 
 use scenario::{Forall, Item, Items};
 use syntax::{Sources, Span};
@@ -8,15 +8,15 @@ use syntax::{Sources, Span};
 /// Something that no scenario covered.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Uncovered<'a> {
-    /// What of the rule.
+    /// Which part of the rule.
     pub what: String,
     /// The rule.
     pub rule: &'a str,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
 }
 
-/// What was not covered, in the order of the texts. What lies in a rule that never ran is left out.
+/// What was not covered, in the order of the texts. Parts of a rule that never ran are left out.
 pub fn uncovered<'a>(sources: &Sources, items: &'a Items) -> Vec<Uncovered<'a>> {
     let missing = |rule: &'a str, what: String, span: Span| Uncovered { what, rule, span };
     let item = |item: &'a Item| {
@@ -38,7 +38,7 @@ pub fn uncovered<'a>(sources: &Sources, items: &'a Items) -> Vec<Uncovered<'a>> 
             .collect();
         (!never.is_empty()).then(|| missing(&forall.rule, format!("forall with {}", never.join(" or ")), forall.span))
     }));
-    // What lies in a rule that never ran at all says nothing more.
+    // The parts of a rule that never ran say nothing more.
     let dead: Vec<&str> = items.rules.iter().filter(|item| !item.covered).map(|item| item.rule.as_str()).collect();
     all.retain(|missing| missing.what == "the whole" || !dead.contains(&missing.rule));
     all.sort_by_key(|missing| missing.span);

@@ -1,7 +1,7 @@
-//! What happened, as text for people.
+//! Describes what happened, as text for people.
 //!
-//! In: records of runs and what else the operations hand over. Out: lines, which a shell writes where it will. It must not know terminals;
-//! colours are asked for.
+//! In: records of runs and other results of the operations. Out: lines, for a shell to write. It must not know
+//! terminals; the caller asks for colours.
 
 mod coverage;
 mod parting;

@@ -1,12 +1,12 @@
-//! Where a run parts from its trace, in words.
+//! Describes where a run differs from its trace.
 //!
-//! In: the first record that differs, then and now. Out: the first thing in it that does.
+//! In: the first record that differs, in both versions. Out: the first difference in it.
 
 use machine::{Location, Show, Value};
 use program::Program;
 use simulate::{Parted, Record, StepRecord};
 
-/// The first thing that differs: in the trace, and now.
+/// The first difference: in the trace, and now.
 pub fn parting(parted: &Parted, program: &Program) -> (String, String) {
     match (parted.expected.as_ref(), parted.actual.as_deref()) {
         (Record::Step(then), Some(Record::Step(now))) => describe_steps(then, now, program),

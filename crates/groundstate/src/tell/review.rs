@@ -1,4 +1,4 @@
-//! What each meta-property of a review says.
+//! The meaning of each meta-property of a review.
 
 use verify::review::Meta;
 

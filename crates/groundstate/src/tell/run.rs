@@ -1,7 +1,7 @@
-//! A run as text for people: what came in, what was chosen, what changed.
+//! Describes a run as text for people: inputs, choices, changes.
 //!
-//! In: records as they come, with the state after each where all of it is to be told. Out: lines. INVARIANT: they depend on the records
-//! alone, so that a replay tells the same.
+//! In: records as they come, with the state after each if it is to be shown. Out: lines. INVARIANT: they depend on the
+//! records alone, so a replay prints the same.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -14,7 +14,7 @@ use syntax::Span;
 
 use super::plural;
 
-/// How much of the state is told.
+/// How much of the state is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Detail {
     /// The whole state after every step
@@ -25,7 +25,7 @@ pub enum Detail {
     None,
 }
 
-/// Tells records.
+/// Describes records.
 #[derive(Debug)]
 pub struct Narrator<'a> {
     detail: Detail,
@@ -34,7 +34,7 @@ pub struct Narrator<'a> {
     /// The variables that each choose rule binds, by its place.
     binders: BTreeMap<Span, Vec<String>>,
     until: Option<String>,
-    /// The steps in which nothing was taken in and nothing changed, still to be told.
+    /// The range of steps, not shown yet, in which nothing was read and nothing changed.
     quiet: Cell<Option<(u64, u64)>>,
 }
 
@@ -49,20 +49,22 @@ const RED: &str = "\x1b[31m";
 const RESET: &str = "\x1b[0m";
 
 impl<'a> Narrator<'a> {
-    /// Nothing has been told yet. `until` is the condition that the run may end with, `is_colored` is for terminals.
+    /// A narrator at the beginning of a run. `until` is the condition that may end the run; set `is_colored` for
+    /// terminals.
     pub fn new(program: &'a Program, detail: Detail, until: Option<String>, is_colored: bool) -> Narrator<'a> {
         let binders = crate::choice_variables(program);
         Narrator { detail, is_colored, program, binders, until, quiet: Cell::new(None) }
     }
 
-    /// Whether all of each state is told.
+    /// Whether [`record`](Narrator::record) needs the state.
     pub fn wants_state(&self) -> bool {
         self.detail == Detail::All
     }
 }
 
 impl Narrator<'_> {
-    /// A record as lines; none where it is told together with those that follow. `steps` have been made, and `state` is that after it.
+    /// A record as lines; empty if it will be shown together with those that follow. `steps` have been made; `state` is
+    /// the state after it.
     pub fn record(&self, record: &Record, steps: u64, state: Option<&State>) -> String {
         let mut out = String::new();
         let _ = self.write(&mut out, record, steps, state.unwrap_or_default());
@@ -109,7 +111,7 @@ impl Narrator<'_> {
         }
     }
 
-    /// A state, as it can be looked at between two steps.
+    /// A state, shown between two steps.
     pub fn state(&self, state: &State) -> String {
         let line = |(location, value): &(Location, Value)| {
             format!("{} = {}", location.show(self.program), value.show(self.program))
@@ -117,7 +119,7 @@ impl Narrator<'_> {
         listed(state.iter().map(line))
     }
 
-    /// What a step changed, as it can be looked at after it.
+    /// What a step changed, shown after it.
     pub fn updates(&self, step: &StepRecord) -> String {
         listed(step.changes.iter().map(|change| {
             let (before, after) = (change.before.show(self.program), change.after.show(self.program));
@@ -125,14 +127,14 @@ impl Narrator<'_> {
         }))
     }
 
-    /// Steps in which nothing happened are told as one.
+    /// Shows consecutive steps in which nothing happened as one.
     fn tell_quiet(&self, out: &mut String) -> fmt::Result {
         let Some((first, last)) = self.quiet.take() else { return Ok(()) };
         let steps = if first == last { format!("step {first}") } else { format!("steps {first} to {last}") };
         writeln!(out, "{}\n  {}", self.paint(BOLD, &steps), self.paint(DIM, "no change"))
     }
 
-    /// What a step took from outside.
+    /// What a step read from the environment.
     fn taken(&self, out: &mut String, step: &StepRecord) -> fmt::Result {
         self.values(out, "in", CYAN, &step.inputs)?;
         self.values(out, "in", CYAN, &step.writes)?;
@@ -181,7 +183,7 @@ impl Narrator<'_> {
             )?;
         }
         if step.changes.is_empty() {
-            // If the state changed all the same, a domain grew.
+            // If the state changed without a changed location, a domain grew.
             let what = if step.changed { "new elements only" } else { "no change" };
             writeln!(out, "  {}", self.paint(DIM, what))?;
         }

@@ -1,4 +1,4 @@
-//! The run of a scenario that failed, as text for people.
+//! Describes the run of a scenario that failed, as text for people.
 
 use std::fmt::{self, Write};
 
@@ -6,7 +6,7 @@ use machine::{Location, Show, Value};
 use program::Program;
 use scenario::{Passage, PassageKind, Story};
 
-/// Tells a run: the initial state, then of each step its inputs, its choices and what it changed.
+/// Describes a run: the initial state, then each step's inputs, choices and changes.
 pub fn story(program: &Program, story: &Story) -> String {
     let mut out = String::new();
     let _ = write(&mut out, program, story);

@@ -1,8 +1,8 @@
-//! Which walks are kept: few and short ones that together meet every need that some walk meets.
+//! Selects few and short walks that together meet every need that some walk meets.
 //!
-//! In: walks. Out: some of them, cut after the last step that they are kept for. The choice is greedy (V. Chvátal, *A greedy
-//! heuristic for the set-covering problem*, 1979): the walk that meets the most needs that are open, of equal ones the
-//! shortest, the first; then each is left out, or cut, that the others make superfluous.
+//! In: walks. Out: some of them, each cut after the last step that it is needed for. The choice is greedy (V. Chvátal,
+//! *A greedy heuristic for the set-covering problem*, 1979): take the walk that meets the most open needs; of equals
+//! the shortest, then the first. Then leave out or cut each walk that the others make superfluous.
 
 use std::collections::BTreeSet;
 
@@ -41,7 +41,7 @@ impl Candidate {
         self.meets.iter().flatten().copied().collect()
     }
 
-    /// Leaves out the steps after the last one that meets a need that nothing else meets.
+    /// Cuts the steps after the last one that meets a need that nothing else meets.
     fn cut(&mut self, others: &BTreeSet<Need>) {
         let mut met = others.clone();
         let mut length = 0;

@@ -1,8 +1,8 @@
-//! What tests are to reach: everything that the coverage of scenarios counts, conditions that decide, transitions.
+//! The goals of generated tests: everything that the coverage of scenarios counts, conditions that decide, transitions.
 //!
-//! In: a model, of which [`scenario::wanted`] says what there is to cover; what was seen to happen. Out: [`Goal`]s. A goal
-//! has [`Need`]s: a condition that is to decide needs two decisions, everything else one event. A rule is one, by its place
-//! in the text, however often it stands in the program.
+//! In: a model, for which [`scenario::wanted`] lists what to cover; what was seen to happen. Out: [`Goal`]s. A goal has
+//! [`Need`]s: a condition that decides needs two decisions, everything else one event. A rule is identified by its
+//! place in the text, so its copies in the program count as one.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ use scenario::{Evidence, Wanted, WantedKind, wanted};
 use syntax::{FileId, Span};
 use verify::survey::{Sighting, guards};
 
-/// What kind of thing is to be reached.
+/// The kinds of goals.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum GoalKind {
     /// A declared rule runs.
@@ -44,7 +44,7 @@ impl GoalKind {
     }
 }
 
-/// Something to be reached.
+/// Something to reach.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Goal {
     /// What kind it is.
@@ -53,9 +53,9 @@ pub struct Goal {
     pub rule: String,
     /// Where.
     pub span: Span,
-    /// What has to happen, all of it.
+    /// The events that must all happen.
     pub(super) needs: Vec<Need>,
-    /// It can be.
+    /// Whether it can be reached.
     pub reached: bool,
 }
 
@@ -68,13 +68,13 @@ pub(super) enum Need {
     Turned(DomainId, u32, u32),
 }
 
-/// A transition of a chart: an update puts one literal of an enum domain in the place of another. LIMIT: transitions with the
+/// A transition of a chart: an update replaces one literal of an enum domain by another. LIMIT: transitions with the
 /// same control states are not told apart.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Turn {
-    /// As it is told.
+    /// Its name in messages.
     pub name: String,
-    /// Where it is told.
+    /// Its place in messages.
     pub span: Span,
     /// The domain of the control states.
     pub domain: DomainId,
@@ -94,7 +94,8 @@ pub(super) fn needs_met(program: &Program, observation: Observation) -> impl Ite
     need.into_iter()
 }
 
-/// All goals of the files that `own` accepts, in the order of the text; those that something seen reaches are marked.
+/// All goals in the files that `own` accepts, in the order of the text; those that were seen to happen are marked as
+/// reached.
 pub(super) fn goals(
     model: &Model,
     program: &Program,
@@ -135,7 +136,7 @@ fn covers(outer: Span, inner: Span) -> bool {
     outer.file == inner.file && outer.start <= inner.start && inner.end <= outer.end
 }
 
-/// What scenarios are counted by, as a goal.
+/// What scenario coverage counts, as a goal.
 fn goal(wanted: &Wanted<'_>) -> Goal {
     let kind = match wanted.kind {
         WantedKind::Rule => GoalKind::Rule,

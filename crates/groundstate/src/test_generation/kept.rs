@@ -1,4 +1,4 @@
-//! Which of the generated scenarios are kept.
+//! Decides which of the generated scenarios are kept.
 
 use machine::Limits;
 use model::Loader;
@@ -7,8 +7,8 @@ use syntax::SourceFile;
 
 use crate::{SeededChoices, Suite};
 
-/// Whether a scenario passes whatever is chosen where it picks nothing: one that does not needs a choice that no scenario can pick. What
-/// it covers is added to the suite if it does.
+/// Whether a scenario passes with different choices where it picks nothing. If it does not, it depends on a choice that
+/// no scenario can pick. If it passes, its coverage is added to the suite.
 pub fn passes_whatever_is_chosen(
     suite: &mut Suite,
     source: &SourceFile,
@@ -23,6 +23,6 @@ pub fn passes_whatever_is_chosen(
         };
         tested.passed()
     };
-    // The last time as `groundstate test --coverage` will run it.
+    // The last run chooses as `groundstate test --coverage` will.
     [None, Some(1), Some(2)].into_iter().all(|seed| passes(false, seed)) && passes(true, Some(0))
 }

@@ -1,8 +1,8 @@
-//! Tests made from a model: scenarios that reach its rules, branches, updates, conditions and transitions.
+//! Generates tests from a model: scenarios that reach its rules, branches, updates, conditions and transitions.
 //!
-//! In: a loaded model and how to look for what can be reached. Out: [`Generated`] scenarios as texts, and each [`Goal`] with
-//! whether they reach it. INVARIANT: a goal counts as reached only by steps that can be made, in states in which every
-//! invariant holds, so that the scenarios pass.
+//! In: a loaded model and a method of search. Out: [`Generated`] scenarios as texts, and for each [`Goal`] whether they
+//! reach it. INVARIANT: only steps that can be made, in states that satisfy every invariant, reach a goal, so the
+//! scenarios pass.
 
 mod cover;
 mod goals;
@@ -27,16 +27,16 @@ pub use goals::{Goal, GoalKind, Turn};
 pub use kept::passes_whatever_is_chosen;
 pub use turns::chart_turns;
 
-/// How what can be reached is looked for.
+/// How to search for goals.
 #[derive(Debug, Clone, Copy)]
 pub enum Method {
-    /// All states, nearest first.
+    /// Explore all states breadth-first.
     Search,
-    /// This many walks of so many steps, from a seed.
+    /// Make random walks: the number of walks, the steps of each, the seed.
     Random(u64, usize, u64),
 }
 
-/// A scenario.
+/// A generated scenario.
 #[derive(Debug, Clone)]
 pub struct Generated {
     /// Its name.
@@ -54,26 +54,26 @@ pub struct Tests {
     pub scenarios: Vec<Generated>,
     /// What there is to reach, in the order of the text.
     pub goals: Vec<Goal>,
-    /// How far the search came; none for walks at random.
+    /// How far the search came; `None` for random walks.
     pub progress: Option<Progress>,
-    /// Why a goal that is not reached may still be reachable; empty where every state was met.
+    /// Why goals that were not reached may still be reachable; empty if every state was explored.
     pub reasons: Vec<Reason>,
 }
 
-/// What tests are made of.
+/// The model to generate tests for.
 #[derive(Debug, Clone, Copy)]
 pub struct Subject<'a> {
     /// The model.
     pub model: &'a Model,
-    /// The same to run.
+    /// The program.
     pub program: &'a Arc<Program>,
     /// The transitions of its charts.
     pub turns: &'a [Turn],
-    /// The path of the model as a scenario is to load it.
+    /// The path that scenarios load the model by.
     pub path: &'a str,
 }
 
-/// Makes tests for the parts of a model that stand in files that `own` accepts.
+/// Generates tests for the parts of a model in files that `own` accepts.
 ///
 /// # Errors
 /// There is no initial state.
@@ -101,7 +101,7 @@ pub fn generate_tests(
             for (need, sighting) in needs.iter().filter(|(need, _)| wanted.contains(need)) {
                 first.entry(need).or_insert(sighting);
             }
-            // One sighting may be the first of several needs; a walk to it is made once.
+            // One sighting may be the first of several needs; its walk is made once.
             let mut walked: Vec<&Sighting> = Vec::new();
             for sighting in first.into_values() {
                 if !walked.iter().any(|other| other.same_step(sighting)) {

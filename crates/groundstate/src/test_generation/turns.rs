@@ -5,7 +5,7 @@ use model::{DomainKind, Model};
 
 use crate::test_generation::Turn;
 
-/// The transitions from a control state to another of the charts that the model's rules are.
+/// The transitions between different control states in the charts that the model's rules form.
 pub fn chart_turns(model: &Model) -> Vec<Turn> {
     let literal = |name: &str| {
         model.domains.iter().find_map(|(id, domain)| match &domain.kind {

@@ -1,4 +1,4 @@
-//! A generated test as text: inputs and choices before each step, what it changes as checks after it.
+//! Writes a generated test: inputs and choices before each step, checks of what changed after it.
 
 use std::fmt::Write;
 
@@ -29,7 +29,7 @@ pub(super) fn scenario(subject: &Subject<'_>, number: usize, trace: &Trace, goal
                 None => state.push((location.clone(), after.clone())),
             }
         }
-        // That nothing changes is something to check, too.
+        // That nothing changes is worth checking, too.
         if step.changes.is_empty() {
             state.iter().for_each(|(location, value)| check(&mut text, program, location, value));
         }
@@ -37,7 +37,7 @@ pub(super) fn scenario(subject: &Subject<'_>, number: usize, trace: &Trace, goal
     Generated { name, text, steps: trace.steps.len() }
 }
 
-/// Checks the value that a location has now, as far as a term can say it.
+/// Checks the present value of a location, if a term can express it.
 fn check(text: &mut String, program: &Program, location: &Location, value: &Value) {
     let function = program.function(location.function);
     let said = is_written(program, value) && location.arguments.iter().all(|argument| is_written(program, argument));
