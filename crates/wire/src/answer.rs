@@ -1,53 +1,53 @@
 //! Small objects: the answers of single commands.
 //!
-//! In: what a command came to. Out: an object, whose `type` tells what it is of.
+//! In: the result of a command. Out: an object, whose `type` names its kind.
 
 use serde::Serialize;
 
-/// An object of the command's output; the variant's name in small letters is its `type`.
+/// An object of a command's output; its `type` is the variant's name in lower case.
 #[derive(Debug, Serialize)]
 #[serde(tag = "type", rename_all = "lowercase")]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub enum Answer<'a> {
-    /// Faults that are not shown.
+    /// Further faults that are not shown.
     More {
         /// How many.
         faults: usize,
     },
-    /// What `check` came to.
+    /// The result of `check`.
     #[serde(rename = "summary")]
     Checked {
-        /// Those that were looked at.
+        /// The files that were checked.
         files: usize,
         /// In all files.
         errors: usize,
         /// In all files.
         warnings: usize,
     },
-    /// What `test` came to.
+    /// The result of `test`.
     #[serde(rename = "summary")]
     Tested {
-        /// Scenarios whose checks hold, or that fail as they are to.
+        /// Scenarios that pass, or fail as they should.
         passed: usize,
-        /// Scenarios that do not, or have faults.
+        /// Scenarios that do not, or that have faults.
         failed: usize,
-        /// Scenarios that were left when the command was interrupted.
+        /// Scenarios that had not run when the command was interrupted.
         not_run: usize,
     },
-    /// What `fmt` did with a file, or with `--check` would do.
+    /// What `fmt` did with a file, or with `--check` what it would do.
     Formatted {
         /// Its path.
         file: &'a str,
-        /// Whether it was formatted otherwise.
+        /// Whether formatting changes the file.
         changed: bool,
     },
-    /// Where a replay parts from its trace.
+    /// Where a replay first differs from its trace.
     Parted {
         /// The first step that differs.
         step: u64,
-        /// What it came to in the trace.
+        /// What happens at that step in the trace.
         trace: &'a str,
-        /// What it comes to now.
+        /// What happens at that step now.
         now: &'a str,
     },
     /// The page of a kind of fault.
@@ -56,7 +56,7 @@ pub enum Answer<'a> {
         id: &'a str,
         /// The page's title.
         title: &'a str,
-        /// The page in Markdown, where one page is asked for.
+        /// The page in Markdown; absent in the list of all pages.
         #[serde(skip_serializing_if = "Option::is_none")]
         text: Option<&'a str>,
     },

@@ -1,6 +1,6 @@
 //! The verdict of `conform` as JSON.
 //!
-//! In: a [`Verdict`], and the texts that its claims stand in. Out: [`Conformance`].
+//! In: a [`Verdict`], and the texts that its claims point into. Out: [`Conformance`].
 
 use ::conform::{Event, Parted, Verdict};
 use serde::Serialize;
@@ -12,13 +12,13 @@ use syntax::Sources;
 pub struct Conformance {
     #[cfg_attr(test, schemars(extend("const" = "conformance")))]
     r#type: &'static str,
-    /// As `type`, by which this object was not known before.
+    /// The same as `type`, for readers of the former key.
     #[cfg_attr(test, schemars(extend("const" = "conformance")))]
     kind: &'static str,
     verdict: &'static str,
     way: String,
     events: usize,
-    /// Of a run that conforms: those after its tasks were asked to stop, which are not compared.
+    /// If the run conforms: how many events came after its tasks were asked to stop; these are not compared.
     #[serde(skip_serializing_if = "Option::is_none")]
     after: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -27,7 +27,7 @@ pub struct Conformance {
     parts: Option<Parts>,
 }
 
-/// Where program and model part.
+/// Where program and model differ.
 #[derive(Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 struct Parts {
@@ -51,7 +51,7 @@ struct Told {
 }
 
 impl Conformance {
-    /// The verdict of a run that was followed in this way.
+    /// The verdict of a run that was compared in this way.
     pub fn new(sources: &Sources, verdict: &Verdict, way: &str) -> Conformance {
         let (word, events, reason, parts) = match verdict {
             Verdict::Conforms { events, .. } => ("conforms", *events, None, None),

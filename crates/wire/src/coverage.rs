@@ -36,7 +36,7 @@ struct Uncovered<'a> {
 }
 
 impl<'a> Coverage<'a> {
-    /// What was covered of the model in this file.
+    /// The coverage of the model in this file.
     pub fn new(model: &'a str, sources: &Sources, items: &'a Items) -> Coverage<'a> {
         let totals = items.totals();
         let total = |&(kind, ref covered): &(&'static str, ::scenario::Coverage)| Total {

@@ -1,12 +1,12 @@
 //! Faults and failures as JSON objects.
 //!
-//! In: diagnostics with their texts; of a failure of the world what the shell says of it. Out: [`Fault`], [`WorldFailure`].
+//! In: diagnostics with their texts; for a failure of the world, the shell's words. Out: [`Fault`], [`WorldFailure`].
 
 use serde::Serialize;
 use syntax::{Diagnostic, Severity, Sources, Span};
 
-/// A range of a source text; lines and columns count from 1, columns in characters, the end is the first
-/// character behind the range.
+/// A range of a source text. Lines and columns count from 1, columns in characters. The end is the first character
+/// after the range.
 #[derive(Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Place {
@@ -77,7 +77,7 @@ impl<'a> Fault<'a> {
     }
 }
 
-/// `{"type":"failure",…}`: not the model's.
+/// `{"type":"failure",…}`: a failure of the world, not of the model.
 #[derive(Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct WorldFailure {

@@ -1,10 +1,10 @@
-//! What `generate-tests` comes to, as JSON objects.
+//! The results of `generate-tests`, as JSON objects.
 
 use serde::Serialize;
 
 use crate::Place;
 
-/// `{"type":"goal",…}`: something that there is to reach.
+/// `{"type":"goal",…}`: something to reach.
 #[derive(Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Goal<'a> {
@@ -19,7 +19,7 @@ pub struct Goal<'a> {
 }
 
 impl<'a> Goal<'a> {
-    /// Of what kind it is and which of them, of which rule, where, and whether it is reached.
+    /// A goal: its kind, which one of that kind, its rule, its place, and whether it is reached.
     pub fn new(kind: &'static str, what: &str, of: &'a str, at: Place, outcome: &'static str) -> Goal<'a> {
         Goal { r#type: "goal", kind, what: what.to_string(), of, at, outcome }
     }
@@ -36,7 +36,7 @@ pub struct Generated {
 }
 
 impl Generated {
-    /// A scenario of so many steps at this path.
+    /// A scenario of this many steps at this path.
     pub fn new(path: String, steps: usize) -> Generated {
         Generated { r#type: "generated", path, steps }
     }

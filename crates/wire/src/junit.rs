@@ -1,7 +1,7 @@
-//! Test results as JUnit XML, the dialect that continuous integration servers read. No times, so that the same
-//! results give the same bytes.
+//! Test results as JUnit XML, the dialect that continuous integration servers read. It contains no times, so that the
+//! same results give the same bytes.
 //!
-//! In: scenarios that were tested, and their faults as text. Out: a document.
+//! In: the results of scenarios, and their faults as text. Out: a document.
 
 use std::fmt::Write;
 
@@ -33,7 +33,7 @@ impl Junit {
             self.cases.push_str("/>\n");
             return;
         }
-        // Those that could not be run at all are errors, the others failures.
+        // Scenarios that could not run are errors, the others failures.
         let element = if tested.verdict.is_some() { "failure" } else { "error" };
         if tested.verdict.is_some() {
             self.failures += 1

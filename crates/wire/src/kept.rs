@@ -4,12 +4,12 @@
 
 use crate::Line;
 
-/// See the module.
+/// Collects the lines.
 #[derive(Debug, Default)]
 pub struct Kept(Vec<Line>);
 
 impl Kept {
-    /// Adds a line. A [`Line::Back`] takes the step before it away, if the last thing was one.
+    /// Adds a line. A [`Line::Back`] removes the step before it, if there is one.
     pub fn add(&mut self, line: Line) {
         match line {
             Line::Back { .. } => {
@@ -21,7 +21,7 @@ impl Kept {
         }
     }
 
-    /// The lines that are left.
+    /// The remaining lines.
     pub fn into_lines(self) -> Vec<Line> {
         self.0
     }
@@ -36,7 +36,7 @@ mod tests {
         let line = |text: &str| serde_json::from_str::<Line>(text).expect("a line");
         let mut kept = Kept::default();
         kept.add(line(r#"{"type":"state","values":{}}"#));
-        // Nothing has been made yet.
+        // No step has been made yet.
         kept.add(Line::Back { step: 1 });
         kept.add(line(r#"{"type":"step","step":1}"#));
         kept.add(line(r#"{"type":"step","step":2}"#));

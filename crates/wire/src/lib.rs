@@ -1,8 +1,10 @@
-//! What is written as JSON, and read back: traces, states, faults, verdicts, the answers of single commands; test results as JUnit XML.
+//! Everything that is written as JSON and read back: traces, states, faults, verdicts, the answers of single commands;
+//! test results as JUnit XML.
 //!
-//! In: the types of the crates below. Out: types that `serde` writes, each an object with its `type`; of traces also what they
-//! were made of. Versioned; documented in docs/cli.md and spec/trace.md, their JSON Schema in `schema/`. The types of the crates below are not serialised
-//! themselves, so that they can change while the format stays. It must not know files or who reads what is written.
+//! In: the types of the crates below. Out: types that `serde` writes, each an object with its `type`. Traces are also
+//! read back. The formats have versions; docs/cli.md and spec/trace.md document them, and `schema/` has their JSON
+//! Schema. The types of the crates below are not serialised themselves, so that they can change while the format stays.
+//! It must not know files or who reads the output.
 
 mod answer;
 mod conformance;
@@ -34,6 +36,6 @@ pub use run::{RunFile, RunTold, Unseen};
 pub use trace::{Ending, Head, Line, Pairs, Reader, State, Step, VERSION, Wire};
 pub use verification::{Assumed, DomainLine, Explored, ExploredLine, RunChange, RunStep, Verdict};
 
-/// The version of the objects that commands write. It is raised by a change that a reader of the objects would misread: a key or a type
-/// that goes, or means another thing. New keys and types do not raise it.
+/// The version of the objects that commands write. A change that would mislead a reader raises it: a key or a type is
+/// removed or changes its meaning. New keys and types do not raise it.
 pub const OUTPUT_VERSION: u32 = 1;

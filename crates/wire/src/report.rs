@@ -1,4 +1,4 @@
-//! What a report shows, in short, as JSON objects.
+//! Summaries of reports and measurements, as JSON objects.
 
 use serde::Serialize;
 
@@ -15,7 +15,7 @@ pub struct ReportMade<'a> {
 }
 
 impl<'a> ReportMade<'a> {
-    /// The report of a run, and the files that it was written to.
+    /// The report of a run, and the files it was written to.
     pub fn new(report: &'a report::Report, files: Vec<String>) -> ReportMade<'a> {
         let troubles = report.troubles();
         ReportMade { files, model: &report.model, steps: report.ticks, troubles, r#type: "report" }
@@ -45,7 +45,7 @@ struct RunOfProgram<'a> {
 }
 
 impl<'a> ProgramReported<'a> {
-    /// The report of a program's runs, and the files that it was written to.
+    /// The report of a program's runs, and the files it was written to.
     pub fn new(program: &'a report::Program, files: Vec<String>) -> ProgramReported<'a> {
         let run = |run: &'a report::ProgramRun| RunOfProgram {
             conforms: run.verdict.as_ref().and_then(|held| held.conforms),
@@ -71,10 +71,10 @@ pub struct Measured {
     pub lowest: f64,
     pub highest: f64,
     pub windows: u32,
-    /// The steps that the digest is after.
+    /// The number of steps after which the digest was taken.
     pub steps: u64,
     pub digest: String,
-    /// Of all steps, how many in a hundred changed the state.
+    /// The percentage of steps that changed the state.
     pub changed_percent: f64,
     pub updates_per_step: f64,
     pub restarts: u64,

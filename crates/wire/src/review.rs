@@ -1,4 +1,4 @@
-//! What a review finds, as JSON objects.
+//! The findings of a review, as JSON objects.
 
 use serde::Serialize;
 
@@ -17,7 +17,7 @@ pub struct Finding<'a> {
 }
 
 impl<'a> Finding<'a> {
-    /// What violates the meta-property of this number, and the run that shows it.
+    /// A violation of the meta-property of this number, and a run that shows it.
     pub fn new(meta: usize, finding: Fault<'a>, witness: Option<Vec<RunStep>>) -> Finding<'a> {
         Finding { r#type: "finding", meta: format!("MP{meta}"), finding, witness }
     }
@@ -38,7 +38,7 @@ pub struct MetaProperty {
 }
 
 impl MetaProperty {
-    /// What became of the meta-property of this number, and why it is not known.
+    /// The outcome for the meta-property of this number, and why it is unknown.
     pub fn new(meta: usize, outcome: &'static str, findings: usize, reasons: Vec<String>) -> MetaProperty {
         MetaProperty { r#type: "meta-property", meta: format!("MP{meta}"), outcome, findings, reasons }
     }

@@ -1,7 +1,7 @@
-//! The JSON of a run (spec/run.md) → what a controller did to its world.
+//! Reads the JSON of a run (spec/run.md): what a controller did to its world.
 //!
-//! In: the bytes of the file, and whoever finds the pictures that it names. Out: [`RunTold`]. Whatever is not there is not shown. Columns
-//! that belong together are read as far as the shortest goes.
+//! In: the bytes of the file, and a function that reads the pictures it names. Out: [`RunTold`]. What the file lacks is
+//! not shown. Columns that belong together end with the shortest one.
 
 use ::report::{ClosedLoop, Joint, Tally, View};
 use serde::Deserialize;
@@ -16,7 +16,7 @@ pub struct RunFile {
     image: [f64; 2],
     converged_below: Option<f64>,
     goals: Vec<Goal>,
-    /// The path of the recording, from the folder of this file.
+    /// The path of the recording, relative to this file's folder.
     pub log: Option<String>,
     views: Vec<Picture>,
     servoing: Images,
@@ -66,44 +66,44 @@ struct Ending {
     words: String,
 }
 
-/// What the file tells for the page.
+/// What the page shows of the file.
 #[derive(Debug, Default)]
 pub struct RunTold {
     /// The title.
     pub title: Option<String>,
-    /// A sentence or two below it.
+    /// A sentence or two below the title.
     pub note: Option<String>,
     /// What was controlled.
     pub closed_loop: Option<ClosedLoop>,
 }
 
-/// A picture of a run that is none, or that cannot be read.
+/// A picture that cannot be shown.
 #[derive(Debug)]
 pub enum Unseen<X> {
     /// It cannot be read.
     Unread(X),
-    /// The file of this name is no PNG.
+    /// The file of this name is not a PNG.
     NoPng(String),
 }
 
 impl RunFile {
-    /// What the bytes of a file say.
+    /// Reads the file's bytes.
     ///
     /// # Errors
-    /// It is no run of a program; a sentence.
+    /// They are not the JSON of a run; a sentence.
     pub fn read(bytes: &[u8]) -> Result<RunFile, String> {
         serde_json::from_slice(bytes).map_err(|error| error.to_string())
     }
 
-    /// What it tells, with the pictures that it names, which `read` finds.
+    /// What the page shows. `read` reads the pictures that the file names.
     ///
     /// # Errors
-    /// The first picture that is not there.
+    /// The first picture that cannot be shown.
     pub fn told<X>(self, read: &mut dyn FnMut(&str) -> Result<Vec<u8>, X>) -> Result<RunTold, Unseen<X>> {
         let Some(end) = &self.verdict else {
             return Ok(RunTold { title: self.title, note: self.note, closed_loop: None });
         };
-        // How a run in real time ends depends on what else the machine does: it is told, not judged.
+        // How a run in real time ends depends on the machine's load, so a bad end is shown but not judged.
         let reached = (end.good || self.time != "real").then_some(end.good);
         let image_ages = [
             ("visual servoing", &self.servoing.image_age_ms),
@@ -128,7 +128,7 @@ impl RunFile {
 
 fn tally(ages_ms: &[Option<f64>]) -> Tally {
     let mut tally = Tally::default();
-    // Where it was worst is not asked of these.
+    // The worst place is not shown, so all are 0.
     ages_ms.iter().flatten().for_each(|ms| tally.add((ms.max(0.0) * 1e6).round() as u64, 0));
     tally
 }

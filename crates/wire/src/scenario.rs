@@ -1,6 +1,6 @@
 //! Results of scenarios as JSON objects.
 //!
-//! In: a scenario that was tested, its faults, the run of one that failed. Out: [`ScenarioResult`].
+//! In: the result of a scenario, its faults, and its run if it failed. Out: [`ScenarioResult`].
 
 use ::scenario::{Judgement, Passage, PassageKind, Story};
 use groundstate::Tested;
@@ -25,7 +25,7 @@ pub struct ScenarioResult<'a> {
     failed_checks: u64,
     faults: Vec<Fault<'a>>,
     remarks: Vec<Remark<'a>>,
-    /// What happened in one that failed, where it is asked for.
+    /// The run of a scenario that failed, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     run: Option<Vec<Told>>,
 }
@@ -72,22 +72,22 @@ impl<'a> ScenarioResult<'a> {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum Told {
-    /// Where it began.
+    /// The state in which the run begins.
     State {
-        /// Every location that has a value.
+        /// All locations that have a value.
         values: Pairs<String>,
-        /// How many steps are left out before those that follow.
+        /// How many steps are left out before the following ones.
         left_out: u64,
     },
     /// A step that was made.
     Step(Happened),
-    /// One that could not be made.
+    /// A step that could not be made.
     Attempt(Happened),
-    /// A rule that the scenario itself performed.
+    /// A rule that the scenario itself executed.
     Exec(Happened),
 }
 
-/// What happened in a part of a run.
+/// A part of a run.
 #[derive(Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Happened {

@@ -1,7 +1,8 @@
-//! The JSON Schema of all that is written, made of the types and held to the files of `schema/`; `make update` rewrites them.
+//! The JSON Schema of all output, generated from the types and compared with the files in `schema/`; `make update`
+//! rewrites them.
 //!
-//! The schema of what is written says which keys are always there. A reader has to allow for more: new keys and types come without a new
-//! version.
+//! The schema describes what is written, so it says which keys are always there. A reader must accept more: new keys
+//! and types come without a new version.
 
 use expect_test::expect_file;
 use schemars::generate::SchemaSettings;
@@ -10,7 +11,7 @@ use serde_json::{Map, Value, json};
 
 use crate::*;
 
-/// A document of these objects, any of which a line may be.
+/// A document whose lines are any of these objects.
 fn document(title: &str, version: u32, add: impl Fn(&mut SchemaGenerator) -> Vec<Schema>) -> String {
     let mut generator = SchemaSettings::draft2020_12().for_serialize().into_generator();
     let any: Vec<Value> = add(&mut generator).into_iter().map(Value::from).collect();

@@ -1,8 +1,8 @@
 //! Traces as JSON lines: spec/trace.md.
 //!
-//! In: the header and records of a run. Out: lines; and back, by a program of the same model.
-//! Values and locations are written as AsmetaL writes them and read back by the domain of the location. INVARIANT:
-//! writing what was read gives the same bytes.
+//! In: the header and records of a run. Out: lines; and back, given a program of the same model. Values and locations
+//! are written as in AsmetaL, and read back by the domain of the location. INVARIANT: writing what was read gives the
+//! same bytes.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -15,7 +15,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use simulate::{ChoiceMade, End, Header, Invariants, Record, StepRecord, Violation, read_location, read_value};
 use syntax::{FileId, Sources, Span};
 
-/// The version of the format that is written.
+/// The version of the written format.
 pub const VERSION: u32 = 1;
 
 /// One line.
@@ -29,21 +29,22 @@ pub enum Line {
     State(State),
     /// A step.
     Step(Step),
-    /// A step begun and not made: what it took from outside before a fault or a violation ended the run.
+    /// A step that was begun but not made: what it read from the environment before a fault or a violation ended the
+    /// run.
     Attempt(Step),
-    /// The last step is undone; this one is the next to be made.
+    /// The last step is undone; the next step is this one.
     Back {
         /// The next step.
         step: u64,
     },
     /// The last line: why the run ended.
     End(Ending),
-    /// An object of the command's output that is no part of the trace; never written.
+    /// An object of a command's output that is not part of the trace; never written.
     #[serde(other, skip_serializing)]
     Other,
 }
 
-/// Pairs as an object whose keys keep their order.
+/// An object whose keys keep their order.
 #[derive(Debug, Clone)]
 pub struct Pairs<T>(Vec<(String, T)>);
 
@@ -138,7 +139,7 @@ enum Mode {
     Ignore,
 }
 
-/// The initial state, and what it was made of.
+/// The initial state, and what it was computed from.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct State {
@@ -255,7 +256,7 @@ impl Wire<'_> {
         })
     }
 
-    /// A record as a line; `steps` is how many have been made.
+    /// A record as a line, after `steps` steps.
     pub fn record(&self, record: &Record, steps: u64) -> Line {
         match record {
             Record::Initial { inputs, choices, times, values, violations } => Line::State(State {
@@ -356,10 +357,10 @@ fn times_in(times: &[(String, i64)]) -> Result<Vec<(TimeUnit, i64)>, String> {
     times.iter().map(|(u, now)| Ok((unit(u)?, *now))).collect()
 }
 
-/// Reads lines back. Places are not read: they belong to the text the trace was made of.
+/// Reads lines back. Places are not read, because they refer to the text that the trace was made from.
 #[derive(Debug, Clone, Copy)]
 pub struct Reader<'a> {
-    /// A program of the model that the trace is of.
+    /// A program of the trace's model.
     pub program: &'a Program,
 }
 
@@ -374,7 +375,7 @@ impl Reader<'_> {
     /// The header.
     ///
     /// # Errors
-    /// The line is no header, or one of another version.
+    /// The line is no header, or its version is not supported.
     pub fn header(line: &Line) -> Result<Header, String> {
         let Line::Trace(head) = line else { return Err("the first line is not the header of a trace".to_string()) };
         if head.version != VERSION {
@@ -397,7 +398,7 @@ impl Reader<'_> {
         })
     }
 
-    /// A record. Of a fault only that there was one is known.
+    /// A record. A fault is read back only as the fact that there was one.
     ///
     /// # Errors
     /// The line does not fit the program, or is a header.

@@ -1,4 +1,4 @@
-//! What a verification comes to, as JSON objects: verdicts with their runs, how far the search came, what was assumed.
+//! The results of a verification, as JSON objects: verdicts with their runs, the extent of the search, assumptions.
 
 use serde::Serialize;
 
@@ -16,25 +16,25 @@ pub struct Verdict {
     at: Option<Place>,
     /// `holds`, `violated` or `unknown`.
     pub verdict: &'static str,
-    /// How many states were met, where it holds.
+    /// How many states were explored, if the check holds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub states: Option<u64>,
-    /// How it was proved, where that was not by meeting all states.
+    /// How it was proved, if not by exploring all states.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by: Option<String>,
-    /// Why it is not known.
+    /// Why the verdict is unknown.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub reasons: Vec<String>,
     /// The run that violates it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trace: Option<Vec<RunStep>>,
-    /// The step from which the trace goes on again and again.
+    /// The step from which the trace repeats forever.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub again_from: Option<usize>,
 }
 
 impl Verdict {
-    /// A check that holds: its name, whether it is the model's own (`property`) or not (`builtin`), where it stands.
+    /// A check that holds. `kind` is `property` for a property of the model, else `builtin`.
     pub fn holds(check: String, kind: &'static str, at: Option<Place>) -> Verdict {
         Verdict {
             r#type: "verdict",
@@ -51,7 +51,7 @@ impl Verdict {
     }
 }
 
-/// A step of a run that was found; number 0 is the initial state.
+/// A step of a run that was found; step 0 is the initial state.
 #[derive(Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct RunStep {
@@ -69,7 +69,7 @@ pub struct RunStep {
     /// What it changed.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub changes: Vec<RunChange>,
-    /// Why it could not be made.
+    /// Why the step could not be made.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fault: Option<String>,
 }
@@ -107,7 +107,7 @@ pub struct ExploredLine<'a> {
 }
 
 impl<'a> ExploredLine<'a> {
-    /// How far a search came, and what there is to say of it.
+    /// How far a search came, with further facts.
     pub fn new(progress: &groundstate::verify::Progress, complete: bool, more: &'a Explored) -> ExploredLine<'a> {
         ExploredLine {
             r#type: "explored",
@@ -122,28 +122,28 @@ impl<'a> ExploredLine<'a> {
     }
 }
 
-/// What there is to say of a search beside its numbers.
+/// Facts about a search besides its numbers.
 #[derive(Debug, Default, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Explored {
     /// How many bits a state has.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bits: Option<usize>,
-    /// Where less than the states was kept: how many are to be expected to have been left out.
+    /// The expected number of omitted states, if the search kept hashes or bits instead of states.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub omission: Option<f64>,
-    /// Where one order of moves was to be enough: whether it was.
+    /// With partial-order reduction: whether it was exact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub partial_order: Option<&'static str>,
-    /// Where interchangeable elements were to be found: which there are.
+    /// With symmetry reduction: the domains it looked at.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub symmetry: Option<Vec<DomainLine>>,
-    /// States were gone through as sets, of which transitions are not counted.
+    /// The search used sets of states, so transitions are not counted.
     #[serde(skip)]
     pub sets: bool,
 }
 
-/// A domain, and those of its elements that are interchangeable with each other, or why none are.
+/// A domain with its interchangeable elements, or why none are interchangeable.
 #[derive(Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct DomainLine {
@@ -152,16 +152,16 @@ pub struct DomainLine {
     /// The elements.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub interchangeable: Vec<String>,
-    /// Why there are none.
+    /// Why no elements are interchangeable.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub distinct: Option<String>,
-    /// Where that is to be seen.
+    /// The place that shows why.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<Place>,
 }
 
 impl DomainLine {
-    /// Elements are interchangeable.
+    /// Whether elements are interchangeable.
     pub fn is_class(&self) -> bool {
         !self.interchangeable.is_empty()
     }
@@ -177,7 +177,7 @@ pub struct Assumed<'a> {
 }
 
 impl<'a> Assumed<'a> {
-    /// The verdicts are given under this assumption, which is not the model's.
+    /// An assumption of the verdicts that is not part of the model.
     pub fn new(term: &'a str) -> Assumed<'a> {
         Assumed { r#type: "assumed", term }
     }

@@ -1,4 +1,4 @@
-//! Traces that were written are read for ever: by the version they have, whatever is new in them.
+//! Traces of older versions stay readable, whatever newer versions add.
 
 use groundstate::simulate::{End, RandomSource, Record, Run};
 use groundstate::simulate::{Header, Inputs, Options};
@@ -46,7 +46,7 @@ fn what_was_read_is_written_as_the_same_bytes() {
     assert!(records > 3, "{records} records");
 }
 
-/// Written by the first version; not to be changed.
+/// Written by the first version; must not be changed.
 const OLD: &[&str] = &[
     r#"{"type":"trace","version":1,"model":"Lamp","path":"Lamp.asm","source":"0123456789abcdef","seed":0,"steps":2,"invariants":"stop"}"#,
     r#"{"type":"state","values":{"count":"0","lamp":"RED"}}"#,
