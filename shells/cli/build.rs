@@ -1,4 +1,5 @@
-//! Embeds the pages of spec/faults/ and the headers of the C++ runtime, so that the installed command needs no other file.
+//! Embeds the pages of spec/faults/ and the headers of the C++ runtime, so that the installed command needs no other
+//! files.
 
 #![allow(clippy::disallowed_methods, clippy::disallowed_macros, reason = "a build script works on files")]
 
@@ -12,7 +13,8 @@ fn main() {
     embed("../../cpp/include/groundstate/machine", ".hpp", "MACHINE_HEADERS", "machine_headers.rs");
 }
 
-/// A constant of names and texts of the files of a folder that have this ending; those of pages without it.
+/// Writes a constant with the names and texts of a folder's files that have this ending; page names are stored without
+/// it.
 fn embed(folder: &str, ending: &str, constant: &str, to: &str) {
     let root = env::var("CARGO_MANIFEST_DIR").expect("cargo sets it");
     let folder = Path::new(&root).join(folder);

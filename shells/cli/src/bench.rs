@@ -1,9 +1,9 @@
 //! `groundstate bench MODEL…`: steps per second and peak memory.
 //!
-//! A model is warmed up by a fixed number of steps, then stepped for several windows with random inputs, its state
-//! going on from one to the next; where it cannot go on it starts again. Median and spread are over the windows. The
+//! A model is warmed up by a fixed number of steps, then stepped for several windows with random inputs. Its state
+//! carries over from window to window; when a run ends, a new one starts. Median and spread are over the windows. The
 //! digest is of the state after the fixed steps: with the same seed it is the same in every run and on every engine.
-//! How many steps changed the state says whether the model worked at all or had come to rest.
+//! The share of steps that changed the state shows whether the model was active or had come to rest.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -29,10 +29,10 @@ pub struct Arguments {
     /// Models
     #[arg(required = true, value_name = "MODEL")]
     models: Vec<PathBuf>,
-    /// How many steps are made before the first window; the digest is of the state after them
+    /// Steps before the first window; the digest is of the state after them
     #[arg(long, value_name = "N", default_value_t = 1_000, value_parser = clap::value_parser!(u64).range(1..))]
     steps: u64,
-    /// How many windows; with 0 the steps before them are what is measured
+    /// How many windows; with 0, the steps before them are measured
     #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(0..=1_000))]
     windows: u32,
     /// The length of a window, in milliseconds
@@ -41,10 +41,10 @@ pub struct Arguments {
     /// Seed of inputs and choices
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// Evaluate invariants, too
+    /// Also evaluate invariants
     #[arg(long)]
     invariants: bool,
-    /// What makes the steps
+    /// The engine that makes the steps
     #[arg(long, value_enum, default_value_t)]
     engine: Engine,
 }
@@ -78,7 +78,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     Ok(Exit::Good)
 }
 
-/// The names of the columns.
+/// Writes the names of the columns.
 fn head(shell: &mut Shell) -> Result<(), Failure> {
     if shell.talks() {
         let names = ["steps/s", "lowest..highest", "changed", "updates", "load ms", "peak MB", "digest"];
@@ -131,7 +131,7 @@ fn measure(
     })
 }
 
-/// FNV-1a over all locations and values of the state, as they would be written.
+/// FNV-1a over all locations and values of the state, as they are printed.
 fn digest(machine: &Machine) -> u64 {
     let mut hash = 0xcbf2_9ce4_8422_2325u64;
     for (location, value) in machine.locations() {
@@ -158,9 +158,9 @@ struct Stepper<'a> {
     run: Option<Run>,
     seed: u64,
     restarts: u64,
-    /// What all steps did.
+    /// Totals over all steps.
     total: Passed,
-    /// How many steps are made between two looks at the clock.
+    /// The number of steps between two looks at the clock.
     chunk: u64,
 }
 
@@ -170,7 +170,7 @@ impl<'a> Stepper<'a> {
         Stepper { shell, arguments, program, path, run, seed, restarts: 0, total, chunk: 1 }
     }
 
-    /// Steps for a while and gives the rate. A start is not timed.
+    /// Makes steps for a while and returns the rate. Starting a run is not timed.
     fn part(&mut self, until: Until) -> Result<f64, Failure> {
         let mut steps = 0u64;
         let mut spent = Duration::ZERO;
@@ -199,7 +199,7 @@ impl<'a> Stepper<'a> {
                 if passed.steps < wanted {
                     break true;
                 }
-                // The clock is looked at every tenth of a millisecond or so.
+                // Read the clock about every tenth of a millisecond.
                 if now - looked < Duration::from_micros(50) && wanted == self.chunk {
                     self.chunk *= 2;
                 }
@@ -223,14 +223,14 @@ impl<'a> Stepper<'a> {
         Ok(steps as f64 / spent.as_secs_f64().max(1e-9))
     }
 
-    /// Random inputs and choices, others each time.
+    /// Random inputs and choices, different each time.
     fn inputs(&mut self) -> Inputs {
         let seed = self.seed;
         self.seed = seed.wrapping_add(1);
         Inputs::new().with(RandomSource::new(seed, Bounds::default())).choosing(Choices::random(seed))
     }
 
-    /// A run from the initial state, after one that has ended.
+    /// A run from the initial state, after another has ended.
     fn again(&mut self, ended: Run) -> Run {
         let inputs = self.inputs();
         ended.again(inputs)
@@ -250,12 +250,12 @@ impl<'a> Stepper<'a> {
     }
 }
 
-/// Lets the peak begin anew with the next model; where that is not possible it is that of all so far.
+/// Resets the peak for the next model. Where that is impossible, the peak is that of all models so far.
 fn forget_peak() {
     let _ = std::fs::write("/proc/self/clear_refs", "5");
 }
 
-/// The most memory this process has had since; known on Linux.
+/// The peak memory of this process since the reset; known on Linux only.
 fn peak_memory_mb() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
@@ -287,7 +287,7 @@ fn show(shell: &mut Shell, measured: &Measured) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Three digits that matter.
+/// A number with three significant digits.
 fn round(rate: f64) -> String {
     let digits = rate.max(1.0).log10().floor() as i32;
     let unit = 10f64.powi((digits - 2).max(0));

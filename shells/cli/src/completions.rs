@@ -1,4 +1,4 @@
-//! `groundstate completions SHELL`: a script with which a shell completes commands, options and their values.
+//! `groundstate completions SHELL`: a script that completes commands, options and their values in a shell.
 
 use std::io::Write;
 

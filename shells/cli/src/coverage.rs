@@ -1,4 +1,4 @@
-//! What scenarios covered of a model, as text and JSON.
+//! The coverage of a model by scenarios, as text and JSON.
 
 use std::io::Write;
 

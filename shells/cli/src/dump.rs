@@ -1,4 +1,4 @@
-//! `groundstate dump STAGE FILE`: what a stage hands to the next, as text.
+//! `groundstate dump STAGE FILE`: the result of a stage, as text.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -13,14 +13,14 @@ use crate::shell::Shell;
 /// Arguments of `dump`.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Which hand-over
+    /// The stage whose result is shown
     #[arg(value_enum)]
     stage: Stage,
-    /// A model; for the tree also a scenario or a chart; for the chart a chart
+    /// A model; `tree` also takes a scenario or a chart, `chart` takes a chart
     file: PathBuf,
 }
 
-/// A hand-over.
+/// A stage.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Stage {
     /// The lossless tree of one file

@@ -1,9 +1,9 @@
-//! `--engine`: what makes the steps.
+//! `--engine`: which engine makes the steps.
 
 use clap::ValueEnum;
 use machine::EngineChoice;
 
-/// What makes the steps. All make the same steps and tell the same faults.
+/// An engine that makes steps. All make the same steps and report the same faults.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub enum Engine {
     /// The interpreter, then machine code once the run is long enough to pay for it
@@ -16,7 +16,7 @@ pub enum Engine {
 }
 
 impl Engine {
-    /// As the machine calls it.
+    /// The machine's name for it.
     pub fn choice(self) -> EngineChoice {
         match self {
             Engine::Automatic => EngineChoice::Automatic,

@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-/// What the command says to whoever started it.
+/// The result of a command, for its caller.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Exit {
     /// All is well.
@@ -11,7 +11,7 @@ pub enum Exit {
     Model,
     /// Wrong usage, or the world failed.
     World,
-    /// Not known: interrupted, or a bound was reached.
+    /// Not known: the command was interrupted, or reached a bound.
     Unknown,
 }
 

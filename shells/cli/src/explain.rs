@@ -1,4 +1,4 @@
-//! `groundstate explain ID`: the page of a kind of fault, as it stands in spec/faults/.
+//! `groundstate explain ID`: the page of a kind of fault, as in spec/faults/.
 
 use std::io::Write;
 
@@ -12,7 +12,7 @@ use crate::shell::Shell;
 /// Arguments of `explain`.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// The name in brackets of a fault, such as inconsistent-update; all names are listed without one
+    /// The name in brackets of a fault, such as inconsistent-update; without one, all names are listed
     id: Option<String>,
 }
 
@@ -51,14 +51,14 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     }
 }
 
-/// The name that was likely meant: it was mistyped, or a part of it was typed.
+/// The name that was probably meant: mistyped, or typed in part.
 fn close(asked: &str) -> Option<&'static str> {
     let names = || PAGES.iter().map(|(id, _)| *id);
     let part = || names().find(|id| !asked.is_empty() && (id.contains(asked) || asked.contains(id)));
     model::nearest(asked, names()).or_else(part)
 }
 
-/// The first heading of a page that says more than its name, or the first sentence.
+/// The first heading of a page that says more than its name, or else the first sentence.
 fn title(page: &str) -> &str {
     let mut lines = page.lines().map(str::trim).filter(|line| !line.is_empty());
     let first = lines.next().unwrap_or_default();

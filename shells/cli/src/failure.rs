@@ -1,24 +1,24 @@
-//! What the world, or whoever typed the command, can do wrong: a closed set, each with a sentence.
+//! Failures of the world and of usage: a closed set, each with a sentence.
 
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// A failure that is not the model's.
+/// A failure that is not the model's fault.
 #[derive(Debug)]
 pub enum Failure {
-    /// The path leads nowhere.
+    /// There is no such file.
     Missing(PathBuf),
     /// A folder where a file is needed.
     Folder(PathBuf),
-    /// Not text.
+    /// The file is not UTF-8.
     NotUtf8 {
         /// The file.
         path: PathBuf,
-        /// How many bytes before the first wrong one.
+        /// The number of bytes before the first wrong one.
         offset: usize,
     },
-    /// More than `--max-file-size`.
+    /// The file is larger than `--max-file-size`.
     TooLarge {
         /// The file.
         path: PathBuf,
@@ -27,16 +27,16 @@ pub enum Failure {
     },
     /// Any other trouble with a file.
     File {
-        /// What was to be done: `read`, `write`.
+        /// The failed operation: `read`, `write`.
         verb: &'static str,
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         error: io::Error,
     },
-    /// Our output cannot be written.
+    /// The command's output cannot be written.
     Output(io::Error),
-    /// Arguments that fit neither each other nor the model.
+    /// The arguments do not fit together, or do not fit the model.
     Usage {
         /// What is wrong.
         message: String,
@@ -56,7 +56,7 @@ impl Failure {
         Failure::Usage { message: message.into(), help: Some(help.into()) }
     }
 
-    /// Sorts what the system says of a file.
+    /// Classifies a system error about a file.
     pub fn of_file(verb: &'static str, path: &Path, error: io::Error) -> Self {
         let path = path.to_path_buf();
         match error.kind() {
@@ -117,7 +117,7 @@ impl fmt::Display for Failure {
     }
 }
 
-/// The system's words without its error number, which differs between systems.
+/// The system's words without the error number, which differs between systems.
 fn reason(error: &io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error").next().unwrap_or_default().to_lowercase()

@@ -1,4 +1,4 @@
-//! Reading and writing files: bounded, text only, never half written.
+//! Reads and writes files: bounded, text only, never half written.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Read, Write};
@@ -17,12 +17,12 @@ pub fn read_text(path: &Path, limit: u64) -> Result<String, Failure> {
     text_of(path, read_bytes(path, limit)?)
 }
 
-/// Reads a model or a scenario of at most `limit` bytes; one that is not UTF-8 is read as far as it is text.
+/// Reads a model or a scenario of at most `limit` bytes, as UTF-8 or else as Windows-1252.
 pub fn read_source(path: &Path, limit: u64) -> Result<SourceFile, Failure> {
     decode(path, read_bytes(path, limit)?, limit)
 }
 
-/// The bytes of a model or a scenario, at most `limit` of them.
+/// Decodes the bytes of a model or a scenario, at most `limit` of them.
 pub fn decode(path: &Path, bytes: Vec<u8>, limit: u64) -> Result<SourceFile, Failure> {
     let path = path.to_path_buf();
     if bytes.len() as u64 > limit {
@@ -32,7 +32,7 @@ pub fn decode(path: &Path, bytes: Vec<u8>, limit: u64) -> Result<SourceFile, Fai
         .map_err(|NotText { offset }| Failure::NotUtf8 { path, offset })
 }
 
-/// The text that a file to be brought up to date has now; none where there is no such file.
+/// The present text of a file that is to be updated; `None` if there is no such file.
 pub fn present_text(path: &Path, limit: u64) -> Result<Option<String>, Failure> {
     match bytes_of(path, limit).and_then(|bytes| text_of(path, bytes)) {
         Ok(text) => Ok(Some(text)),
@@ -60,7 +60,7 @@ fn bytes_of(path: &Path, limit: u64) -> Result<Vec<u8>, Failure> {
         return Err(Failure::Folder(path.to_path_buf()));
     }
     let mut bytes = Vec::new();
-    // One byte more than allowed tells a file at the limit from one beyond it, whatever its length claims to be.
+    // Reading one byte more than allowed shows that a file exceeds the limit, whatever length it claims.
     file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(wrap)?;
     if bytes.len() as u64 > limit {
         return Err(Failure::TooLarge { path: path.to_path_buf(), limit });
@@ -68,7 +68,7 @@ fn bytes_of(path: &Path, limit: u64) -> Result<Vec<u8>, Failure> {
     Ok(bytes)
 }
 
-/// A file that is read a piece at a time, up to a limit.
+/// Reads a file piece by piece, up to a limit.
 #[derive(Debug)]
 pub struct Bounded {
     path: PathBuf,
@@ -91,7 +91,7 @@ impl Bounded {
         Ok(Bounded { path: path.to_path_buf(), file, limit, piece: vec![0; 1 << 20] })
     }
 
-    /// What comes next; nothing at the end.
+    /// The next piece; `None` at the end.
     pub fn piece(&mut self) -> Result<Option<&[u8]>, Failure> {
         let read = loop {
             match self.file.read(&mut self.piece) {
@@ -106,11 +106,11 @@ impl Bounded {
     }
 }
 
-/// Finds imported files on the disk, relative to the importing file and then to the working folder; what is in neither,
-/// in the pattern library that is built in.
+/// Finds imported files on the disk, relative to the importing file, then to the working folder; else in the built-in
+/// pattern library.
 #[derive(Debug)]
 pub struct Disk {
-    /// The most bytes a file may have.
+    /// The largest allowed size of a file, in bytes.
     pub limit: u64,
 }
 
@@ -137,8 +137,8 @@ impl model::Loader for Disk {
     }
 }
 
-/// A file being written: it takes its name when it is complete and does not exist before. What is no ordinary file
-/// (a pipe, `/dev/stdout`) is never replaced but written as it is.
+/// A file being written. It appears under its name only when it is complete. What is not an ordinary file (a pipe,
+/// `/dev/stdout`) is written directly, never replaced.
 #[derive(Debug)]
 pub struct Unfinished {
     path: PathBuf,
@@ -152,13 +152,13 @@ enum Target {
 }
 
 impl Unfinished {
-    /// Begins a file, which is none that was read.
+    /// Begins a new file. Fails if the command has read that file.
     pub fn create(path: &Path) -> Result<Self, Failure> {
         overwrite::refuse(path)?;
         Unfinished::replace(path)
     }
 
-    /// Begins a file, which may be what was read, brought up to date.
+    /// Begins a file that may replace one that the command has read.
     pub fn replace(path: &Path) -> Result<Self, Failure> {
         let wrap = |error| Failure::of_file("write", path, error);
         let special = path.starts_with("/dev") || path.starts_with("/proc");
@@ -171,7 +171,7 @@ impl Unfinished {
                     target: Target::Direct(BufWriter::new(Sink::new(file))),
                 });
             }
-            // A link stays; what it leads to is replaced.
+            // A link stays; its target is replaced.
             Ok(_) => std::fs::canonicalize(path).map_err(wrap)?,
             Err(_) => path.to_path_buf(),
         };
@@ -204,7 +204,7 @@ impl Unfinished {
     }
 }
 
-/// Temporary files are private; a new one is an ordinary file when it is finished.
+/// Temporary files are private; a finished file gets ordinary permissions.
 #[cfg(unix)]
 fn allow_reading(file: &File) -> io::Result<()> {
     use std::os::unix::fs::PermissionsExt;
@@ -237,7 +237,7 @@ pub fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
     write_bytes(path, text.as_bytes())
 }
 
-/// Writes a whole text file, which may be what was read, brought up to date.
+/// Writes a whole text file, which may be one that the command has read.
 pub fn rewrite_text(path: &Path, text: &str) -> Result<(), Failure> {
     write_all(path, text.as_bytes(), Unfinished::replace(path)?)
 }
@@ -252,7 +252,8 @@ fn write_all(path: &Path, bytes: &[u8], mut file: Unfinished) -> Result<(), Fail
     file.finish()
 }
 
-/// The files that paths mean: a file is itself, a folder all files below it with one of the endings, by name.
+/// The files that paths mean: a file stands for itself, a folder for all files below it with one of the endings, by
+/// name.
 pub fn collect(paths: &[PathBuf], extensions: &[&str]) -> Result<Vec<PathBuf>, Failure> {
     let mut files = Vec::new();
     for path in paths {

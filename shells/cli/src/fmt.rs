@@ -1,7 +1,7 @@
-//! `groundstate fmt PATH…`: models and scenarios in their canonical layout.
+//! `groundstate fmt PATH…`: formats models, scenarios and charts.
 //!
-//! A file is replaced only as a whole, and only if its tokens and comments stay what they were; one with faults of
-//! syntax is not touched. A file keeps the line ends it has.
+//! A file is replaced only as a whole, and only if its tokens and comments stay the same. A file with syntax faults is
+//! not touched. A file keeps its line ends.
 
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
@@ -22,24 +22,24 @@ pub struct Arguments {
     /// Models (.asm), scenarios (.avalla) and charts (.chart), or folders of them; `-` reads standard input and writes standard output
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
-    /// Write nothing: list the files that are not in this layout, and exit with 1 if there are any
+    /// Write nothing: list the files that formatting would change, and exit with 1 if there are any
     #[arg(long)]
     check: bool,
 }
 
-/// What there is to do about a file.
+/// What to do with a file.
 enum Layout {
-    /// It has faults of syntax, which are shown.
+    /// It has syntax faults, which are shown.
     Faulty,
-    /// It is as it should be.
+    /// It is formatted already.
     Kept,
-    /// It should read so.
+    /// Its formatted text.
     Changed(String),
-    /// The layout that it would get is not the same text, which is a fault of ours.
+    /// Formatting would change its tokens or comments, which is a bug of ours.
     Refused,
 }
 
-/// How many files were what.
+/// How many files had which result.
 #[derive(Default)]
 struct Counts {
     faulty: usize,
@@ -153,7 +153,7 @@ fn layout(shell: &mut Shell, source: SourceFile) -> Result<Layout, Failure> {
     Ok(if *formatted == *text { Layout::Kept } else { Layout::Changed(formatted) })
 }
 
-/// A scenario begins with the word; a file's name says it, too.
+/// The grammar of a file: a scenario begins with that word; otherwise the file's name decides.
 fn grammar(source: &SourceFile) -> fn(FileId, &str) -> Parse {
     let named = source.name.ends_with(".avalla");
     if source.name.ends_with(".chart") {

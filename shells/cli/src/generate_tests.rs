@@ -1,7 +1,7 @@
-//! `groundstate generate-tests MODEL -o FOLDER`: scenarios that reach what there is to reach in a model.
+//! `groundstate generate-tests MODEL -o FOLDER`: writes scenarios that reach the goals of a model.
 //!
-//! Each scenario is run before it is kept: one that does not pass, because no scenario can say a choice that its run makes,
-//! is left out and told. Exit codes: 0 written, 3 written but the search did not end, so that goals may be missing.
+//! Each scenario is run before it is kept. One that fails, because no scenario can express a choice of its run, is left
+//! out and reported. Exit codes: 0 written, 3 written but the search did not finish, so goals may be missing.
 
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -31,19 +31,19 @@ use crate::verify::{Bounded, Teller, no_start, relative};
 pub struct Arguments {
     /// The model
     model: PathBuf,
-    /// The folder that the scenarios are written to
+    /// The folder to write the scenarios to
     #[arg(long, short, value_name = "FOLDER")]
     output: PathBuf,
-    /// Also reach what stands in imported files
+    /// Also reach goals in imported files
     #[arg(long)]
     imports: bool,
-    /// Walk at random this many times, instead of searching for what can be reached
+    /// Make this many random walks instead of searching all states
     #[arg(long, value_name = "N", value_parser = crate::limits::count)]
     random: Option<u64>,
-    /// The steps of a walk at random
+    /// The steps of a random walk
     #[arg(long, value_name = "N", default_value_t = 50, requires = "random")]
     steps: usize,
-    /// The seed of walks at random
+    /// The seed of random walks
     #[arg(long, value_name = "N", default_value_t = 0, requires = "random")]
     seed: u64,
     #[command(flatten)]
@@ -67,7 +67,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
     let program = Arc::clone(&loaded.program);
     let (bounded, by_default) = match arguments.random {
-        // Walks come to an end by themselves.
+        // Random walks end by themselves.
         Some(_) => (arguments.bounded.clone(), false),
         None => arguments.bounded.with_end(),
     };
@@ -114,7 +114,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     Ok(if ended { Exit::Good } else { Exit::Unknown })
 }
 
-/// Writes the scenarios that pass; gives the names of the others.
+/// Writes the scenarios that pass; returns the names of the others.
 fn write(shell: &mut Shell, folder: &Path, tests: &Tests, suite: &mut Suite) -> Result<Vec<String>, Failure> {
     let limits = shell.global.limits.uninterrupted();
     let mut left_out = Vec::new();
@@ -137,7 +137,7 @@ fn write(shell: &mut Shell, folder: &Path, tests: &Tests, suite: &mut Suite) -> 
     Ok(left_out)
 }
 
-/// Tells what is reached and what is not.
+/// Reports which goals are reached and which are not.
 fn told(shell: &mut Shell, teller: &Teller<'_>, tests: &Tests) -> Result<(), Failure> {
     let mut kinds: BTreeMap<&'static str, (usize, usize)> = BTreeMap::new();
     for goal in &tests.goals {

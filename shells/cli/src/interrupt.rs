@@ -1,8 +1,8 @@
-//! Ctrl-C and SIGTERM, and the memory of the process: what asks a piece of work to stop where it is.
+//! Stops work on Ctrl-C, on SIGTERM, or when the process takes too much memory.
 //!
-//! The request is looked at within long pieces of work, between steps and within them. The first signal raises it, one that comes
-//! later ends the program. INVARIANT: signals that come together are one: `timeout` sends its signal to the program and to its
-//! process group, so that it comes twice.
+//! Long work checks the request between and within steps. The first signal raises the request, a later one ends the
+//! program. INVARIANT: signals that come together count as one: `timeout` signals the program and its process group, so
+//! the signal arrives twice.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{LazyLock, Once, OnceLock};
@@ -12,10 +12,10 @@ use machine::{Cause, Interrupt};
 
 static REQUEST: LazyLock<Interrupt> = LazyLock::new(Interrupt::new);
 
-/// Signals within this time of the first are the same one.
+/// Signals within this time of the first count as the same one.
 const TOGETHER: Duration = Duration::from_secs(1);
 
-/// Listens from now on. Where that is not possible, Ctrl-C keeps its usual meaning.
+/// Starts to listen. If that is impossible, Ctrl-C keeps its usual meaning.
 pub fn listen() {
     static FIRST: OnceLock<Instant> = OnceLock::new();
     let _ = ctrlc::set_handler(|| {
@@ -26,21 +26,21 @@ pub fn listen() {
     });
 }
 
-/// Whether to stop.
+/// Whether work should stop.
 pub fn asked() -> bool {
     REQUEST.cause() == Some(Cause::Asked)
 }
 
-/// The request, for whoever looks at it within a long piece of work.
+/// The request, to be checked within long work.
 pub fn request() -> &'static Interrupt {
     &REQUEST
 }
 
-/// Between two looks at the memory: the program takes some hundred megabytes in this time at most.
+/// How often the memory is checked. In between, the program takes a few hundred megabytes at most.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(20);
 
-/// Asks what runs to stop while the process takes more memory than so many MiB; the last bound counts. Where the system does not
-/// tell how much it takes, nothing is looked at.
+/// Asks work to stop while the process takes more than this many MiB; the last bound counts. Where the system does not
+/// report the memory, there is no bound.
 pub fn bound_memory(mib: u64) {
     static BOUND: AtomicU64 = AtomicU64::new(u64::MAX);
     static WATCHER: Once = Once::new();
@@ -61,7 +61,7 @@ pub fn bound_memory(mib: u64) {
     });
 }
 
-/// How much memory the process takes, where the system tells.
+/// The memory of the process in bytes, if the system reports it.
 pub fn resident_bytes() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;

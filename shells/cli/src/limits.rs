@@ -1,4 +1,4 @@
-//! The `--max-…` options: what a model may take before it is told so.
+//! The `--max-…` options: how much a model may use.
 
 use std::sync::Once;
 
@@ -6,17 +6,17 @@ use clap::Args;
 
 use crate::interrupt;
 
-/// Limits, with the defaults of [`machine::Limits`].
+/// Limits; the defaults are those of [`machine::Limits`].
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Limits")]
 pub struct Limits {
-    /// Largest file that is read, in bytes; a program's recording may be 64 times as long
+    /// Largest file that is read, in bytes; a program's recording may be 64 times as large
     #[arg(long, global = true, value_name = "BYTES", default_value_t = 16 << 20, hide_short_help = true)]
     pub max_file_size: u64,
-    /// Rounds of while, whilerec and iterate in one step, all together
+    /// Rounds of while, whilerec and iterate in one step, in total
     #[arg(long, global = true, value_name = "N", default_value_t = machine::Limits::default().iterations, hide_short_help = true)]
     max_iterations: u64,
-    /// Calls of rules and functions inside each other, at most 200000
+    /// Nested calls of rules and functions, at most 200000
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=200_000), default_value_t = machine::Limits::default().call_depth, hide_short_help = true)]
     max_depth: u64,
     /// Elements of one collection, enumeration or choice
@@ -28,7 +28,7 @@ pub struct Limits {
     /// Locations that have a value, and elements made by extend
     #[arg(long, global = true, value_name = "N", default_value_t = machine::Limits::default().locations, hide_short_help = true)]
     max_locations: u64,
-    /// Bindings of variables and calls in one step, all together
+    /// Bindings of variables and calls in one step, in total
     #[arg(long, global = true, value_name = "N", default_value_t = machine::Limits::default().work, hide_short_help = true)]
     max_work: u64,
     /// Memory that the program may take while a model runs, in MiB
@@ -45,14 +45,14 @@ pub fn count(text: &str) -> Result<u64, String> {
 }
 
 impl Limits {
-    /// The most bytes of a program's recording.
+    /// The largest size of a program's recording, in bytes.
     pub fn recording(&self) -> u64 {
         self.max_file_size.saturating_mul(64)
     }
 
-    /// The machine's part, which a step that is being made is held to from now on.
+    /// The machine's limits. They apply to every step from now on.
     pub fn machine(&self) -> machine::Limits {
-        // Whoever has bounded the memory since keeps that bound.
+        // A bound on memory that was set later stays.
         static FIRST: Once = Once::new();
         FIRST.call_once(|| interrupt::bound_memory(self.max_heap));
         machine::Limits {
@@ -66,7 +66,7 @@ impl Limits {
         }
     }
 
-    /// The same for steps that are made to their end, whoever asks: a verdict hangs on each of them.
+    /// The same limits for steps that signals must not end, because a verdict depends on each of them.
     pub fn uninterrupted(&self) -> machine::Limits {
         machine::Limits { interrupt: machine::Interrupt::default(), ..self.machine() }
     }

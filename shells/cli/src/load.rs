@@ -1,4 +1,4 @@
-//! What most commands begin with: a model from a path, its faults shown.
+//! Loads a model from a path and shows its faults, as most commands do first.
 
 use std::io::Read;
 use std::path::Path;
@@ -11,7 +11,8 @@ use crate::failure::Failure;
 use crate::files::decode;
 use crate::shell::Shell;
 
-/// Loads a model, from standard input if the path is `-`; where it has errors they are shown and there is none. Warnings are `check`'s business.
+/// Loads a model, from standard input if the path is `-`. If it has errors, shows them and returns the exit code. Only
+/// `check` shows warnings.
 pub fn load(shell: &mut Shell, path: &Path) -> Result<Result<Loaded, Exit>, Failure> {
     match path.extension().and_then(|extension| extension.to_str()) {
         Some("avalla") => return Err(another(path, "scenario", "`groundstate test` runs scenarios")),
@@ -32,7 +33,7 @@ pub fn load(shell: &mut Shell, path: &Path) -> Result<Result<Loaded, Exit>, Fail
     }
 }
 
-/// The model on standard input; what it imports is looked for from the working folder.
+/// Reads the model from standard input; its imports are looked up from the working folder.
 fn from_stdin(limit: u64) -> Result<SourceFile, Failure> {
     let path = Path::new("<stdin>");
     let mut bytes = Vec::new();
@@ -41,7 +42,7 @@ fn from_stdin(limit: u64) -> Result<SourceFile, Failure> {
     decode(path, bytes, limit)
 }
 
-/// A file of another kind than the command takes.
+/// The file is of another kind than the command takes.
 pub fn another(path: &Path, kind: &str, help: &str) -> Failure {
     Failure::usage_with_help(format!("{} is a {kind}", path.display()), help)
 }

@@ -1,8 +1,8 @@
 //! The `groundstate` command: arguments in, exit code out.
 //!
-//! One file a command; each takes its arguments and a [`Shell`](shell::Shell) and gives an [`Exit`](exit::Exit).
-//! Shells do all I/O: files, terminal, clock and signals are touched in this crate and nowhere below it. The work
-//! runs on a thread with a large stack, a second belt beside the limits of the crates below.
+//! Each command has one file, takes its arguments and a [`Shell`](shell::Shell), and returns an [`Exit`](exit::Exit).
+//! This crate does all I/O; files, terminal, clock and signals are touched nowhere below it. The work runs on a thread
+//! with a large stack, as a second safeguard beside the limits of the crates below.
 
 #![allow(
     clippy::disallowed_methods,
@@ -68,39 +68,39 @@ const EXIT_CODES: &str = "Exit codes: 0 good; 1 the model is at fault, an invari
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Make a folder with a model that checks, runs, tests and draws at once
+    /// Make a folder with a first model that checks, runs, tests and draws at once
     New(new::Arguments),
-    /// Report the faults of models and scenarios, run nothing
+    /// Report the faults of models, scenarios and charts without running them
     Check(check::Arguments),
     /// Run a model
     Run(Box<run::Arguments>),
     /// Run scenarios and report which fail
     Test(test::Arguments),
-    /// Explore every state of a model: what always holds, what is violated and how, what is not known
+    /// Explore every state of a model: find what always holds, what is violated and how, what is unknown
     Verify(Box<verify::Arguments>),
-    /// Look for what is odd about a model: rules that never run, values never taken, cases forgotten
+    /// Look for oddities in a model: rules that never run, values never taken, forgotten cases
     Review(review::Arguments),
     /// Write scenarios that reach the rules, branches, updates, conditions and transitions of a model
     GenerateTests(generate_tests::Arguments),
-    /// Run a recorded trace again and compare
+    /// Repeat the run of a recorded trace and compare
     Replay(replay::Arguments),
-    /// Run a model and write the run as a page: timeline, deadlines, waiting, coverage
+    /// Run a model and write a page about the run: timeline, deadlines, waiting, coverage
     Report(Box<report::Arguments>),
     /// Draw charts, build models from them, compare the two, extract charts from models
     Chart(chart::Arguments),
-    /// Write the program that a model or a chart stands for
+    /// Write the program that a model or a chart means
     Generate(generate::Arguments),
-    /// Hold the recorded events of a generated program against its model
+    /// Compare the recorded events of a generated program with its model
     Conform(conform::Arguments),
-    /// Show what a stage hands to the next
+    /// Show the result of a stage: tree, model, program or chart
     Dump(dump::Arguments),
     /// Explain a kind of fault by its name
     Explain(explain::Arguments),
-    /// Put models and scenarios into their canonical layout
+    /// Format models, scenarios and charts
     Fmt(fmt::Arguments),
     /// Measure steps per second and memory
     Bench(bench::Arguments),
-    /// Write what a shell needs to complete this command
+    /// Write a shell's completion script for this command
     Completions(completions::Arguments),
     /// Write the manual pages
     Man(man::Arguments),

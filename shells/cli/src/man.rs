@@ -1,4 +1,4 @@
-//! `groundstate man`: the manual pages, of the command and of each of its commands.
+//! `groundstate man`: the manual pages of the program and of each of its commands.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -27,7 +27,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments, mut command: Command) -> Re
         shell.out().write_all(&text)?;
         return Ok(Exit::Good);
     };
-    // Global options are known to each command once it is built.
+    // Building makes the global options known to each command.
     command.build();
     std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
     let written = write_all(folder, &command, "groundstate")?;
@@ -37,7 +37,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments, mut command: Command) -> Re
     Ok(Exit::Good)
 }
 
-/// The pages of a command and of those below it.
+/// Writes the pages of a command and of its subcommands; returns how many.
 fn write_all(folder: &Path, command: &Command, name: &str) -> Result<usize, Failure> {
     let own = command.clone().display_name(name.to_string());
     write_bytes(&folder.join(format!("{name}.1")), &page(own)?)?;

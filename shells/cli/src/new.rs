@@ -1,4 +1,4 @@
-//! `groundstate new NAME`: a folder with a first model, its scenario and a page of commands that all work.
+//! `groundstate new NAME`: makes a folder with a first model, its scenario, and a page of commands that all work.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -13,14 +13,14 @@ use crate::shell::Shell;
 /// Arguments of `new`.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// The folder to make; its name is that of the model: letters, digits and _
+    /// The folder to make; its name becomes the model's: letters, digits and _
     name: PathBuf,
-    /// What to begin with
+    /// What to start with
     #[arg(long, value_enum, default_value_t = Template::Machine, value_name = "TEMPLATE")]
     template: Template,
 }
 
-/// What a new folder begins with.
+/// What a new folder starts with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Template {
     /// A control-state machine with inputs
@@ -38,7 +38,7 @@ macro_rules! files {
 }
 
 impl Template {
-    /// Names and texts, in which NAME stands for the model's name.
+    /// Names and texts of the files; NAME in them stands for the model's name.
     fn files(self) -> &'static [(&'static str, &'static str)] {
         match self {
             Template::Machine => files!("machine": "NAME.asm", "NAME.avalla", "README.md"),
@@ -73,7 +73,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     Ok(Exit::Good)
 }
 
-/// The model's name, which the folder has too.
+/// The model's name, taken from the folder's.
 fn name(folder: &Path) -> Result<&str, Failure> {
     let name = folder.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let fits = |c: char| c.is_ascii_alphanumeric() || c == '_';
@@ -87,7 +87,7 @@ fn name(folder: &Path) -> Result<&str, Failure> {
     if name.len() > 64 {
         return Err(said("it has more than 64 letters"));
     }
-    // Imports of these lead to the built-in ones, whatever lies beside.
+    // Imports of such names find the built-in libraries, whatever lies beside the model.
     if name.to_ascii_lowercase().ends_with("library") {
         return Err(said("the built-in libraries are called so"));
     }

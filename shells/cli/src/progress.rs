@@ -1,11 +1,11 @@
-//! Progress of a long run, on stderr, only on a terminal, only after a moment.
+//! Shows the progress of a long run on stderr: only on a terminal, and only after a moment.
 
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// A bar that may never appear.
+/// A progress bar that appears only if the run takes long.
 pub struct Progress {
     began: Instant,
     total: Option<u64>,
@@ -13,10 +13,10 @@ pub struct Progress {
     wanted: bool,
 }
 
-/// From one word of a run to the next, at least.
+/// The shortest time between two reports of a run.
 const PACE: Duration = Duration::from_millis(20);
 
-/// Says when a run is to tell what has happened.
+/// Decides when a run reports what has happened.
 pub fn now_and_then() -> Box<dyn FnMut() -> bool + Send> {
     let mut last = Instant::now();
     Box::new(move || {
@@ -28,16 +28,16 @@ pub fn now_and_then() -> Box<dyn FnMut() -> bool + Send> {
     })
 }
 
-/// Shorter runs show nothing.
+/// Runs shorter than this show nothing.
 const PATIENCE: Duration = Duration::from_millis(700);
 
 impl Progress {
-    /// For so many steps, if that is known; `busy` says that the terminal is used for something else.
+    /// A bar for this many steps, if known; with `busy`, none, since the terminal is used for something else.
     pub fn new(total: Option<u64>, busy: bool) -> Progress {
         Progress { began: Instant::now(), total, bar: None, wanted: !busy && std::io::stderr().is_terminal() }
     }
 
-    /// So many steps are made.
+    /// Shows how many steps have been made.
     pub fn at(&mut self, steps: u64) {
         if !self.wanted {
             return;

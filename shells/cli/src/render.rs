@@ -1,4 +1,4 @@
-//! Faults as text: the position, the source lines with every place underlined, the reason, what to do.
+//! Prints faults as text: the position, the source lines with every place underlined, the reason, what to do.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -9,7 +9,7 @@ use syntax::{Diagnostic, FileId, Label, Severity, Sources, Span};
 
 use crate::failure::Failure;
 
-/// A fault; without a line end.
+/// A fault as text, without a line end at the end.
 pub fn diagnostic(sources: &Sources, diagnostic: &Diagnostic, color: bool) -> String {
     let level = match diagnostic.severity {
         Severity::Error => Level::ERROR,
@@ -40,7 +40,7 @@ fn renderer(color: bool) -> Renderer {
     renderer.term_width(120)
 }
 
-/// One snippet a file, that of the primary place first.
+/// One snippet for each file, that of the primary place first.
 fn snippets<'a>(sources: &'a Sources, diagnostic: &'a Diagnostic) -> Vec<Element<'a>> {
     let mut files: BTreeMap<FileId, Vec<(&Label, bool)>> = BTreeMap::new();
     for label in &diagnostic.secondary {
@@ -70,17 +70,17 @@ fn snippet<'a>(sources: &'a Sources, file: FileId, labels: &[(&'a Label, bool)])
     Element::from(snippet)
 }
 
-/// A piece of a text without the carriage returns of Windows' line ends, which would be shown as glyphs.
+/// A piece of text without the carriage returns of Windows' line ends, which would be shown as glyphs.
 fn shown(text: &str) -> Cow<'_, str> {
     if text.contains('\r') { Cow::Owned(text.replace('\r', "")) } else { Cow::Borrowed(text) }
 }
 
-/// How many bytes of a text are shown.
+/// The number of bytes of a text that are shown.
 fn shown_len(text: &str) -> usize {
     text.len() - text.matches('\r').count()
 }
 
-/// The bytes of a line on either side of a fault that are worth looking at; a line may have millions.
+/// How many bytes of a line are shown on either side of a fault; a line may have millions.
 const WIDE: usize = 2_000;
 
 /// The whole lines around a range, cut where they are very long.
@@ -98,7 +98,7 @@ fn window(text: &str, from: usize, to: usize) -> Range<usize> {
     start..end
 }
 
-/// A label's place within the window: of a long construct its first line only, of an empty one a character.
+/// A label's place within the window: only the first line of a long construct, one character for an empty one.
 fn underlined(span: Span, text: &str, window: &Range<usize>) -> Range<usize> {
     let start = (span.start as usize).clamp(window.start, window.end);
     let end = (span.end as usize).clamp(start, window.end);

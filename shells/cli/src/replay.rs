@@ -1,7 +1,7 @@
-//! `groundstate replay TRACE`: the run of a trace made again, told as `run` told it, and compared.
+//! `groundstate replay TRACE`: repeats the run of a trace, prints it as `run` did, and compares.
 //!
-//! The trace is read line by line, so its length does not matter. Exit code 0: the model still does what the trace
-//! says. 1: it does not; where the two part is said.
+//! The trace is read line by line, so it may have any length. Exit code 0: the model still does what the trace says. 1:
+//! it does not; the first difference is shown.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
@@ -145,7 +145,7 @@ impl Lines {
         }
         self.number += 1;
         serde_json::from_slice(&bytes).map(Some).map_err(|error| {
-            // serde_json counts lines within the one line it sees.
+            // serde_json counts lines within the one line it sees, so its line number is removed.
             let reason = error.to_string();
             let reason = reason.split(" at line ").next().unwrap_or_default().to_string();
             self.wrong(&reason)

@@ -1,6 +1,6 @@
-//! `groundstate review MODEL`: what is odd about a model whatever it is a model of, by the seven meta-properties.
+//! `groundstate review MODEL`: finds oddities in any model, by the seven meta-properties.
 //!
-//! Exit codes: 0 all hold, 1 one is violated, 3 none is violated but one is not known.
+//! Exit codes: 0 all hold, 1 one is violated, 3 none is violated but one is unknown.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -28,13 +28,13 @@ use crate::verify::{Bounded, Teller, no_start};
 pub struct Arguments {
     /// The model
     model: PathBuf,
-    /// Only these meta-properties, such as mp1,mp3
+    /// Check only these meta-properties, such as mp1,mp3
     #[arg(long, value_name = "MP", value_delimiter = ',', value_parser = meta)]
     only: Vec<Meta>,
-    /// Also what stands in imported files
+    /// Also report findings in imported files
     #[arg(long)]
     imports: bool,
-    /// Show the run that leads to each finding, where there is one
+    /// Show the run that leads to each finding, if there is one
     #[arg(long)]
     runs: bool,
     #[command(flatten)]

@@ -1,4 +1,4 @@
-//! `groundstate run MODEL`: steps, told as text or as a trace.
+//! `groundstate run MODEL`: makes steps and prints them as text or as a trace.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -53,7 +53,7 @@ pub struct Arguments {
     /// How much of the state is shown
     #[arg(long, value_enum, default_value_t = Show::Changed)]
     show: Show,
-    /// What makes the steps
+    /// The engine that makes the steps
     #[arg(long, value_enum, default_value_t)]
     engine: Engine,
     #[command(flatten)]
@@ -150,7 +150,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     Ok(exit)
 }
 
-/// Whoever sits at the terminal, asked by a run.
+/// The terminal that a run asks for inputs and choices.
 pub struct Desk<'a> {
     program: &'a Program,
     remote: &'a Remote,
@@ -163,7 +163,7 @@ impl<'a> Desk<'a> {
         Desk { program, remote, prompt: Prompt::default(), question: None }
     }
 
-    /// Answers what a run asks. One that has ended hears no answer.
+    /// Answers what a run asks. After its end a run hears no answer.
     pub fn hear(&mut self, event: RunEvent) {
         match event {
             RunEvent::AsksInput { step, location, domain, values } => {
@@ -203,7 +203,7 @@ fn header(arguments: &Arguments, program: &Program, sources: &Sources) -> Header
     }
 }
 
-/// The options of the run that a header tells of.
+/// The options of the run that a header describes.
 pub fn options(header: &Header) -> Options {
     Options {
         steps: header.steps,
@@ -214,10 +214,10 @@ pub fn options(header: &Header) -> Options {
     }
 }
 
-/// Tells a run's records: to people or as JSON, with the diagnostics of what went wrong.
+/// Prints a run's records, as text or as JSON, with the diagnostics of what went wrong.
 pub struct Teller<'a> {
     narrator: Narrator<'a>,
-    /// The run is to come to something within its steps.
+    /// The run has a condition that should become true within its steps.
     has_until: bool,
     pub wire: Wire<'a>,
 }
@@ -235,12 +235,12 @@ impl<'a> Teller<'a> {
         Teller { narrator, has_until, wire: Wire { program, sources } }
     }
 
-    /// The header; people know what they started.
+    /// Prints the header, as JSON only.
     pub fn begin(&self, shell: &mut Shell, header: &Header) -> Result<(), Failure> {
         if shell.json() { shell.object(&Wire::header(header)) } else { Ok(()) }
     }
 
-    /// Tells a record and what is wrong in it, and gives what it means for the exit code.
+    /// Prints a record and its faults, and returns the exit code that it leads to.
     pub fn tell(
         &self,
         shell: &mut Shell,
@@ -259,19 +259,19 @@ impl<'a> Teller<'a> {
             let told = self.advised(record, fault.clone());
             shell.diagnostic(self.wire.sources, &told)?;
         }
-        // What is wrong comes before the end, which is the last object.
+        // Faults come before the end, which is the last object.
         if shell.json() && is_end {
             shell.object(&self.wire.record(record, steps))?;
         }
         Ok(self.exit(record))
     }
 
-    /// Whether each state is told, not what changed alone.
+    /// Whether each whole state is printed, not only what changed.
     pub fn wants_state(&self) -> bool {
         self.narrator.wants_state()
     }
 
-    /// Lets who sits at the terminal look at the state.
+    /// Lets the prompt show the state.
     fn show(&self, prompt: &mut Prompt, record: &Record, state: Option<&[(Location, Value)]>) {
         prompt.state = self.narrator.state(state.unwrap_or_default());
         prompt.updates = match record {
@@ -284,7 +284,7 @@ impl<'a> Teller<'a> {
         self.wire.program.function(location.function).kind == FunctionKind::Monitored
     }
 
-    /// The fault that ended a run, with what the command line can do about it.
+    /// Adds to the fault that ended a run what to do about it on the command line.
     fn advised(&self, record: &Record, diagnostic: Diagnostic) -> Diagnostic {
         let Record::End(End::Fault(fault)) = record else { return diagnostic };
         match &fault.kind {

@@ -1,6 +1,6 @@
-//! What every command shares: the global options and where output goes.
+//! What every command shares: the global options and the output.
 //!
-//! Text: results on stdout, faults and failures on stderr. JSON: everything on stdout, one object a line, in order.
+//! Text: results on stdout, faults and failures on stderr. JSON: everything on stdout, one object per line, in order.
 
 use std::io::{self, BufWriter, IsTerminal, Write};
 
@@ -18,7 +18,7 @@ use crate::sink::Sink;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Output")]
 pub struct Global {
-    /// How results and faults are written
+    /// How to write results and faults
     #[arg(long, global = true, value_enum, default_value_t = Format::Text)]
     pub format: Format,
     /// When to colour the output
@@ -36,7 +36,7 @@ pub struct Global {
 pub enum Format {
     /// For people
     Text,
-    /// One JSON object a line
+    /// One JSON object per line
     Json,
 }
 
@@ -51,7 +51,7 @@ pub enum Color {
     Never,
 }
 
-/// Output and options.
+/// The output and the global options.
 #[derive(Debug)]
 pub struct Shell {
     pub global: Global,
@@ -61,7 +61,7 @@ pub struct Shell {
     color_err: bool,
 }
 
-/// At most so many faults are shown at once.
+/// The largest number of faults shown at once.
 const SHOWN: usize = 100;
 
 impl Shell {
@@ -84,7 +84,7 @@ impl Shell {
         self.global.format == Format::Json
     }
 
-    /// Results for people are wanted.
+    /// Whether to write results as text.
     pub fn talks(&self) -> bool {
         !self.json() && !self.global.quiet
     }
@@ -97,7 +97,7 @@ impl Shell {
         Disk { limit: self.global.limits.max_file_size }
     }
 
-    /// Where results go.
+    /// The stream for results.
     pub fn out(&mut self) -> &mut impl Write {
         &mut self.out
     }
@@ -111,7 +111,7 @@ impl Shell {
         write_object(&mut self.out, object)
     }
 
-    /// Writes faults, the first hundred of them.
+    /// Writes faults, at most the first hundred.
     pub fn diagnostics(&mut self, sources: &Sources, diagnostics: &[Diagnostic]) -> Result<(), Failure> {
         for diagnostic in diagnostics.iter().take(SHOWN) {
             self.diagnostic(sources, diagnostic)?;
@@ -127,7 +127,7 @@ impl Shell {
         Ok(())
     }
 
-    /// Writes faults that are the result itself, so on stdout.
+    /// Writes faults that are the result itself, so to stdout.
     pub fn details(&mut self, sources: &Sources, diagnostics: &[Diagnostic]) -> Result<(), Failure> {
         for diagnostic in diagnostics.iter().take(SHOWN) {
             let text = render::diagnostic(sources, diagnostic, self.color_out);
@@ -144,7 +144,7 @@ impl Shell {
         if self.json() {
             return self.object(&wire::Fault::new(sources, diagnostic));
         }
-        // Results written before the fault come before it on a terminal, too.
+        // On a terminal, results written before the fault come before it.
         self.out.flush()?;
         let text = render::diagnostic(sources, diagnostic, self.color_err);
         writeln!(self.err, "{text}\n")?;
@@ -158,7 +158,7 @@ impl Shell {
         Ok(())
     }
 
-    /// Writes a failure; there is nobody left to tell if that fails.
+    /// Writes a failure. If that fails too, nobody is left to be informed.
     pub fn report_failure(&mut self, failure: &Failure) {
         if self.json() {
             let object = wire::WorldFailure::new(failure.id(), failure.to_string(), failure.help());
@@ -171,7 +171,7 @@ impl Shell {
     }
 }
 
-/// An object on its own line.
+/// Writes an object on a line of its own.
 pub fn write_object(out: &mut impl Write, object: &impl Serialize) -> Result<(), Failure> {
     serde_json::to_writer(&mut *out, object).map_err(|error| Failure::from(io::Error::from(error)))?;
     out.write_all(b"\n")?;

@@ -1,7 +1,7 @@
 //! Standard output and standard error as commands write to them.
 //!
-//! Whoever reads them may close them early (`| head`). What is written after that goes nowhere, and the command goes on to
-//! its verdict: INVARIANT: the exit code does not depend on who reads. Any other trouble is an error, as of a file.
+//! A reader may close them early (`| head`). Later output is dropped, and the command continues to its verdict.
+//! INVARIANT: the exit code does not depend on the reader. Any other trouble is an error, as for a file.
 
 use std::io::{self, Write};
 
@@ -50,7 +50,7 @@ impl<W: Write> Write for Sink<W> {
 mod tests {
     use super::*;
 
-    /// Takes so many bytes, then breaks with an error.
+    /// Takes this many bytes, then breaks with an error.
     struct Breaks(usize, io::ErrorKind);
 
     impl Write for Breaks {

@@ -1,4 +1,4 @@
-//! SMT solvers as processes: z3 or cvc5, found on the PATH or named; one question each, or a session.
+//! Runs SMT solvers as processes: z3 or cvc5, found on the PATH or named; for one question, or for a session.
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
@@ -8,21 +8,21 @@ use std::time::{Duration, Instant};
 
 use solve::session::{Session, Silence, Solvers, is_answer};
 
-/// How long a solver may think about one question that is asked alone, in seconds.
+/// The time limit for a question that is asked on its own, in seconds.
 const SECONDS: u32 = 10;
-/// How often whoever waits is asked whether it goes on.
+/// While a solver works, how often the caller is asked whether to go on.
 const BETWEEN: Duration = Duration::from_millis(100);
 
-/// A solver that is started anew for each question or session.
+/// Starts a solver for each question or session.
 #[derive(Debug)]
 pub struct Process {
-    /// The program; none where there is none.
+    /// The solver's program; `None` if there is none.
     program: Option<PathBuf>,
-    /// It was named by the user.
+    /// Whether the user named it.
     named: bool,
 }
 
-/// The solvers whose ways are known.
+/// The solvers whose options are known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Make {
     Z3,
@@ -31,7 +31,7 @@ enum Make {
 }
 
 impl Process {
-    /// The solver named, `none` for none; else the first one on the PATH.
+    /// The named solver, or none for `none`; without a name, the first one on the PATH.
     pub fn find(named: Option<&Path>) -> Self {
         match named {
             Some(path) if path == Path::new("none") => Process { program: None, named: true },
@@ -81,7 +81,7 @@ impl solve::Solver for Process {
         };
         let mut child = Process::spawn(program, &arguments)?;
         if let Some(mut input) = child.stdin.take() {
-            // A solver that stops reading has said what it has to say.
+            // A solver that stops reading has already said all that it will say.
             let _ = input.write_all(script.as_bytes());
         }
         let told = |error: std::io::Error| format!("the solver {} does not run: {error}", program.display());
@@ -119,7 +119,7 @@ impl Solvers for Process {
             return Err(Silence::Broken("the solver has no input or output".to_string()));
         };
         let (commands, texts) = channel::<String>();
-        // A solver that thinks does not read, and whoever waits may have enough of that.
+        // Writing needs its own thread: a busy solver does not read, and the caller must be able to give up meanwhile.
         std::thread::spawn(move || {
             for text in texts {
                 if input.write_all(text.as_bytes()).and_then(|()| input.flush()).is_err() {
@@ -128,7 +128,7 @@ impl Solvers for Process {
             }
         });
         let (sender, answers) = channel();
-        // It ends with the process that it reads from.
+        // The thread ends with the process that it reads from.
         std::thread::spawn(move || {
             let (mut output, mut answer) = (BufReader::new(output), String::new());
             while matches!(output.read_line(&mut answer), Ok(read) if read > 0) {
@@ -141,7 +141,7 @@ impl Solvers for Process {
     }
 }
 
-/// A solver at work.
+/// A running solver.
 struct Running {
     child: Child,
     commands: Sender<String>,

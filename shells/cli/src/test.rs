@@ -1,4 +1,4 @@
-//! `groundstate test PATH…`: scenarios, one line each, failures in detail, a summary.
+//! `groundstate test PATH…`: runs scenarios; prints a line for each, details of failures, and a summary.
 
 use std::collections::BTreeSet;
 use std::io::Write;
@@ -37,7 +37,7 @@ pub struct Arguments {
     /// Write the results as JUnit XML
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
-    /// Which candidate a choose rule takes where no pick says so
+    /// Which candidate a choose rule takes if no pick decides
     #[arg(long, value_enum, default_value_t = Chosen::Random, value_name = "HOW")]
     choose: Chosen,
     /// Seed of random choices
@@ -48,7 +48,7 @@ pub struct Arguments {
     until_bound: u64,
 }
 
-/// How many scenarios did what.
+/// How many scenarios had which result.
 #[derive(Debug, Default)]
 struct Tally {
     passed: usize,
@@ -96,7 +96,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     summary(shell, &tally, files.len())
 }
 
-/// The scenarios of files, read one by one, up to the first that cannot be.
+/// Reads the scenarios one by one, up to the first file that cannot be read.
 struct Scenarios {
     files: std::vec::IntoIter<PathBuf>,
     disk: Disk,
@@ -142,8 +142,8 @@ fn report(
         let run = groundstate::tell::story(program, story);
         shell.out().write_all(run.as_bytes())?;
     }
-    // Many scenarios load one model; the faults that keep it from running are shown with the first. What went wrong in a
-    // run is that scenario's own reason, however many others have the same.
+    // Many scenarios load the same model; its faults are shown only once. A fault of a run is shown for each scenario,
+    // even if others have the same one.
     let key = |found: &Diagnostic| format!("{} {}", sources.position(found.primary.span), found.message);
     let new = |found: &&Diagnostic| tested.verdict.is_some() || seen.insert(key(found));
     let new: Vec<Diagnostic> = failures.iter().filter(new).cloned().collect();

@@ -1,4 +1,4 @@
-//! A trace file being written. It has its name only when the run has ended; a step taken back leaves no line.
+//! A trace file being written. It gets its name only when the run has ended. A step that is taken back leaves no line.
 
 use std::path::{Path, PathBuf};
 use wire::{Kept, Line};
@@ -7,11 +7,11 @@ use crate::failure::Failure;
 use crate::files::Unfinished;
 use crate::shell::write_object;
 
-/// See the module.
+/// A trace file.
 pub struct TraceFile {
     path: PathBuf,
     file: Unfinished,
-    /// At a prompt lines are held back, since a step may be taken back.
+    /// At a prompt lines are held back, since their steps may be taken back.
     held: Option<Kept>,
 }
 

@@ -1,4 +1,4 @@
-//! Bad inputs that are made rather than kept: every one gets a message, the right exit code, no panic.
+//! Generated bad inputs: every one gets a message and the right exit code, and none makes the program panic.
 #![allow(clippy::disallowed_methods, reason = "the test makes the files it gives to the command")]
 
 use std::fs;
@@ -11,7 +11,7 @@ fn groundstate(folder: &Path, arguments: &[&str]) -> Output {
     command.args(arguments).current_dir(folder).stdin(Stdio::null()).output().expect("it starts")
 }
 
-/// The exit code, and what must be said.
+/// Checks the exit code, and that the output contains this text.
 fn check(folder: &Path, arguments: &[&str], code: i32, says: &str) {
     let output = groundstate(folder, arguments);
     let text = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
@@ -186,7 +186,7 @@ fn a_closed_pipe_is_quiet() {
     assert_eq!(output.status.code(), Some(0));
 }
 
-/// What a command's exit code is, and what it says on stderr, when its output is closed after the first bytes.
+/// The exit code and the stderr of a command whose output is closed after the first bytes.
 fn closed(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
     let mut child = Command::new(env!("CARGO_BIN_EXE_groundstate"))
         .args(arguments)
@@ -224,7 +224,7 @@ fn the_verdict_is_the_same_whoever_reads() {
         assert_eq!(code, Some(1), "{arguments:?}: {said}");
         assert!(!said.contains("panicked"), "{arguments:?}: {said}");
     }
-    // What is not known is not known either: of the condition nothing was seen.
+    // *Not known* stays, too: the condition never held.
     assert_eq!(closed(folder.path(), &["run", "Bad.asm", "-n", "3", "--until", "x = 9"]).0, Some(3));
 }
 
@@ -240,7 +240,7 @@ fn each_failing_scenario_tells_its_reason() {
     let output = groundstate(folder.path(), &["test", "One.avalla", "Two.avalla"]);
     let text = String::from_utf8_lossy(&output.stdout);
     assert_eq!(text.matches("invariant inv_few does not hold after 2 steps").count(), 2, "{text}");
-    // A model that cannot be run is told of once, and then referred to.
+    // A model that cannot run is reported once; the second scenario refers to it.
     write(folder.path(), "Bad.asm", model("Bad", "x := true"));
     let output = groundstate(folder.path(), &["test", "One.avalla", "Two.avalla"]);
     let text = String::from_utf8_lossy(&output.stdout);
@@ -296,14 +296,14 @@ fn what_is_read_is_not_written_over() {
     check(folder.path(), &["chart", "draw", "Lamp.chart", "-o", "./Lamp.chart"], 2, "");
     check(folder.path(), &["chart", "draw", "Lamp.chart", "-o", "Lamp.svg", "--quiet"], 0, "");
     check(folder.path(), &["chart", "build", "Count.asm"], 2, "Count.asm is a model");
-    // A model that the chart imports is no place for what is built of it.
+    // A model that the chart imports must not be overwritten by the built one.
     write(folder.path(), "Wide.chart", LAMP.replace("chart Lamp", "chart Wide\nimport Library"));
     let library = "module Library\nimport StandardLibrary\nexport *\nsignature:\ndefinitions:\n";
     write(folder.path(), "Library.asm", library);
     check(folder.path(), &["chart", "build", "Wide.chart", "-o", "Library.asm"], 2, says);
     let text = |name: &str| fs::read_to_string(folder.path().join(name)).expect("it is there");
     assert_eq!((text("Count.asm"), text("Lamp.chart"), text("Library.asm")), (model, LAMP.into(), library.into()));
-    // What is brought up to date in place is written all the same.
+    // Updating in place still works.
     check(folder.path(), &["chart", "place", "Lamp.chart"], 0, "Lamp.chart");
     assert!(text("Lamp.chart").contains("layout lamp"));
     check(folder.path(), &["chart", "build", "Lamp.chart"], 0, "Lamp.asm");
@@ -329,7 +329,7 @@ fn a_model_with_faults_is_not_built() {
     write(folder.path(), "Twice.chart", twice);
     check(folder.path(), &["chart", "build", "Twice.chart"], 1, "a second rule `r_go` would be made");
     nothing_written("Twice.asm");
-    // A model that is there stays as it is.
+    // An existing model stays as it is.
     write(folder.path(), "Old.asm", model("Old", "skip"));
     write(
         folder.path(),

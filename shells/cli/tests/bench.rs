@@ -1,4 +1,5 @@
-//! What `bench` says that is not of the clock: the same steps end in the same state, in whatever pieces they are made.
+//! The part of `bench` that does not depend on the clock: the same steps end in the same state, however they are
+//! divided.
 
 use std::process::Command;
 

@@ -1,6 +1,6 @@
-//! Every command that a page of the documentation shows is one that works: it is run in a copy of the repository, in the
-//! page's folder or the root, with the files that it names. What would take long is shortened: of a search one step is
-//! made, and scenarios, which other tests run, are checked.
+//! Every command in the documentation works: it runs in a copy of the repository, in the page's folder or the root,
+//! with the files that it names. Slow commands are shortened: a search makes one step, and scenarios, which other tests
+//! run, are only checked.
 
 #![allow(clippy::disallowed_methods, reason = "a test reads pages and works on files")]
 
@@ -25,7 +25,7 @@ fn pages() -> Vec<PathBuf> {
     pages
 }
 
-/// Commands of a page: lines that are indented or begin with a prompt, and what stands in backquotes and names a file.
+/// The commands of a page: lines that are indented or begin with a prompt, and code in backquotes that names a file.
 fn commands(text: &str) -> Vec<Vec<String>> {
     let mut found = Vec::new();
     for line in text.lines() {
@@ -33,7 +33,7 @@ fn commands(text: &str) -> Vec<Vec<String>> {
         let whole = shown.filter(|line| line.starts_with("groundstate "));
         let parts: Vec<&str> = match whole {
             Some(line) => vec![line.split(" #").next().unwrap_or(line)],
-            // What is not closed on its line goes on behind it.
+            // A backquote that is not closed on its line begins code that continues on the next; it is skipped.
             None => {
                 let closed = line.matches('`').count() / 2;
                 line.split('`')
@@ -47,7 +47,7 @@ fn commands(text: &str) -> Vec<Vec<String>> {
         for part in parts {
             let words: Vec<String> =
                 part.split_whitespace().skip(1).map(|word| word.trim_matches('\'').to_string()).collect();
-            // What stands in the place of a name, and a line that goes on in a shell.
+            // Placeholders, and commands that continue in a shell.
             let open = |word: &String| {
                 word.chars().any(|c| "<>…|\"$".contains(c))
                     || word.len() > 1 && word.chars().all(|c| c.is_ascii_uppercase())
@@ -60,7 +60,7 @@ fn commands(text: &str) -> Vec<Vec<String>> {
     found
 }
 
-/// A command that comes to an end soon, and the exit codes that are good.
+/// A command that ends soon, and its good exit codes.
 fn shortened(mut words: Vec<String>) -> (Vec<String>, &'static [i32]) {
     match words[0].as_str() {
         "verify" => {
@@ -110,7 +110,7 @@ fn the_commands_of_the_pages_work() {
         let text = fs::read_to_string(root().join(&page)).expect("a page");
         let beside = page.parent().filter(|parent| folder.path().join(parent).is_dir()).unwrap_or(Path::new(""));
         for words in commands(&text) {
-            // A path starts at the folder of the page, or at the root.
+            // Paths are relative to the page's folder or to the root.
             let files = words.iter().filter(|word| word.contains('/') && !word.starts_with("out/"));
             let at_root = files.clone().any(|file| !file.starts_with("..") && folder.path().join(file).exists());
             let place = folder.path().join(if at_root { Path::new("") } else { beside });
@@ -139,7 +139,7 @@ fn the_commands_of_the_pages_work() {
     assert!(ran > 40, "{ran} commands were found");
 }
 
-/// The pages say of this chart that it can be built and runs; so do all charts of the library and the examples check.
+/// The pages say that this chart can be built and runs. All charts of the library and the examples check as well.
 #[test]
 fn the_charts_can_be_built() {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -157,7 +157,7 @@ fn the_charts_can_be_built() {
     assert_eq!(groundstate(&["check", "--strict", "DataProducer.asm"]), (Some(0), String::new()));
     let run = ["run", "DataProducer.asm", "--random", "--steps", "50", "--show", "none"];
     assert_eq!(groundstate(&run), (Some(0), String::new()));
-    // All that the case study is made of, the charts and what is shown included; and a system that imports no patterns.
+    // All files of the case study, including its charts and reports; and a system that imports no patterns.
     let case = "examples/visual_servoing";
     for file in ["VisionSystem.chart", "VisualServoing.report.yaml", "verification/VisualServoingInTicks.verify.yaml"] {
         assert_eq!(groundstate(&["check", &format!("{case}/{file}")]), (Some(0), String::new()), "{file}");
@@ -169,7 +169,7 @@ fn the_charts_can_be_built() {
     fs::write(folder.path().join("library/Alone.chart"), alone).expect("a file");
     assert_eq!(groundstate(&["chart", "build", "library/Alone.chart"]), (Some(0), String::new()));
     assert_eq!(groundstate(&["chart", "check", "library/Alone.chart"]), (Some(0), String::new()));
-    // In a period of 40 ms for 10 it is another robot.
+    // With a period of 40 ms instead of 10 it is another robot.
     let slower = system.replace("synchronous period 10 ms", "synchronous period 40 ms");
     fs::write(folder.path().join(case).join("VisionSystem.chart"), slower).expect("a file");
     let (code, told) = groundstate(&["chart", "check", &format!("{case}/VisionSystem.chart")]);

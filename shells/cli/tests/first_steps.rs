@@ -1,4 +1,4 @@
-//! What a newcomer types first: a new folder and the commands of its page, the built-in patterns, completions, manual pages.
+//! What newcomers type first: a new folder and the commands of its page, built-in patterns, completions, manual pages.
 #![allow(clippy::disallowed_methods, reason = "the test makes the files it gives to the command")]
 
 use std::fs;
@@ -10,7 +10,7 @@ fn groundstate(folder: &Path, arguments: &[&str]) -> Output {
     command.args(arguments).current_dir(folder).stdin(Stdio::null()).output().expect("it starts")
 }
 
-/// Runs a command that is to end with this code; what it says.
+/// Runs a command, checks its exit code and returns its output.
 fn check(folder: &Path, arguments: &[&str], code: i32) -> String {
     let output = groundstate(folder, arguments);
     let text = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
@@ -22,7 +22,7 @@ fn folder() -> tempfile::TempDir {
     tempfile::tempdir().expect("a temporary folder")
 }
 
-/// The commands that stand in a page, indented by four.
+/// The commands of a page, indented by four.
 fn commands(page: &str) -> Vec<Vec<&str>> {
     let lines = page.lines().filter_map(|line| line.strip_prefix("    groundstate "));
     lines.map(|line| line.split_whitespace().collect()).collect()
@@ -45,7 +45,7 @@ fn a_new_folder_does_what_its_page_says() {
                 assert!(!said.contains(word), "{command:?}: {said}");
             }
         }
-        // Each command that writes has written.
+        // Each command with `-o` has written its file.
         for output in commands.iter().filter_map(|c| c.iter().position(|w| *w == "-o").map(|at| c[at + 1])) {
             assert!(folder.join(output).exists(), "{template}: {output}");
         }
@@ -88,7 +88,7 @@ fn the_patterns_are_built_in() {
     fs::write(folder.path().join("Cell.asm"), model).expect("a model");
     check(folder.path(), &["check", "Cell.asm", "--strict"], 0);
     assert!(check(folder.path(), &["run", "Cell.asm", "-n", "1"], 0).contains("sv_value(goal)"));
-    // A file of the working folder is not taken for one that the library imports.
+    // A file in the working folder does not replace one that the library imports.
     fs::write(folder.path().join("Task.asm"), "module Task\nnonsense").expect("a file");
     fs::write(
         folder.path().join("All.asm"),
@@ -96,7 +96,7 @@ fn the_patterns_are_built_in() {
     )
     .expect("a model");
     check(folder.path(), &["check", "All.asm"], 0);
-    // A fault tells where the text came from.
+    // A fault shows where the text came from.
     fs::write(
         folder.path().join("Wrong.asm"),
         model.replace("Cell", "Wrong").replace("r_sv_write[goal]", "r_sv_wrte[goal]"),
@@ -108,7 +108,7 @@ fn the_patterns_are_built_in() {
     fs::write(folder.path().join("Fault.asm"), fault).expect("a model");
     let said = check(folder.path(), &["run", "Fault.asm"], 1);
     assert!(said.contains("<patterns>/SharedValue.asm:"), "{said}");
-    // A path of a clone that is not there.
+    // A path into a clone of the repository, which is not here.
     fs::write(
         folder.path().join("Far.asm"),
         model.replace("Cell", "Far").replace("patterns/", "../../library/patterns/"),
@@ -151,7 +151,7 @@ fn a_system_says_what_its_report_shows() {
     }
     let page = fs::read_to_string(folder.join("run.html")).expect("the page");
     assert!(page.contains("data-shape") && page.contains("what Axis.chart says"), "the system's picture and its name");
-    // A file that is named has to be there, and one that is there counts.
+    // A named file must exist; if it does, it is used.
     check(&folder, &["report", "Axis.asm", "--spec", "Axis.report.yaml"], 2);
     fs::write(folder.join("Axis.report.yaml"), "title: My own\n").expect("a specification");
     assert!(check(&folder, &["report", "Axis.asm", "--steps", "4"], 0).starts_with("My own"));
@@ -215,7 +215,7 @@ fn operators_of_the_command_line_are_imported() {
     assert!(said.contains("holds     ag(ef(x = 0))") && said.contains("holds     g(f(x = 2))"), "{said}");
     let said = check(folder.path(), &["verify", "Turn.asm", "--ltl", "g(x < 2)", "--ctl", "ag(x < 2)"], 1);
     assert_eq!((said.matches("violated ").count(), said.matches("  state 0").count()), (2, 2), "{said}");
-    // A model with a name of its own that is an operator's stays as it is.
+    // A model whose own name clashes with an operator stays unchanged.
     let own = model.replace("controlled x", "static g: Boolean -> Boolean\n\tcontrolled x");
     let own = own.replace("definitions:\n", "definitions:\n\tfunction g($b in Boolean) = not $b\n");
     fs::write(folder.path().join("Turn.asm"), own).expect("a model");

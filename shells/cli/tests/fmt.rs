@@ -1,4 +1,4 @@
-//! `fmt` on standard input, and what it keeps of a file: its line ends, its permissions.
+//! `fmt` on standard input, and what it preserves of a file: line ends, permissions.
 #![allow(clippy::disallowed_methods, reason = "the test makes the files it gives to the command")]
 
 use std::fs;

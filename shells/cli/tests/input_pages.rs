@@ -1,4 +1,5 @@
-//! Each kind of fault of a file beside the model (inputs, a report specification, what is to be verified) has a page in spec/faults/, and the page's example yields it.
+//! Each kind of fault in a file beside the model (inputs, report specification, verification specification) has a page
+//! in spec/faults/, whose example shows it.
 
 #![allow(clippy::disallowed_methods, reason = "the pages are files, and so is what is given to the command")]
 

@@ -1,19 +1,19 @@
-//! Signals while a search goes on: what it has found is told, and what it has not is unknown.
+//! Signals during a search: what it has found is reported, the rest is unknown.
 #![cfg(unix)]
 #![allow(clippy::disallowed_methods, reason = "the test makes the files it gives to the command")]
 
 use std::io::{BufRead, BufReader, Read};
 use std::process::{Child, Command, Stdio};
 
-/// It goes on for ever, and an invariant is violated after some steps.
+/// Never ends; violates an invariant after some steps.
 const ENDLESS: &str = "asm Endless\nimport StandardLibrary\nsignature:\n\tcontrolled n: Integer\n\tcontrolled s: Seq(Integer)\n\
                        definitions:\n\tinvariant inv_small over n: n < 5\n\tmain rule r_Main = choose $k in {1, 2} with true do \
                        if $k = 1 then n := n + 1 else s := append(s, n) endif\n\
                        default init s0:\n\tfunction n = 0\n\tfunction s = []\n";
 
-/// As GNU `timeout` does, which signals the process and its group: two at once.
+/// Signals like GNU `timeout`, which signals both the process and its group.
 fn terminate(child: &Child) {
-    // The shell's own `kill`: a program of that name is not on every machine.
+    // Uses the `kill` built into the shell, since not every machine has a program of that name.
     let told =
         Command::new("sh").args(["-c", "kill -TERM $0 $0", &child.id().to_string()]).status().expect("it starts");
     assert!(told.success());

@@ -1,4 +1,4 @@
-//! What commands write as JSON is what the schema of `crates/wire/schema` says, line by line; so are traces.
+//! The JSON output of commands and traces matches the schema in `crates/wire/schema`, line by line.
 
 #![allow(clippy::disallowed_methods, reason = "the schema and the models are files")]
 
@@ -19,7 +19,7 @@ fn schema(name: &str) -> Value {
     serde_json::from_str(&text).expect("it is JSON")
 }
 
-/// All lines are as the schema says; their types.
+/// Checks all lines against the schema; returns their types.
 fn check(schema: &Value, text: &str, of: &str) -> BTreeSet<String> {
     let mut types = BTreeSet::new();
     for line in text.lines() {
@@ -102,7 +102,7 @@ fn every_command_writes_what_the_schema_says() {
     let mut types = BTreeSet::new();
     known(&schema, &mut types);
     let unseen: Vec<&String> = types.difference(&seen).collect();
-    // Steps are taken back at a terminal alone.
+    // Only a terminal can take steps back.
     assert_eq!(unseen, ["back"], "the commands above write none of these");
     let lines = std::fs::read_to_string(folder.path().join("light.trace")).expect("the trace");
     check(&self::schema("trace.json"), &lines, "the trace");

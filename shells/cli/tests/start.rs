@@ -1,9 +1,9 @@
-//! Pages that show files, commands and answers are transcripts: docs/start.md, and the model on README.md.
+//! Pages that show files, commands and answers are transcripts: docs/start.md, and the model in README.md.
 //!
-//! In: a page. A block of code below a line that ends with "`NAME`:" is the file NAME, and a block of `diff` there a change of
-//! that file. The page is cut before each of them; each piece is a transcript for trycmd, run in one folder that all pieces share.
-//! A picture that the page shows from its own folder is the one that the commands drew. `TRYCMD=overwrite` rewrites answers and
-//! pictures.
+//! In: a page. A block of code after a line that ends with "`NAME`:" is the file NAME; a `diff` block there changes
+//! that file. The page is cut before each such block; each piece is a transcript for trycmd, run in one folder that all
+//! pieces share. A picture that the page shows from its own folder must be the one that the commands draw.
+//! `TRYCMD=overwrite` rewrites answers and pictures.
 
 #![allow(clippy::disallowed_methods, reason = "a test reads a page and makes the files on it")]
 
@@ -15,18 +15,18 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().expect("the repository")
 }
 
-/// What happens to a file before the commands of a piece.
+/// What happens to a file before the commands of a piece run.
 #[derive(Debug, PartialEq, Eq)]
 enum Edit {
     Write(String),
-    /// Lines that stand in the file once, and what takes their place.
+    /// Lines that stand in the file once, and their replacement.
     Change {
         from: String,
         to: String,
     },
 }
 
-/// A page from one file to the next: its lines as they are, the number of the first, and the file with what happens to it.
+/// The part of a page from one file to the next: its lines, the number of the first, and the change of the file.
 #[derive(Debug)]
 struct Piece {
     line: usize,
@@ -88,14 +88,14 @@ fn apply(folder: &Path, name: &str, edit: &Edit) {
     }
 }
 
-/// Where a program lies that the page calls by its name.
+/// The path of a program that the page calls by its name.
 fn on_the_path(name: &str) -> PathBuf {
     let folders = env::var_os("PATH").expect("a search path");
     let mut found = env::split_paths(&folders).map(|folder| folder.join(name));
     found.find(|path| path.is_file()).unwrap_or_else(|| panic!("{name} is not installed"))
 }
 
-/// Runs a page; what it reads then, and the folder of its files.
+/// Runs a page; returns its updated text, and the folder of its files.
 fn run(page: &str) -> (String, tempfile::TempDir) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let files = folder.path().join("files");
@@ -105,14 +105,14 @@ fn run(page: &str) -> (String, tempfile::TempDir) {
         if let Some((name, edit)) = &piece.edit {
             apply(&files, name, edit);
         }
-        // By its name trycmd finds the folder, and whoever reads its answer the place on the page.
+        // The name tells trycmd the folder, and the reader of its answer the place on the page.
         let transcript = folder.path().join(format!("from-line-{}.md", piece.line));
         let beside = transcript.with_extension("in");
         fs::write(&transcript, &piece.text).expect("a transcript");
         fs::rename(&files, &beside).expect("a folder");
         let cases = trycmd::TestCases::new();
         for line in piece.text.lines().filter_map(|line| line.strip_prefix("$ ")) {
-            // A program that trycmd does not know it would pass over.
+            // trycmd would skip a program that it does not know.
             let name = line.split(' ').next().expect("a word");
             if name != "groundstate" {
                 let path = name.strip_prefix("./").map_or_else(|| on_the_path(name), |made| beside.join(made));

@@ -1,4 +1,4 @@
-//! Transcripts: what is typed and what is answered, in tests/cmd/. `TRYCMD=overwrite` rewrites the answers.
+//! Transcripts: commands and their answers, in tests/cmd/. `TRYCMD=overwrite` rewrites the answers.
 
 #[test]
 fn transcripts() {

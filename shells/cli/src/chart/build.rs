@@ -1,4 +1,4 @@
-//! `groundstate chart build FILE`: the model that a chart stands for.
+//! `groundstate chart build FILE`: writes the model that a chart means.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ use crate::shell::Shell;
 pub struct Arguments {
     /// A chart
     file: PathBuf,
-    /// The model to write, or to bring up to date; `-` for stdout. Default: beside the chart, with the ending .asm
+    /// The model to write or to update; `-` for stdout. Default: beside the chart, with the ending .asm
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -28,7 +28,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let root = shell.disk().root(&arguments.file)?;
     let output = arguments.output.clone().unwrap_or_else(|| arguments.file.with_extension("asm"));
     let to_stdout = output == Path::new("-");
-    // What is there is brought up to date; but it is neither the chart nor anything that the chart is made of.
+    // An existing model is updated, but the chart itself and what it imports are never overwritten.
     overwrite::refuse(&output)?;
     let existing = if to_stdout { None } else { present_text(&output, shell.global.limits.max_file_size)? };
     let name = if to_stdout { arguments.file.with_extension("asm") } else { output.clone() };

@@ -1,4 +1,4 @@
-//! `groundstate chart check FILE`: whether a chart and its specification say the same.
+//! `groundstate chart check FILE`: checks that a chart and its model agree.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -19,10 +19,10 @@ use crate::solver::Process;
 pub struct Arguments {
     /// A chart
     file: PathBuf,
-    /// The specification. Default: beside the chart, with the ending .asm
+    /// The model. Default: beside the chart, with the ending .asm
     #[arg(long, value_name = "FILE")]
     model: Option<PathBuf>,
-    /// The SMT solver that decides about guards over numbers, a program or `none`. Default: z3 or cvc5 from the PATH
+    /// The SMT solver that decides guards over numbers: a program or `none`. Default: z3 or cvc5 from the PATH
     #[arg(long, value_name = "PROGRAM")]
     solver: Option<PathBuf>,
 }
@@ -55,11 +55,11 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     };
     let root = shell.disk().root(&arguments.file)?;
     let mut checked = groundstate::check(SourceFile::new(name, probed.text.clone()), &mut shell.disk());
-    // The chart's own places, beside those of the specification.
+    // Faults may point into the chart, besides the model.
     let loaded = chart::load_beside(std::mem::take(&mut checked.sources), root, &mut shell.disk());
     let mut chart = loaded.chart;
     checked.sources = loaded.sources;
-    // Faults of the imports are the model's, too, and told there.
+    // Faults of the imports are also the model's and are reported there.
     let _ = Known::completed(
         &mut chart,
         &arguments.file.with_file_name("Imports.asm").display().to_string(),
@@ -93,7 +93,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     Ok(if groundstate::has_errors(&faults) { Exit::Model } else { Exit::Good })
 }
 
-/// Nothing was held to anything.
+/// Nothing was compared.
 fn not_compared(shell: &mut Shell, arguments: &Arguments, reason: &str) -> Result<Exit, Failure> {
     let text = format!("{}: not compared: {reason}", arguments.file.display());
     if shell.talks() {

@@ -1,4 +1,4 @@
-//! `groundstate chart draw FILE`: the machines and the system of a chart as SVG, PNG or PDF.
+//! `groundstate chart draw FILE`: draws the machines and the system of a chart as SVG, PNG or PDF.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -15,30 +15,30 @@ use crate::shell::Shell;
 pub struct Arguments {
     /// A chart
     file: PathBuf,
-    /// Draw this machine or system alone
+    /// Draw only this machine or system
     #[arg(long, value_name = "NAME")]
     machine: Option<String>,
-    /// A folder for the pictures, one for each machine; or a file .svg, .png or .pdf, where there is one picture.
+    /// A folder for the pictures, one for each machine; or a file .svg, .png or .pdf, if there is only one picture.
     /// Default: stdout
     #[arg(long, short, value_name = "PATH")]
     output: Option<PathBuf>,
-    /// The form of the pictures. Default: as the file ends, else svg
+    /// The format of the pictures. Default: by the file's ending, else svg
     #[arg(long = "as", value_enum, value_name = "FORM")]
     form: Option<Form>,
-    /// Colours: as the reader's screen is, or fixed; PNG and PDF are light unless they are dark
+    /// Colours: by the reader's screen, or fixed. PNG and PDF are light unless `dark` is given
     #[arg(long, value_enum, default_value_t = Theme::Auto)]
     theme: Theme,
-    /// Dots of a PNG for each pixel
+    /// Pixels of a PNG for each pixel of the picture
     #[arg(long, value_name = "N", default_value_t = 2.0, value_parser = scale)]
     scale: f32,
 }
 
-/// The form of a picture.
+/// A picture format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Form {
-    /// Lines and text for browsers
+    /// A vector picture for browsers
     Svg,
-    /// Dots
+    /// A pixel image
     Png,
     /// A page
     Pdf,
@@ -55,7 +55,7 @@ impl Form {
         }
     }
 
-    /// The form of a file of that name; none of a folder.
+    /// The format of a file by its name; `None` for a folder.
     fn of(path: &Path) -> Option<Form> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
         Form::ALL.into_iter().find(|form| form.ending() == ending)
@@ -65,7 +65,7 @@ impl Form {
 /// Colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Theme {
-    /// As the reader's screen is
+    /// By the reader's screen
     Auto,
     /// Dark on light
     Light,
@@ -101,7 +101,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         let help = "name a folder with --output, or one machine with --machine";
         return Err(Failure::usage_with_help(format!("the chart has {} machines", machines.len()), help));
     }
-    // All are drawn before the first is written.
+    // All pictures are drawn before the first is written.
     let mut pictures = Vec::new();
     for machine in machines {
         let picture = drawn(machine, form, arguments).map_err(|fault| Failure::usage(fault.to_string()))?;

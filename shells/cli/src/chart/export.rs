@@ -1,4 +1,4 @@
-//! `groundstate chart export FILE --to NOTATION`: a chart in the notation of another tool.
+//! `groundstate chart export FILE --to NOTATION`: writes a chart in the notation of another tool.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -19,10 +19,10 @@ pub struct Arguments {
     /// The notation
     #[arg(long, value_enum, value_name = "NOTATION")]
     to: To,
-    /// This machine or system alone
+    /// Export only this machine or system
     #[arg(long, value_name = "NAME")]
     machine: Option<String>,
-    /// A folder, in which each machine gets a file of its own. Default: stdout
+    /// A folder, with a file for each machine. Default: stdout
     #[arg(long, short, value_name = "FOLDER")]
     output: Option<PathBuf>,
 }

@@ -1,4 +1,4 @@
-//! `groundstate chart extract MODEL`: the chart of a model's rules in control-state form.
+//! `groundstate chart extract MODEL`: writes the chart of a model's rules in control-state form.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -16,10 +16,10 @@ use crate::shell::Shell;
 pub struct Arguments {
     /// A model
     model: PathBuf,
-    /// This rule alone, also of an imported module. Default: all rules of the file
+    /// Extract only this rule, which may stand in an imported module. Default: all rules of the file
     #[arg(long, value_name = "NAME")]
     rule: Option<String>,
-    /// The function that holds the control state. Default: the one on which all that a rule does depends
+    /// The function that holds the control state. Default: the one that all actions of a rule depend on
     #[arg(long, value_name = "NAME")]
     control: Option<String>,
     /// The chart to write. Default: stdout

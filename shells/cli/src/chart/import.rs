@@ -1,4 +1,4 @@
-//! `groundstate chart import FILE`: a chart from another tool's notation.
+//! `groundstate chart import FILE`: reads a chart in another tool's notation.
 
 use std::io::Write;
 use std::path::PathBuf;

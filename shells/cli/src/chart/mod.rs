@@ -1,4 +1,4 @@
-//! `groundstate chart …`: charts drawn, models built from them, the two compared. One file a subcommand.
+//! `groundstate chart …`: draws charts, builds models from them, compares the two. One file per subcommand.
 
 mod build;
 mod check;
@@ -28,9 +28,9 @@ pub struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Write the model that a chart stands for; what is written by hand in it stays
+    /// Write the model that a chart means; keep what is written by hand in it
     Build(build::Arguments),
-    /// Compare a chart with the model it stands for, transition by transition
+    /// Compare a chart with its model, transition by transition
     Check(check::Arguments),
     /// Write the chart of a model's rules in control-state form
     Extract(extract::Arguments),
@@ -38,9 +38,9 @@ enum Command {
     Export(export::Arguments),
     /// Write a chart from another tool's notation: SCXML
     Import(import::Arguments),
-    /// Write a chart's machines and system as pictures
+    /// Draw a chart's machines and system
     Draw(draw::Arguments),
-    /// Write into a chart where its shapes lie, so that they stay there
+    /// Write the places of a chart's shapes into the chart, so that they stay there
     Place(place::Arguments),
 }
 
@@ -57,7 +57,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     }
 }
 
-/// Reads a chart and those that it imports; their faults are shown, and with errors there is none.
+/// Reads a chart and those it imports, and shows their faults. If there are errors, returns the exit code.
 pub fn read(shell: &mut Shell, path: &Path) -> Result<Result<(Sources, Chart), Exit>, Failure> {
     is_chart(path)?;
     let mut disk = shell.disk();
@@ -70,7 +70,7 @@ pub fn read(shell: &mut Shell, path: &Path) -> Result<Result<(Sources, Chart), E
     Ok(Ok((sources, chart)))
 }
 
-/// A model or a scenario is no chart, whatever is in it.
+/// Refuses a model or a scenario, whatever it contains.
 fn is_chart(path: &Path) -> Result<(), Failure> {
     match path.extension().and_then(|extension| extension.to_str()) {
         Some("asm") => Err(another(path, "model", "`groundstate chart extract` writes the chart of a model's rules")),

@@ -1,4 +1,4 @@
-//! `groundstate chart place FILE`: where shapes lie, written into the chart.
+//! `groundstate chart place FILE`: writes the places of shapes into the chart.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -16,10 +16,10 @@ use crate::shell::Shell;
 pub struct Arguments {
     /// A chart
     file: PathBuf,
-    /// This machine or system alone
+    /// Place only this machine or system
     #[arg(long, value_name = "NAME")]
     machine: Option<String>,
-    /// Write the chart there; `-` for stdout. Default: into the file itself
+    /// Write the chart to this file; `-` for stdout. Default: into the chart itself
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
 }

@@ -1,5 +1,5 @@
-//! A chart: its own faults, and those of the model that would be built of it. Whether it agrees with the model that is
-//! there, `groundstate chart check` tells.
+//! Checks a chart: its own faults, and those of the model that would be built from it. Whether it agrees with the
+//! present model is the question of `groundstate chart check`.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use super::{Seen, plural};
 use crate::failure::Failure;
 use crate::files::{Disk, present_text};
 
-/// Looks at a chart as `chart build` would.
+/// Checks a chart as `chart build` would.
 pub fn look(path: &Path, root: SourceFile, disk: &mut Disk) -> Result<Seen, Failure> {
     let model = path.with_extension("asm");
     let existing = present_text(&model, disk.limit)?;

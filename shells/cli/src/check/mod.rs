@@ -1,8 +1,8 @@
-//! `groundstate check PATH…`: faults only, of whatever a project is made of.
+//! `groundstate check PATH…`: reports faults only, for every kind of file in a project.
 //!
-//! What a file is, its ending says: a model, a scenario, a chart, what a report shows, what is verified. INVARIANT: *no
-//! faults* is said of what was looked at as a whole; where a part could not be, that is said instead, and the command ends
-//! with *not known*.
+//! The ending tells what a file is: a model, a scenario, a chart, a report specification, a verification specification.
+//! INVARIANT: *no faults* is printed only for files that were checked completely. If a part could not be checked, that
+//! is printed instead, and the command ends with *not known*.
 
 mod chart;
 mod specification;
@@ -26,8 +26,8 @@ use crate::shell::Shell;
 /// Arguments of `check`.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// Models (.asm), scenarios (.avalla), charts (.chart), what is shown of a model (.report.yaml) or verified
-    /// (.verify.yaml), or folders of them
+    /// Models (.asm), scenarios (.avalla), charts (.chart), specifications of reports (.report.yaml) or of
+    /// verifications (.verify.yaml), or folders of them
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
     /// Treat warnings as errors
@@ -35,23 +35,23 @@ pub struct Arguments {
     strict: bool,
 }
 
-/// How many files had what.
+/// How many files had which result.
 #[derive(Debug, Default, Clone, Copy)]
 struct Summary {
     files: usize,
     errors: usize,
     warnings: usize,
-    /// Files of which not all could be looked at.
+    /// Files that could not be checked completely.
     open: usize,
 }
 
-/// What was seen of a file.
+/// The result for a file.
 #[derive(Default)]
 struct Seen {
     faults: Vec<Located>,
-    /// What it consists of, in parentheses.
+    /// The file's size, in parentheses.
     size: String,
-    /// What could not be looked at, and why.
+    /// What could not be checked, and why.
     open: Option<String>,
 }
 

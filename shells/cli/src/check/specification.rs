@@ -1,5 +1,5 @@
-//! What is to be shown of a model, `MODEL.report.yaml`, and what is to be verified of it, `MODEL.verify.yaml`: the model beside
-//! it is read from the disk; what is wrong, `groundstate` says.
+//! Checks `MODEL.report.yaml` and `MODEL.verify.yaml`. Reads the model beside them from the disk; `groundstate` finds
+//! the faults.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use super::Seen;
 use crate::failure::Failure;
 use crate::files::Disk;
 
-/// Looks at a specification.
+/// Checks a specification.
 pub fn look(path: &Path, root: &SourceFile, disk: &mut Disk) -> Result<Seen, Failure> {
     let model = match disk.root(&model_of(path)) {
         Ok(source) => Some(source),
@@ -22,7 +22,7 @@ pub fn look(path: &Path, root: &SourceFile, disk: &mut Disk) -> Result<Seen, Fai
     Ok(Seen { faults, open, ..Seen::default() })
 }
 
-/// That a file of YAML is no specification.
+/// The name of a YAML file is not that of a specification.
 pub fn unnamed(path: &Path) -> Failure {
     Failure::usage_with_help(
         format!("{} is no specification by its name", path.display()),

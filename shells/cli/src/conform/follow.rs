@@ -1,8 +1,8 @@
-//! Reads along while a program writes its recording.
+//! Follows a recording while a program writes it.
 //!
-//! The file may come into being later, and grows; it is read where it was left, several times a second. A parting is told
-//! as soon as all tasks are known beyond it, and ends the command; so does the end of the recording. A program that was
-//! killed writes no end: then Ctrl-C says that it is over, and the verdict is *not known*.
+//! The file may not exist yet. It grows, and is read on several times a second. A difference is reported once all tasks
+//! have recorded events after it; it ends the command. So does the end of the recording. A program that was killed
+//! writes no end: then Ctrl-C ends the command, and the verdict is *not known*.
 
 use std::fs::File;
 use std::io::{ErrorKind, IsTerminal, Read};
@@ -19,9 +19,9 @@ use crate::interrupt;
 use crate::load::load;
 use crate::shell::Shell;
 
-/// From one look at the file to the next.
+/// How often the file is looked at.
 const PAUSE: Duration = Duration::from_millis(50);
-/// So much is read before what came is looked at.
+/// The most bytes that are read before they are compared.
 const AT_ONCE: u64 = 8 << 20;
 
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
@@ -53,14 +53,14 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     }
 }
 
-/// A file that grows, read where it was left.
+/// A growing file, read on from where the last look ended.
 struct Tail {
     path: PathBuf,
     file: Option<File>,
     read: u64,
-    /// The most bytes that are read.
+    /// The largest number of bytes that are read.
     limit: u64,
-    /// At the last look nothing more was there.
+    /// Whether the last look reached the present end of the file.
     waits: bool,
 }
 
@@ -78,7 +78,7 @@ impl job::Tail for Tail {
 }
 
 impl Tail {
-    /// What is new; nothing as long as there is no file.
+    /// Reads what is new; nothing if the file does not exist yet.
     fn read(&mut self) -> Result<Vec<u8>, Failure> {
         let path: &Path = &self.path;
         let wrong = |error| Failure::of_file("read", path, error);
@@ -97,7 +97,7 @@ impl Tail {
             ));
         }
         let mut bytes = Vec::new();
-        // One byte more than allowed tells a file at the limit from one beyond it.
+        // Reading one byte more than allowed shows that the file exceeds the limit.
         let left = (self.limit - self.read).saturating_add(1).min(AT_ONCE);
         self.read += file.take(left).read_to_end(&mut bytes).map_err(wrong)? as u64;
         if self.read > self.limit {
@@ -107,7 +107,7 @@ impl Tail {
     }
 }
 
-/// A line on the terminal that tells how far it is.
+/// A status line on the terminal.
 struct Status(Option<ProgressBar>);
 
 impl Status {

@@ -1,6 +1,7 @@
 //! `groundstate conform MODEL RECORDING`: whether a running program did what its ground model says.
 //!
-//! Exit code 0: it did. 1: the two part; where, and at which rule, is told. 3: not known, the recording having a gap.
+//! Exit code 0: it did. 1: the two differ; the place and the rule are shown. 3: not known, because the recording has a
+//! gap.
 
 mod follow;
 
@@ -23,14 +24,14 @@ use crate::shell::Shell;
 /// Arguments of `conform`.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// The ground model, made of the library of patterns
+    /// The ground model, built from the pattern library
     model: PathBuf,
     /// The events of a generated program, an MCAP file
     recording: PathBuf,
-    /// Compare the order of events alone, also where the recording follows the model's ticks
+    /// Compare only the order of events, even if the recording follows the model's ticks
     #[arg(long)]
     untimed: bool,
-    /// Read along while the program writes the recording, and tell at once where the two part; Ctrl-C ends it
+    /// Follow the recording while the program writes it, and report a difference at once; Ctrl-C ends it
     #[arg(long)]
     follow: bool,
 }
@@ -51,7 +52,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     }
 }
 
-/// Reads the events of a generated program, a piece at a time.
+/// Reads the events of a generated program piece by piece.
 pub fn read(shell: &Shell, path: &Path) -> Result<Recording, Failure> {
     let mut file = Bounded::open(path, shell.global.limits.recording())?;
     let mut reader = Reader::default();
@@ -68,7 +69,7 @@ fn unreadable(path: &Path, Malformed(reason): &Malformed) -> Failure {
     )
 }
 
-/// Holds a recording to a model: tick by tick where it follows the model's ticks, else by the order of events.
+/// Compares a recording with a model: tick by tick if it follows the model's ticks, else by the order of events.
 pub fn hold(
     shell: &mut Shell,
     loaded: Loaded,
@@ -135,7 +136,7 @@ fn tell(shell: &mut Shell, conformed: &Conformed) -> Result<Exit, Failure> {
     }
 }
 
-/// Where the two part, for people: the place, the rule, what came before, the state.
+/// Prints where the two differ: the place, the rule, the preceding events, the state.
 fn parting(
     shell: &mut Shell,
     sources: &Sources,

@@ -1,4 +1,4 @@
-//! `groundstate generate …`: programs made of models and charts. What is made depends on the file's ending.
+//! `groundstate generate …`: generates programs from models and charts. The file's ending decides which.
 
 mod model;
 mod system;
@@ -32,19 +32,19 @@ enum Command {
 pub struct Cpp {
     /// A model, or a chart that has a system
     file: PathBuf,
-    /// The folder to write to; files of yours that are there stay as they are
+    /// The folder to write to; your own files in it stay as they are
     #[arg(long, short, value_name = "DIR")]
     output: PathBuf,
-    /// Of a model: without heap, exceptions, RTTI and threads, for microcontrollers
+    /// For a model: without heap, exceptions, RTTI and threads, for microcontrollers
     #[arg(long)]
     bare: bool,
     /// With --bare: how many locations outside of arrays a function may have, or elements a growing domain
     #[arg(long, value_name = "NAME=NUMBER", value_parser = capacity, requires = "bare")]
     capacity: Vec<(String, u32)>,
-    /// Of a chart: hand buffers over by one atomic exchange, instead of the protocol with a lock
+    /// For a chart: hand buffers over by one atomic exchange instead of a lock
     #[arg(long)]
     wait_free: bool,
-    /// Of a chart: the namespace of the classes; made of the system's name if not given
+    /// For a chart: the namespace of the classes. Default: from the system's name
     #[arg(long, value_name = "NAME")]
     namespace: Option<String>,
 }
@@ -77,7 +77,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     if chart { system::run(shell, arguments) } else { model::run(shell, arguments) }
 }
 
-/// What a generation came to; what cannot be generated is shown.
+/// The result of a generation; shows what cannot be generated.
 fn finished(
     shell: &mut Shell,
     sources: &Sources,
@@ -95,7 +95,7 @@ fn finished(
     }
 }
 
-/// Writes a file of a generated folder, unless it is there with that text.
+/// Writes a file of a generated folder, unless it has that text already.
 fn write(shell: &Shell, path: &Path, text: &str) -> Result<(), Failure> {
     if matches!(present_text(path, shell.global.limits.max_file_size), Ok(Some(there)) if there == text) {
         return Ok(());

@@ -1,4 +1,4 @@
-//! `groundstate generate cpp MODEL.asm`: the class of a model, what it needs of the runtime, and the source map.
+//! `groundstate generate cpp MODEL.asm`: writes the class of a model, the runtime headers it needs, and the source map.
 
 use std::io::Write;
 use std::path::{Component, Path};
@@ -46,7 +46,8 @@ pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
     Ok(Exit::Good)
 }
 
-/// The texts under their paths from the folder that is written to: the same wherever the command runs and the two folders lie.
+/// The texts, named by their paths relative to the output folder, so that the names do not depend on the working
+/// folder.
 fn placed(sources: &Sources, folder: &Path) -> Sources {
     let mut placed = Sources::default();
     let whole = |path: &Path| std::fs::canonicalize(path).or_else(|_| std::path::absolute(path)).unwrap_or(path.into());
@@ -59,7 +60,7 @@ fn placed(sources: &Sources, folder: &Path) -> Sources {
     placed
 }
 
-/// The way from a folder to a file, with `/` between its parts; the file's own path where there is none.
+/// The relative path from a folder to a file, with `/` between its parts; the file's own path if there is none.
 fn from(folder: &Path, file: &Path) -> String {
     let (here, there): (Vec<Component>, Vec<Component>) = (folder.components().collect(), file.components().collect());
     let shared = here.iter().zip(&there).take_while(|(a, b)| a == b).count();

@@ -1,4 +1,4 @@
-//! `groundstate generate cpp FILE.chart`: the program of a chart's system, with the runtime's headers beside it.
+//! `groundstate generate cpp FILE.chart`: writes the program of a chart's system, with the runtime's headers.
 
 use std::io::Write;
 

@@ -1,6 +1,6 @@
-//! Where inputs come from: options, files and the terminal as sources of `simulate`.
+//! Sources of inputs: options, files and the terminal.
 //!
-//! The options are declared and the files read here; what they say, `groundstate::inputs` knows.
+//! This crate declares the options and reads the files; `groundstate::inputs` interprets them.
 
 mod options;
 mod prompt;

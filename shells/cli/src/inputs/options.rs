@@ -1,4 +1,4 @@
-//! The options that say where inputs, choices and time come from, and what is made of them.
+//! The options for inputs, choices and time, and the sources made from them.
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -14,8 +14,8 @@ use crate::failure::Failure;
 use crate::files::read_text;
 use crate::shell::Shell;
 
-/// Where inputs come from. Of several sources the first that has a value gives it, in this order: `--set`,
-/// `--input`, `--env`, then `--random` or the terminal.
+/// Where inputs come from. The first source that has a value gives it, in this order: `--set`, `--input`, `--env`, then
+/// `--random` or the terminal.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Inputs")]
 pub struct InputArguments {
@@ -28,13 +28,13 @@ pub struct InputArguments {
     /// Values by step and location: a .yaml or .csv file
     #[arg(long, value_name = "FILE")]
     pub input: Option<PathBuf>,
-    /// Values in the order asked for, one a line
+    /// Values in the order in which they are asked for, one per line
     #[arg(long, value_name = "FILE")]
     pub env: Option<PathBuf>,
     /// A value that holds in every step, such as passed=true or f(1)=RED
     #[arg(long, value_name = "LOCATION=VALUE")]
     pub set: Vec<String>,
-    /// How often random values come, such as stop=true:1,false:99; values not named never do
+    /// How often random values come, such as stop=true:1,false:99; values not listed never come
     #[arg(long, value_name = "LOCATION=VALUE:N,…", requires = "random")]
     pub weight: Vec<String>,
     /// Which candidate a choose rule takes
@@ -52,7 +52,7 @@ pub struct InputArguments {
 pub enum Chosen {
     /// The first candidate
     First,
-    /// Any, by the seed
+    /// A random one, from the seed
     Random,
 }
 
@@ -66,7 +66,7 @@ impl Chosen {
     }
 }
 
-/// What infinite domains are cut to.
+/// Bounds of random values from infinite domains.
 #[derive(Debug, Args)]
 pub struct Random {
     /// Bounds of random Integers and Naturals
@@ -97,7 +97,7 @@ impl Random {
     }
 }
 
-/// How time passes.
+/// How model time passes.
 #[derive(Debug, Clone, Copy)]
 enum Ticking {
     Steps(u64),
@@ -131,20 +131,20 @@ impl Clock for SystemClock {
     }
 }
 
-/// What the options come to.
+/// The result of the options.
 pub struct Assembled {
     /// Adds the sources.
     pub inputs: Sourcing,
-    /// Inputs that no source has are asked for at the terminal.
+    /// Whether inputs that no source has are asked for at the terminal.
     pub asks: bool,
-    /// The model has inputs that may be asked for, so steps can be taken back.
+    /// Whether the model has inputs that may be asked for, so that steps can be taken back.
     pub interactive: bool,
 }
 
-/// Adds sources to those that are there.
+/// Adds sources to the present ones.
 pub type Sourcing = Box<dyn FnOnce(Inputs) -> Inputs + Send>;
 
-/// Makes the sources. Faults in input files are given as diagnostics over `sources`, which takes in their texts.
+/// Makes the sources. Faults in input files are returned as diagnostics over `sources`, to which the files are added.
 pub fn assemble(
     shell: &Shell,
     arguments: &InputArguments,
@@ -191,7 +191,7 @@ pub fn assemble(
     Ok(Ok(Assembled { inputs, asks, interactive }))
 }
 
-/// What to pass when inputs are missing.
+/// What to do if inputs are missing.
 pub const HELP: &str =
     "pass --random for random ones, --input FILE or --env FILE to read them, or --set LOCATION=VALUE for a fixed one";
 

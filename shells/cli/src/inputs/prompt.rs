@@ -1,7 +1,7 @@
-//! Inputs from whoever sits at the terminal: a prompt with the domain's values, history, completion, a step back, a look at
-//! the state.
+//! Asks for inputs at the terminal: a prompt with the domain's values, history, completion, steps back, a look at the
+//! state.
 //!
-//! INVARIANT: what Tab and the arrows offer is of the domain that is asked for.
+//! INVARIANT: Tab and the arrows offer only values of the requested domain.
 
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -18,13 +18,13 @@ use rustyline::history::MemHistory;
 use rustyline::validate::Validator;
 use rustyline::{Behavior, Config, Context, Editor, Helper};
 
-/// The prompt; the line editor is made when the first question comes.
+/// The prompt. The line editor is created at the first question.
 #[derive(Default)]
 pub struct Prompt {
     editor: Option<Editor<Words, MemHistory>>,
-    /// What was answered, by the domain that was asked for.
+    /// Earlier answers, by domain.
     answers: BTreeMap<DomainId, Vec<String>>,
-    /// The last answer, and whether it is kept for the next question of the domain.
+    /// The last answer, and whether it was new in the history of its domain.
     last: Option<(DomainId, String, bool)>,
     /// The state before the step that is being made.
     pub state: String,
@@ -32,13 +32,13 @@ pub struct Prompt {
     pub updates: String,
 }
 
-/// An input that is asked for.
+/// A requested input.
 #[derive(Debug, Clone)]
 pub struct Question {
     pub step: u64,
     pub location: Location,
     pub domain: DomainId,
-    /// The first of its values, where they are known.
+    /// The first of its values, if they are known.
     pub values: Vec<Value>,
 }
 
@@ -48,13 +48,13 @@ const HELP: &str = "  :help     this text              :state  the state before 
 const FIRST: &str = "  :help tells what else can be typed; Tab completes, arrow up recalls";
 const COMMANDS: [&str; 5] = [":help", ":state", ":updates", ":back", ":quit"];
 
-/// Writes to the terminal; if it is gone, the next question says so.
+/// Writes to the terminal; if it is gone, the next question reports that.
 fn say(text: &str) {
     let _ = writeln!(std::io::stderr(), "{text}");
 }
 
 impl Prompt {
-    /// Answers a command; `false`: it is none that is answered here.
+    /// Carries out a command that only shows something; returns `false` for any other.
     fn look(&self, line: &str) -> bool {
         match line {
             ":help" | ":h" | ":?" => say(HELP),
@@ -77,7 +77,7 @@ impl Prompt {
         self.editor.as_mut().ok_or_else(|| "there is no terminal to ask at".to_string())
     }
 
-    /// Asks, until there is something to tell the run.
+    /// Asks until there is a command for the run.
     pub fn ask(&mut self, program: &Program, question: &Question) -> Command {
         self.answer(program, question).unwrap_or_else(Command::Withhold)
     }
@@ -128,7 +128,7 @@ impl Prompt {
         self.last = Some((domain, line.to_string(), is_new));
     }
 
-    /// The last answer is not one: the run says why.
+    /// The run refused the last answer: says why, and forgets it.
     pub fn refused(&mut self, program: &Program) {
         let Some((domain, line, is_new)) = self.last.take() else { return };
         say(&format!("  {line} is not in {}", program.domain(domain).name));
@@ -156,7 +156,7 @@ fn wording(program: &Program, question: &Question, values: &[String]) -> String 
 struct Words(Vec<String>);
 
 impl Words {
-    /// What goes on as begun. A command is offered where it can stand, at the begin, and once it is begun.
+    /// The completions of what was typed. Commands are offered only at the beginning, after a colon.
     fn fitting(&self, begun: &str, at_begin: bool) -> Vec<String> {
         let commands = COMMANDS.iter().filter(|_| at_begin && begun.starts_with(':'));
         let words = self.0.iter().map(String::as_str).chain(commands.copied());

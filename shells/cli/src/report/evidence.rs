@@ -1,6 +1,6 @@
-//! The scenarios of a report: found, run with progress, and stopped on an interrupt.
+//! Runs the scenarios of a report, with progress, until interrupted.
 //!
-//! In: paths. Out: what they add to the report, as `groundstate::reporting` says.
+//! In: paths. Out: what they contribute to the report, by `groundstate::reporting`.
 
 use std::path::{Path, PathBuf};
 
@@ -16,7 +16,7 @@ use crate::interrupt;
 use crate::progress::Progress;
 use crate::shell::Shell;
 
-/// Runs the scenarios below these paths as `test` does, and adds what they show.
+/// Runs the scenarios below these paths as `test` does, and adds their results.
 pub fn add(shell: &Shell, report: &mut Report, model: &Path, paths: &[PathBuf], seed: u64) -> Result<Exit, Failure> {
     if paths.is_empty() {
         return Ok(Exit::Good);
@@ -40,7 +40,7 @@ pub fn add(shell: &Shell, report: &mut Report, model: &Path, paths: &[PathBuf], 
     Ok(if report.passed() == files.len() { Exit::Good } else { Exit::Model })
 }
 
-/// Whether two paths lead to one file.
+/// Whether two paths name the same file.
 fn same(one: &Path, other: &Path) -> bool {
     let whole = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
     whole(one) == whole(other)

@@ -1,9 +1,9 @@
-//! `groundstate report MODEL`: a run, shown: a page, a picture, a summary.
+//! `groundstate report MODEL`: shows a run as a page, a picture, a summary.
 //!
-//! The report specification says which terms make which lane; they are evaluated in every state. Where there is none the
-//! system of the chart beside the model says it. Scenarios run
-//! beside it give verdicts and coverage. The page holds no date and no path of this machine but those given, so the
-//! same model, options and version give the same bytes.
+//! The report specification says which terms make which lane; they are evaluated in every state. Without a
+//! specification, the system of the chart beside the model provides one. Scenarios run besides give verdicts and
+//! coverage. The page contains no date, and no paths but those given, so the same model, options and version give the
+//! same bytes.
 
 mod evidence;
 mod recorded;
@@ -31,7 +31,7 @@ use crate::progress::{Progress, now_and_then};
 use crate::run::Desk;
 use crate::shell::Shell;
 
-/// What a specification looks like.
+/// The format of a specification.
 const FORMAT: &str = "\
 A report specification is a YAML file that says which terms of the model make which lane. Every part may be left out.
 
@@ -75,7 +75,7 @@ A report specification is a YAML file that says which terms of the model make wh
 pub struct Arguments {
     /// The model
     model: PathBuf,
-    /// What to show of it. Default: MODEL.report.yaml beside the model; where there is none, the system of MODEL.chart
+    /// What to show. Default: MODEL.report.yaml beside the model, else the system of MODEL.chart
     #[arg(long, value_name = "FILE")]
     spec: Option<PathBuf>,
     /// The steps to make
@@ -87,18 +87,18 @@ pub struct Arguments {
     /// Write a picture of the timeline here
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// Steps that the picture shows; those of the page's first view unless given
+    /// Steps in the picture. Default: those of the page's first view
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     svg_steps: u64,
-    /// The first step that the picture shows
+    /// The first step in the picture
     #[arg(long, value_name = "N", default_value_t = 0)]
     svg_from: u64,
-    /// Scenarios, or folders of them, to run beside it; may be given several times
+    /// Scenarios, or folders of them, to run as well; may be repeated
     #[arg(long, value_name = "PATH")]
     scenarios: Vec<PathBuf>,
-    /// A run of a program that was made for the model, instead of a run of the model: its events (MCAP), or its JSON,
-    /// which names them. It is held to the model; the page shows the first run in detail, and the figures of all; may be
-    /// given several times
+    /// Instead of a run of the model, show a run of a program generated for it: its events (MCAP), or its JSON, which
+    /// names them. The run is compared with the model; the page shows the first run in detail, and the figures of all;
+    /// may be repeated
     #[arg(
         long = "run",
         value_name = "FILE",
@@ -173,7 +173,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     Ok(exit.max(scenarios).max(troubled))
 }
 
-/// The page of a run that is told beside, as the specification beside the model says; none where there is none.
+/// The page of a given run, as the specification beside the model says; `None` if there is no specification.
 pub fn page_of(shell: &mut Shell, mut asked: Overlay, model: &Path, run: RunOf<'_>) -> Result<Option<String>, Failure> {
     let path = model.with_extension("report.yaml");
     let Some(wanted) = wanted(shell, &path, false)? else { return Ok(None) };
@@ -197,8 +197,8 @@ pub fn page_of(shell: &mut Shell, mut asked: Overlay, model: &Path, run: RunOf<'
 /// Makes a run of a program.
 pub type RunOf<'a> = &'a dyn Fn(&Arc<Program>) -> Run;
 
-/// The text of the specification: of the file, or, where the file is not there and nobody named it, of the system of the
-/// chart beside the model; none where there is neither.
+/// The text of the specification: from the file, or, if it does not exist and was not named, from the system of the
+/// chart beside the model; `None` if there is neither.
 fn wanted(shell: &mut Shell, path: &Path, given: bool) -> Result<Option<SourceFile>, Failure> {
     match read_text(path, shell.global.limits.max_file_size) {
         Ok(text) => Ok(Some(SourceFile::new(path.display().to_string(), text))),
@@ -216,7 +216,7 @@ fn wanted(shell: &mut Shell, path: &Path, given: bool) -> Result<Option<SourceFi
     }
 }
 
-/// The chart that lies beside a specification that is not there.
+/// The chart that may replace a missing specification.
 fn chart_beside(specification: &Path) -> PathBuf {
     // MODEL.report.yaml, then MODEL.report.
     specification.with_extension("").with_extension("chart")
@@ -232,7 +232,7 @@ fn nothing_wanted(path: &Path, given: bool) -> Failure {
     Failure::usage_with_help(message, help)
 }
 
-/// The specification read, its terms checked; none where it has faults, which are then shown.
+/// Reads the specification and checks its terms. If it has faults, shows them and returns `None`.
 fn prepare(
     shell: &mut Shell,
     asked: &mut Overlay,
@@ -291,7 +291,7 @@ fn write(shell: &mut Shell, arguments: &Arguments, report: &Report) -> Result<()
     Ok(())
 }
 
-/// Writes a file, and makes the folder it is to be in.
+/// Writes a file, and creates its folder.
 fn write_beside(path: &Path, text: &str) -> Result<(), Failure> {
     if let Some(folder) = path.parent().filter(|folder| *folder != Path::new("")) {
         std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;

@@ -1,7 +1,7 @@
-//! `MODEL.verify.yaml`, or the file of `--spec`: what is to be verified of a model, and with which inputs, read from the disk.
+//! Reads `MODEL.verify.yaml`, or the file of `--spec`: what to verify in a model, and with which inputs.
 //!
-//! In: the file, if it is there. Out: a [`Verification`]. What the command line says of an input, of `terminal` and `fair`,
-//! and what it assumes, counts before it; properties are added to those of the model.
+//! In: the file, if it exists. Out: a [`Verification`]. Options for inputs, `--terminal`, `--fair` and assumptions
+//! override the file; properties are added to those of the model.
 
 use std::path::{Path, PathBuf};
 
@@ -12,12 +12,12 @@ use crate::failure::Failure;
 use crate::files::read_text;
 use crate::shell::Shell;
 
-/// Where the file of a model is.
+/// The path of a model's file.
 pub fn path_of(model: &Path) -> PathBuf {
     model.with_extension("verify.yaml")
 }
 
-/// Reads the file named, or the one beside the model if there is one; none after a fault, which is shown.
+/// Reads the named file, or the one beside the model if it exists. If it has faults, shows them and returns `None`.
 pub fn beside(
     shell: &mut Shell,
     sources: &mut Sources,

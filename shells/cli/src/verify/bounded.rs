@@ -1,4 +1,4 @@
-//! The options that bound a search: how far it goes, and with which inputs.
+//! The options that bound a search: its extent, and the values of inputs.
 
 use std::path::{Path, PathBuf};
 
@@ -15,13 +15,13 @@ use crate::shell::Shell;
 use crate::verify::beside::beside;
 use crate::verify::watch::Watch;
 
-/// See the module.
+/// Bounds of a search.
 #[derive(Debug, Clone, Args)]
 pub struct Bounded {
-    /// The values that an input is tried with, as NAME=LOW..HIGH or NAME=VALUE,VALUE; may be repeated
+    /// The values to try for an input, as NAME=LOW..HIGH or NAME=VALUE,VALUE; may be repeated
     #[arg(long = "bound", value_name = "BOUND")]
     pub bounds: Vec<String>,
-    /// What is to be verified, and with which inputs; MODEL.verify.yaml beside the model unless given
+    /// What to verify, and with which inputs. Default: MODEL.verify.yaml beside the model
     #[arg(long, value_name = "FILE")]
     pub spec: Option<PathBuf>,
     /// The most states
@@ -38,26 +38,26 @@ pub struct Bounded {
     pub time: Option<u64>,
 }
 
-/// What a survey looks at where nobody says how much: it has no other end where states have none.
+/// The limits of a survey if none is given: without them, it never ends on infinitely many states.
 const STATES: u64 = 1_000_000;
 const SECONDS: u64 = 60;
 
 impl Bounded {
-    /// The same with an end, where none is given; tells whether one was.
+    /// The same bounds, with default limits if no limit was given; and whether that is so.
     pub fn with_end(&self) -> (Bounded, bool) {
         let given = self.max_states.is_some() || self.depth.is_some() || self.time.is_some();
         let ends = Bounded { max_states: Some(STATES), time: Some(SECONDS), ..self.clone() };
         if given { (self.clone(), false) } else { (ends, true) }
     }
 
-    /// What to say where the end that was not given has come.
+    /// Says that a default limit was reached.
     pub fn at_end(shell: &mut Shell) -> Result<(), Failure> {
         shell.note(&format!(
             "where no limit is given {STATES} states or {SECONDS} seconds are: --max-states, --depth or --time give others"
         ))
     }
 
-    /// What stands in the file beside a model; none after a fault.
+    /// Reads the file beside a model; `None` if it has faults.
     pub fn beside(
         &self,
         shell: &mut Shell,
@@ -67,14 +67,14 @@ impl Bounded {
         beside(shell, sources, self.spec.as_deref(), model)
     }
 
-    /// Holds the process to the limit. Below what it takes before the search begins, the states alone are counted.
+    /// Bounds the memory of the process. If it takes more already, only the states are counted.
     fn bound_memory(&self) {
         if interrupt::resident_bytes().is_some_and(|bytes| bytes >> 20 < self.max_memory) {
             interrupt::bound_memory(self.max_memory);
         }
     }
 
-    /// The options of a search, and who watches it.
+    /// The options of a search, and the watch over it.
     pub fn options(
         &self,
         shell: &Shell,

@@ -1,7 +1,7 @@
-//! A checkpoint of a search, as a file: words of eight bytes, the lowest first.
+//! Keeps a checkpoint of a search in a file: words of eight bytes, little-endian.
 //!
-//! In: the path, the model's fingerprint. Out: a [`Keeper`]. The file takes its name when it is whole. INVARIANT: of trouble with
-//! it the first is told when the search has ended, and the search goes on without.
+//! In: the path, the model's fingerprint. Out: a [`Keeper`]. The file gets its name when it is complete. INVARIANT: if
+//! the file makes trouble, the search goes on without it, and the first trouble is reported at the end.
 
 use std::fs::File;
 use std::io::{BufReader, Read, Write};
@@ -13,12 +13,12 @@ use groundstate::verify::{Keeper, Refusal};
 use crate::failure::Failure;
 use crate::files::Unfinished;
 
-/// How long a search goes on before it is kept.
+/// The shortest time between two checkpoints.
 const BETWEEN: Duration = Duration::from_secs(60);
-/// It goes on for so many times as long as keeping it took.
+/// The search runs at least this many times as long as the last checkpoint took to write.
 const SHARE: u32 = 20;
 
-/// See the module.
+/// A checkpoint in a file.
 pub struct Checkpoint {
     path: PathBuf,
     model: u64,
@@ -26,18 +26,18 @@ pub struct Checkpoint {
     wait: Duration,
     reading: Option<BufReader<File>>,
     writing: Option<(Unfinished, Instant)>,
-    /// What is being written has met trouble: the rest of it goes nowhere.
+    /// Writing has failed; the rest of this checkpoint is dropped.
     lost: bool,
     failure: Option<Failure>,
 }
 
 impl Checkpoint {
-    /// The checkpoint of a model in a file, which may or may not be there.
+    /// The checkpoint of a model in a file, which may not exist yet.
     pub fn new(path: &Path, fingerprint: &str) -> Result<Checkpoint, Failure> {
         if path.is_dir() {
             return Err(Failure::Folder(path.to_path_buf()));
         }
-        // What cannot be written is better told before the search than after.
+        // An unwritable file is better reported before the search than after it.
         drop(Unfinished::create(path)?);
         Ok(Checkpoint {
             path: path.to_path_buf(),
@@ -51,7 +51,7 @@ impl Checkpoint {
         })
     }
 
-    /// Why the file is not gone on with.
+    /// Why the search cannot continue from the file.
     pub fn refused(self, refusal: Refusal) -> Failure {
         if let Some(failure) = self.failure {
             return failure;
@@ -67,7 +67,7 @@ impl Checkpoint {
         Failure::usage_with_help(what, "remove it to begin anew, or name another file")
     }
 
-    /// The search has ended: the first trouble with the file, if there was any.
+    /// Ends the checkpoint; returns the first trouble with the file.
     pub fn done(self) -> Result<(), Failure> {
         self.failure.map_or(Ok(()), Err)
     }
@@ -95,7 +95,7 @@ impl Keeper for Checkpoint {
                 true
             }
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => false,
-            // What cannot be read ends too soon, and is not replaced.
+            // A file that cannot be opened reads as if it ended too soon, and is not replaced.
             Err(error) => {
                 self.failure = Some(Failure::of_file("read", &self.path, error));
                 true

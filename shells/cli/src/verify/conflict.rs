@@ -1,10 +1,10 @@
-//! Options of `verify` that do not go together, in the words of the command line.
+//! Explains conflicts between options of `verify`.
 
 use groundstate::verify::{Conflict, EngineKind, Part};
 
 use crate::failure::Failure;
 
-/// The option that asks for a part of a request.
+/// The option for a part of a request.
 fn option(part: Part) -> &'static str {
     match part {
         Part::First => "--first",
@@ -18,7 +18,7 @@ fn option(part: Part) -> &'static str {
     }
 }
 
-/// Says why a request cannot be carried out.
+/// Why a request cannot be carried out.
 pub fn conflict(conflict: Conflict) -> Failure {
     let (message, help) = match conflict {
         Conflict::Engine(part @ (Part::First | Part::MaxStates | Part::MaxDepth), EngineKind::Symbolic) => (

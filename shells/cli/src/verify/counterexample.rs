@@ -1,5 +1,5 @@
-//! Counterexamples as files: scenarios that fail where they end, traces to replay, and pages that show the run where a report
-//! specification stands beside the model.
+//! Writes counterexamples: as scenarios that fail where they end, as traces to replay, and as pages if there is a
+//! report specification beside the model.
 
 use std::io::Write;
 use std::path::{Component, Path, PathBuf};
@@ -84,7 +84,7 @@ struct Writer<'a> {
     fingerprint: &'a str,
     program: &'a Arc<Program>,
     sources: &'a Sources,
-    /// How many properties are the model's own.
+    /// How many properties stand in the model itself.
     properties: usize,
 }
 
@@ -110,7 +110,7 @@ impl Writer<'_> {
         file.finish()
     }
 
-    /// The scenario with an invariant that the model does not have.
+    /// The scenario, with an invariant added that the model does not have.
     fn with_invariant(&self, text: &str, index: usize) -> String {
         let property = &self.program.properties[index];
         match (property.kind, text.match_indices('\n').nth(1)) {
@@ -123,7 +123,7 @@ impl Writer<'_> {
     }
 
     fn header(&self, trace: &Trace, subject: Subject) -> Header {
-        // What was asked for besides is unknown to whoever replays the trace.
+        // A replay does not know properties from the command line, so the trace ignores invariants then.
         let stops = matches!(subject, Subject::Property(index) if index < self.properties);
         Header {
             model: self.program.name.clone(),
@@ -150,10 +150,10 @@ impl Writer<'_> {
     }
 }
 
-/// LIMIT: a formula is a file's name up to so many letters.
+/// LIMIT: a file name shows at most this many characters of a formula.
 const LONGEST: usize = 60;
 
-/// A property's name, or its formula, as that of a file: its words, joined.
+/// A file name for a property: the words of its name or formula, joined.
 fn file_name(name: &str) -> String {
     let words: Vec<&str> = name.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
     let words: Vec<&str> = words.iter().map(|word| word.trim_matches('_')).filter(|word| !word.is_empty()).collect();
@@ -166,7 +166,7 @@ fn file_name(name: &str) -> String {
     }
 }
 
-/// The name, or with a number, where another property has come to it already.
+/// The name, with a number if another property has it already.
 fn another(name: String, names: &mut Vec<String>) -> String {
     let numbered = |n: usize| if n == 1 { name.clone() } else { format!("{name}_{n}") };
     let free = (1..).map(numbered).find(|name| !names.contains(name)).unwrap_or_default();
@@ -174,7 +174,7 @@ fn another(name: String, names: &mut Vec<String>) -> String {
     free
 }
 
-/// The path of a file as seen from a folder, as a scenario writes it.
+/// The path of a file relative to a folder, as a scenario writes it.
 pub fn relative(file: &Path, folder: &Path) -> String {
     let whole = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
     let (file, folder) = (whole(file), whole(folder));

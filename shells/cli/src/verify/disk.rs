@@ -1,7 +1,7 @@
-//! Files for states that memory has no room for: in a folder, without a name, so that they are gone however a search ends.
+//! Stores states on the disk when memory is full, in unnamed files of a folder; they vanish however the search ends.
 //!
-//! In: the folder. Out: a [`Disk`]. Words are eight bytes, the lowest first. INVARIANT: of trouble with the files the first is told
-//! when the search has ended.
+//! In: the folder. Out: a [`Disk`]. Words have eight bytes, little-endian. INVARIANT: the first trouble with the files
+//! is reported when the search has ended.
 
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom, Write};
@@ -12,7 +12,7 @@ use groundstate::verify::{Disk, Tape};
 
 use crate::failure::Failure;
 
-/// See the module.
+/// A folder for such files.
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
@@ -23,7 +23,7 @@ pub struct Folder {
 struct Unnamed {
     file: File,
     folder: PathBuf,
-    /// Where it ends; and where it is read or written next, which the system knows, too.
+    /// Its length; `at` is the position of the next access, which the system knows, too.
     end: u64,
     at: u64,
     bytes: Vec<u8>,
@@ -35,7 +35,7 @@ fn fail(to: &Mutex<Option<Failure>>, failure: Failure) {
 }
 
 impl Folder {
-    /// Files in a folder that is there.
+    /// Uses an existing folder.
     pub fn new(path: &Path) -> Result<Arc<Folder>, Failure> {
         if !path.is_dir() {
             return Err(Failure::usage_with_help(
@@ -43,12 +43,12 @@ impl Folder {
                 "name one with as much room as the states need",
             ));
         }
-        // What cannot be written is better told before the search than after.
+        // An unwritable folder is better reported before the search than after it.
         tempfile::tempfile_in(path).map_err(|error| Failure::of_file("write", path, error))?;
         Ok(Arc::new(Folder { path: path.to_path_buf(), failure: Arc::default() }))
     }
 
-    /// The search has ended: the first trouble with the files, if there was any.
+    /// Ends the storage; returns the first trouble with the files.
     pub fn done(&self) -> Result<(), Failure> {
         self.failure.lock().unwrap_or_else(PoisonError::into_inner).take().map_or(Ok(()), Err)
     }
@@ -81,7 +81,7 @@ impl Unnamed {
 impl Tape for Unnamed {
     fn write(&mut self, words: &[u64]) -> bool {
         let mut bytes = std::mem::take(&mut self.bytes);
-        // The buffer stays small, however much there is to write.
+        // Writing in pieces keeps the buffer small.
         let written = words.chunks(1 << 13).try_for_each(|words| {
             bytes.clear();
             bytes.extend(words.iter().flat_map(|word| word.to_le_bytes()));

@@ -1,6 +1,6 @@
-//! What to do about a violation that is often none of the model's faults.
+//! Advice about violations that are often not the model's fault.
 //!
-//! In: a violated check and its run. Out: a line of advice, where there is one. It judges by the run alone.
+//! In: a violated check and its run. Out: a line of advice, if there is one. It depends on the run alone.
 
 use groundstate::verify::{Subject, Trace, runs::scheduler};
 use program::Program;
@@ -14,7 +14,7 @@ pub(super) fn hint(program: &Program, subject: Subject, trace: &Trace) -> Option
     alone.then_some("from there on the same one is chosen for ever; if others get their turn: `--fair weak`")
 }
 
-/// The main rule chooses who moves, and in the part of the run that comes again and again it chooses the same one.
+/// Whether the main rule chooses who moves, and chooses the same one throughout the repeating part of the run.
 fn always_the_same(program: &Program, trace: &Trace) -> bool {
     let (Some(turn), Some(scheduler)) = (trace.turn, scheduler(program)) else { return false };
     let mut chosen = trace.steps[turn.min(trace.steps.len())..]

@@ -1,7 +1,7 @@
-//! What is violated, told while the search goes on.
+//! Reports violations while the search goes on.
 //!
-//! In: what a search tells of itself. Out: verdicts, as soon as it has been going on for a moment; those of a search that ends before
-//! are told at its end, in their order. INVARIANT: each violation is shown once.
+//! In: the events of a search. Out: verdicts, once the search has run for a moment; a shorter search reports them at
+//! its end, in their order. INVARIANT: each violation is shown once.
 
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
@@ -14,16 +14,16 @@ use crate::shell::Shell;
 use crate::verify::tell::Teller;
 use crate::verify::watch::Watch;
 
-/// Of shorter searches everything is told at the end.
+/// Shorter searches report everything at the end.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Says from when on a search that begins now is to tell of violations.
+/// Decides when a search that starts now may report violations.
 pub fn impatience() -> impl FnMut() -> bool + Send + 'static {
     let began = Instant::now();
     move || began.elapsed() > PATIENCE
 }
 
-/// See the module.
+/// Reports the events of a search.
 pub struct Live<'a> {
     shell: &'a mut Shell,
     teller: &'a Teller<'a>,
@@ -37,13 +37,13 @@ impl<'a> Live<'a> {
         Live { shell, teller, watch, told: BTreeSet::new(), failure: None }
     }
 
-    /// Tells of an event; `false` where the search is to end.
+    /// Reports an event; `false` if the search should end.
     pub fn hear(&mut self, event: &VerifyEvent) -> bool {
         match event {
             VerifyEvent::Progress(progress) => return self.watch.at(progress),
             VerifyEvent::Violated(subject, trace) => self.violated(*subject, trace),
         }
-        // Where nobody reads what is told there is nothing to search for.
+        // If the output fails, there is no point in searching on.
         self.failure.is_none()
     }
 
@@ -54,7 +54,7 @@ impl<'a> Live<'a> {
         self.failure = self.failure.take().or(told.err());
     }
 
-    /// The search has ended: whether the time was up, and what was told.
+    /// Ends the report: whether the time was up, and which violations were shown.
     pub fn done(self) -> Result<(bool, BTreeSet<Subject>), Failure> {
         let timed_out = self.watch.done();
         self.failure.map_or(Ok((timed_out, self.told)), Err)

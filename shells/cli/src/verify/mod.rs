@@ -1,6 +1,7 @@
-//! `groundstate verify MODEL`: every state explored, a verdict for each check, counterexamples as traces and scenarios.
+//! `groundstate verify MODEL`: explores every state; prints a verdict for each check; writes counterexamples as traces
+//! and scenarios.
 //!
-//! Exit codes: 0 all hold, 1 something is violated, 3 nothing is violated but something is not known.
+//! Exit codes: 0 all hold, 1 something is violated, 3 nothing is violated but something is unknown.
 
 pub mod beside;
 mod bounded;
@@ -46,61 +47,61 @@ pub use wire::Explored;
 pub struct Arguments {
     /// The model
     model: PathBuf,
-    /// How states are gone through
+    /// How to explore the states
     #[arg(long, value_enum, default_value_t)]
     engine: Engine,
-    /// The SMT solver, a program or `none`. Default: z3 or cvc5 from the PATH
+    /// The SMT solver: a program or `none`. Default: z3 or cvc5 from the PATH
     #[arg(long, value_name = "PROGRAM")]
     solver: Option<PathBuf>,
-    /// What is kept of each state; where that is not all of it, nothing holds
+    /// What to store of each state; unless that is all of it, no check is proved
     #[arg(long, value_enum, default_value_t)]
     storage: Storage,
-    /// How large the array of --storage bitstate is, in MiB
+    /// The size of the array of --storage bitstate, in MiB
     #[arg(long, value_name = "MIB", default_value_t = 64, value_parser = clap::value_parser!(u64).range(1..=1 << 20))]
     array: u64,
-    /// Draws another hash for --storage compact and bitstate, which leaves out other states, if any
+    /// Choose another hash for --storage compact and bitstate, which omits other states, if any
     #[arg(long, value_name = "N", default_value_t = 0)]
     hash_seed: u64,
-    /// Keep the search in this file every now and then and when a limit or Ctrl-C ends it, and go on with it where the file
-    /// is there; it is removed when the search has ended
+    /// Save the search to this file regularly, and when a limit or Ctrl-C ends it; continue from the file if it exists;
+    /// it is removed when the search has finished
     #[arg(long, value_name = "FILE")]
     checkpoint: Option<PathBuf>,
-    /// Where memory ends, go on with the states in files of this folder
+    /// When memory is full, store states in files of this folder
     #[arg(long, value_name = "FOLDER")]
     disk: Option<PathBuf>,
-    /// Where the main rule chooses who moves: of moves that do not concern each other make one order, not all
+    /// If the main rule chooses who moves: make independent moves in one order instead of all
     #[arg(long, value_enum, default_value_t, value_name = "HOW")]
     partial_order: Switch,
-    /// Elements that nothing tells apart are interchangeable: states that differ by a permutation of them are one
+    /// Treat states as one if they differ only by a permutation of interchangeable elements
     #[arg(long, value_enum, default_value_t, value_name = "HOW")]
     symmetry: Switch,
-    /// How many workers search; as many as there are processors if not said
+    /// The number of workers. Default: the number of processors
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=256))]
     workers: Option<u64>,
-    /// Another invariant; may be repeated
+    /// An additional invariant; may be repeated
     #[arg(long = "invariant", value_name = "TERM")]
     invariants: Vec<String>,
-    /// Another formula with the operators of CTL; may be repeated
+    /// An additional formula with operators of CTL; may be repeated
     #[arg(long, value_name = "FORMULA")]
     ctl: Vec<String>,
-    /// Another formula with the operators of LTL; may be repeated
+    /// An additional formula with operators of LTL; may be repeated
     #[arg(long, value_name = "FORMULA")]
     ltl: Vec<String>,
-    /// Another assumption, as INVAR: states in which it is not true are left out, or steps if it reads inputs; may be
+    /// An additional assumption, as INVAR: skip states in which it is false, or steps if it reads inputs; may be
     /// repeated
     #[arg(long = "assume", value_name = "TERM")]
     assumptions: Vec<String>,
     /// Stop at the first violation
     #[arg(long)]
     first: bool,
-    /// States in which this term holds may rest
+    /// States in which this term holds are no deadlocks
     #[arg(long, value_name = "TERM")]
     terminal: Option<String>,
-    /// In temporal properties every agent that can move for ever moves at last: weak if it can move all the time,
-    /// strong if it can move again and again
+    /// Fairness of agents in temporal properties: weak, an agent that can always move moves eventually; strong, an
+    /// agent that can move again and again moves eventually
     #[arg(long, value_enum, value_name = "HOW")]
     fair: Option<Fair>,
-    /// Tell of unreachable rules in imported files, too
+    /// Also report unreachable rules in imported files
     #[arg(long)]
     imports: bool,
     /// Write counterexamples: a scenario (FILE.avalla), a trace (FILE.trace), or both for each violation into a folder
@@ -108,26 +109,26 @@ pub struct Arguments {
     counterexample: Option<PathBuf>,
     #[command(flatten)]
     bounded: Bounded,
-    /// Make every step by the machine, remember none: slower, to compare
+    /// Make every step by the machine and remember none: slower, for comparison
     #[arg(long, hide = true)]
     forgetful: bool,
 }
 
-/// How states are gone through.
+/// How to explore the states.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::ValueEnum)]
 enum Engine {
-    /// Whatever is likely to end first
+    /// The one that will probably finish first
     #[default]
     Auto,
-    /// One state after the other
+    /// One state after another
     Explicit,
     /// Sets of states, by binary decision diagrams
     Bdd,
-    /// Runs of so many steps, by an SMT solver: finds violations, proves nothing
+    /// Bounded model checking by an SMT solver: finds violations, proves nothing
     Bmc,
-    /// k-induction by an SMT solver, with runs
+    /// k-induction by an SMT solver
     Induction,
-    /// Property-directed reachability (IC3) by the Horn engine of z3, with runs
+    /// Property-directed reachability (IC3) by the Horn engine of z3
     Pdr,
 }
 
@@ -144,39 +145,39 @@ impl Engine {
     }
 }
 
-/// Whether something is done.
+/// On or off.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::ValueEnum)]
 enum Switch {
-    /// It is
+    /// Do it
     On,
-    /// It is not
+    /// Do not
     #[default]
     Off,
 }
 
-/// What is kept of each state.
+/// What to store of each state.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::ValueEnum)]
 enum Storage {
     /// All of it
     #[default]
     Exact,
-    /// A hash of 61 bits: 9 to 14 bytes a state, however large it is
+    /// A hash of 61 bits: 9 to 14 bytes per state, however large it is
     Compact,
     /// Three bits of an array
     #[value(name = "bitstate")]
     BitState,
 }
 
-/// How the main rule's choice of who moves is fair.
+/// The fairness of the main rule's choice of who moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum Fair {
-    /// Who can move all the time moves at last
+    /// An agent that can always move moves eventually
     Weak,
-    /// Who can move again and again moves at last
+    /// An agent that can move again and again moves eventually
     Strong,
 }
 
-/// What properties of the command line are shown under.
+/// The names under which messages show properties of the command line.
 const OPTIONS: [&str; 3] = ["--invariant", "--ctl", "--ltl"];
 
 /// Runs the command.
@@ -188,7 +189,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     if loaded.program.main.is_none() {
         return crate::run::no_main(shell, &loaded);
     }
-    // Of the model's texts alone, before those of options are added.
+    // Only the model's own texts count, so this comes before those of options are added.
     let fingerprint = groundstate::fingerprint(&loaded.sources);
     let bounded = &arguments.bounded;
     if arguments.counterexample.is_some() && arguments.model.as_os_str() == "-" {
@@ -202,7 +203,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     loaded = operators::import(shell, loaded, ctl, ltl);
     let mut asked = loaded.overlay();
     let Some(beside) = bounded.beside(shell, &mut asked.sources, &arguments.model)? else { return Ok(Exit::World) };
-    // What the command line assumes counts instead of what the file does.
+    // Assumptions of the command line replace those of the file.
     let assumed: Vec<Said> = match &arguments.assumptions[..] {
         [] => beside.assumptions.iter().map(Said::from).collect(),
         said => said.iter().map(Said::from).collect(),
@@ -239,7 +240,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
     let (options, watch) = bounded.options(shell, &program, &beside)?;
     if arguments.disk.is_some() {
-        // The limit is that of the states in memory; what is more goes to files.
+        // The limit applies to the states in memory; the rest goes to files.
         interrupt::bound_memory(u64::MAX);
     }
     let folder = match &arguments.disk {
@@ -312,7 +313,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     Ok(exit(&report))
 }
 
-/// Tells why there is no initial state.
+/// Reports why there is no initial state.
 pub fn no_start(shell: &mut Shell, teller: &Teller<'_>, trouble: NoStart) -> Result<Exit, Failure> {
     match trouble {
         NoStart::Refused(_) => unreachable!("a checkpoint is refused where there is one"),

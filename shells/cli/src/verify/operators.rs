@@ -1,13 +1,13 @@
-//! The libraries of temporal operators for what the command line asks: imported where the model itself does not.
+//! Imports the libraries of temporal operators for formulas on the command line, if the model does not import them.
 //!
-//! INVARIANT: the model is another only in that it knows the operators; one that has names of its own that are theirs stays
-//! as it is, and the fault of the formula is told.
+//! INVARIANT: the model changes only in that it knows the operators. If its own names clash with theirs, it stays
+//! unchanged, and the formula's fault is reported.
 
 use groundstate::Loaded;
 
 use crate::shell::Shell;
 
-/// The model with the operators of CTL, of LTL, as they are asked for.
+/// The model with the operators of CTL and of LTL, as requested.
 pub fn import(shell: &Shell, loaded: Loaded, ctl: bool, ltl: bool) -> Loaded {
     let asked = [("CTLLibrary", ctl), ("LTLLibrary", ltl)];
     let libraries: Vec<&str> = asked.iter().filter(|(_, asked)| *asked).map(|(library, _)| *library).collect();

@@ -1,4 +1,4 @@
-//! What is told of interchangeable elements: which there are, and why others are not.
+//! Reports interchangeable elements: which there are, and why others are not.
 
 use std::io::Write;
 
@@ -12,7 +12,7 @@ use crate::shell::Shell;
 use crate::verify::tell::Teller;
 
 impl Teller<'_> {
-    /// What there is to say, for programs.
+    /// The report as JSON.
     pub fn symmetry_lines(&self, symmetry: &Symmetry) -> Vec<DomainLine> {
         let name = |domain: &program::DomainId| self.program.domain(*domain).name.clone();
         let classes = symmetry.classes.iter().map(|(domain, class)| DomainLine {
@@ -30,7 +30,7 @@ impl Teller<'_> {
         classes.chain(distinct).collect()
     }
 
-    /// What there is to say, for people.
+    /// The report as text.
     pub fn symmetry(&self, shell: &mut Shell, symmetry: &Symmetry) -> Result<(), Failure> {
         for (domain, class) in &symmetry.classes {
             let domain = &self.program.domain(*domain).name;
@@ -38,7 +38,7 @@ impl Teller<'_> {
         }
         for (domain, why) in &symmetry.distinct {
             let declared = self.program.domain(*domain);
-            // Literals are there to be named.
+            // Literals of an enum are always named, so this reason is left out for them.
             if !matches!((&declared.kind, why), (DomainKind::Enum { .. }, Distinct::Named(_))) {
                 writeln!(shell.out(), "not interchangeable in {}: {}", declared.name, self.why_distinct(*why))?;
             }

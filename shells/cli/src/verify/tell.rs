@@ -1,4 +1,4 @@
-//! Verdicts and counterexamples, for people and as JSON.
+//! Prints verdicts and counterexamples, as text and as JSON.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -21,25 +21,25 @@ use crate::failure::Failure;
 use crate::shell::Shell;
 use crate::verify::hint::hint;
 
-/// Tells what verification came to.
+/// Prints the results of a verification.
 pub struct Teller<'a> {
     pub program: &'a Program,
     pub sources: &'a Sources,
-    /// The search was stopped because its time was up.
+    /// Whether the search stopped because its time was up.
     pub timed_out: bool,
-    /// The initial state that was told last.
+    /// The initial state that was printed last.
     told: RefCell<Vec<String>>,
 }
 
 impl<'a> Teller<'a> {
-    /// Tells of a search over a program.
+    /// Prints the results of a search over a program.
     pub fn new(program: &'a Program, sources: &'a Sources, timed_out: bool) -> Self {
         Teller { program, sources, timed_out, told: RefCell::default() }
     }
 }
 
 impl Teller<'_> {
-    /// Tells under which assumptions that are not the model's the verdicts are given.
+    /// Prints the assumptions of the verdicts that do not stand in the model.
     pub fn assumed(&self, shell: &mut Shell, assumptions: &[Said<'_>]) -> Result<(), Failure> {
         for term in assumptions.iter().map(|said| said.text().trim()) {
             if shell.json() {
@@ -51,7 +51,7 @@ impl Teller<'_> {
         Ok(())
     }
 
-    /// Tells everything; of what was told while the search went on no more than the verdict.
+    /// Prints the whole report. For what was shown during the search, prints only the verdict.
     pub fn report(&self, shell: &mut Shell, report: &Report, told: &BTreeSet<Subject>) -> Result<(), Failure> {
         for span in &report.unreachable {
             shell.diagnostic(self.sources, &groundstate::diagnose_unreachable(*span))?;
@@ -90,7 +90,7 @@ impl Teller<'_> {
         self.explored(shell, &report.progress, report.complete, &explored)
     }
 
-    /// Tells how far a search came.
+    /// Prints how far a search came.
     pub fn explored(
         &self,
         shell: &mut Shell,
@@ -114,7 +114,7 @@ impl Teller<'_> {
                 true => "met as sets".to_string(),
                 false => plural(progress.transitions as usize, "transition"),
             };
-            // The rounds in which sets grow say nothing of distances.
+            // Rounds of a symbolic search are not depths.
             let depth = if more.sets { String::new() } else { format!(", depth {}", progress.depth) };
             let disk = match progress.spilled {
                 0 => String::new(),
@@ -141,7 +141,7 @@ impl Teller<'_> {
         Ok(())
     }
 
-    /// Tells of a violation.
+    /// Prints a violation.
     pub fn violated(&self, shell: &mut Shell, subject: Subject, trace: &Trace) -> Result<(), Failure> {
         if shell.json() {
             return shell.object(&self.violated_line(subject, trace));
@@ -155,7 +155,7 @@ impl Teller<'_> {
         Ok(())
     }
 
-    /// Tells a run, step by step. An initial state that was told of the run before is not repeated.
+    /// Prints a run, step by step. An initial state that equals that of the previous run is not repeated.
     pub fn run(&self, shell: &mut Shell, trace: &Trace) -> Result<(), Failure> {
         let binders = groundstate::choice_variables(self.program);
         let inputs = trace.start.inputs.iter().map(|(location, value)| format!("in {}", self.value(location, value)));
@@ -238,7 +238,7 @@ impl Teller<'_> {
         line
     }
 
-    /// A run, as it is written as JSON.
+    /// A run as JSON.
     pub fn steps(&self, trace: &Trace) -> Vec<RunStep> {
         let binders = groundstate::choice_variables(self.program);
         let pairs = |values: &[(Location, Value)]| -> Vec<(String, String)> {
@@ -293,7 +293,7 @@ impl Teller<'_> {
         reasons.iter().map(temporal).collect()
     }
 
-    /// Why a temporal formula is not decided.
+    /// Why a temporal formula is undecided.
     fn why(&self, why: &Why) -> String {
         match why {
             Why::Unexplored(Some(stop)) => self.reason(&Reason::Stopped(*stop)),
@@ -312,7 +312,7 @@ impl Teller<'_> {
         }
     }
 
-    /// How a check was proved, where a solver has done that.
+    /// How a solver proved a check.
     fn proof(&self, subject: Subject, report: &Report) -> Option<String> {
         let how = match report.proofs.get(&subject)? {
             Proof::Induction(steps) => format!("k-induction, k = {steps}"),
@@ -321,7 +321,7 @@ impl Teller<'_> {
         Some(format!("{how}, {}", report.solver.as_deref().unwrap_or("a solver")))
     }
 
-    /// Why a solver left something open.
+    /// Why a solver left a check open.
     fn left(&self, left: &Left) -> String {
         match left {
             Left::Depth(depth) => format!("no run of at most {} violates it", plural(*depth, "step")),
@@ -343,7 +343,7 @@ impl Teller<'_> {
         }
     }
 
-    /// Why something is not known.
+    /// Why a verdict is unknown.
     pub fn reason(&self, reason: &Reason) -> String {
         match reason {
             Reason::Stopped(Stop::States) => "the limit of states is reached".to_string(),
@@ -372,7 +372,7 @@ impl Teller<'_> {
         }
     }
 
-    /// What cannot be gone through, with its place.
+    /// What cannot be enumerated, with its place.
     pub fn unbounded(&self, unbounded: &Unbounded) -> Diagnostic {
         groundstate::diagnose_unbounded(unbounded, self.program, self.sources)
     }
@@ -398,7 +398,7 @@ impl Teller<'_> {
     }
 }
 
-/// Why one order of moves is not enough.
+/// Why partial-order reduction was not possible.
 fn why_unreduced(unreduced: Unreduced) -> &'static str {
     match unreduced {
         Unreduced::NoChoice => "the main rule is no choice of who moves",
@@ -407,7 +407,7 @@ fn why_unreduced(unreduced: Unreduced) -> &'static str {
     }
 }
 
-/// How likely it is that a state was left out.
+/// The probability that a state was omitted.
 fn omission(report: &Report) -> String {
     let expected = report.omission.map_or(0.0, |expected| expected.0);
     if expected >= 1.0 {
@@ -423,7 +423,7 @@ fn omission(report: &Report) -> String {
     format!("with a probability of {most} {probability:.1e} a state was taken for another and left out")
 }
 
-/// The word that names a check that nobody asks for.
+/// The name of a check that every model has.
 pub fn id(subject: Subject) -> Option<&'static str> {
     Some(match subject {
         Subject::Consistent => "consistent",

@@ -1,7 +1,7 @@
-//! Watching a search: how far it is, on stderr, and whether it goes on.
+//! Watches a search: shows its progress on stderr, and stops it when its time is up.
 //!
-//! The time is kept by a thread of its own, which raises the request to stop: whoever searches tells how far it is between rounds,
-//! and looks at the request more often.
+//! A thread of its own keeps the time and raises the request to stop. The search reports progress between rounds, but
+//! checks the request more often.
 
 use std::io::IsTerminal;
 use std::sync::Arc;
@@ -15,16 +15,16 @@ use machine::Cause;
 
 use crate::interrupt;
 
-/// Shorter searches show nothing.
+/// Searches shorter than this show nothing.
 const PATIENCE: Duration = Duration::from_millis(700);
 
-/// See the module.
+/// Watches a search.
 pub struct Watch {
     began: Instant,
     wanted: bool,
     bar: Option<ProgressBar>,
     timed_out: Arc<AtomicBool>,
-    /// While it is there the time is kept.
+    /// Keeps the clock running; dropping it stops the clock.
     _clock: Option<Sender<()>>,
 }
 
@@ -40,7 +40,7 @@ impl Watch {
         }
     }
 
-    /// Shows how far the search is and says whether it goes on.
+    /// Shows how far the search is; returns whether to go on.
     pub fn at(&mut self, progress: &Progress) -> bool {
         let elapsed = self.began.elapsed();
         if self.wanted && elapsed > PATIENCE {
@@ -62,14 +62,14 @@ impl Watch {
         !interrupt::asked()
     }
 
-    /// Takes the bar away while something else is written.
+    /// Hides the bar while something else is written.
     pub fn hide(&mut self) {
         if let Some(bar) = self.bar.take() {
             bar.finish_and_clear();
         }
     }
 
-    /// Removes the bar; tells whether the time was up.
+    /// Removes the bar; returns whether the time was up.
     pub fn done(self) -> bool {
         if let Some(bar) = self.bar {
             bar.finish_and_clear();
@@ -78,7 +78,7 @@ impl Watch {
     }
 }
 
-/// Raises the request to stop when the time is up, unless what it gives is dropped before.
+/// Starts a clock that raises the request to stop when the time is up, unless the returned sender is dropped before.
 fn clock(limit: Duration, timed_out: Arc<AtomicBool>) -> Sender<()> {
     let (sender, ended) = channel::<()>();
     std::thread::spawn(move || {

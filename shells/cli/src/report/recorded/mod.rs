@@ -1,8 +1,8 @@
-//! `groundstate report MODEL --run FILE…`: runs of a program that was made for the model, held to it, as a page.
+//! `groundstate report MODEL --run FILE…`: compares runs of a program with its model, and shows them as a page.
 //!
-//! A file is a recording (MCAP), or the JSON of a run (spec/run.md), which names its recording and pictures. The first run
-//! is shown in detail, of all runs the figures stand side by side. Exit code: as of `conform`, of the worst run; 1 also where
-//! a closed loop in virtual time did not come where it had to.
+//! A file is a recording (MCAP), or the JSON of a run (spec/run.md), which names its recording and pictures. The first
+//! run is shown in detail; the figures of all runs stand side by side. The exit code is that of `conform` for the worst
+//! run; it is also 1 if a closed loop in virtual time missed its goal.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -78,7 +78,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     Ok(worst)
 }
 
-/// The recording, and what else the file tells of the run.
+/// The recording, and what else the file says about the run.
 fn find(shell: &Shell, path: &Path) -> Result<(Recording, RunTold), Failure> {
     let is_json = path.extension().is_some_and(|extension| extension == "json");
     crate::overwrite::note(path);
