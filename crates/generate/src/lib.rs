@@ -1,8 +1,8 @@
-//! C++ from models and from systems.
+//! Generates C++ from models and from systems.
 //!
-//! [`model`] makes a model's state, step and environment one class. [`system`] makes of a chart's system a program over the
-//! runtime of `cpp/`: a thread a task, the channels as the chart has them. [`names`] spells what both call things. What cannot
-//! be generated is refused with its place.
+//! [`model`] makes one class of a model's state, step and environment. [`system`] makes a program of a chart's system,
+//! over the runtime of `cpp/`: one thread per task, and the channels of the chart. [`names`] chooses the names for
+//! both. What cannot be generated is refused with its place.
 
 mod fault;
 pub mod model;

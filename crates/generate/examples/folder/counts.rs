@@ -1,4 +1,4 @@
-//! The counts of a folder: how many models there are, run, are generated, compile and agree.
+//! The counts for a folder: how many models there are, run, are generated, compile and agree.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -7,7 +7,7 @@ use crate::judge::Judged;
 use crate::log::Verdict;
 use crate::prepare::{Fate, Model};
 
-/// What came of the models.
+/// The results for the models.
 #[derive(Default)]
 pub struct Counts {
     files: usize,
@@ -18,11 +18,11 @@ pub struct Counts {
     distinct: usize,
     compiled: usize,
     agreed: usize,
-    /// Recorded runs of what is generated, and how many of them the code makes.
+    /// Recorded runs of generated models, and how many of them the code reproduces.
     recorded: (usize, usize),
     /// The same for models with recorded runs.
     with_record: (usize, usize),
-    /// Why others were not generated, and how often.
+    /// Why models were not generated, and how often.
     refused: BTreeMap<String, usize>,
 }
 
@@ -51,7 +51,7 @@ impl Counts {
         counts
     }
 
-    /// Whether all that is generated compiles and agrees.
+    /// Whether all generated code compiles and agrees.
     pub fn is_good(&self) -> bool {
         self.agreed == self.generated && self.recorded.0 == self.recorded.1
     }

@@ -1,8 +1,8 @@
-//! Code that stands in folders is compiled and follows its runs; each distinct code once.
+//! Compiles the generated code and follows its runs; each distinct code once.
 //!
-//! In: prepared models, and perhaps a folder of recorded runs (`cargo xtask corpus … --scripts`). Out: a verdict for each run of
-//! each model that is ready. INVARIANT: two models share a verdict only where code and run are the same to the letter, but
-//! for the lines that name the model's file.
+//! In: prepared models, and perhaps a folder of recorded runs (`cargo xtask corpus … --scripts`). Out: a verdict for
+//! each run of each model that is ready. INVARIANT: two models share a verdict only if code and run are identical,
+//! except for the lines that name the model's file.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -12,22 +12,22 @@ use crate::compile::{Compiler, Program, Unit, runtime, strict};
 use crate::log::{Log, Verdict};
 use crate::prepare::{Fate, Model};
 
-/// How many models are compiled before verdicts are noted.
+/// How many models are compiled before verdicts are logged.
 const CHUNK: usize = 96;
 
-/// A model's code and its runs.
+/// The verdicts on a model's runs.
 pub struct Judged {
-    /// Of equal code the number is the same.
+    /// The number of its code; equal code has the same number.
     pub code: u64,
-    /// With random inputs, one of each model.
+    /// The verdict on the run with random inputs.
     pub random: Verdict,
-    /// As the peer recorded them.
+    /// The verdicts on the runs that the peer recorded.
     pub recorded: Vec<Verdict>,
 }
 
 /// A run to follow.
 struct Task {
-    /// Stands for all that the verdict depends on.
+    /// Hash of everything that the verdict depends on.
     key: u64,
     name: String,
     script: PathBuf,
@@ -41,7 +41,7 @@ struct Ready<'a> {
     tasks: Vec<Task>,
 }
 
-/// Judges all that is ready; by the model's place.
+/// Judges all models that are ready; keyed by the model's index.
 pub fn all(compiler: &Compiler, models: &[Model], scripts: Option<&Path>, log: &mut Log) -> BTreeMap<usize, Judged> {
     let base = base();
     let mut ready: BTreeMap<usize, Ready> = BTreeMap::new();
@@ -84,7 +84,7 @@ fn judged(model: &Ready, log: &Log) -> Option<Judged> {
     Some(Judged { code: model.code, random, recorded: verdicts.collect() })
 }
 
-/// Follows the runs of all models of one code.
+/// Follows the runs of all models with this code.
 fn judge(same: &[&Ready], program: &Result<Program, String>, log: &mut Log) {
     for task in same.iter().flat_map(|model| &model.tasks) {
         if log.known(task.key).is_some() {
@@ -127,7 +127,7 @@ fn tasks(model: &Model, unit: &Unit, code: u64, scripts: Option<&Path>) -> Vec<T
     runs.into_iter().map(task).collect()
 }
 
-/// What all verdicts depend on: the runtime's headers, the compiler and how it is called.
+/// What all verdicts depend on: the runtime's headers, the compiler and its options.
 fn base() -> u64 {
     let mut hasher = DefaultHasher::new();
     let headers = std::fs::read_dir(runtime().join("groundstate/machine")).expect("the runtime's headers");
@@ -139,14 +139,14 @@ fn base() -> u64 {
     hasher.finish()
 }
 
-/// What a model's code is.
+/// The hash of a model's code.
 fn code(base: u64, unit: &Unit) -> u64 {
     let mut hasher = DefaultHasher::new();
     base.hash(&mut hasher);
     let stem = &unit.namespace;
     for name in [&format!("{stem}.hpp"), &format!("{stem}.cpp"), "replay.cpp"] {
         let text = text(&unit.folder.join(name));
-        // Copies of a model stand in other folders.
+        // Copies of a model stand in different folders, so `#line` directives do not count.
         text.lines().filter(|line| !line.starts_with("#line ")).for_each(|line| line.hash(&mut hasher));
     }
     hasher.finish()

@@ -1,18 +1,18 @@
-//! The log: a verdict a line, so that an interrupted campaign goes on where it was.
+//! The log: one verdict per line, so that an interrupted campaign continues where it stopped.
 //!
-//! In: a file, if any. Out: verdicts of an earlier campaign by their key, and lines for new ones. A key stands for all that a
-//! verdict depends on: see `judge`.
+//! In: a file, if any. Out: the verdicts of an earlier campaign by key, and lines for new ones. A key is the hash of
+//! everything that a verdict depends on: see `judge`.
 
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::Write;
 use std::path::Path;
 
-/// What came of a model's code.
+/// The result for a model's code.
 #[derive(Clone, PartialEq, Eq)]
 pub enum Verdict {
     Agrees,
-    /// It compiles and does something else: what.
+    /// It compiles but behaves differently: how.
     Differs(String),
     /// What the compiler said.
     DoesNotCompile(String),
@@ -25,7 +25,7 @@ pub struct Log {
 }
 
 impl Log {
-    /// Reads what is there; new lines are appended.
+    /// Reads the log; new lines are appended.
     pub fn open(path: Option<&Path>) -> Log {
         let Some(path) = path else { return Log { known: BTreeMap::new(), file: None } };
         let text = std::fs::read_to_string(path).unwrap_or_default();
@@ -34,12 +34,12 @@ impl Log {
         Log { known, file: Some(file) }
     }
 
-    /// What an earlier campaign, or this one, said.
+    /// The verdict of this campaign or an earlier one.
     pub fn known(&self, key: u64) -> Option<&Verdict> {
         self.known.get(&key)
     }
 
-    /// Notes a verdict.
+    /// Logs a verdict.
     pub fn note(&mut self, key: u64, name: &str, verdict: &Verdict) {
         let (word, why) = match verdict {
             Verdict::Agrees => ("agrees", ""),

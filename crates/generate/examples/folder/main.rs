@@ -1,16 +1,15 @@
-//! Generated code against the machine on every model of a folder: how many are generated, compile, and agree.
+//! Compares generated code with the machine on every model of a folder: how many are generated, compile, and agree.
 //!
 //!     cargo run --profile quick -p generate --example folder -- FOLDER [OPTIONS]
 //!
 //! Each model with a main rule that the machine runs is generated, compiled with warnings as errors, and fed the inputs
-//! and choices of a run of at most 20 steps; the states must be the same step by step. The same code is compiled once and
-//! counts for each file that it comes from. What goes wrong is told as it is found; the last lines are the counts. Ends with
-//! 1 if some generated code does not compile or does not agree.
+//! and choices of a run of at most 20 steps; the states must be the same after each step. Identical code is compiled
+//! once and counts for each file that it comes from. Failures are printed as they are found; the last lines are the
+//! counts. The exit code is 1 if some generated code does not compile or does not agree.
 //!
-//! `--scripts FOLDER`: recorded runs besides, as `cargo xtask corpus CHECKOUT --scripts FOLDER` writes them.
-//! `--log FILE`: a verdict a line; what it says of the same code, run, headers and compiler is not tried again.
-//! `--every N`: only each so many-th file. `--only TEXTS`: only those whose path has one of
-//! these, separated by commas.
+//! `--scripts FOLDER`: also follow recorded runs, as `cargo xtask corpus CHECKOUT --scripts FOLDER` writes them. `--log
+//! FILE`: one verdict per line; known verdicts on the same code, run, headers and compiler are not tried again.
+//! `--every N`: only every Nth file. `--only TEXTS`: only files whose path contains one of these, separated by commas.
 #![allow(
     clippy::disallowed_methods,
     clippy::disallowed_macros,
@@ -35,7 +34,7 @@ use compile::Compiler;
 use counts::Counts;
 use log::Log;
 
-/// What is asked for.
+/// The command line.
 struct Asked {
     folder: PathBuf,
     every: usize,

@@ -1,8 +1,8 @@
-//! Models are read, run in the machine and generated, by worker processes.
+//! Reads models, runs them in the machine and generates them, in worker processes.
 //!
-//! In: paths. Out: what became of each ([`Fate`]), its code and its run in a folder of its own. A worker is this program
-//! again, reading one path a line and writing one answer a line, so that neither an endless run nor a stack overflow takes
-//! the others with it: a worker that dies or takes longer than the limit is replaced, and the model's fate says so.
+//! In: paths. Out: the [`Fate`] of each, its code and its run in a folder of its own. A worker is this program again;
+//! it reads one path per line and writes one answer per line. So an endless run or a stack overflow does not affect the
+//! others: a worker that dies or exceeds the time limit is replaced, and the model's fate says so.
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
@@ -17,11 +17,11 @@ use syntax::SourceFile;
 use crate::compile::{Unit, write};
 use crate::run::{Disk, Prepared, read, record};
 
-/// The word with which this program is started again as a worker.
+/// The argument that starts this program as a worker.
 pub const WORKER: &str = "--worker";
-/// LIMIT: how long one model may take to be read, run and generated.
+/// LIMIT: how long reading, running and generating one model may take.
 const LIMIT: Duration = Duration::from_secs(120);
-/// How many steps are run.
+/// How many steps a run has.
 const STEPS: u64 = 20;
 
 /// A model of the folder.
@@ -30,15 +30,15 @@ pub struct Model {
     pub fate: Fate,
 }
 
-/// What became of it before anything is compiled.
+/// The result for a model before compiling.
 pub enum Fate {
     /// It has faults, or cannot be read.
     Faulty,
     /// It has no main rule.
     NoMain,
-    /// The machine comes to no initial state.
+    /// The machine reaches no initial state.
     NoRun,
-    /// The machine runs it, and it cannot be generated: why.
+    /// The machine runs it, but it cannot be generated: why.
     Refused(String),
     /// Its code stands in a folder.
     Ready(Unit),
@@ -108,7 +108,7 @@ impl Drop for Worker {
     }
 }
 
-/// Asks a worker; one that gives no answer is done away with.
+/// Asks a worker; a worker that gives no answer is killed.
 fn ask(worker: &mut Option<Worker>, work: &Path, index: usize, path: &Path) -> Fate {
     let mut current = worker.take().unwrap_or_else(|| Worker::start(work));
     let sent = writeln!(current.paths, "{index} {}", path.display()).and_then(|()| current.paths.flush());
@@ -139,7 +139,7 @@ fn ask(worker: &mut Option<Worker>, work: &Path, index: usize, path: &Path) -> F
     }
 }
 
-/// The worker's side: until its input ends.
+/// The worker's loop, until its input ends.
 pub fn work(folder: &Path) {
     for line in std::io::stdin().lock().lines().map_while(Result::ok) {
         let (index, path) = line.split_once(' ').expect("a number and a path");

@@ -1,8 +1,9 @@
-//! Members that answer what is not simply read: inputs, initial values that are due late, the clock.
+//! Members that compute what they return: inputs, late initial values, the clock.
 //!
-//! In: what the generated code reaches. Out: the definitions of those members. An input is asked for once a step and then
-//! kept; so is the clock. A location whose initial value was not due at the start gets it when it is first read, as it
-//! would have been then: of what such a value reads the initial state is kept, and what inputs were at the start.
+//! In: what the generated code reaches. Out: the definitions of those members. An input is asked for once per step and
+//! then kept; so is the clock. A location that got no initial value at the start gets it when it is first read, with
+//! the value that it would have had at the start. For this, the parts of the initial state and the inputs that such
+//! values read are kept.
 
 use std::collections::BTreeSet;
 
@@ -41,7 +42,7 @@ fn inputs(generator: &Generator<'_>, text: &mut Text) {
                 ));
             }
             _ => {
-                // Where an initial value is due late, what was asked for at the start.
+                // Late initial values see the input that was asked for at the start.
                 if let Some((_, copy)) = kept.iter().find(|(member, _)| *member == function.member) {
                     text.open(format!(
                         "if (const auto* known = started_ ? nullptr : at_start_.{copy}.answer(1{comma}{names})) {{"
@@ -59,7 +60,7 @@ fn inputs(generator: &Generator<'_>, text: &mut Text) {
     }
 }
 
-/// Accessors of functions whose initial values may be due only when they are read.
+/// Accessors of functions whose initial values may be computed when they are first read.
 fn lazy(generator: &Generator<'_>, text: &mut Text) {
     for (id, function) in functions(generator, &[Role::State]) {
         if !generator.is_lazy(id) {
@@ -78,7 +79,7 @@ fn lazy(generator: &Generator<'_>, text: &mut Text) {
         text.line(format!("return {}.at(found);", function.member));
         text.close("}");
         if fixed {
-            // It depends on its arguments alone, so that it does not matter that the initial state is gone.
+            // The value depends only on its arguments, so the initial state is not needed.
             text.line(format!("const auto value = initial_{}({names});", function.name));
             text.line(format!("{0}.put({0}.number({site}, {names}), value);", function.member));
             text.line("return value;");
@@ -90,16 +91,16 @@ fn lazy(generator: &Generator<'_>, text: &mut Text) {
             text.line(format!("{0}.put({0}.number({site}, {names}), value);", function.member));
             text.line("return value;");
         } else {
-            // LIMIT: bare code keeps no initial state, nor is a choice made again, or the clock read: such an initial value
-            // is known for what there was at the start.
+            // LIMIT: bare code keeps no initial state, choices are not repeated, and the clock is not read again. Such
+            // initial values exist only for locations that existed at the start.
             text.line(format!("gs::fail(gs::FaultKind::no_definition, {site}, {site});"));
         }
         text.close("}");
     }
 }
 
-/// What a lazy function's initial values read, directly or through those of others, in the initial state; none if that
-/// cannot be kept.
+/// What the initial values of a lazy function read in the initial state, directly or through those of others; `None` if
+/// that cannot be kept.
 fn read_late(generator: &Generator<'_>, id: FunctionId) -> Option<BTreeSet<FunctionId>> {
     if generator.options.bare {
         return None;
@@ -124,13 +125,13 @@ fn read_late(generator: &Generator<'_>, id: FunctionId) -> Option<BTreeSet<Funct
     Some(found)
 }
 
-/// What the initial values read that are due late.
+/// What all late initial values read.
 fn all_read_late(generator: &Generator<'_>) -> BTreeSet<FunctionId> {
     let lazy = functions(generator, &[Role::State]).into_iter().filter(|(id, _)| generator.is_lazy(*id));
     lazy.filter_map(|(id, _)| read_late(generator, id)).flatten().collect()
 }
 
-/// The members of the state that are kept as they are at the start, each with the name of its copy.
+/// The members of the state whose initial contents are kept, each with the name of its copy.
 fn state_from_start(generator: &Generator<'_>) -> Vec<(String, String)> {
     let read = all_read_late(generator);
     if read.is_empty() {
@@ -142,7 +143,7 @@ fn state_from_start(generator: &Generator<'_>) -> Vec<(String, String)> {
     states.chain(domains).map(with_copy).collect()
 }
 
-/// The same of inputs, for what they were asked for at the start.
+/// The inputs whose answers from the start are kept, each with the name of its copy.
 fn inputs_from_start(generator: &Generator<'_>) -> Vec<(String, String)> {
     let read = all_read_late(generator);
     let inputs = functions(generator, &[Role::Input]).into_iter().filter(|(id, _)| read.contains(id));
@@ -154,12 +155,12 @@ fn with_copy(member: String) -> (String, String) {
     (member, copy)
 }
 
-/// All of these members.
+/// All members of which a copy from the start is kept.
 pub(crate) fn kept_from_start(generator: &Generator<'_>) -> Vec<(String, String)> {
     state_from_start(generator).into_iter().chain(inputs_from_start(generator)).collect()
 }
 
-/// The members that evaluate a term in the initial state.
+/// Writes the members that evaluate a term in the initial state.
 pub(crate) fn initial_state(generator: &Generator<'_>, text: &mut Text) {
     let kept = kept_from_start(generator);
     if kept.is_empty() {

@@ -1,7 +1,7 @@
-//! The bodies of procedures, definitions and initial values, generated until nothing refutes what they assume.
+//! Generates the bodies of procedures, definitions and initial values, until no body refutes an assumption.
 //!
-//! In: a plan. Out: [`Bodies`], the member functions of the class with their declarations, and all that generating
-//! them asked for: places, tables, needs.
+//! In: a plan. Out: [`Bodies`], the member functions of the class with their declarations, and everything that they ask
+//! for: places, tables, needs.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -17,17 +17,17 @@ use crate::model::text::Text;
 use crate::model::types::Type;
 use crate::model::writes::Writes;
 
-/// A member function: how it is declared within the class, and defined.
+/// A member function: its declaration within the class, and its definition.
 #[derive(Debug, Clone)]
 pub(crate) struct Member {
     pub declaration: String,
     pub definition: Text,
 }
 
-/// LIMIT: how often intervals may grow step by step, before they grow at once.
+/// LIMIT: how many rounds intervals grow step by step before they are widened.
 const EXACT_ROUNDS: u32 = 8;
 
-/// LIMIT: how many lines of a procedure are made part of its caller.
+/// LIMIT: procedures with more lines than this are not inlined.
 const INLINED_LINES: usize = 200;
 
 /// The member functions, in the order of the model.
@@ -56,14 +56,13 @@ pub(crate) fn bodies<'a>(
     let mut assumed = Assumptions::all(program);
     assumed.acting = acting(program);
     let known = known_values(program, started);
-    // Nobody but rules of the model writes what is assumed to be never undef.
+    // Only functions that no one but the model's rules writes can be assumed to be never undef.
     for (index, function) in plan.functions.iter().enumerate() {
         let fitting = function.role == Role::State
             && function.initial.is_some()
             && matches!(program.functions[index].kind, FunctionKind::Controlled | FunctionKind::Out);
         assumed.total[index] &= fitting;
     }
-    // Rule values and programs of agents are entered with whatever there is.
     let mut round = 0;
     loop {
         let mut generator = Generator::new(program, plan, writes, forms, options, assumed.clone());
@@ -102,7 +101,7 @@ fn once(generator: &mut Generator<'_>, started: &machine::Machine, known: &Known
     let mut initials = Vec::new();
     let mut done_procedures = BTreeSet::new();
     let mut done_functions = BTreeSet::new();
-    // What is generated enters more of them.
+    // Generating a body may enter further procedures.
     loop {
         let next_procedure = generator.entered.iter().find(|id| !done_procedures.contains(*id)).copied();
         if let Some(id) = next_procedure {
@@ -170,8 +169,8 @@ fn procedure(generator: &mut Generator<'_>, id: ProcedureId) -> Member {
     Member { declaration: format!("inline void {name}({list});"), definition: text }
 }
 
-/// A procedure that is called at one place is part of its caller, whatever compilers estimate: what a step updates then
-/// stays in registers.
+/// Forces inlining of a procedure that is called at only one place, whatever the compiler estimates. What a step
+/// updates then stays in registers.
 fn inline_once(generator: &Generator<'_>, id: ProcedureId, member: &mut Member) {
     let once = generator.calls.get(&id) == Some(&1) && !is_recursive(generator.program, id);
     if once && member.definition.plain().lines().count() <= INLINED_LINES {
@@ -179,7 +178,7 @@ fn inline_once(generator: &Generator<'_>, id: ProcedureId, member: &mut Member) 
     }
 }
 
-/// Parameters that the body may not use.
+/// Silences warnings about parameters that the body does not use.
 fn silenced(parameters: &[String]) -> String {
     parameters.iter().map(|parameter| format!("[[maybe_unused]] {parameter}")).collect::<Vec<_>>().join(", ")
 }
@@ -233,7 +232,7 @@ fn initial_value(generator: &mut Generator<'_>, id: FunctionId, initial: usize, 
     let program = generator.program;
     let expression: &Expression = &program.initials[initial].value;
     let plan = generator.plan.function(id).clone();
-    // Whoever reads a location may do so with an argument that is undef.
+    // A location may be read with an argument that is undef.
     let eager = !generator.is_lazy(id);
     let parameters = program.function(id).parameters.iter().enumerate();
     let assumed: Vec<_> = parameters
@@ -247,7 +246,7 @@ fn initial_value(generator: &mut Generator<'_>, id: FunctionId, initial: usize, 
     let code = generator.term(expression.body);
     let code = generator.cast(code, plan.ty, site);
     let (total, range) = match known.get(&id) {
-        // Nobody changes them, and they are all there is.
+        // Nothing changes them, and all of them are known.
         Some(known) if generator.is_fixed(id) && generator.is_inside(id) => {
             (known.count == generator.places(id), known.range)
         }
@@ -293,7 +292,7 @@ fn start_state(generator: &mut Generator<'_>, started: &machine::Machine, text: 
     }
 }
 
-/// The elements that growing domains have at first.
+/// Sets the initial elements of growing domains.
 fn start_carriers(generator: &Generator<'_>, text: &mut Text) {
     for domain in &generator.carriers {
         let plan = generator.plan.domain(*domain);
@@ -310,7 +309,7 @@ fn start_carriers(generator: &Generator<'_>, text: &mut Text) {
     }
 }
 
-/// Loops over all arguments, setting each location.
+/// Sets each location, by loops over all arguments.
 fn set_initial(generator: &mut Generator<'_>, index: usize, plan: &FunctionPlan, text: &mut Text) {
     let program = generator.program;
     let initial = &program.initials[index];
@@ -324,7 +323,7 @@ fn set_initial(generator: &mut Generator<'_>, index: usize, plan: &FunctionPlan,
     let mut scope = generator.plan.members.clone();
     let mut ranges = Vec::new();
     for (place, parameter) in parameters.iter().enumerate() {
-        // Of what cannot be enumerated the initial values are made when they are read.
+        // Initial values over domains that cannot be enumerated are computed when they are read.
         let Some((range, _)) = generator.domain_range(*parameter) else { return };
         let undef = generator.has_undef_place(initial.function, place);
         ranges.push(if undef { format!("gs::and_undef({range})") } else { range });
@@ -344,7 +343,7 @@ fn set_initial(generator: &mut Generator<'_>, index: usize, plan: &FunctionPlan,
     ranges.iter().for_each(|_| text.close("}"));
 }
 
-/// Sets each location to the value that the machine computed: of functions whose initial values read each other.
+/// Sets each location to the value that the machine computed, for functions whose initial values depend on each other.
 fn set_as_computed(
     generator: &mut Generator<'_>,
     function: FunctionId,
@@ -372,7 +371,7 @@ fn set_as_computed(
     }
 }
 
-/// The initial values in an order in which none reads a later one, and those for which there is none.
+/// The initial values in an order in which none reads a later one, and those for which there is no such order.
 fn initial_order(program: &Program) -> (Vec<usize>, BTreeSet<usize>) {
     let mut order = Vec::new();
     let mut cyclic = BTreeSet::new();
@@ -409,7 +408,7 @@ fn initial_order(program: &Program) -> (Vec<usize>, BTreeSet<usize>) {
     (order, cyclic)
 }
 
-/// The choice of an agent's program: that of the most specific domain it is in, which comes first.
+/// Selects an agent's program: that of its most specific domain, which comes first.
 fn run_agent(generator: &mut Generator<'_>, text: &mut Text) {
     let program = generator.program;
     let agents: Vec<_> = program.agents.iter().map(|agent| (agent.domain, agent.procedure)).collect();
@@ -435,14 +434,14 @@ fn run_agent(generator: &mut Generator<'_>, text: &mut Text) {
     }
 }
 
-/// By function, what its locations have in the initial state, where that depends on nothing from outside.
+/// By function, the values of its locations in the initial state, if they do not depend on the environment.
 type Known = BTreeMap<FunctionId, KnownValues>;
 
 #[derive(Debug)]
 struct KnownValues {
     /// How many locations have a value.
     count: u64,
-    /// Between what the integers among them lie.
+    /// An interval that contains the integers among them.
     range: Interval,
 }
 
@@ -463,7 +462,7 @@ fn known_values(program: &Program, started: &machine::Machine) -> Known {
     known
 }
 
-/// Whether whoever reads `self` is run as an agent's program, so that it is defined there.
+/// Whether `self` is read only in agents' programs, so that it is always defined.
 fn acting(program: &Program) -> bool {
     let Some(own) = program.self_function else { return false };
     let mut procedures: Vec<ProcedureId> = program.main.into_iter().collect();
@@ -475,7 +474,7 @@ fn acting(program: &Program) -> bool {
             let called: Vec<ProcedureId> = match program.rule(rule).runs() {
                 Runs::Procedure(procedure) => vec![procedure],
                 Runs::Value { .. } => crate::model::nesting::runnable(program).collect(),
-                // An agent's program is run by the agent: it has a `self`.
+                // The agent runs its program, so there is a `self`.
                 Runs::Agent | Runs::Nothing => Vec::new(),
             };
             procedures.extend(called.into_iter().filter(|called| entered.insert(*called)));

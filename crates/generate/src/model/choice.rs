@@ -1,7 +1,7 @@
-//! `choose` → the candidates in the machine's order, and the environment that picks one.
+//! Generates `choose`: the candidates in the machine's order, and the environment that picks one.
 //!
-//! Candidates are listed before one is asked for, unless a number says which one it is: then nothing is listed. Variables
-//! that range over all numbers of a kind are drawn.
+//! Candidates are listed before the environment picks one, unless a candidate can be computed from its number.
+//! Variables that range over all numbers of a kind are drawn.
 
 use model::Basic;
 use program::{Binder, BinderList, DomainKind, RuleId, Term, TermId};
@@ -13,11 +13,11 @@ use crate::model::plan::integer;
 use crate::model::text::Text;
 use crate::model::types::type_of;
 
-/// LIMIT: candidates of a choice that are kept in place; more go to the heap.
+/// LIMIT: how many candidates are stored in place; more go to the heap.
 const CANDIDATES_IN_PLACE: u64 = 4096;
 
 impl Generator<'_> {
-    /// A choice among what the binders range over.
+    /// A choice among the bindings of the binders.
     pub fn choose(
         &mut self,
         binders: BinderList,
@@ -33,7 +33,7 @@ impl Generator<'_> {
         text.open("{");
         let listed = self.draws(&binders, condition, site, text);
         if listed.is_empty() && !binders.is_empty() && condition.is_none_or(|condition| self.is_true(condition)) {
-            // One candidate, all of whose numbers were drawn; the choice is still made.
+            // There is one candidate, whose numbers were all drawn; the choice is still made.
             text.line(format!("(void)choose(1, {site});"));
             self.rule(body, text);
             text.close("}");
@@ -113,7 +113,7 @@ impl Generator<'_> {
         chosen.iter().chain([&candidates]).for_each(|name| self.frame.scope.release(name));
     }
 
-    /// The choice of one of a domain's elements, where its number says which one it is; none where it does not.
+    /// Picks an element of a domain by its number; `None` if elements cannot be computed from numbers.
     fn picked(&self, binder: Binder, site: u32) -> Option<String> {
         let Term::Domain(domain) = *self.program.term(binder.range) else { return None };
         let plan = self.plan.domain(domain);
@@ -136,7 +136,7 @@ impl Generator<'_> {
         }
     }
 
-    /// Binds the variables that range over all numbers of a kind, where there is no guard; gives the other binders.
+    /// Draws the variables that range over all numbers of a kind, if there is no guard; returns the other binders.
     fn draws(&mut self, binders: &[Binder], condition: Option<TermId>, site: u32, text: &mut Text) -> Vec<Binder> {
         let guarded = condition.is_some_and(|condition| !self.is_true(condition));
         let mut listed = Vec::new();

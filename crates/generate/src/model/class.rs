@@ -14,7 +14,7 @@ use crate::model::renamed::{called, literals_called};
 use crate::model::text::{Text, escaped};
 use crate::model::types::Type;
 
-/// The header; it declares the types that code has named, so that everything else is made before.
+/// The header. It declares the types that code has named, so everything else is generated before it.
 pub(crate) fn header(bodies: &Bodies<'_>, title: &str) -> Text {
     let generator = &bodies.generator;
     let (program, plan) = (generator.program, generator.plan);
@@ -59,7 +59,7 @@ pub(crate) fn header(bodies: &Bodies<'_>, title: &str) -> Text {
     text
 }
 
-/// The enum types and element types that something is made of.
+/// The enum types and element types.
 fn types(generator: &Generator<'_>, text: &mut Text) {
     for (index, plan) in generator.plan.domains.iter().enumerate() {
         if !plan.is_named() {
@@ -93,7 +93,7 @@ fn environment(generator: &Generator<'_>, text: &mut Text) {
     text.open("class Environment {");
     text.line("public:");
     if generator.options.bare {
-        // A virtual destructor would bring `operator delete` along, and the heap with it.
+        // A virtual destructor would bring in `operator delete`, and with it the heap.
         text.line("Environment() = default;\n");
     } else {
         text.line("virtual ~Environment() = default;\n");
@@ -220,7 +220,7 @@ fn class(bodies: &Bodies<'_>, text: &mut Text) {
 /// The small functions that generated rules call.
 fn helpers(bodies: &Bodies<'_>, text: &mut Text) {
     let generator = &bodies.generator;
-    // Defined here: whoever includes the header alone would be warned of an inline function without a definition.
+    // Defined in the header: with the header alone, compilers warn of an inline function without a definition.
     text.open("[[gnu::always_inline]] std::size_t choose(std::size_t candidates, gs::Site site) {");
     text.line("const std::size_t chosen = environment_.choose(candidates, site);");
     text.open("if (chosen >= candidates) {");
@@ -315,7 +315,7 @@ pub(crate) fn source(bodies: &Bodies<'_>, file: &str) -> Text {
     text
 }
 
-/// Start, step, and what they need.
+/// The members that start the machine and make steps.
 fn frame(bodies: &Bodies<'_>, text: &mut Text) {
     let generator = &bodies.generator;
     let (program, plan) = (generator.program, generator.plan);
@@ -373,7 +373,7 @@ fn frame(bodies: &Bodies<'_>, text: &mut Text) {
     }
     text.line("changed_ = changed != 0;");
     if counts_steps(generator) {
-        // What was asked for in the initial state holds in the first step.
+        // Inputs that were asked for in the initial state stay valid in the first step.
         text.line("++step_;");
     }
     text.line("return {};");
@@ -418,7 +418,7 @@ fn agents(bodies: &Bodies<'_>, text: &mut Text) {
     text.close("}");
     text.open(format!("\nvoid Machine::run_agent([[maybe_unused]] Next& next, {agent} agent, gs::Site site) {{"));
     let own = functions(generator, &[Role::Agent]);
-    // `self` may have been declared over a wider type than the agents'.
+    // `self` may be declared over a wider type than that of the agents.
     let own = own.first().filter(|(_, function)| function.ty == ty).map(|(_, function)| function.member.clone());
     if let Some(own) = &own {
         text.line(format!("const auto outer = {own};"));
@@ -426,7 +426,7 @@ fn agents(bodies: &Bodies<'_>, text: &mut Text) {
     text.open("switch (program_of(agent)) {");
     let mut done = std::collections::BTreeSet::new();
     for entry in &program.agents {
-        // A domain without elements has no agents to run it.
+        // A domain without elements has no agents that could run the program.
         if !generator.entered.contains(&entry.procedure) || !done.insert(entry.procedure) {
             continue;
         }
@@ -458,7 +458,7 @@ fn agents(bodies: &Bodies<'_>, text: &mut Text) {
     }
 }
 
-/// The names that values are printed by.
+/// The names under which values are printed.
 fn names(generator: &Generator<'_>, text: &mut Text) {
     let program = generator.program;
     text.open("\nconst gs::Names& Machine::names() {");

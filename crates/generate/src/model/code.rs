@@ -1,9 +1,9 @@
-//! An expression of C++ with what is known of it, and the ways of joining expressions.
+//! A C++ expression with facts about it, and functions that combine expressions.
 
 use crate::model::interval::Interval;
 use crate::model::types::Type;
 
-/// Before the body of a lambda that is called on the spot: part of the code around it, whatever compilers estimate.
+/// Precedes the body of a lambda that is called on the spot: forces inlining, whatever the compiler estimates.
 pub(crate) const CALLED: &str = "[&]() GROUNDSTATE_CALLED";
 
 /// An expression of C++.
@@ -11,11 +11,11 @@ pub(crate) const CALLED: &str = "[&]() GROUNDSTATE_CALLED";
 pub(crate) struct Code {
     pub text: String,
     pub ty: Type,
-    /// It is never undef; of a [`Type::Value`] always false.
+    /// Whether it is never undef; for a [`Type::Value`] always false.
     pub defined: bool,
-    /// It neither faults nor asks anybody, so that it does not matter when it is evaluated.
+    /// Whether it neither faults nor asks the environment, so that it may be evaluated at any time.
     pub pure: bool,
-    /// If it is an integer, it lies in here.
+    /// An interval that contains it, if it is an integer.
     pub range: Interval,
 }
 
@@ -36,7 +36,7 @@ impl Code {
         Code { pure: true, ..self }
     }
 
-    /// `undef`, of no type yet.
+    /// `undef`, without a type yet.
     pub fn undef() -> Code {
         Code { text: "gs::Value{}".into(), ty: Type::Undef, defined: false, pure: true, range: Interval::EMPTY }
     }
@@ -45,7 +45,7 @@ impl Code {
         Code { range, ..self }
     }
 
-    /// The same where another integer stands beside it, which makes a literal one of 64 bits.
+    /// The expression as an operand beside another 64-bit integer, so that a literal needs no type.
     pub fn beside(&self) -> &str {
         self.text.strip_prefix("std::int64_t{").and_then(|rest| rest.strip_suffix('}')).unwrap_or(&self.text)
     }
@@ -56,7 +56,7 @@ pub(crate) fn listed(codes: &[Code]) -> String {
     codes.iter().map(|code| unwrapped(&code.text)).collect::<Vec<_>>().join(", ")
 }
 
-/// Two integers with an operator between; a literal is written without its type where the other one has it.
+/// Two integers with an operator between them; a literal is written without its type if the other operand has it.
 pub(crate) fn beside(left: &Code, symbol: &str, right: &Code) -> String {
     if left.beside() != left.text && right.beside() != right.text {
         return between(&left.text, symbol, &right.text);
@@ -64,12 +64,12 @@ pub(crate) fn beside(left: &Code, symbol: &str, right: &Code) -> String {
     between(left.beside(), symbol, right.beside())
 }
 
-/// An operator between two terms. Compilers warn of a term compared with itself where they see it.
+/// An operator between two terms, written so that compilers do not warn of a term compared with itself.
 pub(crate) fn between(left: &str, symbol: &str, right: &str) -> String {
     if left == right { format!("({left} {symbol} gs::itself({left}))") } else { format!("({left} {symbol} {right})") }
 }
 
-/// An expression after statements.
+/// An expression preceded by statements.
 pub(crate) fn within(statements: &str, code: Code) -> Code {
     match statements {
         "" => code,
@@ -77,7 +77,7 @@ pub(crate) fn within(statements: &str, code: Code) -> Code {
     }
 }
 
-/// A text without the parentheses around it.
+/// A text without the parentheses that enclose it.
 pub(crate) fn unwrapped(text: &str) -> &str {
     let Some(inner) = text.strip_prefix('(').and_then(|text| text.strip_suffix(')')) else { return text };
     let mut depth = 0;
@@ -86,7 +86,7 @@ pub(crate) fn unwrapped(text: &str) -> &str {
             '(' => depth += 1,
             ')' if depth == 0 => return text,
             ')' => depth -= 1,
-            // A comma between operands would be one between arguments.
+            // A comma between operands would become one between arguments.
             ',' if depth == 0 => return text,
             '"' | '\'' => return text,
             _ => {}

@@ -1,7 +1,7 @@
-//! Collections and quantifiers → loops of C++.
+//! Generates collections and quantifiers as loops of C++.
 //!
-//! In: binders, a condition, a body. Out: [`Code`], a lambda that is called on the spot. A sequence of literals or elements
-//! of a small domain is a list (`machine/lists.hpp`), everything else a dynamic value.
+//! In: binders, a condition, a body. Out: [`Code`], a lambda that is called on the spot. A sequence over a small domain
+//! is a list (`machine/lists.hpp`), everything else a dynamic value.
 
 use program::{BinderList, CollectionKind, DomainId, Quantifier, Term, TermId, TermList};
 
@@ -62,7 +62,7 @@ impl Generator<'_> {
         Code::value(text.plain().trim_end())
     }
 
-    /// How many items a comprehension of literals or elements has, which then nobody builds.
+    /// The number of items of a comprehension of literals or elements, counted without building it.
     pub fn counted(&mut self, id: TermId) -> Option<Code> {
         let Term::Comprehension { kind: CollectionKind::Seq, binders, condition, body } = self.program.term(id) else {
             return None;
@@ -91,7 +91,7 @@ impl Generator<'_> {
         Some(Code::defined(text.plain().trim_end(), Type::Integer).within(Interval::NATURAL))
     }
 
-    /// A quantifier. Where its condition has no effect it does not matter in which order it is evaluated, nor how often.
+    /// A quantifier. If its condition has no effect, it may be evaluated in any order and more than once.
     pub fn quantified(&mut self, quantifier: Quantifier, binders: BinderList, condition: Option<TermId>) -> Code {
         if quantifier != Quantifier::ExistsUnique {
             let (code, pure) = self.quantified_over(quantifier, binders, condition, true);
@@ -171,7 +171,7 @@ impl Generator<'_> {
         let terms = self.program.term_list(elements).to_vec();
         let items: Vec<Code> = terms.into_iter().map(|term| self.item(term, of)).collect();
         let pure = items.iter().all(|item| item.pure);
-        // Braces keep the order of the text.
+        // Braces evaluate the items in the order of the text.
         let list: Vec<&str> = items.iter().map(|item| item.text.as_str()).collect();
         let text = format!("{}::of({{{}}})", self.plan.cpp(ty, true), list.join(", "));
         Code { pure, ..Code::defined(text, ty) }

@@ -1,4 +1,4 @@
-//! The driver that replays runs: a program that reads answers and prints states (`machine/replay.hpp`).
+//! Generates the driver that replays runs: a program that reads answers and prints states (`machine/replay.hpp`).
 
 use program::FunctionId;
 

@@ -1,11 +1,11 @@
-//! In what form the locations of a function stand: how much a step has to remember of their updates.
+//! Determines how much a step must remember of the updates of a function.
 //!
-//! In: a program and what its rules write. Out: a [`Form`] for each function. A function that no sequence updates has one
-//! unit, the step, and needs no marks; where no two updates of a step can name one location there are no clashes to look
-//! for; where a step writes all locations or none, the new values stand in a second array.
+//! In: a program and what its rules write. Out: a [`Form`] for each function. If no sequence updates the function, the
+//! step is its only unit, and no marks are needed. If no two updates of a step can address the same location, clashes
+//! need not be looked for. If a step writes all locations or none, the new values go to a second array.
 //!
-//! It judges rules by their shape: a `forall` whose variables are arguments of the location writes each location once.
-//! What it cannot tell is [`Form::General`], which is always right.
+//! Rules are judged by their shape: a `forall` whose variables are arguments of the location writes each location once.
+//! Undecided cases are [`Form::General`], which is always correct.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,16 +16,16 @@ use program::{
 use crate::model::nesting::runnable;
 use crate::model::writes::{Target, Writes};
 
-/// See the module.
+/// The form of a function's updates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Form {
-    /// Whatever its updates are.
+    /// No restriction.
     General,
-    /// No sequence and no turbo rule updates it: all its updates agree among themselves, or the step fails.
+    /// No sequence and no turbo rule updates it: its updates agree among themselves, or the step fails.
     Unsequenced,
-    /// Nor do two updates of a step name one location with different values.
+    /// In addition, no two updates of a step give different values to one location.
     Disjoint,
-    /// Nor does a step update some of its locations and not the others.
+    /// In addition, a step updates all of its locations or none.
     Whole,
 }
 
@@ -51,7 +51,7 @@ pub(crate) fn forms(program: &Program, writes: &Writes) -> Vec<Form> {
         .collect()
 }
 
-/// The functions that rules update which are, or may be run in, a unit of their own.
+/// The functions updated by rules that are, or may run in, units of their own.
 fn sequenced(program: &Program, writes: &Writes) -> BTreeSet<FunctionId> {
     let mut found = BTreeSet::new();
     for index in 0..program.rules.len() {
@@ -100,7 +100,7 @@ fn function_of(target: Target) -> Option<FunctionId> {
     }
 }
 
-/// By function, the one constant that all updates of it write; none where they write others.
+/// By function, the constant that all its updates write; `None` if they write different values.
 fn written_constants(program: &Program) -> BTreeMap<FunctionId, Option<Literal>> {
     let mut found: BTreeMap<FunctionId, Option<Literal>> = BTreeMap::new();
     for rule in &program.rules {
@@ -123,20 +123,20 @@ fn written_constants(program: &Program) -> BTreeMap<FunctionId, Option<Literal>>
 /// How often a rule updates a location of a function.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Shape {
-    /// Each at most once; by argument, what it is.
+    /// Each at most once; describes the arguments.
     Once(Vec<Place>),
-    /// Perhaps more than once.
+    /// Possibly more than once.
     Clash,
 }
 
-/// An argument of the location that an update names.
+/// An argument of the updated location.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Place {
-    /// It is this variable of the procedure.
+    /// The variable of the procedure that it is, if any.
     slot: Option<Slot>,
-    /// It goes through the parameter's whole domain, whatever the state.
+    /// Whether it ranges over the parameter's whole domain in every state.
     all: bool,
-    /// Nothing between the update and here decides whether it is made.
+    /// Whether the update is made unconditionally.
     always: bool,
 }
 
@@ -146,7 +146,7 @@ struct Walk<'a> {
     program: &'a Program,
     writes: &'a Writes,
     done: BTreeMap<ProcedureId, Shapes>,
-    /// Procedures on the way here.
+    /// Procedures whose analysis is in progress.
     open: BTreeSet<ProcedureId>,
 }
 
@@ -222,7 +222,7 @@ impl Walk<'_> {
         }
     }
 
-    /// One of several rules.
+    /// The shapes of exactly one of several rules.
     fn alternatives(&mut self, rules: &[RuleId]) -> Shapes {
         let mut all: Shapes = Shapes::new();
         for rule in rules {
@@ -234,7 +234,7 @@ impl Walk<'_> {
         all
     }
 
-    /// What a procedure's shapes are to its caller.
+    /// A procedure's shapes, as its caller sees them.
     fn called(&self, shapes: Shapes, arguments: TermList) -> Shapes {
         let arguments = self.program.term_list(arguments);
         let mapped = |place: Place| Place {
@@ -252,7 +252,7 @@ impl Walk<'_> {
                 return Shape::Clash;
             };
             let range = self.program.term(binder.range);
-            // A list may hold an element twice.
+            // A list may contain an element twice.
             let once = match range {
                 Term::Domain(_) => true,
                 Term::Range { kind, .. } | Term::Collection { kind, .. } => *kind == program::CollectionKind::Set,
@@ -297,12 +297,12 @@ fn each_place(shapes: Shapes, change: impl Fn(Place) -> Place) -> Shapes {
     shapes.into_iter().map(|(function, shape)| (function, changed(shape))).collect()
 }
 
-/// Where these variables mean nothing.
+/// The shapes outside the scope of these variables.
 fn outside(shapes: Shapes, slots: &[Slot]) -> Shapes {
     each_place(shapes, |place| Place { slot: place.slot.filter(|slot| !slots.contains(slot)), ..place })
 }
 
-/// The rule may be left out: then what has not gone through its whole domain never will.
+/// The rule may be left out, so places that do not range over their whole domain yet never count as doing so.
 fn undecided(shape: Shape) -> Shape {
     match shape {
         Shape::Once(places) if !places.iter().all(|place| place.all) => {
@@ -312,7 +312,7 @@ fn undecided(shape: Shape) -> Shape {
     }
 }
 
-/// One of the two.
+/// The shape of one of the two.
 fn either(left: &Shape, right: &Shape) -> Shape {
     let (Shape::Once(left), Shape::Once(right)) = (left, right) else { return Shape::Clash };
     let both = |(left, right): (&Place, &Place)| Place {

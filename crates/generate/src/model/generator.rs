@@ -1,8 +1,8 @@
-//! What generating terms and rules share: the plan, the places, the variables in scope, and what is assumed.
+//! The state shared by generating terms and rules: the plan, the places, the variables in scope, the assumptions.
 //!
-//! Code is generated under assumptions that make it small: this function is never undef, that parameter never either.
-//! Whatever refutes one notes it, and all code is generated again without it, until nothing is refuted. INVARIANT: the
-//! code that is kept was generated under assumptions that nothing in it refutes.
+//! Code is generated under assumptions that make it small, such as: this function is never undef. Code that refutes an
+//! assumption notes it, and everything is generated again without that assumption, until none is refuted. INVARIANT:
+//! the final code refutes none of the assumptions that it was generated under.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,39 +20,40 @@ use crate::model::types::Type;
 use crate::model::writes::Writes;
 use crate::names::Scope;
 
-/// What may be assumed of a program, by its tables.
+/// Assumptions about a program, by index into its tables.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Assumptions {
     /// A function's locations are never undef.
     pub total: Vec<bool>,
-    /// By argument, no location of the function is looked at where it is undef.
+    /// By argument: no location of the function is accessed while that argument is undef.
     pub inside: Vec<Vec<bool>>,
-    /// Initial values of locations with arguments that are undef can be made at the start: they neither fault nor ask.
+    /// Initial values of locations with undef arguments can be computed at the start: they neither fault nor ask the
+    /// environment.
     pub eager: Vec<bool>,
-    /// No location of the function is looked at with an integer outside of its array.
+    /// No location of the function is accessed with an integer outside of its array.
     pub covered: Vec<bool>,
-    /// `self` is defined where it is read.
+    /// `self` is defined wherever it is read.
     pub acting: bool,
-    /// No list holds undef.
+    /// No list contains undef.
     pub solid: bool,
     /// A definition's value is never undef.
     pub result: Vec<bool>,
-    /// A definition's evaluation neither faults nor asks anybody.
+    /// Evaluating a definition neither faults nor asks the environment.
     pub pure: Vec<bool>,
     /// A definition's arguments are never undef.
     pub arguments: Vec<Vec<bool>>,
     /// A procedure's arguments are never undef.
     pub parameters: Vec<Vec<bool>>,
-    /// The integers among a function's values.
+    /// An interval around the integers among a function's values.
     pub values: Vec<Interval>,
-    /// The integers among a definition's arguments.
+    /// Intervals around the integers among a definition's arguments.
     pub argument_ranges: Vec<Vec<Interval>>,
-    /// The integers among a procedure's arguments.
+    /// Intervals around the integers among a procedure's arguments.
     pub parameter_ranges: Vec<Vec<Interval>>,
 }
 
 impl Assumptions {
-    /// Everything that could be true.
+    /// All assumptions that might hold.
     pub fn all(program: &Program) -> Assumptions {
         let functions = program.functions.len();
         Assumptions {
@@ -72,7 +73,7 @@ impl Assumptions {
         }
     }
 
-    /// These assumptions, where an interval grew since `before` a larger one, so that soon none grows any more.
+    /// These assumptions, with each interval that grew since `before` widened, so that growth soon ends.
     pub fn widened(mut self, before: &Assumptions) -> Assumptions {
         let lists = std::iter::once(&mut self.values)
             .chain(&mut self.argument_ranges)
@@ -87,16 +88,16 @@ impl Assumptions {
     }
 }
 
-/// How the code is to be.
+/// Options of the generated code.
 #[derive(Debug, Clone, Default)]
 pub struct Options {
-    /// Without heap, exceptions, threads and dynamic values: for microcontrollers.
+    /// For microcontrollers: no heap, exceptions, threads or dynamic values.
     pub bare: bool,
-    /// With `bare`: how many locations outside of arrays, elements or updates a function or domain may have, by name.
+    /// With `bare`: by name, how many locations outside of arrays a function may have, or elements or updates a domain.
     pub capacities: Vec<(String, u32)>,
 }
 
-/// The sequence of no items, of no type yet.
+/// The empty sequence, without a type yet.
 pub(crate) const EMPTY: &str = "gs::Value::seq(gs::Values{})";
 
 /// A variable of the model in generated code.
@@ -105,7 +106,7 @@ pub(crate) struct Variable {
     pub name: String,
     pub ty: Type,
     pub defined: bool,
-    /// If it is an integer, it lies in here.
+    /// An interval that contains it, if it is an integer.
     pub range: Interval,
 }
 
@@ -124,7 +125,7 @@ pub(crate) struct Frame {
     pub scope: Scope,
 }
 
-/// See the head of this file.
+/// Generates code under assumptions.
 #[derive(Debug)]
 pub(crate) struct Generator<'a> {
     pub program: &'a Program,
@@ -145,29 +146,29 @@ pub(crate) struct Generator<'a> {
     pub reached: BTreeSet<FunctionId>,
     /// Procedures whose code is needed.
     pub entered: BTreeSet<ProcedureId>,
-    /// How often each procedure is called in the code.
+    /// How often the code calls each procedure.
     pub calls: BTreeMap<ProcedureId, u32>,
-    /// Parts of the class that are made only where something asks for them.
+    /// Parts of the class that are generated only if needed.
     pub needs: BTreeSet<Need>,
     /// Growing domains whose elements matter.
     pub carriers: BTreeSet<DomainId>,
-    /// By monitored and shared function, what the environment gives, checked for being in the codomain.
+    /// By monitored and shared function: the environment's answer, checked against the codomain.
     pub asked: BTreeMap<FunctionId, String>,
-    /// It matters neither in which order nor how often a set's elements are ranged over.
+    /// Whether a set may be traversed in any order and more than once.
     pub unordered: bool,
 }
 
-/// A constant set or list, which stands once.
+/// A constant set or list, which is defined only once.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Table {
     pub name: String,
-    /// As C++ writes it.
+    /// Its contents in C++.
     pub contents: String,
-    /// It holds dynamic values, which no compiler makes.
+    /// Whether it contains dynamic values, which are not constant expressions.
     pub dynamic: bool,
 }
 
-/// See [`Generator::needs`].
+/// A part of the class that is generated only if needed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Need {
     /// The names of literals and elements.
@@ -176,14 +177,14 @@ pub(crate) enum Need {
     AgentProgram,
     /// The clock.
     Clock,
-    /// Rounds of loops are counted.
+    /// The count of loop rounds.
     Rounds,
-    /// Calls inside each other are counted.
+    /// The depth of nested calls.
     Depth,
 }
 
 impl<'a> Generator<'a> {
-    /// A generator that assumes this.
+    /// A generator with these assumptions.
     pub fn new(
         program: &'a Program,
         plan: &'a Plan,
@@ -215,7 +216,7 @@ impl<'a> Generator<'a> {
         }
     }
 
-    /// Enters the frame of a procedure or definition; gives its parameters as C++ declares them.
+    /// Enters the frame of a procedure or definition; returns its parameters as C++ declares them.
     pub fn enter(
         &mut self,
         parameters: &[program::DomainId],
@@ -242,13 +243,13 @@ impl<'a> Generator<'a> {
         }
     }
 
-    /// A subset that does not grow has all elements of its base.
+    /// Whether a subset does not grow and contains all elements of its base.
     pub fn is_all_of(&self, subset: DomainId, base: DomainId) -> bool {
         let contents = &self.plan.domain(subset).contents;
         contents.as_ref().is_some_and(|contents| covers(self.program, base, contents))
     }
 
-    /// Between what the integers of a domain lie.
+    /// An interval that contains the integers of a domain.
     pub fn domain_interval(&self, domain: DomainId) -> Interval {
         use machine::Value::Integer;
         match (&self.program.domain(domain).kind, &self.plan.domain(domain).contents) {
@@ -261,19 +262,19 @@ impl<'a> Generator<'a> {
         }
     }
 
-    /// Between what a function's integers lie once they are checked for being in its codomain.
+    /// An interval that contains a function's integers, once they are checked against its codomain.
     pub fn codomain_range(&self, function: FunctionId) -> Interval {
         self.domain_interval(self.program.function(function).codomain)
     }
 
-    /// The member that holds a growing domain, which matters from now on.
+    /// The member that holds a growing domain; requests that it be generated.
     pub fn carrier(&mut self, domain: DomainId) -> Option<String> {
         let carrier = self.plan.domain(domain).carrier.clone()?;
         self.carriers.insert(domain);
         Some(carrier)
     }
 
-    /// How a parameter is passed.
+    /// The C++ type by which a parameter is passed.
     pub fn parameter(&self, ty: Type, defined: bool) -> String {
         match ty {
             Type::Value => "const gs::Value&".to_string(),
@@ -291,7 +292,7 @@ impl<'a> Generator<'a> {
         variable
     }
 
-    /// A name for a variable of the generator's own.
+    /// A fresh name for a variable of the generator.
     pub fn fresh(&mut self, name: &str) -> String {
         self.frame.scope.take(name)
     }
@@ -301,7 +302,7 @@ impl<'a> Generator<'a> {
         self.sites.number(self.program.term_span(term))
     }
 
-    /// Notes that something cannot be generated.
+    /// Records that something cannot be generated.
     pub fn refuse(&mut self, span: Span, message: impl Into<String>, help: &str) {
         let diagnostic = no_form(span, message, help);
         if !self.refused.contains(&diagnostic) {
@@ -325,9 +326,9 @@ impl<'a> Generator<'a> {
         self.options.capacities.iter().find(|(given, _)| given == name).map(|(_, capacity)| *capacity)
     }
 
-    /// Statements that evaluate operands in the order of the text, and the operands without that effect. C++ leaves the
-    /// order of arguments open; it matters where more than one may fault or ask somebody. What may be undef is a fault
-    /// only when all operands are evaluated.
+    /// Returns statements that evaluate operands in the order of the text, and the operands without effects. C++ does
+    /// not fix the order of arguments, which matters if more than one may fault or ask the environment. With `strict`,
+    /// an undef operand faults only after all operands are evaluated.
     pub fn hoist(&mut self, codes: Vec<Code>, strict: bool) -> (String, Vec<Code>) {
         let effects = codes.iter().filter(|code| !code.pure).count();
         let undefined = codes.iter().any(|code| code.pure && !code.defined && code.ty != Type::Value);
@@ -360,7 +361,7 @@ impl<'a> Generator<'a> {
         }
     }
 
-    /// The code as one of that type; whether it is defined stays as it is.
+    /// The code as an expression of this type; it stays defined or undefined.
     pub fn cast(&mut self, code: Code, ty: Type, site: u32) -> Code {
         match (code.ty, ty) {
             (from, to) if from == to => code,
@@ -381,7 +382,7 @@ impl<'a> Generator<'a> {
             (Type::Integer, Type::Real) if code.defined => {
                 Code { text: format!("gs::to_real({})", code.text), ty, ..code }
             }
-            // Two scalars that the model's checker let pass as one: as the machine sees them.
+            // Two scalar types that the model's checker treats as one: compare them as the machine does.
             _ => {
                 let boxed = self.cast(code, Type::Value, site);
                 self.cast(boxed, ty, site)

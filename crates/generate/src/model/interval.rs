@@ -1,16 +1,17 @@
-//! Intervals of 64-bit integers: between what the values of an expression lie, as far as that is known.
+//! Intervals of 64-bit integers: known bounds of an expression's value.
 //!
-//! In: the intervals of operands. Out: that of the result, and whether the operation can fault. Arithmetic that cannot
-//! overflow is plain C++, and an index within its array is not checked (Cousot & Cousot 1977, the interval domain).
+//! In: the intervals of operands. Out: the interval of the result, and whether the operation can fault. With their
+//! help, arithmetic that cannot overflow becomes plain C++, and an index within its array is not checked (Cousot &
+//! Cousot 1977, the interval domain).
 
-/// See the module. INVARIANT: empty only as [`Interval::EMPTY`], of what is never evaluated.
+/// An interval. INVARIANT: the only empty interval is [`Interval::EMPTY`], for what is never evaluated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Interval {
     pub low: i64,
     pub high: i64,
 }
 
-/// What an operation gives, and whether it gives something for all operands.
+/// The result of an operation, and whether it has one for all operands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Outcome {
     pub interval: Interval,
@@ -34,23 +35,23 @@ impl Interval {
         (self.low..=self.high).contains(&number)
     }
 
-    /// All of it lies in the other one.
+    /// Whether it is contained in the other one.
     pub fn within(self, other: Interval) -> bool {
         self.is_empty() || (other.low <= self.low && self.high <= other.high)
     }
 
-    /// What lies in one of the two, and what lies between.
+    /// The smallest interval that contains both.
     pub fn join(self, other: Interval) -> Interval {
         Interval { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
-    /// What lies in both.
+    /// The intersection.
     pub fn meet(self, other: Interval) -> Interval {
         let both = Interval { low: self.low.max(other.low), high: self.high.min(other.high) };
         if both.is_empty() { Interval::EMPTY } else { both }
     }
 
-    /// A larger one that is soon as large as it gets: each end that grew beyond `before` goes to 0 or to its extreme.
+    /// A larger interval, so that growth soon ends: each end that grew beyond `before` moves to 0 or to its extreme.
     pub fn widened(self, before: Interval) -> Interval {
         let low = match self.low {
             low if low == before.low => low,
@@ -114,7 +115,7 @@ impl Interval {
         if self.is_empty() || divisor.is_empty() {
             return Outcome { interval: Interval::EMPTY, safe: true };
         }
-        // The least integer by -1 traps in C++.
+        // In C++, dividing the least integer by -1 traps.
         let traps = divisor.contains(-1) && self.contains(i64::MIN);
         let safe = !divisor.contains(0) && !traps;
         let most =
@@ -124,7 +125,7 @@ impl Interval {
         Outcome { interval: Interval { low, high }, safe }
     }
 
-    /// An operation whose least and greatest results are those of ends of the operands.
+    /// An operation whose extreme results occur at the ends of the operands.
     fn corners(self, other: Interval, operation: impl Fn(i128, i128) -> i128) -> Outcome {
         if self.is_empty() || other.is_empty() {
             return Outcome { interval: Interval::EMPTY, safe: true };
@@ -150,8 +151,8 @@ mod tests {
         Interval { low, high }
     }
 
-    /// Every operation on all pairs of small intervals, and near the limits: no result lies outside, and what is safe
-    /// never overflows.
+    /// Every operation, on all pairs of small intervals and near the limits: no result lies outside, and no safe
+    /// operation overflows.
     #[test]
     fn results_lie_inside() {
         type Check = fn(i64, i64) -> Option<i64>;

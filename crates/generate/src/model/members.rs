@@ -1,6 +1,7 @@
-//! What the class of a model holds: which functions and domains have members, what is logged, how parameters are declared.
+//! The members of a model's class: which functions and domains have members, what is logged, how parameters are
+//! declared.
 //!
-//! In: what the bodies reached. Out: facts for those who print the class; nothing here is text of it but names and types.
+//! In: what the bodies reached. Out: facts for the code that prints the class. Its only texts are names and types.
 
 use program::{DomainId, FunctionId};
 
@@ -8,7 +9,7 @@ use crate::model::generator::{Generator, Need};
 use crate::model::plan::{DomainPlan, FunctionPlan, Role};
 use crate::model::storage::Updates;
 
-/// The functions of these roles that the code reaches, or that others may set.
+/// The functions with these roles that the code reaches.
 pub(crate) fn functions<'p>(generator: &'p Generator<'_>, roles: &[Role]) -> Vec<(FunctionId, &'p FunctionPlan)> {
     let all = generator.plan.functions.iter().enumerate();
     all.map(|(index, plan)| (FunctionId(index as u32), plan))
@@ -16,7 +17,7 @@ pub(crate) fn functions<'p>(generator: &'p Generator<'_>, roles: &[Role]) -> Vec
         .collect()
 }
 
-/// A function's parameters, each possibly undef where some reader's argument may be, and their names.
+/// A function's parameters, with types that admit undef where an argument may be undef, and their names.
 pub(crate) fn parameters(generator: &Generator<'_>, id: FunctionId) -> (String, String) {
     let mut declared = Vec::new();
     let mut names = Vec::new();
@@ -30,17 +31,17 @@ pub(crate) fn parameters(generator: &Generator<'_>, id: FunctionId) -> (String, 
     (declared.join(", "), names.join(", "))
 }
 
-/// What the argument of that place is called.
+/// The name of the argument at this index.
 pub(crate) fn argument_name(place: usize) -> String {
     if place == 0 { "argument".to_string() } else { format!("argument_{}", place + 1) }
 }
 
-/// Whether what was asked for is remembered by the number of the step.
+/// Whether answers of the environment are remembered by step number.
 pub(crate) fn counts_steps(generator: &Generator<'_>) -> bool {
     generator.needs.contains(&Need::Clock) || !functions(generator, &[Role::Input]).is_empty()
 }
 
-/// The functions whose updates in the running step are in a `Next`.
+/// The functions whose updates of the running step are kept in a `Next`.
 pub(crate) fn stepped<'p>(generator: &'p Generator<'_>) -> Vec<&'p FunctionPlan> {
     let all = functions(generator, &[Role::State, Role::Local]).into_iter();
     all.filter(|(id, _)| generator.storage(*id).updates == Updates::Step).map(|(_, function)| function).collect()

@@ -1,8 +1,8 @@
-//! C++ from a model: its state, its step and its environment as one class.
+//! Generates C++ from a model: its state, its step and its environment as one class.
 //!
 //! In: a [`program::Program`] with its texts, a machine that has made the initial state, [`Options`]. Out: the
-//! [`Generated`] files, or the parts that cannot be generated, each with its place. The meaning of a rule is the
-//! machine's; agreement tests hold the generated code to it step by step. It must not know files or compilers.
+//! [`Generated`] files, or the parts that cannot be generated, each with its place. The machine defines the meaning of
+//! rules; agreement tests compare the generated code with it step by step. It must not know files or compilers.
 
 mod accessors;
 mod body;
@@ -40,24 +40,24 @@ pub use text::Mapping;
 /// One generated file.
 #[derive(Debug, Clone)]
 pub struct File {
-    /// Its name, within the folder generated to.
+    /// Its name within the output folder.
     pub name: String,
     /// Its text.
     pub text: String,
-    /// Which of its lines stand for which places of the model.
+    /// Which of its lines correspond to which places of the model.
     pub mappings: Vec<Mapping>,
 }
 
-/// What is generated from a model.
+/// The files generated from a model.
 #[derive(Debug, Clone)]
 pub struct Generated {
     /// The namespace of the code and the stem of the files' names.
     pub name: String,
-    /// Files that are made anew each time.
+    /// Files that are overwritten each time.
     pub files: Vec<File>,
-    /// The places that faults name by number, the first of number 1.
+    /// The places that faults name by number; the first has number 1.
     pub sites: Vec<Span>,
-    /// What the class calls otherwise than the model, since C++ or the class has the name already: `(model's, class's)`.
+    /// Names that C++ or the class has already and that were changed: `(model's, class's)`.
     pub renamed: Vec<(String, String)>,
 }
 

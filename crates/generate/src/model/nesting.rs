@@ -1,7 +1,8 @@
-//! How deep units stand inside each other in a step.
+//! Bounds how deeply units are nested in a step.
 //!
-//! In: a program. Out: a bound on the levels of `seq`, loops, turbo calls and scopes around any update, through calls; none
-//! where a rule may call itself. A location has at most one update a level in the log of the running step.
+//! In: a program. Out: a bound on the levels of `seq`, loops, turbo calls and scopes around any update, including
+//! calls; `None` if a rule may call itself. The log of the running step contains at most one update of a location per
+//! level.
 
 use std::collections::BTreeSet;
 
@@ -28,7 +29,7 @@ pub(crate) fn levels(program: &Program) -> Option<u64> {
 #[derive(Clone, Copy)]
 enum Known {
     Unseen,
-    /// Being found out: whoever meets it calls itself.
+    /// Being computed; meeting it again means recursion.
     Open,
     Levels(u64),
 }
@@ -49,7 +50,7 @@ fn procedure(program: &Program, run: &[ProcedureId], known: &mut [Known], id: Pr
 fn rule(program: &Program, run: &[ProcedureId], known: &mut [Known], id: RuleId) -> Option<u64> {
     let mut inside = Some(0u64);
     let mut meet = |levels: Option<u64>| inside = inside.zip(levels).map(|(a, b)| a.max(b));
-    // A scope of local functions is a sequence besides; the result of a turbo rule has a level of its own.
+    // A scope of local functions is also a sequence; the result of a turbo rule has a level of its own.
     let own = match program.rule(id) {
         Rule::Call { procedure: called, .. } => {
             meet(procedure(program, run, known, *called));

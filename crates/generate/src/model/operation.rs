@@ -1,7 +1,7 @@
-//! The library's functions as C++ (spec/standard-library.md).
+//! Generates the library's functions in C++ (spec/standard-library.md).
 //!
-//! On scalars each is an operator or a function of `machine/numbers.hpp`; on dynamic values the function of
-//! `machine/library.hpp` that has the operation's name.
+//! On scalars each is an operator or a function of `machine/numbers.hpp`; on dynamic values it is the function of the
+//! same name in `machine/library.hpp`.
 
 use program::{Builtin, Cpp, Operands, TermId, TermList};
 
@@ -12,7 +12,7 @@ use crate::model::generator::{EMPTY, Generator, Need};
 use crate::model::interval::{Interval, Outcome};
 use crate::model::types::{Type, item_type};
 
-/// LIMIT: items of a list; collection_limit of machine/operands.hpp. SYNC(collection)
+/// LIMIT: how many items a list may have; collection_limit of machine/operands.hpp. SYNC(collection)
 const MOST_ITEMS: i64 = 10_000_000;
 
 impl Generator<'_> {
@@ -59,7 +59,7 @@ impl Generator<'_> {
         within(&statements, code)
     }
 
-    /// An operation applied to operands whose evaluation has no effect, or one of which alone has.
+    /// An operation applied to operands of which at most one has an effect.
     fn applied(&mut self, builtin: Builtin, codes: Vec<Code>, terms: &[TermId], id: TermId) -> Code {
         let site = self.site(id);
         if let Some(code) = self.on_lists(builtin, &codes, site) {
@@ -119,7 +119,7 @@ impl Generator<'_> {
         Code { text, ty, defined, pure: false, range }
     }
 
-    /// An operation all of whose operands are scalars; none if it is for dynamic values.
+    /// An operation on scalars; `None` if it needs dynamic values.
     fn on_scalars(&mut self, builtin: Builtin, codes: &[Code], site: u32) -> Option<Code> {
         use Builtin::*;
         let scalar = |code: &Code| !matches!(code.ty, Type::Value | Type::Undef | Type::List(_));
@@ -230,7 +230,7 @@ impl Generator<'_> {
         }
     }
 
-    /// An operation on lists; none if it is for dynamic values.
+    /// An operation on lists; `None` if it needs dynamic values.
     fn on_lists(&mut self, builtin: Builtin, codes: &[Code], site: u32) -> Option<Code> {
         use Builtin::*;
         let of = codes.iter().find_map(|code| match code.ty {
@@ -245,7 +245,7 @@ impl Generator<'_> {
             _ => return None,
         };
         let fits = |(code, ty): (&Code, &Type)| match code.ty {
-            // An item may be undef, a list must not.
+            // An item may be undef; a list must not be.
             Type::Undef => *ty == item,
             Type::Value => code.text == EMPTY && *ty == list,
             given => given == *ty,
@@ -278,7 +278,7 @@ impl Generator<'_> {
         })
     }
 
-    /// Kleene's `and`, `or`, `implies`; the right operand is evaluated where it matters.
+    /// Kleene's `and`, `or`, `implies`; the right operand is evaluated only if it matters.
     fn connective(&mut self, builtin: Builtin, left: Code, right: Code, site: u32) -> Code {
         let pure = left.pure && right.pure;
         if left.defined && right.defined && left.ty == Type::Boolean && right.ty == Type::Boolean {
@@ -304,7 +304,7 @@ impl Generator<'_> {
     }
 }
 
-/// The name of the library function that works on dynamic values.
+/// The name of the library function for dynamic values.
 fn function_of(builtin: Builtin) -> String {
     identifier(&snake(&format!("{builtin:?}")))
 }
@@ -314,7 +314,7 @@ fn truth(text: String, pure: bool) -> Code {
     Code { pure, ..Code::defined(text, Type::Boolean) }
 }
 
-/// Integer arithmetic: what it gives, and how C++ writes it where it cannot fault.
+/// Integer arithmetic: the interval of the result, and the C++ operator if it cannot fault.
 fn arithmetic(builtin: Builtin, codes: &[Code]) -> Option<(Outcome, Option<&'static str>)> {
     Some(match (builtin, codes) {
         (Builtin::IntAdd, [a, b]) => (a.range.add(b.range), Some("+")),

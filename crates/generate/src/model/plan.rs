@@ -1,6 +1,6 @@
-//! What each domain, function and procedure of a model becomes in C++: names, types, where locations stand.
+//! Plans the C++ form of each domain, function and procedure: names, types, storage of locations.
 //!
-//! In: a program and a machine that has made its initial state, which knows the contents of static domains. Out: a
+//! In: a program, and a machine that has made its initial state and so knows the contents of static domains. Out: a
 //! [`Plan`], the same for every run. It decides nothing about rules and terms.
 
 use std::cell::Cell;
@@ -14,15 +14,15 @@ use crate::names::{Scope, identifier, namespace, snake};
 use crate::model::interval::Interval;
 use crate::model::types::{Type, result_type, type_of};
 
-/// LIMIT: a function with more locations than this has no array.
+/// LIMIT: functions with more locations than this have no array.
 const DENSE_LIMIT: u64 = 1 << 18;
-/// How many elements beyond the first ones of a growing domain an array covers.
+/// How many elements of a growing domain an array covers beyond the initial ones.
 const WINDOW: u64 = 64;
 
-/// What a function is at run time.
+/// The role of a function at run time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Role {
-    /// Of the library or never used: nothing is generated.
+    /// Part of the library, or never used: nothing is generated.
     None,
     /// A named element of an abstract domain.
     Element(u32),
@@ -40,60 +40,60 @@ pub(crate) enum Role {
     Agent,
 }
 
-/// Where a parameter's values stand in an array.
+/// One dimension of a function's array.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Dimension {
-    /// The type's arguments: `Below<Colour, 3>`.
+    /// Template arguments of the class: `Below<Colour, 3>`.
     pub text: String,
-    /// How many it covers; 0 if none.
+    /// How many values it covers; 0 if none.
     pub size: u64,
-    /// It covers every value that the parameter can have.
+    /// Whether it covers every value of the parameter.
     pub whole: bool,
-    /// It covers these integers.
+    /// The integers that it covers.
     pub bounds: Option<Interval>,
 }
 
-/// A function.
+/// The plan of a function.
 #[derive(Debug, Clone)]
 pub(crate) struct FunctionPlan {
     pub role: Role,
     pub ty: Type,
-    /// What it is called: the accessor, the definition.
+    /// The name of its accessor or definition.
     pub name: String,
     /// The member that holds its locations.
     pub member: String,
     pub dimensions: Vec<Dimension>,
-    /// The index of its initial value among the program's.
+    /// The index of its initial value in the program.
     pub initial: Option<usize>,
 }
 
-/// A domain.
+/// The plan of a domain.
 #[derive(Debug, Clone)]
 pub(crate) struct DomainPlan {
     /// See [`DomainPlan::name`].
     name: String,
-    /// The code names the type, so that it must be declared.
+    /// Whether the code names the type, so that it must be declared.
     named: Cell<bool>,
     /// Identifiers of an enum's literals.
     pub literals: Vec<String>,
     /// The contents of a concrete domain that never grows.
     pub contents: Option<Vec<machine::Value>>,
-    /// The elements that a growing subset has in the initial state, as numbers of its base.
+    /// The initial elements of a growing subset, as numbers in its base.
     pub initial: Vec<u32>,
     /// The member that holds a growing domain.
     pub carrier: Option<String>,
 }
 
-/// The plan.
+/// The plan of a model.
 #[derive(Debug, Clone)]
 pub(crate) struct Plan {
     /// The namespace and the stem of the files' names.
     pub namespace: String,
     pub domains: Vec<DomainPlan>,
     pub functions: Vec<FunctionPlan>,
-    /// What each procedure is called.
+    /// The name of each procedure.
     pub procedures: Vec<String>,
-    /// What variables must not be called.
+    /// Names that variables must not have.
     pub members: Scope,
 }
 
@@ -155,7 +155,7 @@ pub(crate) fn plan(program: &Program, started: &mut machine::Machine) -> Plan {
         })
         .collect();
     let procedures = program.procedures.iter().map(|procedure| members.take(&procedure.name)).collect();
-    // Types are seen from within the class, too.
+    // The class can see these types, so its members must not have their names.
     for domain in &domains {
         members.keep(&domain.name);
     }
@@ -294,7 +294,7 @@ fn dimension(program: &Program, domains: &[DomainPlan], domain: DomainId, initia
         DomainKind::Abstract { elements, .. } => {
             below(domain, elements.len() as u64 + if initial || !few { 0 } else { WINDOW }, false)
         }
-        // Initial values hold for what was in the domain at the start; an array has them for all of its places.
+        // Initial values were computed for the domain's elements at the start; an array needs them for all its places.
         DomainKind::Concrete { base, .. } => {
             match (&program.domain(*base).kind, &domains[domain.0 as usize].contents) {
                 (DomainKind::Basic(Basic::Integer | Basic::Natural), Some(contents)) => {
@@ -317,7 +317,7 @@ fn dimension(program: &Program, domains: &[DomainPlan], domain: DomainId, initia
     }
 }
 
-/// Whether this is all there is of an enum domain, or of an abstract one that does not grow.
+/// Whether these are all elements of an enum domain, or of an abstract one that does not grow.
 pub(crate) fn covers(program: &Program, domain: DomainId, contents: &[machine::Value]) -> bool {
     match &program.domain(domain).kind {
         DomainKind::Enum { literals: all } | DomainKind::Abstract { elements: all, dynamic: false } => {
@@ -327,13 +327,13 @@ pub(crate) fn covers(program: &Program, domain: DomainId, contents: &[machine::V
     }
 }
 
-/// From the least to the greatest of integers without gaps, in ascending order.
+/// The interval of integers in ascending order, if they have no gaps.
 pub(crate) fn gapless(contents: &[machine::Value]) -> Option<Interval> {
     let (low, high) = compact(contents, true)?;
     Some(Interval { low, high })
 }
 
-/// The least and the greatest of integers without (or without many) gaps.
+/// The least and the greatest of some integers, if they have no, or few, gaps.
 fn compact(contents: &[machine::Value], gapless: bool) -> Option<(i64, i64)> {
     let number = |value: &machine::Value| if let machine::Value::Integer(n) = value { Some(*n) } else { None };
     let (low, high) = (number(contents.first()?)?, number(contents.last()?)?);
@@ -350,7 +350,7 @@ pub(crate) fn integer(number: i64) -> String {
     }
 }
 
-/// The type of a value that is defined.
+/// The type of a defined value.
 fn cpp_type(domains: &[DomainPlan], ty: Type) -> String {
     match ty {
         Type::Boolean => "bool".into(),
@@ -370,19 +370,19 @@ impl DomainPlan {
         &self.name
     }
 
-    /// The same as the stem of other names.
+    /// The same name, as the stem of other names.
     pub fn stem(&self) -> &str {
         &self.name
     }
 
-    /// Whether code has taken the name since [`Plan::begin`].
+    /// Whether code has named the type since [`Plan::begin`].
     pub fn is_named(&self) -> bool {
         self.named.get()
     }
 }
 
 impl Plan {
-    /// Code is generated anew: no type is named yet.
+    /// Forgets which types were named, before code is generated again.
     pub fn begin(&self) {
         self.domains.iter().for_each(|domain| domain.named.set(false));
     }

@@ -1,4 +1,4 @@
-//! The CMake project around generated code.
+//! Generates the CMake project around generated code.
 
 use crate::model::generator::Options;
 use crate::model::text::Text;
@@ -15,7 +15,7 @@ pub(crate) fn project(name: &str, options: &Options) -> Text {
     text.line(format!("project({target} LANGUAGES CXX)\n"));
     text.line("set(CMAKE_CXX_STANDARD 20)\nset(CMAKE_CXX_STANDARD_REQUIRED ON)\nset(CMAKE_CXX_EXTENSIONS OFF)");
     text.line("if(NOT CMAKE_BUILD_TYPE)\n    set(CMAKE_BUILD_TYPE Release)\nendif()");
-    // The same words as a system's program has them (crates/generate/src/system/files.rs): both may be in one project.
+    // The same text as in a system's program (crates/generate/src/system/files.rs), since one project may contain both.
     text.line("set(GROUNDSTATE_CPP \"\" CACHE PATH \"A folder of the C++ runtime, with include/ in it; empty: what was generated\")");
     text.line(format!(
         "set({target}_runtime \"${{CMAKE_CURRENT_SOURCE_DIR}}/runtime\")\nif(GROUNDSTATE_CPP)\n    \

@@ -1,7 +1,7 @@
-//! Binders → loops: what quantifiers, comprehensions, choose and forall range over.
+//! Generates loops over binders: the ranges of quantifiers, comprehensions, choose and forall.
 //!
-//! The order is the machine's: literals and numbers ascending, elements in the order of their making; of several binders
-//! the leftmost varies slowest. Scalars are ranged over without a collection being built.
+//! The order is the machine's: literals and numbers ascending, elements in the order of their creation; of several
+//! binders the leftmost varies slowest. Loops over scalars build no collection.
 
 use model::{Basic, CollectionKind, Literal};
 use program::{Binder, BinderList, DomainId, DomainKind, Term, TermId};
@@ -14,16 +14,16 @@ use crate::model::term::real;
 use crate::model::text::Text;
 use crate::model::types::{Type, item_type, ordinals, type_of};
 
-/// What ranges over the items of a list.
+/// The class that iterates over a list.
 fn items(solid: bool) -> &'static str {
     if solid { "solid_items" } else { "items" }
 }
 
-/// What is generated inside of a loop.
+/// Generates the body of a loop.
 pub(crate) type Inside<'i, 'a> = dyn FnMut(&mut Generator<'a>, &mut Text) + 'i;
 
 impl<'a> Generator<'a> {
-    /// Loops over the bindings, around what `inside` generates; gives the most there can be, if that is known.
+    /// Loops over the bindings, around the code of `inside`; returns the largest number of bindings, if known.
     pub fn ranging(&mut self, binders: BinderList, text: &mut Text, inside: &mut Inside<'_, 'a>) -> Option<u64> {
         let binders = self.program.binder_list(binders).to_vec();
         self.ranging_over(&binders, text, inside)
@@ -139,7 +139,8 @@ impl<'a> Generator<'a> {
         (variable, None)
     }
 
-    /// What ranges over a list, or over the set of its items: the items' type, whether they are never undef, the range.
+    /// The range over a list, or over the set of its items: the items' type, whether they are never undef, the range's
+    /// expression.
     fn list_items(&mut self, range: TermId, site: u32) -> Option<(Type, bool, String)> {
         let solid = self.assumed.solid;
         let (list, set) = match self.program.term(range) {
@@ -157,7 +158,7 @@ impl<'a> Generator<'a> {
         let item = item_type(self.program, of);
         let items = match (set && !self.unordered, solid) {
             (true, _) => format!("gs::ItemSet<{}>{{{text}}}", self.plan.cpp(item, true)),
-            // A part of a `seq` may change the location while a rule ranges over what it held.
+            // A part of a `seq` may change the location while a rule iterates over its former value.
             (false, _) if self.is_sequenced(list) => {
                 format!("gs::{}({}{{{text}}})", items(solid), self.plan.cpp(Type::List(of), true))
             }
@@ -166,7 +167,7 @@ impl<'a> Generator<'a> {
         Some((item, solid, items))
     }
 
-    /// A term that is a location which parts of a `seq` may change.
+    /// Whether a term is a location that parts of a `seq` may change.
     fn is_sequenced(&self, term: TermId) -> bool {
         match self.program.term(term) {
             Term::Read { function, .. } => self.form(*function) == Form::General,
@@ -174,7 +175,7 @@ impl<'a> Generator<'a> {
         }
     }
 
-    /// What ranges over a domain's elements and how many there are at most, if that is known; none if they cannot be
+    /// The range over a domain's elements, and an upper bound of their number if known; `None` if they cannot be
     /// enumerated as values of one type.
     pub fn domain_range(&mut self, domain: DomainId) -> Option<(String, Option<u64>)> {
         let plan = self.plan.domain(domain);
@@ -207,7 +208,7 @@ impl<'a> Generator<'a> {
         }
     }
 
-    /// What ranges over the contents of a domain that never changes.
+    /// The range over the contents of a domain that never changes.
     fn contents_range(&mut self, domain: DomainId, contents: &[machine::Value]) -> String {
         if let Some(Interval { low, high }) = crate::model::plan::gapless(contents) {
             return format!("gs::Integers{{{}, {}}}", integer(low), integer(high));
@@ -228,7 +229,7 @@ impl<'a> Generator<'a> {
         )
     }
 
-    /// A table of constants; one of the same contents is used again.
+    /// A table of constants; tables with the same contents are shared.
     fn table(&mut self, name: &str, plain: &str, dynamic: bool, items: &[String]) -> String {
         let contents = format!("std::array<{plain}, {}>{{{}}}", items.len(), items.join(", "));
         if let Some(known) = self.tables.iter().find(|table| table.contents == contents) {
@@ -245,7 +246,7 @@ impl<'a> Generator<'a> {
         candidate
     }
 
-    /// A value that is known, as a constant of C++.
+    /// A known value, as a C++ constant.
     pub fn constant(&mut self, value: &machine::Value, ty: Type) -> String {
         use machine::Value;
         let list = |this: &mut Self, items: &[Value]| {

@@ -1,6 +1,7 @@
-//! Names of a model that are others in C++, since the language, a macro of its headers or the class has them already.
+//! Finds names of a model that differ in C++, since the language, a macro of its headers or the class already uses
+//! them.
 //!
-//! In: the plan. Out: pairs of names, and what comments say of them. It decides no name (`plan`, `names`).
+//! In: the plan. Out: pairs of names, and comments about them. It chooses no names (`plan` and `names` do).
 
 use program::DomainKind;
 
@@ -8,7 +9,7 @@ use crate::model::generator::Generator;
 use crate::model::members::functions;
 use crate::model::plan::Role;
 
-/// What whoever uses the class finds under another name, as `(the model's, the class's)`: functions, then enum and abstract
+/// The names that users of the class find changed, as `(the model's, the class's)`: functions, then enum and abstract
 /// domains with their literals.
 pub(crate) fn renamed(generator: &Generator<'_>) -> Vec<(String, String)> {
     let mut found = Vec::new();
@@ -27,7 +28,7 @@ pub(crate) fn renamed(generator: &Generator<'_>) -> Vec<(String, String)> {
     found
 }
 
-/// What a function's comment adds.
+/// The addition to a function's comment.
 pub(crate) fn called(model: &str, cpp: &str) -> String {
     if model == cpp {
         String::new()
@@ -36,7 +37,7 @@ pub(crate) fn called(model: &str, cpp: &str) -> String {
     }
 }
 
-/// The comment on an enum's literals, where some have other names.
+/// The comment on an enum's literals, if some have other names.
 pub(crate) fn literals_called(model: &[String], cpp: &[String]) -> Option<String> {
     let pairs = model.iter().zip(cpp).filter(|(model, cpp)| model != cpp);
     let others: Vec<String> = pairs.map(|(model, cpp)| format!("`{model}` is `{cpp}`")).collect();

@@ -1,13 +1,14 @@
-//! Runs as texts that generated code replays, and states as texts to compare: the model's side of `machine/replay.hpp`.
+//! Writes runs as texts that generated code replays, and states as texts to compare: the model's side of
+//! `machine/replay.hpp`.
 //!
-//! In: what a step took from outside, and states, of the machine. Out: the same words as the generated driver's, so that
-//! two texts are equal if and only if the runs are. SYNC(replay)
+//! In: what a step read from the environment, and states of the machine. Out: the same words as the generated driver's,
+//! so that two texts are equal if and only if the runs are. SYNC(replay)
 
 use machine::{Location, TimeUnit, Value};
 use program::{DomainKind, FunctionKind, Program, Rule, RuleId, Term};
 use syntax::Span;
 
-/// What a step takes from outside.
+/// What a step reads from the environment.
 #[derive(Debug, Default)]
 pub struct Answers {
     /// Monitored and shared locations.
@@ -18,7 +19,7 @@ pub struct Answers {
     pub times: Vec<(TimeUnit, i64)>,
 }
 
-/// The answers and the word that makes the step.
+/// The answers, and the word that makes the step.
 pub fn script(program: &Program, answers: &Answers) -> String {
     let mut out = String::new();
     for (location, value) in &answers.inputs {
@@ -40,7 +41,7 @@ pub fn script(program: &Program, answers: &Answers) -> String {
     out
 }
 
-/// Whether the variable of that place is a number drawn, not an element of a range.
+/// Whether the variable at this index is a drawn number, not an element of a range.
 fn is_drawn(program: &Program, choose: Span, place: usize) -> bool {
     let rule = (0..program.rules.len()).map(|index| RuleId(index as u32)).find(|id| program.rule_span(*id) == choose);
     let Some(Rule::Choose { binders, .. }) = rule.map(|id| program.rule(id)) else { return false };
@@ -54,9 +55,10 @@ fn is_drawn(program: &Program, choose: Span, place: usize) -> bool {
     }
 }
 
-/// The locations of controlled, out and shared functions that have a value, one a line, sorted; those with an argument that
-/// is undef begin with `? `. The last line is `.`, with the names of functions that have initial values: of such a function
-/// nobody can tell where an initial value for undef was due, and generated code may have more of them.
+/// The locations of controlled, out and shared functions that have a value, one per line, sorted; those with an undef
+/// argument begin with `? `. The last line is `.` with the names of functions that have initial values. For such a
+/// function, whether a location with an undef argument already has its initial value cannot be told, so generated code
+/// may have more of these locations.
 pub fn state(program: &Program, locations: &[(Location, Value)]) -> String {
     let mut lines: Vec<String> = locations
         .iter()
@@ -89,7 +91,7 @@ fn arguments(location: &Location) -> String {
     encode(&Value::tuple(location.arguments.clone()))
 }
 
-/// A value as an exact text without spaces outside of strings.
+/// A value as an exact text, without spaces outside of strings.
 pub fn encode(value: &Value) -> String {
     let list = |open: char, items: &[Value], close: char| {
         let items: Vec<String> = items.iter().map(encode).collect();
@@ -114,7 +116,7 @@ pub fn encode(value: &Value) -> String {
             let items: Vec<String> = counts.iter().map(|(item, count)| format!("{}*{count}", encode(item))).collect();
             format!("<{}>", items.join(","))
         }
-        // A key may be a map itself, so that of no entries has a text of its own.
+        // A key may itself be a map, so the empty map needs its own text.
         Value::Map(entries) if entries.is_empty() => "|-|".to_string(),
         Value::Map(entries) => {
             let items: Vec<String> =

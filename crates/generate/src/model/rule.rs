@@ -1,7 +1,7 @@
-//! Rules → statements of C++ (Börger & Stärk 2003, tables 2.2 and 4.1).
+//! Generates rules as C++ statements (Börger & Stärk 2003, tables 2.2 and 4.1).
 //!
-//! A statement adds the rule's updates to the current unit of each function it updates; nothing is seen of them until
-//! the step is committed or the part of a `seq` is applied. So rules in parallel are statements one after the other.
+//! A statement adds the rule's updates to the current unit of each function it updates. They become visible when the
+//! step is committed or the part of a `seq` is applied. So rules in parallel become consecutive statements.
 
 use std::collections::BTreeSet;
 
@@ -122,7 +122,7 @@ impl Generator<'_> {
         }
     }
 
-    /// A guard, unless it is the constant true.
+    /// A guard; `None` if it is the constant true.
     pub fn guard_unless_true(&mut self, condition: TermId) -> Option<String> {
         (!self.is_true(condition)).then(|| self.guard(condition))
     }
@@ -162,7 +162,7 @@ impl Generator<'_> {
         }
         if self.is_lazy(function) {
             let place = if plan.role == Role::Shared { format!(", {site}") } else { String::new() };
-            // Who only writes the location does not need its initial value.
+            // A location that is only written does not need its initial value.
             text.marked(span, format!("gs::prepare([&] {{ (void){}({}{place}); }});", plan.name, listed(&codes)));
         }
         let mut list = vec![site.to_string(), unwrapped(&value).to_string()];
@@ -180,7 +180,7 @@ impl Generator<'_> {
         }
     }
 
-    /// A value, checked for being in the codomain, unless it lies there anyway.
+    /// A value, checked against the codomain unless it is known to lie there.
     pub fn checked(&mut self, function: FunctionId, value: String, range: Interval, site: &str) -> String {
         let codomain = self.program.function(function).codomain;
         match &self.program.domain(codomain).kind {
@@ -200,7 +200,7 @@ impl Generator<'_> {
                         let table = self.contents_table(codomain, &contents);
                         format!("gs::within({value}, {table}, {site})")
                     }
-                    // Nobody knows what is in it: only undef is.
+                    // The codomain's contents are unknown, so only undef is accepted.
                     (None, None) => format!("gs::nothing_but_undef({value}, {site})"),
                 }
             }
@@ -270,7 +270,7 @@ impl Generator<'_> {
         self.frame.scope.release(&name);
     }
 
-    /// Parts one after the other.
+    /// The parts, executed in sequence.
     fn sequence(&mut self, id: RuleId, text: &mut Text, parts: &mut dyn FnMut(&mut Self, &str, &mut Text)) {
         let targets = self.writes.of(self.program, id);
         let members = self.members(&targets);
@@ -283,7 +283,8 @@ impl Generator<'_> {
         self.frame.scope.release(&name);
     }
 
-    /// A loop while the condition holds, whose rounds are parts of a sequence; it may end with a round without updates.
+    /// A loop while the condition holds; its rounds are parts of a sequence. With `ends_idle` it also ends after a
+    /// round without updates.
     fn looped(&mut self, condition: Option<TermId>, body: RuleId, ends_idle: bool, id: RuleId, text: &mut Text) {
         let span = self.program.rule_span(id);
         let site = self.sites.number(span);
@@ -321,7 +322,7 @@ impl Generator<'_> {
         let result = self.program.result_function.filter(|result| targets.remove(&Target::Function(*result)));
         let Some(result) = result else { return self.unit(&targets, &call, id, text) };
         self.reached.insert(result);
-        // A turbo rule may leave its result unwritten.
+        // A turbo rule may not write its result.
         self.refuted.total[result.0 as usize] = false;
         let range = self.assumed.values[result.0 as usize];
         let result = self.plan.function(result).clone();
@@ -472,7 +473,7 @@ impl Generator<'_> {
     }
 }
 
-/// A declaration whose template arguments follow from its members.
+/// A declaration whose template arguments are deduced from its members.
 fn declared(class: &str, name: &str, members: &[String]) -> String {
     match members {
         [] => format!("gs::{class}<> {name};"),

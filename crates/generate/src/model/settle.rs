@@ -1,7 +1,7 @@
-//! Domains that a model declares as growing and nothing makes grow.
+//! Finds domains that are declared as growing but never grow.
 //!
-//! In: a program. Out: the same program, where a domain that no rule extends does not grow: `Agent` of most models, and
-//! what is declared as a subset of it. Their elements then have places in arrays, and are known where code is generated.
+//! In: a program. Out: the same program, in which domains that no rule extends do not grow: `Agent` in most models, and
+//! its declared subsets. Their elements then have places in arrays and are known when code is generated.
 
 use std::collections::BTreeSet;
 
@@ -41,7 +41,7 @@ pub(crate) fn settled(program: &Program) -> Program {
         }
         match &mut domain.kind {
             DomainKind::Abstract { dynamic, .. } => *dynamic = false,
-            // What the environment decides or the state is not known where code is generated.
+            // Contents that depend on the environment or the state are unknown when code is generated.
             DomainKind::Concrete { dynamic, contents, .. }
                 if contents
                     .as_ref()

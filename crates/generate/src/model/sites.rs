@@ -1,10 +1,10 @@
-//! Places in the model that generated code names by number: where a fault would be.
+//! Numbers the places in the model where generated code may fault.
 
 use std::collections::BTreeMap;
 
 use syntax::Span;
 
-/// The numbered places; number 0 is none.
+/// The numbered places; 0 stands for no place.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Sites {
     spans: Vec<Span>,
@@ -20,7 +20,7 @@ impl Sites {
         })
     }
 
-    /// All places, the first of number 1.
+    /// All places; the first has number 1.
     pub fn spans(&self) -> &[Span] {
         &self.spans
     }

@@ -1,7 +1,7 @@
-//! In which class of the runtime the locations of a function stand.
+//! Chooses the class of the runtime that stores the locations of a function.
 //!
-//! In: what the generator assumes of the function, and its [`Form`]. Out: a [`Storage`], the class as C++ writes it. Few
-//! locations whose values take few bits stand in one machine word: how many bits an integer takes is what intervals say.
+//! In: the generator's assumptions about the function, and its [`Form`]. Out: a [`Storage`], the class as C++ writes
+//! it. Few locations with small values share one machine word; intervals tell how many bits an integer takes.
 
 use program::{DomainKind, FunctionId};
 
@@ -10,24 +10,24 @@ use crate::model::generator::Generator;
 use crate::model::plan::{FunctionPlan, Role, integer};
 use crate::model::types::Type;
 
-/// LIMIT: locations whose updates stand within the object; those of larger functions are on the heap.
+/// LIMIT: functions with at most this many locations log their updates within the object; larger ones on the heap.
 const LOG_IN_PLACE: u64 = 64;
 /// The bits of a machine word.
 const WORD: u64 = 64;
 
-/// See the module.
+/// The storage of a function.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Storage {
     /// The class.
     pub class: String,
-    /// Where the updates of a running step are.
+    /// Where updates of the running step are stored.
     pub updates: Updates,
 }
 
-/// Where what a running step updates of a function is kept.
+/// Where a running step stores its updates of a function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Updates {
-    /// There is none: no rule updates it.
+    /// Nowhere: no rule updates it.
     None,
     /// In a local variable of the step.
     Step,
@@ -36,7 +36,7 @@ pub(crate) enum Updates {
 }
 
 impl Generator<'_> {
-    /// Where the locations of a function stand that has any.
+    /// The storage of a function that has locations.
     pub fn storage(&self, id: FunctionId) -> Storage {
         let function = self.plan.function(id);
         let total = self.assumed.total[id.0 as usize];
@@ -50,7 +50,7 @@ impl Generator<'_> {
         };
         let (dimensions, places) = self.dimensions(id);
         let locations = places + u64::from(capacity.unwrap_or(0));
-        // A location has an update a level of what stands inside each other.
+        // The log holds up to one update of a location per level of nesting.
         let log = match (self.writes.levels, self.options.bare) {
             (Some(levels), false) if whole && locations <= LOG_IN_PLACE => locations.max(1) * (levels + 1).max(9),
             (levels, true) => locations.max(1) * (levels.unwrap_or(0) + 1).max(9),
@@ -96,7 +96,7 @@ impl Generator<'_> {
         }
     }
 
-    /// No rule updates the function, and all its locations stand in its array.
+    /// Whether no rule updates the function and all its locations are in its array.
     pub fn is_fixed(&self, id: FunctionId) -> bool {
         self.plan.function(id).role == Role::State && self.is_whole(id) && !self.writes.anywhere(id)
     }
@@ -106,7 +106,7 @@ impl Generator<'_> {
         self.dimensions(id).1
     }
 
-    /// The dimensions of a function's array as arguments of its class, and how many places it has.
+    /// The dimensions of a function's array as template arguments, and its number of places.
     fn dimensions(&self, id: FunctionId) -> (String, u64) {
         let mut text = String::new();
         let mut places = 1;
@@ -119,7 +119,7 @@ impl Generator<'_> {
         (text, places)
     }
 
-    /// How a function's values are written in a few bits, and in how many.
+    /// How to store a function's values in few bits, and in how many.
     fn code(&self, id: FunctionId, function: &FunctionPlan, total: bool) -> Option<(String, u64)> {
         let ordinals = |count: usize| -> Option<(String, u64)> {
             let count = u64::try_from(count).ok().filter(|count| *count > 0)?;

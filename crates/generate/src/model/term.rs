@@ -1,8 +1,7 @@
-//! Terms → expressions of C++ (Börger & Stärk 2003, section 2.4.2).
+//! Generates terms as C++ expressions (Börger & Stärk 2003, section 2.4.2).
 //!
-//! In: a term and the variables in scope. Out: [`Code`]. What takes statements (bindings, comprehensions, quantifiers)
-//! is a lambda called on the spot, which compilers dissolve. What each library function becomes is in
-//! [`crate::model::operation`].
+//! In: a term and the variables in scope. Out: [`Code`]. What needs statements (bindings, comprehensions, quantifiers)
+//! is a lambda called on the spot, which compilers inline. Library functions are in [`crate::model::operation`].
 
 use program::{CollectionKind, DomainKind, FunctionId, Literal, Term, TermId, TermList};
 
@@ -15,7 +14,7 @@ use crate::model::text::escaped;
 use crate::model::types::{Type, result_type};
 
 impl Generator<'_> {
-    /// The type that a term's domain says it has.
+    /// The type of a term, by its domain.
     pub fn term_type(&self, id: TermId) -> Type {
         result_type(self.program, self.program.term_domain(id))
     }
@@ -28,7 +27,7 @@ impl Generator<'_> {
             Term::Constant(index) => self.literal(&program.constants[*index as usize], id),
             Term::Slot(slot) => match self.frame.slots[slot.0 as usize].clone() {
                 Some(variable) => variable.code(),
-                // A variable that no binder on the way here has bound is undef, as in the machine's frames.
+                // A variable that no binder has bound on this path is undef, as in the machine's frames.
                 None => Code::undef(),
             },
             Term::Read { function, arguments } => self.read(*function, *arguments, id),
@@ -143,7 +142,7 @@ impl Generator<'_> {
         let site = self.site(id);
         let code = self.cast(code, Type::Boolean, site);
         let text = match code.ty {
-            // Always undef: always the fault.
+            // The condition is always undef, so this always faults.
             Type::Undef => format!("gs::holds(gs::Maybe<bool>{{}}, {site})"),
             _ if code.defined => return code,
             _ => format!("gs::holds({}, {site})", code.text),
@@ -151,7 +150,7 @@ impl Generator<'_> {
         Code::defined(text, Type::Boolean)
     }
 
-    /// What the machine would do with a dynamic value whose type is known.
+    /// Converts a dynamic value whose type is known, as the machine would.
     pub fn typed(&mut self, code: Code, id: TermId) -> Code {
         let site = self.site(id);
         match self.term_type(id) {
@@ -237,7 +236,7 @@ impl Generator<'_> {
         within(&statements, code)
     }
 
-    /// The arguments that say which location of a function is meant.
+    /// The arguments that select a location of the function.
     pub fn arguments(&mut self, function: FunctionId, arguments: TermList) -> Vec<Code> {
         let program = self.program;
         let parameters = &program.function(function).parameters;
@@ -262,7 +261,7 @@ impl Generator<'_> {
         codes
     }
 
-    /// Some initial value of the function may be due only when it is read.
+    /// Whether an initial value of the function may be computed only when it is read.
     pub fn is_lazy(&self, function: FunctionId) -> bool {
         self.plan.function(function).initial.is_some() && !self.is_whole(function)
     }
@@ -270,18 +269,18 @@ impl Generator<'_> {
     /// The form of a function's locations.
     pub fn form(&self, function: FunctionId) -> Form {
         let form = match self.forms[function.0 as usize] {
-            // A second array takes all locations, which no rule names one by one where an argument is undef.
+            // The second array has no places for undef arguments, and must have a place for each accessed location.
             Form::Whole if !self.is_whole(function) || !self.is_inside(function) => Form::Disjoint,
             form => form,
         };
         match form {
-            // The log of bare code has a fixed length, and one location may stand there often.
+            // In bare code the log has a fixed length, but without clash checks a location may be logged many times.
             Form::Disjoint if self.options.bare && !self.plan.function(function).dimensions.is_empty() => Form::General,
             form => form,
         }
     }
 
-    /// All locations that anybody looks at stand in the function's array.
+    /// Whether the function's array has a place for every location that is accessed.
     pub fn is_whole(&self, function: FunctionId) -> bool {
         let plan = self.plan.function(function);
         let covered = self.assumed.covered[function.0 as usize] && plan.role != Role::Shared;
@@ -293,12 +292,12 @@ impl Generator<'_> {
         (placed || self.is_inside(function)) && plan.dimensions.iter().all(holds)
     }
 
-    /// No location of the function is looked at with an argument that is undef.
+    /// Whether no location of the function is accessed with an undef argument.
     pub fn is_inside(&self, function: FunctionId) -> bool {
         self.assumed.inside[function.0 as usize].iter().all(|inside| *inside)
     }
 
-    /// The function's array has a place for that argument being undef.
+    /// Whether the function's array has a place for this argument being undef.
     pub fn has_undef_place(&self, function: FunctionId, argument: usize) -> bool {
         !self.assumed.inside[function.0 as usize][argument] && self.is_whole(function)
     }
@@ -325,7 +324,8 @@ impl Generator<'_> {
             *range = range.join(code.range);
             codes.push(code);
         }
-        // One that may be undef where none is assumed to be is refuted above: this code is not kept.
+        // If an argument may be undef although assumed otherwise, the assumption was refuted above and this code is
+        // discarded.
         let arguments_pure = codes.iter().all(|code| code.pure);
         let (statements, codes) = self.hoist(codes, false);
         let mut list = Vec::new();
@@ -341,7 +341,7 @@ impl Generator<'_> {
         let pure = self.assumed.pure[function.0 as usize] && statements.is_empty();
         let code = Code { text, ty: plan.ty, defined, pure: pure && arguments_pure, range };
         let code = within(&statements, code);
-        // What a polymorphic definition gives may be known better where it is used.
+        // The use of a polymorphic definition may determine its type more exactly.
         match self.term_type(id) {
             Type::Value | Type::Undef => code,
             ty => {
@@ -351,7 +351,7 @@ impl Generator<'_> {
         }
     }
 
-    /// `guard ? term : …`; undef where no guard holds.
+    /// `guard ? term : …`; undef if no guard holds.
     fn cases(&mut self, arms: Vec<(Code, TermId)>, otherwise: Option<TermId>, id: TermId) -> Code {
         let mut codes: Vec<(Code, Code, u32)> = Vec::new();
         for (guard, term) in arms {
@@ -364,7 +364,7 @@ impl Generator<'_> {
         let mut types = codes.iter().map(|(_, code, _)| code.ty).chain([last.ty]).filter(|ty| *ty != Type::Undef);
         let first = types.next().unwrap_or(Type::Undef);
         let ty = match first {
-            // All are undef.
+            // All arms are undef.
             Type::Undef => return Code { pure: false, ..Code::undef() },
             first if types.all(|ty| ty == first) => first,
             _ => match self.term_type(id) {
@@ -373,10 +373,10 @@ impl Generator<'_> {
             },
         };
         let defined = codes.iter().all(|(_, code, _)| code.defined && code.ty == ty) && last.defined && last.ty == ty;
-        // An arm that is undef gives no integer.
+        // An undef arm contributes no integer.
         let arms = codes.iter().map(|(_, code, _)| code).chain([&last]);
         let range = arms.filter(|code| code.ty != Type::Undef).fold(Interval::EMPTY, |all, code| all.join(code.range));
-        // What is boxed or given as it is does not fault.
+        // Boxing a value, or passing it on as it is, cannot fault.
         let arm = |code: &Code| code.pure && (code.ty == ty || code.ty == Type::Undef || ty == Type::Value);
         let pure = arm(&last) && codes.iter().all(|(guard, code, _)| guard.pure && arm(code));
         let mut text = String::from("(");
@@ -461,7 +461,7 @@ impl Generator<'_> {
     }
 }
 
-/// A collection of a kind, of a list of elements.
+/// A collection of this kind, from a list of elements.
 pub(crate) fn collection(kind: CollectionKind, items: &str) -> String {
     match kind {
         CollectionKind::Set => format!("gs::Value::set({items})"),
@@ -480,7 +480,7 @@ fn kind_of(kind: CollectionKind) -> &'static str {
     }
 }
 
-/// A literal of a double: it reads back as the same.
+/// A literal of a double that reads back as the same number.
 pub(crate) fn real(number: f64) -> String {
     if number.is_infinite() {
         let sign = if number < 0.0 { "-" } else { "" };

@@ -1,12 +1,12 @@
-//! Generated text: indented lines, each of which may stand for a place in the model.
+//! Generated text: indented lines, each of which may correspond to a place in the model.
 //!
-//! In: lines in order. Out: the text with `#line` directives, so that a compiler's message or a debugger's stop names
-//! the model, and the [`Mapping`]s of the same. INVARIANT: outside of marked lines the directives name the generated
+//! In: lines in order. Out: the text with `#line` directives, so that compiler messages and debuggers point into the
+//! model, and the corresponding [`Mapping`]s. INVARIANT: outside of marked lines, the directives name the generated
 //! file and the true line.
 
 use syntax::{Sources, Span};
 
-/// One generated line and what it stands for.
+/// A generated line and its place in the model.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mapping {
     /// The generated line, from 1.
@@ -37,7 +37,7 @@ impl Text {
         }
     }
 
-    /// A line that stands for a place in the model.
+    /// A line that corresponds to a place in the model.
     pub fn marked(&mut self, span: Span, text: impl Into<String>) {
         self.lines.push(Line { indent: self.indent, text: text.into(), span: Some(span) });
     }
@@ -79,7 +79,7 @@ impl Text {
         out
     }
 
-    /// The text, as the file of that name, and what its lines stand for.
+    /// The text as the file of this name, and the places of its lines.
     pub fn finish(&self, name: &str, sources: &Sources) -> (String, Vec<Mapping>) {
         let mut out = String::new();
         let mut mappings = Vec::new();
@@ -95,7 +95,7 @@ impl Text {
                     mappings.push(Mapping { line: number + 1, span });
                 }
                 None if marked.is_some() => {
-                    // This directive stands in line number + 1; the one it speaks of is the next.
+                    // This directive is on line number + 1 and describes the next line.
                     out.push_str(&format!("#line {} \"{name}\"\n", number + 2));
                     number += 1;
                 }
@@ -117,7 +117,7 @@ fn push(out: &mut String, line: &Line) {
     out.push('\n');
 }
 
-/// A text within the quotes of a C++ string literal.
+/// A text as the contents of a C++ string literal.
 pub(crate) fn escaped(text: &str) -> String {
     let mut out = String::new();
     for letter in text.chars() {
@@ -125,7 +125,7 @@ pub(crate) fn escaped(text: &str) -> String {
             '"' => out.push_str("\\\""),
             '\\' => out.push_str("\\\\"),
             '\n' => out.push_str("\\n"),
-            // Always three digits: what follows cannot be taken for another.
+            // Always three digits, so that following digits are not read as part of the escape.
             letter if !(' '..='~').contains(&letter) => {
                 let mut bytes = [0; 4];
                 for byte in letter.encode_utf8(&mut bytes).bytes() {
@@ -135,6 +135,6 @@ pub(crate) fn escaped(text: &str) -> String {
             letter => out.push(letter),
         }
     }
-    // No trigraph.
+    // Prevents trigraphs.
     out.replace("??", "?\\?")
 }

@@ -1,7 +1,7 @@
-//! The C++ type of a domain, and generated expressions with their types.
+//! The C++ types of domains and of generated expressions.
 //!
 //! Scalars are typed: truth values, numbers, characters, literals of enum domains, elements of abstract ones. All other
-//! values, strings and collections among them, are of the dynamic type `Value`.
+//! values, including strings and collections, have the dynamic type `Value`.
 
 use model::Basic;
 use program::{DomainId, DomainKind, Program};
@@ -17,9 +17,9 @@ pub(crate) enum Type {
     Real,
     Char,
     Enum(DomainId),
-    /// An element of an abstract domain, the base one.
+    /// An element of an abstract domain, namely the base domain.
     Element(DomainId),
-    /// A sequence of literals or elements of a small domain.
+    /// A sequence over a small domain of literals or elements.
     List(DomainId),
     /// Everything else.
     Value,
@@ -40,10 +40,10 @@ pub(crate) fn type_of(program: &Program, domain: DomainId) -> Type {
     }
 }
 
-/// LIMIT: a list has a byte for each item, and a value for undef.
+/// LIMIT: a list has one byte per item, and one of its values stands for undef.
 const MOST_IN_LISTS: usize = 255;
 
-/// The type of what a function or term gives: that of a domain's values, with lists.
+/// The type of a function's or term's value: that of its domain, with lists.
 pub(crate) fn result_type(program: &Program, domain: DomainId) -> Type {
     let DomainKind::Seq(of) = &program.domain(domain).kind else { return type_of(program, domain) };
     match ordinals(program, *of) {
@@ -52,7 +52,7 @@ pub(crate) fn result_type(program: &Program, domain: DomainId) -> Type {
     }
 }
 
-/// How many values an enum domain has, or an abstract one that does not grow.
+/// The number of values of an enum domain, or of an abstract one that does not grow.
 pub(crate) fn ordinals(program: &Program, domain: DomainId) -> Option<usize> {
     match &program.domain(program.base_domain(domain)).kind {
         DomainKind::Enum { literals } => Some(literals.len()),

@@ -1,7 +1,7 @@
-//! Which functions and growing domains a rule may update, directly or through calls.
+//! Finds the functions and growing domains that a rule may update, directly or through calls.
 //!
-//! In: a program. Out: by procedure, the [`Target`]s. Rule values and agents may run every procedure that is a value or
-//! a program. Units and sequences of the generated code name these and no more.
+//! In: a program. Out: the [`Target`]s of each procedure. Rule values and agents may run every procedure that is a
+//! value or a program. Units and sequences of the generated code cover these targets only.
 
 use std::collections::BTreeSet;
 
@@ -16,20 +16,20 @@ pub(crate) enum Target {
     Domain(DomainId),
 }
 
-/// By procedure, its targets.
+/// The targets of each procedure.
 #[derive(Debug, Clone)]
 pub(crate) struct Writes {
     procedures: Vec<BTreeSet<Target>>,
     /// What a rule value or an agent's program may update.
     values: BTreeSet<Target>,
-    /// The functions that some rule updates, or has of its own.
+    /// The functions that some rule updates or declares locally.
     updated: BTreeSet<FunctionId>,
-    /// How many units stand inside each other; none where that has no bound.
+    /// How deeply units are nested; `None` if there is no bound.
     pub levels: Option<u64>,
 }
 
 impl Writes {
-    /// Finds them out.
+    /// Computes the targets.
     pub fn new(program: &Program) -> Writes {
         let mut writes = Writes {
             procedures: vec![BTreeSet::new(); program.procedures.len()],

@@ -1,7 +1,7 @@
-//! Names of the C library: no namespace at the top may have one of them.
+//! Names of the C library, which no top-level namespace may have.
 //!
-//! In: an identifier. Out: whether a standard header of C or POSIX declares it for everybody. LIMIT: forms for other types
-//! (`sinf`, `strtod_l`) and long names that belong to one header are left out.
+//! In: an identifier. Out: whether a standard header of C or POSIX declares it globally. LIMIT: variants for other
+//! types (`sinf`, `strtod_l`) and long names that belong to one header are left out.
 
 const GLOBAL: &str = "a64l abort abs access acct acos acosh alarm alloca asctime asin asinh asprintf atan atan2 atanh atexit \
     atof atoi atol atoll basename bcmp bcopy brk bsearch btowc bzero calloc cbrt ceil chdir chmod chown chroot clearenv \

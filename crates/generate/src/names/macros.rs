@@ -1,10 +1,11 @@
-//! Macros of the headers that generated code includes: no identifier may have their names.
+//! Macros of the headers that generated code includes; no identifier may have their names.
 //!
-//! In: an identifier. Out: whether a header of C, POSIX or Linux defines a macro of that name. A model's literal `EIO`
-//! would otherwise be a number before the compiler sees it. `tests/macros.rs` asks the compilers of this machine for all that
-//! they know and finds each of them here; some names of other systems (newlib, other processors) are added.
+//! In: an identifier. Out: whether a header of C, POSIX or Linux defines a macro of that name. Otherwise the
+//! preprocessor would replace a model's literal `EIO` by a number. `tests/macros.rs` asks the compilers of this machine
+//! for all macros that they know, and finds each of them here. Some names of other systems (newlib, other processors)
+//! are added.
 
-/// What macros that come in families begin with.
+/// Prefixes of macros that come in families.
 const FAMILIES: &[&str] = &[
     "ADJ_",
     "ATOMIC_",

@@ -1,14 +1,14 @@
-//! Names of models and charts as identifiers of C++.
+//! Turns names of models and charts into C++ identifiers.
 //!
-//! In: names as they are written there. Out: identifiers, distinct within their scope, that are no word of C++, no macro
-//! of its headers and none that the language keeps for itself.
+//! In: names as written there. Out: identifiers, distinct within their scope, that are neither keywords of C++, nor
+//! macros of its headers, nor reserved.
 
 mod library;
 mod macros;
 
 use std::collections::BTreeSet;
 
-/// The words of C++20 that no name may be.
+/// The keywords and other words of C++20 that no name may be.
 const RESERVED: &[&str] = &[
     "alignas",
     "alignof",
@@ -104,7 +104,7 @@ const RESERVED: &[&str] = &[
     "while",
     "xor",
     "xor_eq",
-    // What generated code names itself
+    // Namespaces of the runtime
     "gs",
     "groundstate",
 ];
@@ -116,7 +116,7 @@ pub struct Scope {
 }
 
 impl Scope {
-    /// An identifier for a name, taken from now on.
+    /// A new identifier for a name, which is taken from now on.
     pub fn take(&mut self, name: &str) -> String {
         let plain = identifier(name);
         let mut candidate = plain.clone();
@@ -128,28 +128,28 @@ impl Scope {
         candidate
     }
 
-    /// Gives an identifier back: its block has ended.
+    /// Releases an identifier at the end of its block.
     pub fn release(&mut self, name: &str) {
         self.taken.remove(name);
     }
 
-    /// Keeps an identifier for the generated code.
+    /// Reserves an identifier for the generated code.
     pub fn keep(&mut self, name: &str) {
         self.taken.insert(name.to_string());
     }
 }
 
-/// A word of C++, a macro of its library, or a name that generated code has.
+/// Whether a name is a keyword of C++, a macro of its library, or used by generated code.
 pub fn is_reserved(name: &str) -> bool {
     RESERVED.contains(&name) || macros::has(name)
 }
 
-/// A name as an identifier: other letters become `_`, reserved ones get one at their end.
+/// A name as an identifier: other characters become `_`, and reserved words get a `_` appended.
 pub fn identifier(name: &str) -> String {
     let mut out = String::new();
     for letter in name.trim_start_matches('$').chars() {
         let fitting = letter.is_ascii_alphanumeric() || letter == '_';
-        // C++ keeps two underscores in a row, anywhere, for itself.
+        // C++ reserves names with two underscores in a row.
         let letter = if fitting { letter } else { '_' };
         if letter != '_' || !out.ends_with('_') {
             out.push(letter);
@@ -158,18 +158,18 @@ pub fn identifier(name: &str) -> String {
     if out.is_empty() || out.starts_with(|first: char| first.is_ascii_digit() || first == '_') {
         out.insert_str(0, if out.starts_with('_') { "x" } else { "x_" });
     }
-    // A trailing underscore is for members that hold state.
+    // A trailing underscore marks members that hold state.
     let out = out.trim_end_matches('_').to_string();
     if is_reserved(&out) { format!("{out}_1") } else { out }
 }
 
-/// A name as a namespace at the top, beside what the C library declares there.
+/// A name as a top-level namespace that does not clash with the C library.
 pub fn namespace(name: &str) -> String {
     let out = identifier(&snake(name));
     if library::has(&out) { format!("{out}_1") } else { out }
 }
 
-/// A name in `snake_case`, which may be a reserved one.
+/// A name in `snake_case`, which may be reserved.
 pub fn snake(name: &str) -> String {
     let mut out = String::new();
     let letters: Vec<char> = name.chars().collect();

@@ -1,4 +1,4 @@
-//! The cycle of one task: its phases in their order, each a call into the runtime.
+//! Generates the cycle of a task: its phases in order, each a call into the runtime.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ use chart::system::{Action, System, Timing};
 use super::names::{hook, member, pascal};
 use super::plan::{Access, Form, access, ends, numbers};
 
-/// The function of the cycle of the component of this index.
+/// The function for the cycle of the component with this index.
 pub(super) fn cycle(text: &mut String, system: &System, index: usize, form: &Form) {
     let component = &system.components[index];
     let name = &component.name;
@@ -75,7 +75,7 @@ pub(super) fn cycle(text: &mut String, system: &System, index: usize, form: &For
     text.push_str("    }\n\n");
 }
 
-/// Where a component's results are prepared, in the order of `Out`.
+/// Where a component prepares its results, in the order of `Out`.
 fn places(system: &System, index: usize, form: &Form) -> String {
     let (_, written) = ends(&system.components[index]);
     let place = |channel: &usize| {

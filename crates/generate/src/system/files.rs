@@ -1,4 +1,5 @@
-//! The user's files as they are written once: data types, a hook class a component, the main function, the build.
+//! Generates the user's files, which are written only once: data types, a hook class per component, the main function,
+//! the build.
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! The generated header: hook classes, the plan, and the class of the system with its channels and tasks.
+//! Generates the header: hook classes, the plan, and the class of the system with its channels and tasks.
 
 use std::fmt::Write;
 
@@ -86,11 +86,11 @@ fn hook_class(text: &mut String, system: &System, component: &Component) {
     }
     text.push_str(
         "    /// Before the tasks start; may allocate.\n    virtual void start() {}\n    \
-         /// After all tasks have ended, however they did.\n    virtual void safe_stop() noexcept {}\n};\n",
+         /// After all tasks have ended, for whatever reason.\n    virtual void safe_stop() noexcept {}\n};\n",
     );
 }
 
-/// A length of time with the unit in which it is short.
+/// A duration, in the unit in which it is shortest.
 fn duration(ns: u64) -> String {
     let (scale, unit) = match ns {
         1_000_000_000.. => (1_000_000_000, "s"),
@@ -150,7 +150,7 @@ fn class(text: &mut String, system: &System, form: &Form) {
          template <groundstate::Clock C>\nclass System final : public groundstate::SystemBase<C> {{\n    \
          using Base = groundstate::SystemBase<C>;\n    using Side = groundstate::Side;\n    \
          using Phases = groundstate::Phases<C>;\n    using Observer = groundstate::Observation<C>;\n\n  public:\n    \
-         /// So many threads live by its clock: the tasks, and whoever runs it.\n    \
+         /// The number of threads that use its clock: the tasks, and the one that runs the system.\n    \
          static constexpr std::size_t threads = {};\n\n    \
          System(C& clock, const Hooks& hooks, const groundstate::Options& options)\n        \
          : Base{{clock, plan(), options}}, hooks_{{hooks}} {{\n",

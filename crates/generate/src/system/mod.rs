@@ -1,9 +1,9 @@
-//! System → a C++20 program over the runtime of `cpp/`: one thread a task, the channels as the chart has them, a hook
-//! class a component for the user's own code.
+//! Generates a C++20 program from a system, over the runtime of `cpp/`: one thread per task, the chart's channels, a
+//! hook class per component for the user's own code.
 //!
-//! In: a chart whose system is without errors. Out: [`Generated`]: files that are written anew each time, and files of
-//! the user's that are written once. What cannot be generated is refused by name and position. The phases themselves are
-//! the runtime's (`cpp/include/groundstate/phases.hpp`); here is only decided which of them each phase is.
+//! In: a chart whose system has no errors. Out: [`Generated`]: files that are overwritten each time, and files of the
+//! user's that are written once. What cannot be generated is refused with its name and place. The runtime implements
+//! the phases (`cpp/include/groundstate/phases.hpp`); this module only selects them.
 
 mod cycle;
 mod files;
@@ -23,13 +23,13 @@ pub use refuse::ungenerated;
 /// The files of a program.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Generated {
-    /// Written anew each time: the path within the folder, and the text.
+    /// Overwritten each time: the path within the folder, and the text.
     pub decided: Vec<(String, String)>,
-    /// The user's: written where they are missing, and never touched again.
+    /// The user's files: written if missing, never touched again.
     pub once: Vec<(String, String)>,
 }
 
-/// The program of a system of which nothing is [`ungenerated`]. `file` names the chart in comments.
+/// The program of a system for which [`ungenerated`] is empty. Comments call the chart `file`.
 pub fn generate(chart: &Chart, system: &System, file: &str, form: &Form) -> Generated {
     let name = snake(&system.name);
     let space = form.namespace.clone().unwrap_or_else(|| name.clone());

@@ -1,4 +1,4 @@
-//! Names of the chart as names of C++: types in PascalCase, functions in snake_case.
+//! Turns names of the chart into C++ names: types in PascalCase, functions in snake_case.
 
 use crate::names::{is_reserved, snake};
 
@@ -9,12 +9,12 @@ pub(super) fn pascal(name: &str) -> String {
     member(&joined)
 }
 
-/// A name as that of a member: with `_` behind it where it means something in C++.
+/// A name as that of a member; a `_` is appended if the name has a meaning in C++.
 pub(super) fn member(name: &str) -> String {
     if is_reserved(name) { format!("{name}_") } else { name.to_string() }
 }
 
-/// The name of a hook: a member, beside those that every hook class has.
+/// The name of a hook: a member that must not clash with those of every hook class.
 pub(super) fn hook(name: &str) -> String {
     let name = snake(name);
     if ["start", "safe_stop"].contains(&name.as_str()) { format!("{name}_") } else { member(&name) }

@@ -1,14 +1,14 @@
-//! What is decided of a system before anything is printed: how each end of a channel is used, which numbers the program gives
-//! its parts, in which order tasks go first and stop.
+//! Decides about a system before anything is printed: how each end of a channel is used, the numbers of the program's
+//! parts, the order in which tasks start and stop.
 
 use chart::system::{Action, Channel, ChannelKind, Component, System};
 
 /// Options of the program.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Form {
-    /// Buffers are handed over by one atomic exchange instead of the protocol with a lock.
+    /// Hand buffers over by one atomic exchange instead of a protocol with a lock.
     pub wait_free: bool,
-    /// The namespace of the generated classes and of the user's; made of the system's name where none is given.
+    /// The namespace of the generated and the user's classes; derived from the system's name if not given.
     pub namespace: Option<String>,
 }
 
@@ -17,7 +17,7 @@ pub struct Form {
 pub(super) enum Access {
     /// In the channel's own array.
     InPlace,
-    /// On a copy, carried over under the lock.
+    /// On a copy that is transferred under the lock.
     Copy,
     /// Messages of a queue.
     Message,
@@ -25,7 +25,7 @@ pub(super) enum Access {
     Cell,
 }
 
-/// How the component of this index uses a channel.
+/// How the component with this index uses a channel.
 pub(super) fn access(channel: &Channel, component: usize, form: &Form) -> Access {
     match channel.kind {
         ChannelKind::Queue { .. } => Access::Message,
@@ -44,9 +44,9 @@ pub(super) fn ends(component: &Component) -> (Vec<usize>, Vec<usize>) {
     (of(read), of(written))
 }
 
-/// The numbers of phases, channels and components among the names.
+/// The indices of phases, channels and components among the names.
 pub(super) struct Numbers {
-    /// The number of the first phase of each component.
+    /// For each component, the number of its first phase.
     pub(super) phases: Vec<usize>,
     /// The number of the first channel.
     pub(super) channels: usize,
@@ -65,7 +65,8 @@ pub(super) fn numbers(system: &System) -> Numbers {
     Numbers { phases, channels: next, components: next + system.channels.len() }
 }
 
-/// Of the tasks that are ready at one instant the one with the shorter period goes first.
+/// The priority of each task: among tasks that are ready at the same instant, the one with the shorter period goes
+/// first.
 pub(super) fn ranks(system: &System) -> Vec<usize> {
     let mut order: Vec<usize> = (0..system.components.len()).collect();
     order.sort_by_key(|index| system.components[*index].timing.period().unwrap_or(u64::MAX));
@@ -73,7 +74,7 @@ pub(super) fn ranks(system: &System) -> Vec<usize> {
     (0..system.components.len()).map(rank).collect()
 }
 
-/// Components that move something are stopped first, then the others, both in the order of the chart.
+/// The order of stopping: first components that move something, then the others, both in the order of the chart.
 pub(super) fn stopping(system: &System) -> Vec<usize> {
     let acts = |component: &Component| {
         let actuator = |name: &String| system.devices.iter().any(|device| !device.is_sensor && device.name == *name);

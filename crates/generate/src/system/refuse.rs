@@ -1,4 +1,4 @@
-//! What of a system cannot be generated, and why.
+//! Finds what cannot be generated of a system, and why.
 
 use chart::build::late;
 use chart::system::{Action, System};
@@ -8,7 +8,7 @@ use super::names::pascal;
 use crate::fault::not_generated;
 use crate::names::snake;
 
-/// What of a system cannot be generated; the places are those of the chart.
+/// The parts of a system that cannot be generated, with their places in the chart.
 pub fn ungenerated(system: &System) -> Vec<Diagnostic> {
     let mut faults = late(system);
     for component in &system.components {

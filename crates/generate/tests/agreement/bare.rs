@@ -1,4 +1,4 @@
-//! Code without heap, exceptions and RTTI: compiled with these off, it makes the steps that other generated code makes.
+//! Code without heap, exceptions and RTTI, compiled with these off, makes the same steps as other generated code.
 
 use std::process::Command;
 use std::sync::Arc;
@@ -69,7 +69,7 @@ fn without_heap_and_exceptions() {
         assert!(hosted.lines().count() > 5 && !hosted.contains("fault"), "{model}: {hosted}");
         assert_eq!(hosted, bare, "{model}");
     }
-    // A fault jumps back to the step, whose updates are undone.
+    // A fault jumps back to the step and undoes its updates.
     let clash = "asm Clash\nimport StandardLibrary\nsignature:\n  controlled x: Integer\ndefinitions:\n\
                  main rule r_Main = if x < 3 then seq x := x + 1 x := x + 1 endseq else seq x := 9 par x := 1 x := 2 endpar endseq endif\n\
                  default init s0:\n  function x = 0\n";
@@ -119,7 +119,7 @@ fn generated(model: &str, bare: bool) -> Result<generate::model::Generated, Vec<
         .map_err(|faults| faults.into_iter().map(|fault| fault.message).collect())
 }
 
-/// What the model's program prints after its steps.
+/// The output of the model's program after its steps.
 fn printed(compiler: &Compiler, model: &str, bare: bool) -> String {
     let generated = generated(model, bare).unwrap_or_else(|faults| panic!("{model}: {faults:?}"));
     let folder = compiler.folder().join(format!("{}{bare}", generated.name));

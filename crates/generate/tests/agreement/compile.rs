@@ -1,8 +1,8 @@
-//! The compiler: generated code to programs, many models in one translation unit.
+//! Compiles generated code to programs, with many models in one translation unit.
 //!
-//! In: generated files. Out: programs, or what the compiler said. What all models share, the runtime's headers and the
-//! functions in them, is compiled once for the models of a unit, which is most of the work. A unit that does not compile
-//! is halved until the models at fault stand alone: those are compiled as their users do, a model a unit.
+//! In: generated files. Out: programs, or the compiler's messages. The runtime's headers and their functions, which all
+//! models share, are most of the work and are compiled once per unit. A unit that does not compile is halved until the
+//! faulty models stand alone. Those are compiled as their users do, one model per unit.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -11,11 +11,11 @@ use std::sync::{Mutex, OnceLock};
 
 use crate::run::Prepared;
 
-/// How many models share a unit at most.
+/// The largest number of models in a unit.
 const SHARED: usize = 24;
-/// LIMIT: how many bytes of generated code share a unit.
+/// LIMIT: the most bytes of generated code in a unit.
 const CODE: usize = 1_500_000;
-/// LIMIT: how many seconds a unit may take.
+/// LIMIT: how many seconds compiling a unit may take.
 const SECONDS: u32 = 900;
 
 /// Where generated code is compiled.
@@ -24,7 +24,7 @@ pub struct Compiler {
     kept: bool,
 }
 
-/// A model written to be compiled.
+/// A model's files, ready to compile.
 #[derive(Clone)]
 pub struct Unit {
     /// The name of its folder.
@@ -32,11 +32,11 @@ pub struct Unit {
     /// The namespace of its code.
     pub namespace: String,
     pub folder: PathBuf,
-    /// How much code it is.
+    /// The size of its code.
     pub bytes: usize,
 }
 
-/// A compiled model: a program, and the word that names the model in it.
+/// A compiled model: a program, and the argument that selects the model in it.
 #[derive(Clone)]
 pub struct Program {
     pub path: PathBuf,
@@ -55,12 +55,12 @@ impl Compiler {
         Compiler { folder, kept: kept.is_some() }
     }
 
-    /// Where everything is written.
+    /// The folder for all files.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// Compiles the code of all models, two units at a time; the same order comes back.
+    /// Compiles the code of all models, two units at a time; results are in the same order.
     pub fn compile_all(&self, units: &[Unit]) -> Vec<Result<Program, String>> {
         let header = precompiled();
         let waiting = Mutex::new(shared(units));
@@ -118,7 +118,7 @@ impl Compiler {
         }
     }
 
-    /// Removes what was written, unless it is to be looked at.
+    /// Removes the files, unless they are to be kept.
     pub fn finish(&self) {
         if !self.kept {
             let _ = std::fs::remove_dir_all(&self.folder);
@@ -126,7 +126,7 @@ impl Compiler {
     }
 }
 
-/// Writes generated files, and what they come from, into a folder; gives how many bytes of code.
+/// Writes generated files and their sources into a folder; returns the number of bytes of code.
 pub fn write(folder: &Path, model: &str, prepared: &Prepared) -> std::io::Result<usize> {
     let generated = &prepared.generated;
     std::fs::create_dir_all(folder)?;
@@ -139,11 +139,11 @@ pub fn write(folder: &Path, model: &str, prepared: &Prepared) -> std::io::Result
     Ok(generated.files.iter().map(|file| file.text.len()).sum())
 }
 
-/// What all models include, compiled beforehand, once for all tests.
+/// The headers that all models include, precompiled once for all tests.
 fn precompiled() -> &'static Path {
     static HEADER: OnceLock<PathBuf> = OnceLock::new();
     HEADER.get_or_init(|| {
-        // Only tests have a folder of their own among what is built.
+        // Only tests have a folder of their own in the build folder.
         let folder = match option_env!("CARGO_TARGET_TMPDIR") {
             Some(folder) => Path::new(folder).join("groundstate-headers"),
             None => std::env::temp_dir().join(format!("groundstate-headers-{}", std::process::id())),
@@ -163,7 +163,7 @@ fn precompiled() -> &'static Path {
     })
 }
 
-/// The models in groups of one unit each. Those of one namespace are apart.
+/// Groups the models into units. Models with the same namespace are separated.
 fn shared(units: &[Unit]) -> Vec<Vec<usize>> {
     let mut groups: Vec<(Vec<usize>, usize)> = Vec::new();
     for (index, unit) in units.iter().enumerate() {
@@ -183,7 +183,7 @@ fn shared(units: &[Unit]) -> Vec<Vec<usize>> {
     groups.into_iter().map(|(group, _)| group).rev().collect()
 }
 
-/// One source of several models, whose main program is told which of them to run.
+/// One source for several models; an argument tells its main program which one to run.
 fn together(units: &[Unit], group: &[usize]) -> String {
     let (mut models, mut calls) = (String::new(), String::new());
     for unit in group.iter().map(|index| &units[*index]) {
@@ -199,7 +199,7 @@ fn together(units: &[Unit], group: &[usize]) -> String {
     )
 }
 
-/// A command with a limit of time; one that is ended by it says so.
+/// Runs a command with a time limit; the result says if the limit ended it.
 pub fn within(seconds: u32, command: &Command) -> Result<Output, String> {
     let mut limited = Command::new("timeout");
     limited.arg(seconds.to_string()).arg(command.get_program()).args(command.get_args());
@@ -210,7 +210,7 @@ pub fn within(seconds: u32, command: &Command) -> Result<Output, String> {
     }
 }
 
-/// The compiler with its warnings as errors, and where the runtime is.
+/// The compiler with warnings as errors and the path of the runtime.
 pub fn strict() -> Command {
     let mut command = Command::new("g++");
     command.args(["-std=c++20", "-O0", "-Wall", "-Wextra", "-Wconversion", "-Werror", "-I"]);

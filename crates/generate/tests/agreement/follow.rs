@@ -1,4 +1,4 @@
-//! A compiled model follows a run: what it prints is compared with what the machine came to.
+//! Replays a run in a compiled model and compares its output with the machine's states.
 
 use std::io::Write;
 use std::process::{Command, Stdio};
@@ -9,7 +9,7 @@ use crate::compile::Program;
 const SECONDS: u32 = 120;
 
 impl Program {
-    /// Runs it on a run's script and compares what it prints.
+    /// Replays a run's script and compares the output.
     pub fn follow(&self, script: &str, expected: &str) -> Result<(), String> {
         let mut child = Command::new("timeout")
             .arg(SECONDS.to_string())
@@ -34,18 +34,18 @@ impl Program {
     }
 }
 
-/// The place of a fault is compared nowhere: its number is the generated code's own.
+/// Removes the places of faults, which are numbers of the generated code.
 fn without_places(printed: &str) -> String {
     let line = |line: &str| match line.strip_prefix("fault ") {
-        // Not the location of a function that is called so: `fault () i1`.
+        // Skips locations of a function called `fault`: `fault () i1`.
         Some(rest) if !rest.starts_with('(') => format!("fault {}\n", rest.split(' ').next().unwrap_or_default()),
         _ => format!("{line}\n"),
     };
     printed.lines().map(line).collect()
 }
 
-/// The first place where two texts part. Of functions with initial values the generated code may have more where an argument
-/// is undef (`replay::state`), never less, and nothing else.
+/// The first difference between two texts. The generated code may have more locations with undef arguments, for
+/// functions with initial values (`replay::state`); otherwise both must be equal.
 fn difference(expected: &str, printed: &str) -> Result<(), String> {
     let (expected, printed) = (states(expected), states(printed));
     for (at, state) in expected.iter().enumerate() {
@@ -69,7 +69,7 @@ fn difference(expected: &str, printed: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// The lines of each state; the last one's end may be a fault.
+/// The lines of each state; the last state may end with a fault.
 fn states(text: &str) -> Vec<Vec<&str>> {
     let mut states = vec![Vec::new()];
     for line in text.lines() {
@@ -85,12 +85,12 @@ fn states(text: &str) -> Vec<Vec<&str>> {
     states
 }
 
-/// The functions that a state names in its last line.
+/// The functions that a state lists on its last line.
 fn late<'t>(state: &[&'t str]) -> Vec<&'t str> {
     state.last().and_then(|line| line.strip_prefix(". ")).map(|names| names.split(' ').collect()).unwrap_or_default()
 }
 
-/// A location of one of these functions with an argument that is undef.
+/// Whether a line is a location of one of these functions with an undef argument.
 fn is_late(line: &str, late: &[&str]) -> bool {
     line.strip_prefix("? ").and_then(|rest| rest.split(' ').next()).is_some_and(|name| late.contains(&name))
 }

@@ -1,11 +1,11 @@
-//! The forms of locations: each is taken where it may be, and nowhere else.
+//! Each form of locations is chosen where it is allowed, and nowhere else.
 
 use syntax::SourceFile;
 
 use crate::run::Disk;
 use crate::{Case, judge, prepare};
 
-/// A model whose main rule is given; `f` and `g` hold what its rules update.
+/// A model with this main rule; `f` and `g` hold what its rules update.
 fn model(main: &str) -> String {
     format!(
         "asm Forms\n\nimport StandardLibrary\n\nsignature:\n\tdomain D subsetof Integer\n\tdomain Large subsetof Integer\n\tcontrolled n: Integer\n\
@@ -94,7 +94,7 @@ fn forms() {
     judge("forms", cases);
 }
 
-/// A rule value is a unit of its own only where it may be a turbo rule.
+/// A rule value is a unit of its own only if it may be a turbo rule.
 #[test]
 fn rule_values() {
     let model = |kind: &str| {

@@ -1,4 +1,4 @@
-//! Initial values that take something from outside: inputs, choices, the clock.
+//! Initial values that ask the environment for inputs, choices or the clock.
 
 use syntax::SourceFile;
 

@@ -1,4 +1,4 @@
-//! Initial values that are due late: of elements made by a step, read in a state that is no longer the initial one.
+//! Late initial values: of elements made by a step, read in a state that is no longer the initial one.
 
 use syntax::SourceFile;
 
@@ -47,7 +47,7 @@ fn late_initial_values() {
     );
 }
 
-/// Also where a value depends on inputs.
+/// This holds also if a value depends on inputs.
 #[test]
 fn initial_values_come_after_those_that_they_read() {
     let text = "asm Order\n\nimport StandardLibrary\n\nsignature:\n\tmonitored asked: Boolean\n\tcontrolled start: Integer\n\

@@ -1,5 +1,5 @@
-//! No macro of the headers that generated code includes can be an identifier of it: the compilers of this machine are asked
-//! for all that they define.
+//! No identifier of generated code is a macro of the headers that it includes: the compilers of this machine list all
+//! macros that they define.
 #![allow(
     clippy::disallowed_methods,
     clippy::disallowed_macros,
@@ -10,7 +10,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// The macros that a compiler knows after all headers of the runtime; none if there is no such compiler.
+/// The macros that a compiler knows after all headers of the runtime; `None` if there is no such compiler.
 fn known(compiler: &str, standard: &str) -> Option<Vec<String>> {
     let include = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cpp/include");
     let mut headers = Vec::new();
@@ -42,7 +42,7 @@ fn known(compiler: &str, standard: &str) -> Option<Vec<String>> {
 #[test]
 fn no_macro_is_an_identifier() {
     let mut looked_at = 0;
-    // GNU's form of the language defines all that the standard's does, and more.
+    // GNU's variant of the language defines all that the standard does, and more.
     for (compiler, standard) in [("g++", "-std=gnu++20"), ("clang++", "-std=gnu++20")] {
         let Some(macros) = known(compiler, standard) else {
             println!("there is no {compiler} here");

@@ -1,10 +1,10 @@
-//! Generated code and the machine agree: on every model of examples/, and on random models. Beside it: no macro is an
-//! identifier of it (`macros`), and the programs of the examples are what their charts give (`programs`).
+//! Generated code agrees with the machine, on every model of examples/ and on random models. Besides: no identifier is
+//! a macro (`macros`), and the programs of the examples are generated from their charts (`programs`).
 //!
-//! A model is generated, compiled, and fed the inputs and choices of a run of the machine; the states must be the same
-//! step by step, and a fault must come in the same step. `GROUNDSTATE_FULL` takes every model and more random ones, where
-//! otherwise every third will do. `GROUNDSTATE_CASES` sets how many random models, `GROUNDSTATE_SEED` the first seed,
-//! `GROUNDSTATE_MODEL` the only file to look at, `GROUNDSTATE_KEEP` a folder where the generated code stays.
+//! A model is generated, compiled, and fed the inputs and choices of a run of the machine; the states must be equal
+//! step by step, and a fault must come in the same step. `GROUNDSTATE_FULL` takes every model and more random ones;
+//! otherwise every third model is taken. `GROUNDSTATE_CASES` sets how many random models, `GROUNDSTATE_SEED` the first
+//! seed, `GROUNDSTATE_MODEL` the only file to test, `GROUNDSTATE_KEEP` a folder to keep the generated code in.
 #![allow(
     clippy::disallowed_methods,
     clippy::disallowed_macros,
@@ -38,19 +38,19 @@ fn setting(name: &str, default: u64) -> u64 {
     std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default)
 }
 
-/// Whether all of what is slow is wanted.
+/// Whether slow tests run in full.
 fn full() -> bool {
     std::env::var_os("GROUNDSTATE_FULL").is_some()
 }
 
-/// What the model says of itself: where it can be found in a message.
+/// A model, and the words that identify it in messages.
 struct Case {
     name: String,
     text: String,
     prepared: Prepared,
 }
 
-/// Generates a model and runs it in the machine; none if there is nothing to run. An error is why that cannot be.
+/// Generates a model and runs it in the machine; `None` if there is nothing to run. An error is the reason for failing.
 fn prepare(file: SourceFile, disk: &mut dyn Loader, steps: u64, seed: u64) -> Result<Option<Prepared>, String> {
     let Some(subject) = read(file, disk)? else { return Ok(None) };
     let generated = subject.generate()?;
@@ -116,7 +116,7 @@ fn walk(folder: &Path, found: &mut Vec<PathBuf>) {
     paths.sort();
     for path in paths {
         if path.is_dir() {
-            // The reference systems of verification run without end.
+            // The reference systems of verification never end.
             if path.file_name().is_none_or(|name| name != "verify") {
                 walk(&path, found);
             }

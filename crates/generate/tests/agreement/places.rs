@@ -1,9 +1,9 @@
-//! Where arguments may be undef, and sequences that are lists: each stands where it should, and gives what the machine gives.
+//! Undef arguments, and sequences stored as lists: each is stored in the right place, and agrees with the machine.
 
 use crate::forms::case_of;
 use crate::judge;
 
-/// Functions of colours that are looked at and updated where the colour is undef.
+/// Functions over colours, read and updated where the colour is undef.
 fn places(main: &str) -> String {
     format!(
         "asm Forms\n\nimport StandardLibrary\n\nsignature:\n\tenum domain Colour = {{RED | GREEN | BLUE}}\n\
@@ -48,7 +48,7 @@ fn undef_has_a_place() {
                 ),
                 "gs::OrUndef<gs::Below<Colour, 3>>> big_",
             ),
-            // The initial value of undef is a fault, which is met when it is read.
+            // The initial value for undef faults, but only when it is read.
             case_of(
                 "no initial value of undef",
                 places("big(RED) := inverse(after(colour))"),
@@ -63,7 +63,7 @@ fn undef_has_a_place() {
     );
 }
 
-/// A line of colours, and what is told of it.
+/// A sequence of colours, and functions of it.
 fn lists(main: &str) -> String {
     format!(
         "asm Forms\n\nimport StandardLibrary\n\nsignature:\n\tenum domain Colour = {{RED | GREEN | BLUE}}\n\

@@ -1,5 +1,5 @@
-//! The tasks of the examples' programs are those of their charts: the headers in the examples' `generated/` folders are what
-//! `groundstate generate cpp` makes of them. `UPDATE_EXPECT=1` (`make update`) writes them anew.
+//! The example programs match their charts: the headers in the examples' `generated/` folders are the output of
+//! `groundstate generate cpp`. `UPDATE_EXPECT=1` (`make update`) rewrites them.
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own charts")]
 

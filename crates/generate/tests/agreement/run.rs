@@ -1,4 +1,4 @@
-//! A model, its generated code, and a run of the machine to hold that code to.
+//! A model, its generated code, and a run of the machine to compare it with.
 
 use std::sync::Arc;
 
@@ -11,12 +11,12 @@ use simulate::{Bounds, ChoiceMade, Choices, Inputs, RandomSource, Record, Run};
 use syntax::{Severity, SourceFile, Sources, Span};
 pub use testkit::Disk;
 
-/// What is compared.
+/// The files and texts to compare.
 pub struct Prepared {
     pub generated: Generated,
-    /// What the generated program is fed with.
+    /// The input of the generated program.
     pub script: String,
-    /// What it has to print. The place of a fault is left out.
+    /// Its expected output, without the places of faults.
     pub expected: String,
 }
 
@@ -26,7 +26,7 @@ pub struct Subject {
     sources: Sources,
 }
 
-/// Reads a model; none if it has no main rule. An error is its first fault.
+/// Reads a model; `None` if it has no main rule. An error is its first fault.
 pub fn read(file: SourceFile, disk: &mut dyn Loader) -> Result<Option<Subject>, String> {
     let checked = model::check(file, disk);
     if let Some(error) = checked.diagnostics.iter().find(|found| found.severity == Severity::Error) {
@@ -40,7 +40,7 @@ impl Subject {
     /// Its code, or what cannot be generated.
     pub fn generate(&self) -> Result<Generated, String> {
         let mut started = Machine::new(Arc::clone(&self.program), Limits::default());
-        // What initial values ask of the environment is asked for again.
+        // What initial values ask of the environment is asked again at run time.
         let _ = started.start(&mut Closed);
         generate::model::generate(&self.program, &self.sources, &mut started, &Options::default())
             .map_err(|refused| refused[0].message.clone())
@@ -74,7 +74,7 @@ pub fn record(program: &Arc<Program>, steps: u64, seed: u64) -> (String, String)
                 attempted = true;
             }
             Record::End(simulate::End::Fault(fault)) => {
-                // A step that took nothing from outside leaves no attempt on record.
+                // A step that read nothing from the environment leaves no attempt on record.
                 if !attempted {
                     text.push_str("step\n");
                 }

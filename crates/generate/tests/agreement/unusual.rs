@@ -1,5 +1,5 @@
-//! What few models have: names that C++ has already, rules that call themselves, agents of no domain, shared functions that
-//! a rule writes before anybody gave them a value.
+//! Features that few models have: names that C++ has already, recursive rules, agents without a domain, shared
+//! functions that a rule writes before they have a value.
 
 use syntax::SourceFile;
 

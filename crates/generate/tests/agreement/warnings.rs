@@ -1,5 +1,5 @@
-//! Generated code warns of nothing, whoever compiles it: the header alone, the source and the replaying program, with g++ and,
-//! where it is, clang++. So do the runtime's headers that it includes.
+//! Generated code compiles without warnings: the header alone, the source and the replaying program, with g++ and, if
+//! installed, clang++. So do the runtime's headers that it includes.
 
 use std::path::Path;
 use std::process::Command;
@@ -33,7 +33,7 @@ const BOTH: &[&str] = &[
     "-Wundef",
 ];
 
-/// A model with names that macros, C++ and the class itself have.
+/// A model whose names are those of macros, of C++ and of the class itself.
 const NAMES: &str = "asm Names\n\nimport StandardLibrary\n\nsignature:\n\tenum domain State = {EIO | EBUSY | BIG_ENDIAN | NAN | READY}\n\
     \tabstract domain Robot\n\tstatic left: Robot\n\tcontrolled started: State\n\tcontrolled unix: Integer\n\tcontrolled major: Robot -> Integer\n\
     \tmonitored stdin: Boolean\n\tmonitored class: Integer\n\tcontrolled errno: State -> Integer\n\ndefinitions:\n\n\
