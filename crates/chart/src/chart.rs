@@ -1,8 +1,8 @@
-//! A chart as it is meant: machines with their shapes and arrows, names resolved; and, apart from it, where shapes lie.
+//! The meaning of a chart: machines with their shapes and arrows, names resolved; separately, where shapes lie.
 //!
-//! INVARIANT: of a chart without errors, every [`ShapeId`] is an index into its machine's shapes; an arrow out of a guard
-//! has a branch and no other has; every way from a control state leads over guards and actions to a control state, a
-//! pattern instance or an exit, and never in a circle without one of these.
+//! INVARIANT: in a chart without errors, every [`ShapeId`] is an index into its machine's shapes; an arrow has a branch
+//! if and only if it leaves a guard; every path from a control state leads over guards and actions to a control state,
+//! a pattern instance or an exit, and never in a circle without one of these.
 
 use std::collections::BTreeMap;
 
@@ -16,34 +16,34 @@ use crate::system::System;
 pub struct Chart {
     /// The name, that of the file.
     pub name: String,
-    /// The modules whose names the links use, those of imported charts included, as paths from the file.
+    /// The modules whose names the links use, including those of imported charts, as paths relative to the file.
     pub imports: Vec<String>,
-    /// Where each of them is imported; of one that comes with a chart, where that is.
+    /// The place of each import; for one that comes with a chart, the place of that chart's import.
     pub places: Vec<Span>,
-    /// The charts whose patterns can be used, as paths from the file.
+    /// The charts whose patterns can be used, as paths relative to the file.
     pub charts: Vec<String>,
     /// The patterns of these charts.
     pub patterns: Vec<Machine>,
     /// Machines and patterns in the order of the file.
     pub machines: Vec<Machine>,
-    /// The system, if there is one.
+    /// The system, if any.
     pub system: Option<System>,
-    /// Where shapes lie, by the name of the machine; this means nothing but to the eye.
+    /// Where shapes lie, by the name of the machine; it has no meaning except to the eye.
     pub layouts: BTreeMap<String, Layout>,
 }
 
 impl Chart {
-    /// The machine or pattern of that name, imported patterns included.
+    /// The machine or pattern of that name, including imported patterns.
     pub fn machine(&self, name: &str) -> Option<&Machine> {
         self.machines.iter().chain(&self.patterns).find(|machine| machine.name == name)
     }
 
-    /// The patterns that an instance can be of.
+    /// The patterns that an instance may name.
     pub fn all_patterns(&self) -> impl Iterator<Item = &Machine> {
         self.machines.iter().filter(|machine| machine.is_pattern).chain(&self.patterns)
     }
 
-    /// The pattern that an instance is of.
+    /// The pattern of an instance.
     pub fn pattern_of(&self, shape: &Shape) -> Option<&Machine> {
         match &shape.kind {
             ShapeKind::Instance(pattern) => self.machine(&pattern.name),
@@ -60,30 +60,31 @@ pub type Layout = BTreeMap<String, (f64, f64)>;
 pub struct Machine {
     /// The name.
     pub name: String,
-    /// A pattern is entered when its control variable is undef, and left by setting it to undef.
+    /// Whether it is a pattern: entered when its control variable is undef, and left by setting it to undef.
     pub is_pattern: bool,
-    /// What the rule takes.
+    /// The parameters of the rule.
     pub parameters: Vec<Parameter>,
     /// The text shown.
     pub text: String,
-    /// The rule of the specification that the machine is; none: one is made.
+    /// The corresponding rule of the specification; if `None`, a rule is made.
     pub rule: Option<Link>,
-    /// The control variable; a pattern of actions alone has none.
+    /// The control variable; a pattern of actions only has none.
     pub control: Option<Control>,
     /// States, guards, actions and instances in the order of the file.
     pub shapes: Vec<Shape>,
     /// Arrows in the order of the file.
     pub arrows: Vec<Arrow>,
-    /// Actions and instances to be done one after the other where one path leads over them.
+    /// Actions and instances to execute in sequence if one path contains them.
     pub sequences: Vec<Vec<ShapeId>>,
-    /// It has a control state or a block in which it stays: entering and leaving it takes several steps.
+    /// Whether it has a control state, or a block that takes steps, so that entering and leaving it takes several
+    /// steps.
     pub steps: bool,
     /// Where it is declared: its name.
     pub span: Span,
 }
 
 impl Machine {
-    /// The shape of that number.
+    /// The shape with this number.
     pub fn shape(&self, id: ShapeId) -> &Shape {
         &self.shapes[id.0]
     }
@@ -93,12 +94,12 @@ impl Machine {
         self.shapes.iter().enumerate().map(|(index, shape)| (ShapeId(index), shape))
     }
 
-    /// The arrows out of an end.
+    /// The arrows that leave this end.
     pub fn out_of(&self, end: End) -> impl Iterator<Item = &Arrow> {
         self.arrows.iter().filter(move |arrow| arrow.from == end)
     }
 
-    /// The arrow out of a guard's exit.
+    /// The arrow from this exit of a guard.
     pub fn branch(&self, guard: ShapeId, branch: bool) -> Option<&Arrow> {
         self.out_of(End::Shape(guard)).find(|arrow| arrow.branch == Some(branch))
     }
@@ -108,7 +109,7 @@ impl Machine {
         self.numbered().find(|(_, shape)| shape.kind == ShapeKind::State { initial: true }).map(|(id, _)| id)
     }
 
-    /// It has a control state or a block in which it stays: entering and leaving it takes several steps.
+    /// Whether entering and leaving it takes several steps, since it has a control state or a block that takes steps.
     pub fn takes_steps(&self) -> bool {
         self.steps
     }
@@ -132,11 +133,11 @@ pub struct Parameter {
 pub enum Control {
     /// A location of the specification.
     Linked(Link),
-    /// A function to be made, with the machine's parameters as arguments.
+    /// A function to be created, with the machine's parameters as arguments.
     Made {
         /// The function's name.
         name: String,
-        /// Where it is named.
+        /// The place of its name.
         span: Span,
     },
 }
@@ -148,17 +149,17 @@ pub struct Shape {
     pub name: String,
     /// The text shown in the shape.
     pub text: String,
-    /// What it is.
+    /// The kind of shape.
     pub kind: ShapeKind,
-    /// The part of the specification that it stands for.
+    /// The corresponding part of the specification.
     pub link: Option<Link>,
-    /// It is drawn dashed: what it stands for is still to be refined.
+    /// Set if what the shape stands for is still to be refined; such a shape is drawn dashed.
     pub refinement: Option<Refinement>,
     /// Where it is declared: its name.
     pub span: Span,
 }
 
-/// What a shape is.
+/// The kinds of shapes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ShapeKind {
     /// A control state: a circle.
@@ -170,7 +171,7 @@ pub enum ShapeKind {
     Guard,
     /// A rule: a rectangle.
     Action,
-    /// A block that stands for a pattern machine.
+    /// A block that stands for a pattern machine, called an instance.
     Instance(Pattern),
 }
 
@@ -186,7 +187,7 @@ pub struct Pattern {
 /// What refines a shape.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refinement {
-    /// The chart that does so, if it is known yet.
+    /// The chart that refines it, if known yet.
     pub by: Option<String>,
 }
 
@@ -206,15 +207,15 @@ pub enum End {
 pub struct Arrow {
     /// Where it starts.
     pub from: End,
-    /// The exit of the guard it starts at.
+    /// The exit of the guard that it leaves.
     pub branch: Option<bool>,
     /// Where it ends.
     pub to: End,
-    /// The stop of the path where it ends.
+    /// The place of its end in a path.
     pub span: Span,
 }
 
-/// Words that items of a chart start with, and that paths use; a shape is called otherwise.
+/// Words that begin items of a chart or stand in paths; shapes must not have these names.
 pub(crate) const WORDS: [&str; 20] = [
     "control",
     "initial",

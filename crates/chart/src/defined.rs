@@ -1,14 +1,14 @@
-//! Whether a control location ever is without a value: where it begins with a literal and nothing sets it to undef, no
-//! chart needs to say what is done then.
+//! Decides whether a control location always has a value: it starts with a literal, and nothing sets it to undef. Then
+//! a chart need not say what happens when it is undef.
 //!
-//! In: a checked model and a function. Out: yes only where it is sure; whatever is not looked into counts as undef.
+//! In: a checked model and a function. Out: yes only if that is certain; whatever is not analysed counts as undef.
 
 use model::{Call, DomainKind, FunctionId, FunctionKind, Literal, Model, RuleId, RuleKind, Target, Term, TermKind};
 
-/// LIMIT: so many calls are followed to what stands in the place of a parameter.
+/// LIMIT: how many calls are followed to find the arguments of a parameter.
 const MAX_DEPTH: usize = 8;
 
-/// The locations of a function have a value in every state of the model's runs.
+/// Whether the locations of a function have a value in every state of the model's runs.
 pub(crate) fn always_defined(model: &Model, function: FunctionId) -> bool {
     let declared = model.function(function);
     declared.kind == FunctionKind::Controlled
@@ -17,7 +17,7 @@ pub(crate) fn always_defined(model: &Model, function: FunctionId) -> bool {
         && (0..model.rules.len()).all(|rule| keeps_defined(model, function, rule))
 }
 
-/// The arguments there are at the beginning are all there ever are.
+/// Whether the elements that exist at the start are all that ever exist.
 fn is_fixed(model: &Model, domain: model::DomainId) -> bool {
     match model.domains.kind(domain) {
         DomainKind::Enum { .. } => true,
@@ -32,7 +32,7 @@ fn begins_defined(model: &Model, function: FunctionId) -> bool {
     given.is_some_and(|given| matches!(given.definition.body.kind, TermKind::Literal(Literal::Enum(..))))
 }
 
-/// A rule sets no location of a function to undef.
+/// Whether a rule sets no location of a function to undef.
 fn keeps_defined(model: &Model, function: FunctionId, rule: usize) -> bool {
     let mut keeps = true;
     // A parameter may stand for any location.
@@ -63,7 +63,7 @@ fn is_defined(model: &Model, term: &Term, rule: usize, depth: usize) -> bool {
     }
 }
 
-/// Every call of a rule gives a parameter a value.
+/// Whether every call of a rule passes a defined value for a parameter.
 fn is_given_defined(model: &Model, called: usize, parameter: usize, depth: usize) -> bool {
     let mut defined = true;
     for caller in 0..model.rules.len() {
@@ -76,7 +76,7 @@ fn is_given_defined(model: &Model, called: usize, parameter: usize, depth: usize
                 let argument = arguments.get(parameter);
                 defined &= argument.is_some_and(|argument| is_defined(model, argument, caller, depth + 1));
             }
-            // It may be any rule.
+            // It may run any rule.
             RuleKind::RunValue { arguments, .. } => defined &= arguments.is_empty(),
             _ => {}
         });

@@ -1,5 +1,5 @@
-//! Whether two rules do the same in a control state: their effects, each under the paths on which it is done, compared as
-//! propositional formulas over the tests, exactly.
+//! Decides whether two rules do the same in a control state. The conditions of each effect are compared exactly, as
+//! propositional formulas over the tests.
 
 use std::collections::BTreeMap;
 
@@ -7,13 +7,13 @@ use syntax::Span;
 
 use crate::symbolic::{Effect, Guarded, Path};
 
-/// LIMIT: so many cases of one effect are told apart; beyond that it counts as a difference.
+/// LIMIT: how many cases of one effect are distinguished; beyond that it counts as a difference.
 const CASES: usize = 100_000;
 
-/// Effects by what they do.
+/// The paths that lead to each effect, and its place.
 pub(crate) type ByEffect = BTreeMap<String, (Vec<Path>, Option<Span>)>;
 
-/// What is done, each under the paths on which it is; staying where the machine is counts as nothing.
+/// Groups effects with the paths that lead to them; staying in the control state counts as no effect.
 pub(crate) fn by_effect(effects: &[Guarded], control: &str, origin: &str) -> ByEffect {
     let mut found = ByEffect::new();
     for guarded in effects {
@@ -36,8 +36,8 @@ pub(crate) fn same(one: &[Guarded], other: &[Guarded], control: &str, origin: &s
     one.keys().chain(other.keys()).all(|key| difference(&paths(&one, key), &paths(&other, key)).is_none())
 }
 
-/// A case in which one side does something and the other does not, and whether it is the chart that does: both sides,
-/// formulas in disjunctive normal form, are expanded test by test until they part.
+/// A case in which only one side has an effect, and whether that is the chart. Both sides are formulas in disjunctive
+/// normal form, which are expanded test by test until they differ.
 pub(crate) fn difference(chart: &[Path], rule: &[Path]) -> Option<(Path, bool)> {
     let mut budget = CASES;
     let mut case = Vec::new();
@@ -51,7 +51,7 @@ fn parted(chart: Vec<Path>, rule: Vec<Path>, case: &mut Path, budget: &mut usize
     if chart_always && rule_always || chart.is_empty() && rule.is_empty() {
         return None;
     }
-    // A test that is still open on a side that is not decided yet.
+    // An open test of a side that is not decided yet.
     let open = |paths: &[Path], decided: bool| {
         paths.iter().filter(|_| !decided).find_map(|path| path.first().map(|(atom, _)| atom.clone()))
     };

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::chart::{Chart, Control, Machine, ShapeKind};
 use crate::flow::{Origin, Target, transitions};
 
-/// The chart as text: what each machine's shapes are, and what its arrows come to.
+/// The chart as text: each machine's shapes and transitions.
 pub fn dump(chart: &Chart) -> String {
     let mut out = format!("chart {}\n", chart.name);
     for import in chart.charts.iter().chain(&chart.imports) {

@@ -1,11 +1,11 @@
-//! SCXML: a state for each control state, a transition for each path, its guards as the condition and its actions as the
-//! script, both in AsmetaL. A pattern begins in the state `enter` and ends in the final state `exit`; an instance on a path
-//! invokes its pattern, and goes on when that is done.
+//! Writes SCXML: a state for each control state, a transition for each path, with its guards as the condition and its
+//! actions as the script, both in AsmetaL. A pattern begins in the state `enter` and ends in the final state `exit`; an
+//! instance on a path invokes its pattern and continues when that is done.
 //!
-//! What SCXML has no word for (parameters, the control variable, names and texts of shapes, the guards and actions of a path
-//! one by one) stands in a namespace of its own, which other tools pass over. SYNC(scxml): `import/scxml.rs` reads it.
+//! What SCXML cannot express (parameters, the control variable, names and texts of shapes, the single guards and
+//! actions of a path) is in a namespace of its own, which other tools ignore. SYNC(scxml): `import/scxml.rs` reads it.
 //!
-//! LIMIT: of two paths whose guards hold together SCXML takes the first one; in a chart they are parallel.
+//! LIMIT: if the guards of two paths hold together, SCXML takes the first one; in a chart both are taken in parallel.
 
 use std::fmt::Write;
 
@@ -15,7 +15,7 @@ use crate::flow::{Origin, Target, Transition, is_block, transitions};
 use crate::link::Link;
 use crate::xml::Text;
 
-/// The namespace of what SCXML has no word for.
+/// The namespace of what SCXML cannot express.
 pub(crate) const NAMESPACE: &str = "urn:groundstate:chart";
 
 /// The SCXML of a machine.
@@ -74,7 +74,7 @@ struct Writer<'c> {
     machine: &'c Machine,
 }
 
-/// Text as the value of an attribute: an end of line stays one.
+/// Text as the value of an attribute; line ends are preserved.
 struct Attribute<'t>(&'t str);
 
 impl std::fmt::Display for Attribute<'_> {
@@ -85,7 +85,7 @@ impl std::fmt::Display for Attribute<'_> {
 }
 
 impl Writer<'_> {
-    /// What a shape is called and stands for, as attributes.
+    /// A shape's name, text and link, as attributes.
     fn about(&self, prefix: &str, shape: &Shape) -> String {
         let mut out = format!(" {prefix}text=\"{}\"", Attribute(&shape.text));
         if let Some(Link { text, .. }) = &shape.link {
@@ -168,7 +168,7 @@ impl Writer<'_> {
     }
 }
 
-/// A test and whether it holds, as a part of a condition.
+/// A test and its outcome, as a part of a condition.
 pub(crate) fn condition(text: &str, holds: bool) -> String {
     match (holds, text.contains(' ')) {
         (true, true) => format!("({text})"),
@@ -177,7 +177,7 @@ pub(crate) fn condition(text: &str, holds: bool) -> String {
     }
 }
 
-/// Rules in parallel as one.
+/// Rules in parallel, as one rule.
 pub(crate) fn script(rules: &[String]) -> Option<String> {
     match rules {
         [] => None,

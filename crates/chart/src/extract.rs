@@ -1,10 +1,10 @@
-//! AsmetaL → chart: rules in control-state form, found by what they do, not by how they are written.
+//! Extracts charts from AsmetaL: finds rules in control-state form by what they do, not by how they are written.
 //!
 //! In: a checked model. Out: a [`Chart`] with a machine for each rule that tests and sets a control location (an enum
-//! value or undef) in whatever nesting of `if`, `switch`, `let` and macro calls; and why other rules that set one are no
-//! machines. Equal tails of paths share their shapes.
+//! value or undef), in any nesting of `if`, `switch`, `let` and macro calls; for other rules that set such a location,
+//! why they are no machines. Equal tails of paths share their shapes.
 //!
-//! INVARIANT: the chart, as it is written, has no faults, and its rules do what the model's do ([`agrees`] asks).
+//! INVARIANT: the written chart has no faults, and its rules do what the model's rules do ([`agrees`] checks this).
 
 mod agrees;
 
@@ -18,27 +18,27 @@ use crate::link::Link;
 use crate::read::spoken;
 use crate::symbolic::{Depth, Effect, Explorer, Guarded, Path, Reason, consistent};
 
-/// LIMIT: guards, actions and states of one machine.
+/// LIMIT: how many guards, actions and states a machine may have.
 const MAX_SHAPES: usize = 1000;
-/// What a control location has that has no value.
+/// The value of a control location that is undefined.
 const UNDEF: &str = "undef";
 
-/// What is found in a model.
+/// The result of an extraction.
 #[derive(Debug)]
 pub struct Extracted {
     /// The machines.
     pub chart: Chart,
-    /// Rules that set a control location and are not in control-state form, and why.
+    /// Rules that set a control location but are not in control-state form, and why.
     pub others: Vec<(String, String)>,
-    /// Rules that are machines over further locations, and these: a chart has one machine of a rule.
+    /// Rules that are also machines over further locations, and these locations: a chart has one machine per rule.
     pub further: Vec<(String, String)>,
 }
 
-/// Extracts the machines of a model's own rules; of one rule alone, if it is named.
+/// Extracts the machines of a model's own rules, or of the rule `only`.
 ///
-/// Without `control` the control location is found: one on which all that the rule does depends; where a rule has none, one
-/// on which some of it does. With it, a location of this function is taken. Rules that are parts of machines are none of
-/// their own, unless they are named.
+/// Without `control`, the control location is searched: one on which everything that the rule does depends; if a rule
+/// has none, one on which some of it depends. With `control`, it is a location of that function. Rules that are parts
+/// of machines get no machine of their own, unless they are named by `only`.
 pub fn extract(model: &Model, only: Option<&str>, control: Option<&str>) -> Extracted {
     let chart = Chart { name: model.name.clone(), ..Chart::default() };
     let mut found = Extracted { chart, others: Vec::new(), further: Vec::new() };
@@ -70,7 +70,7 @@ pub fn extract(model: &Model, only: Option<&str>, control: Option<&str>) -> Extr
     found
 }
 
-/// Leaves one machine of each rule, that of the location that the text sets first, and each machine a name of its own.
+/// Keeps one machine per rule, that of the location that the text sets first, and gives each machine a unique name.
 fn one_each(found: &mut Extracted) {
     let mut rules: BTreeSet<String> = BTreeSet::new();
     let mut names: BTreeSet<String> = BTreeSet::new();
@@ -91,8 +91,8 @@ fn one_each(found: &mut Extracted) {
     });
 }
 
-/// Machines among rules that also do something whatever the state is: one for each rule that has none, that is no part of a
-/// machine and has none as a part.
+/// Adds machines of rules that also do something independently of the state: for each rule that has no machine, is not
+/// a part of one, and contains none.
 fn mixed(model: &Model, left: Vec<(RuleId, FunctionId, String)>, judge: &mut agrees::Judge<'_>, found: &mut Extracted) {
     let strict: Vec<String> = found.chart.machines.iter().map(|machine| rule_of(machine).to_string()).collect();
     let parts: BTreeSet<String> = strict.iter().flat_map(|name| called(model, name)).collect();
@@ -101,13 +101,13 @@ fn mixed(model: &Model, left: Vec<(RuleId, FunctionId, String)>, judge: &mut agr
         let name = &model.rule(id).name;
         let calls = called(model, name);
         let known = |name: &String| strict.contains(name) || more.iter().any(|machine| rule_of(machine) == name);
-        // A location that is looked up over others is not what people call the state of this rule.
+        // A location whose arguments are themselves looked up is not what people call the state of this rule.
         let looked_up = location.matches('(').count() > 1;
         if looked_up || known(name) || parts.contains(name) || strict.iter().any(|machine| calls.contains(machine)) {
             continue;
         }
         if let Ok(Some(machine)) = machine(model, id, function, &location, false) {
-            // One control state and no other is none.
+            // A single control state makes no machine.
             let states = machine.shapes.iter().filter(|shape| matches!(shape.kind, ShapeKind::State { .. }));
             if states.count() < 2 && !machine.is_pattern {
                 continue;
@@ -122,8 +122,8 @@ fn mixed(model: &Model, left: Vec<(RuleId, FunctionId, String)>, judge: &mut agr
     found.chart.machines.extend(more);
 }
 
-/// Takes out machines that are parts of others: rules for one control state that another machine of the same control
-/// function calls; and callers that are the same machine as what they call.
+/// Removes machines that are parts of others: rules for one control state that another machine of the same control
+/// function calls. Also removes callers whose machine equals that of the rule they call.
 fn without_parts(model: &Model, machines: &mut Vec<Machine>) {
     let names: Vec<String> = machines.iter().map(|machine| rule_of(machine).to_string()).collect();
     let calls: Vec<BTreeSet<String>> = names.iter().map(|name| called(model, name)).collect();
@@ -148,7 +148,7 @@ fn without_parts(model: &Model, machines: &mut Vec<Machine>) {
     });
 }
 
-/// Paths lead on from more than one control state.
+/// Whether paths start from more than one control state.
 fn goes_on(machine: &Machine) -> bool {
     let starts = |end: End| match end {
         End::Enter => true,
@@ -170,7 +170,7 @@ fn control_of(machine: &Machine) -> &str {
     }
 }
 
-/// The same shapes, up to what parameters are called.
+/// Whether the shapes are the same, up to the names of parameters.
 fn same_machine(one: &Machine, other: &Machine) -> bool {
     let kinds = |machine: &Machine| -> Vec<(String, ShapeKind)> {
         let shapes = machine.shapes.iter();
@@ -184,7 +184,7 @@ fn same_machine(one: &Machine, other: &Machine) -> bool {
     kinds(one) == kinds(other) && arrows(one) == arrows(other)
 }
 
-/// The rules that a rule calls, and those call.
+/// The rules that a rule calls, directly or through others.
 fn called(model: &Model, name: &str) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     let mut open = vec![name.to_string()];
@@ -210,7 +210,7 @@ fn told(reason: Reason) -> String {
     }
 }
 
-/// The values of a control function, undef first; none for a function that cannot be one.
+/// The possible values of a control function, undef first; `None` if the function cannot be one.
 pub(crate) fn values(model: &Model, function: FunctionId) -> Option<Vec<String>> {
     match model.domains.kind(model.function(function).codomain) {
         DomainKind::Enum { literals } => {
@@ -220,7 +220,7 @@ pub(crate) fn values(model: &Model, function: FunctionId) -> Option<Vec<String>>
     }
 }
 
-/// Those of them that a location of the function can have.
+/// The values that a location of the function can have.
 pub(crate) fn origins(model: &Model, function: FunctionId) -> Vec<String> {
     let values = values(model, function).unwrap_or_default();
     let defined = !values.is_empty() && always_defined(model, function);
@@ -271,7 +271,7 @@ fn machine(
     let undef = if always_defined(model, function) { Vec::new() } else { steps[0].1.clone() };
     steps.remove(0);
     let initial = initial_value(model, function);
-    // Entered when undef; what starts in a state and never leaves is never undef.
+    // A pattern is entered when undef. A machine that starts in a state and is never left is never undef.
     let leaves = |guarded: &Guarded| matches!(&guarded.effect, Effect::Update { value, .. } if value == "undef");
     let left = steps.iter().flat_map(|(_, effects)| effects).any(|found| is_update_of(found, control) && leaves(found));
     let begins = initial.as_deref().is_some_and(|value| value != UNDEF);
@@ -312,7 +312,7 @@ fn machine(
     Ok((!machine.arrows.is_empty()).then_some(machine))
 }
 
-/// Something is done under the same tests whatever the state: the rule does more than its machine.
+/// Whether something is done under the same tests in every state, so that the rule does more than its machine.
 fn does_always(steps: &[(String, Vec<Guarded>)]) -> bool {
     let Some(((_, first), rest)) = steps.split_first() else { return false };
     let in_all = |guarded: &Guarded| {
@@ -326,7 +326,7 @@ fn is_update_of(guarded: &Guarded, control: &str) -> bool {
     matches!(&guarded.effect, Effect::Update { location, .. } if location == control)
 }
 
-/// The literal, or undef, that a control function begins with in the default initial state.
+/// The literal or undef that a control function has in the default initial state.
 fn initial_value(model: &Model, function: FunctionId) -> Option<String> {
     let init = &model.inits[model.default_init?];
     let Some(given) = init.functions.iter().find(|given| given.function == function) else {
@@ -349,7 +349,7 @@ fn name_of(text: &str) -> String {
         .to_string()
 }
 
-/// An effect, with the tests before it that are still to be made.
+/// An effect with its remaining tests.
 type Open<'e> = (Path, &'e Guarded);
 
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -360,7 +360,7 @@ enum Node {
     Target(String),
 }
 
-/// Guards, actions and targets; equal ones are one.
+/// Guards, actions and targets; equal nodes are shared.
 struct Graph<'c> {
     control: &'c str,
     nodes: Vec<Node>,
@@ -380,8 +380,8 @@ impl Graph<'_> {
         Ok(self.nodes.len() - 1)
     }
 
-    /// The decisions and actions of some effects; nothing where there is none. There are several only where one case sets
-    /// the control location to several values: such updates clash, and so do the paths.
+    /// The decisions and actions of some effects; empty if there are none. There are several trees only if one case
+    /// sets the control location to several values: such updates clash, and so do the paths.
     fn trees(&mut self, effects: &[Guarded], origin: &str) -> Result<Vec<usize>, Reason> {
         let effects: Vec<Open<'_>> = effects.iter().map(|guarded| (guarded.path.clone(), guarded)).collect();
         let mut found = Vec::new();
@@ -411,7 +411,7 @@ impl Graph<'_> {
         }
     }
 
-    /// What is done in one case; in a further layer, only the further value of the control location.
+    /// What is done in one case. Further layers contain only the further values of the control location.
     fn leaf(&mut self, effects: &[Open<'_>], origin: &str, layer: usize) -> Result<Option<usize>, Reason> {
         let mut targets: Vec<&str> = Vec::new();
         let mut actions: Vec<String> = Vec::new();
@@ -446,12 +446,13 @@ impl Graph<'_> {
             Node::Target(value) => Some(value.as_str()),
             _ => None,
         });
-        // The state in which the model begins, also where this rule does nothing in it.
+        // The state in which the model begins is shown even if this rule does nothing in it.
         let begins = initial.filter(|_| !machine.is_pattern);
         let starting: Vec<&str> = starts.iter().map(|(value, _)| value.as_str()).collect();
         let unknown = begins.filter(|value| !starting.contains(value));
         let values = unknown.into_iter().chain(starting).chain(targets);
-        // Outside of a pattern its control location is undef; a machine has a state for that.
+        // Only a pattern may be outside of its states when its control location is undef; another machine needs a state
+        // for it.
         let values: Vec<&str> = values.filter(|value| !machine.is_pattern || *value != UNDEF).collect();
         let first = begins.or(values.first().copied());
         for value in &values {
@@ -503,7 +504,7 @@ impl Graph<'_> {
     }
 }
 
-/// What a picture says of a term or rule: its name in words, if it is an application, else the whole.
+/// The text that a picture shows for a term or rule: its name in words if it is an application, else all of it.
 fn said(text: &str, name: &str) -> String {
     let plain = text.strip_prefix(name).or(text.strip_prefix("r_").and_then(|rest| rest.strip_prefix(name)));
     match plain {
@@ -512,7 +513,7 @@ fn said(text: &str, name: &str) -> String {
     }
 }
 
-/// One pair of brackets from the first character to the last.
+/// Whether one pair of parentheses encloses the whole text.
 fn is_closed(text: &str) -> bool {
     let mut depth = 0;
     for (at, letter) in text.char_indices() {
@@ -528,7 +529,7 @@ fn is_closed(text: &str) -> bool {
     false
 }
 
-/// A name that is not taken, and no word of charts; another one where it cannot be a name.
+/// A name that is neither taken nor a word of charts; `other` replaces what cannot be a name.
 fn unused(name: &str, other: &str, taken: impl Fn(&str) -> bool) -> String {
     let name = if name.starts_with(|c: char| c.is_alphabetic()) { name } else { other };
     let taken = |name: &str| WORDS.contains(&name) || taken(name);

@@ -1,7 +1,7 @@
-//! The transitions of a machine: what its arrows come to, step by step (spec/charts.md, "Meaning").
+//! The transitions of a machine: what its arrows mean, step by step (spec/charts.md, "Meaning").
 //!
-//! In: a machine without errors, and its chart. Out: one [`Transition`] for each way from a control state, from the
-//! entering arrow or from a block that has been left, over guards and actions to where the step ends.
+//! In: a machine without errors, and its chart. Out: one [`Transition`] for each path that begins at a control state,
+//! at the entering arrow or at a block that has been left, and leads over guards and actions to the end of the step.
 
 use syntax::Span;
 
@@ -29,31 +29,31 @@ pub enum Target {
     Exit,
 }
 
-/// One way from a control state to the next.
+/// One path from a control state to the next.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Transition {
     /// Where it starts.
     pub origin: Origin,
-    /// The guards on the way and whether each holds.
+    /// The guards on the path, and whether each holds.
     pub guards: Vec<(ShapeId, bool)>,
-    /// The actions on the way.
+    /// The actions on the path.
     pub actions: Vec<ShapeId>,
-    /// Guards, with whether they hold, and actions, in the order of the way.
+    /// Guards, with whether they hold, and actions, in the order of the path.
     pub stops: Vec<(ShapeId, Option<bool>)>,
     /// Where it ends.
     pub target: Target,
-    /// Its last stop in the text.
+    /// The place of its last stop.
     pub span: Span,
 }
 
-/// LIMIT: the most transitions of one machine that are looked at; paths that split and join again double each time.
+/// LIMIT: the most transitions of one machine that are considered; paths that split and join double each time.
 pub const MAX_TRANSITIONS: usize = 10_000;
 
-/// LIMIT: the most stops on all of them; ways of a chart with errors may split and lead nowhere.
+/// LIMIT: the most stops on all of them; in a chart with errors, paths may split without leading anywhere.
 const MAX_STOPS: usize = 100 * MAX_TRANSITIONS;
 
-/// The transitions of a machine, those of one origin in the order of its arrows. A way that comes back to itself, which is an
-/// error, is none.
+/// The transitions of a machine; those of one origin are in the order of its arrows. A path that returns to itself,
+/// which is an error, is left out.
 pub fn transitions(chart: &Chart, machine: &Machine) -> Vec<Transition> {
     let mut found = Vec::new();
     let mut budget = MAX_STOPS;
@@ -133,8 +133,8 @@ pub(crate) fn origins(chart: &Chart, machine: &Machine) -> Vec<Origin> {
     enter.into_iter().chain(shapes).collect()
 }
 
-/// Finds which machines of a chart take steps. Out: the machines that contain themselves, by index, with the patterns over
-/// which they do.
+/// Determines which machines of a chart take steps. Returns the machines that contain themselves, by index, with the
+/// patterns through which they do.
 pub(crate) fn settle(chart: &mut Chart) -> Vec<(usize, Vec<String>)> {
     for machine in &mut chart.machines {
         machine.steps = machine.shapes.iter().any(|shape| matches!(shape.kind, ShapeKind::State { .. }));
@@ -148,7 +148,7 @@ pub(crate) fn settle(chart: &mut Chart) -> Vec<(usize, Vec<String>)> {
     (0..chart.machines.len()).filter_map(|index| Some((index, circle(chart, &chart.machines[index])?))).collect()
 }
 
-/// The patterns over which a machine contains itself, its own name first and last.
+/// The patterns through which a machine contains itself; its own name is first and last.
 fn circle(chart: &Chart, machine: &Machine) -> Option<Vec<String>> {
     let inner = |machine: &Machine| -> Vec<String> {
         let patterns = machine.shapes.iter().filter_map(|shape| chart.pattern_of(shape));
@@ -172,14 +172,15 @@ fn circle(chart: &Chart, machine: &Machine) -> Option<Vec<String>> {
     None
 }
 
-/// An instance on a path, of a pattern with control states: the machine stays in it until the pattern is left.
+/// Whether a shape is an instance on a path, of a pattern that takes steps: the machine stays in it until the pattern
+/// is left.
 pub(crate) fn is_block(chart: &Chart, machine: &Machine, id: ShapeId) -> bool {
     let shape = machine.shape(id);
     let steps = chart.pattern_of(shape).is_none_or(Machine::takes_steps);
     matches!(shape.kind, ShapeKind::Instance(_)) && steps && !is_beside(machine, id)
 }
 
-/// An instance that no path leads to: its rule runs in every step, in parallel to the paths.
+/// Whether a shape is an instance that no path leads to: its rule runs in every step, parallel to the paths.
 pub(crate) fn is_beside(machine: &Machine, id: ShapeId) -> bool {
     matches!(machine.shape(id).kind, ShapeKind::Instance(_))
         && !machine.arrows.iter().any(|arrow| arrow.to == End::Shape(id) || arrow.from == End::Shape(id))

@@ -1,9 +1,10 @@
-//! Control-state charts: what they mean, and the ways between charts and AsmetaL.
+//! Control-state charts: their meaning, and translations between charts and AsmetaL.
 //!
-//! In: the tree of a chart file. Out: a [`Chart`] and its faults; from it AsmetaL ([`build()`]), and what a picture shows
-//! ([`subjects()`], which the crate `draw` draws). The notation is that of the paper (section IV): control states, guards, actions, pattern machines with
-//! an entering arrow and floating exit arrows, pattern instances; its meaning is written in `spec/charts.md`. This crate
-//! gives charts their meaning by the AsmetaL they stand for; it must not execute anything.
+//! In: the tree of a chart file. Out: a [`Chart`] and its faults; from these, AsmetaL ([`build()`]) and the contents of
+//! pictures ([`subjects()`], which the crate `draw` draws). The notation is that of the paper (section IV): control
+//! states, guards, actions, pattern machines with an entering arrow and floating exit arrows, pattern instances;
+//! `spec/charts.md` defines its meaning. A chart means the AsmetaL that it is built to; this crate must not execute
+//! anything.
 
 pub mod build;
 pub mod import;

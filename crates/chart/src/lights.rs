@@ -1,15 +1,15 @@
-//! Which shape of a picture is to be lit in a state of the specification: the term to evaluate, and the shape for each of
-//! its values. For a page that shows a run.
+//! Tells which shape of a picture lights up in a state of the specification: the term to evaluate, and the shape for
+//! each of its values. Used by pages that show a run.
 
 use crate::build::state_value;
 use crate::chart::{Control, ShapeKind};
 use crate::subject::{Part, Subject};
 use crate::system::Component;
 
-/// Something in a picture that goes from shape to shape: a machine at work for one element, or a component of a system.
+/// Something whose light moves from shape to shape: a machine running for one element, or a component of a system.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Lights {
-    /// The element, or the component; empty: there is but one.
+    /// The element or the component; empty if there is only one.
     pub name: String,
     /// The control variable, for this element.
     pub term: String,
@@ -22,16 +22,16 @@ pub struct Lights {
 pub struct Light {
     /// The value, as the specification writes it.
     pub value: String,
-    /// The shape, as `data-shape` names it.
+    /// The name of the shape in `data-shape`.
     pub shape: String,
-    /// In words.
+    /// The label in words.
     pub label: String,
 }
 
 impl Subject<'_> {
-    /// What is lit in its picture: a machine with parameters once for each of `elements`, which are put in for the
-    /// parameters (several are separated by commas), a system's components by their present phase. A machine without a
-    /// control variable is never in a state.
+    /// What lights up in the picture. A machine with parameters is listed once for each of `elements`, which replace
+    /// the parameters (several are separated by commas); a system's components light up by their present phase. A
+    /// machine without a control variable has no lights.
     pub fn lights(&self, elements: &[String]) -> Vec<Lights> {
         let (chart, machine) = match self.part {
             Part::Machine(machine) => (self.chart, machine),
@@ -43,7 +43,7 @@ impl Subject<'_> {
                 };
                 let component = |component: &Component| Lights {
                     name: component.text.clone(),
-                    // What a system is built to, see `build::system`.
+                    // The function in models built from systems, see `build::system`.
                     term: format!("scheduler_currentPhase({})", component.name),
                     shapes: component.phases.iter().map(|one| phase(component, &one.name)).collect(),
                 };
@@ -79,7 +79,7 @@ impl Subject<'_> {
     }
 }
 
-/// A term with an argument in the place of a variable.
+/// A term in which an argument replaces a variable.
 fn put_in(term: &str, variable: &str, argument: &str) -> String {
     let mut out = String::new();
     let mut rest = term;

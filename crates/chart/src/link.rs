@@ -2,14 +2,14 @@
 
 use syntax::Span;
 
-/// A piece of AsmetaL that a shape stands for.
+/// The AsmetaL that a shape stands for.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Link {
     /// The term or rule, on one line, without comments.
     pub text: String,
-    /// The name that the picture shows: of the function, literal or rule that it begins with.
+    /// The name that the picture shows: of the first function, literal or rule in it.
     pub name: String,
-    /// It is this name applied to arguments and nothing else.
+    /// Whether it is only this name applied to arguments.
     pub is_application: bool,
     /// Where it stands.
     pub span: Span,

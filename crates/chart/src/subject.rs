@@ -1,5 +1,5 @@
-//! What a picture of a chart shows: one machine, or the system. And how a page asks for such a picture without waiting for
-//! the crate that draws it.
+//! The subject of a chart's picture: one machine, or the system. Also the trait by which a page asks for such a picture
+//! without depending on the crate that draws it.
 
 use crate::chart::{Chart, Machine};
 use crate::system::System;
@@ -7,13 +7,13 @@ use crate::system::System;
 /// A machine or the system of a chart.
 #[derive(Debug, Clone, Copy)]
 pub struct Subject<'c> {
-    /// The chart it is of.
+    /// The chart that contains it.
     pub chart: &'c Chart,
     /// Which of both.
     pub part: Part<'c>,
 }
 
-/// A part of a chart that has a picture of its own.
+/// A part of a chart that has its own picture.
 #[derive(Debug, Clone, Copy)]
 pub enum Part<'c> {
     /// A control-state machine or a pattern.
@@ -22,7 +22,7 @@ pub enum Part<'c> {
     System(&'c System),
 }
 
-/// What can be drawn of a chart, in the order of the file, the system last.
+/// The subjects of a chart's pictures, in the order of the file, the system last.
 pub fn subjects(chart: &Chart) -> impl Iterator<Item = Subject<'_>> {
     let machines = chart.machines.iter().map(Part::Machine);
     machines.chain(chart.system.iter().map(Part::System)).map(move |part| Subject { chart, part })
@@ -37,7 +37,7 @@ impl<'c> Subject<'c> {
         }
     }
 
-    /// Its text in one line.
+    /// Its text on one line.
     pub fn title(&self) -> String {
         let text = match self.part {
             Part::Machine(machine) => &machine.text,
@@ -46,7 +46,7 @@ impl<'c> Subject<'c> {
         text.replace('\n', " ")
     }
 
-    /// The machine, if it is one.
+    /// The machine, if the subject is one.
     pub fn machine(&self) -> Option<&'c Machine> {
         match self.part {
             Part::Machine(machine) => Some(machine),
@@ -55,20 +55,20 @@ impl<'c> Subject<'c> {
     }
 }
 
-/// Pictures for a page that holds several of them. The crate `draw` makes them; whoever writes a page gets them handed in.
+/// Draws pictures for a page that contains several of them. The crate `draw` implements it; the caller passes it in.
 pub trait Pictures {
     /// The style of all pictures of a class of elements, in light and dark.
     fn style(&self, class: &str) -> String;
 
-    /// The SVG element of a subject, of this class. A shape is a group with its name in `data-shape`, and is lit by the
-    /// class `lit`. Identifiers begin with `prefix`.
+    /// The SVG element of a subject, with this class. A shape is a group with its name in `data-shape`; the class `lit`
+    /// lights it up. Identifiers begin with `prefix`.
     ///
     /// # Errors
     /// It cannot be laid out.
     fn part(&self, subject: Subject<'_>, prefix: &str, class: &str) -> Result<String, NotDrawn>;
 }
 
-/// A picture that could not be made, and why: a bug of ours or of a library.
+/// Why a picture could not be drawn: a bug of ours or of a library.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NotDrawn(pub String);
 
@@ -80,7 +80,7 @@ impl std::fmt::Display for NotDrawn {
 
 impl std::error::Error for NotDrawn {}
 
-/// No pictures: for those who ask only whether everything else is right.
+/// Draws no pictures, for callers that only check everything else.
 #[derive(Debug, Clone, Copy)]
 pub struct NoPictures;
 

@@ -1,7 +1,7 @@
-//! A system as it is meant: components with phases, channels between them, devices (spec/charts.md, "Systems").
+//! The meaning of a system: components with phases, channels between them, devices (spec/charts.md, "Systems").
 //!
-//! INVARIANT: of a system without errors, every index is one into the system's lists; lengths of time are whole ticks; a
-//! channel is read by a phase of its receiver and written by one of its sender, and a buffer has a master.
+//! INVARIANT: in a system without errors, every index is valid; times are whole ticks; a channel is read by a phase of
+//! its receiver and written by one of its sender; a buffer has a master.
 
 use syntax::Span;
 
@@ -14,7 +14,7 @@ pub struct System {
     pub name: String,
     /// The text shown.
     pub text: String,
-    /// How long a step of the machine is, in nanoseconds.
+    /// The length of a machine's step, in nanoseconds.
     pub tick_ns: u64,
     /// Components in the order of the file.
     pub components: Vec<Component>,
@@ -24,7 +24,7 @@ pub struct System {
     pub devices: Vec<Device>,
     /// Physical connections, by the names of their ends.
     pub connections: Vec<(String, String)>,
-    /// Where it is declared: its name.
+    /// The place of its name.
     pub span: Span,
 }
 
@@ -48,14 +48,14 @@ pub struct Component {
 pub enum Timing {
     /// Periodically.
     Synchronous {
-        /// From one cycle to the next, in ticks.
+        /// Time between two cycles, in ticks.
         period: u64,
-        /// From the first step to the first cycle, in ticks.
+        /// Time from the first step to the first cycle, in ticks.
         offset: u64,
-        /// From the start of a cycle to the time at which it must be done, in ticks.
+        /// Time from the start of a cycle until it must be done, in ticks.
         deadline: u64,
     },
-    /// When there are data; without a channel that it awaits, always.
+    /// When data arrive; without an awaited channel, always.
     Asynchronous {
         /// The index of the channel whose data start a cycle.
         awaits: Option<usize>,
@@ -63,7 +63,7 @@ pub enum Timing {
 }
 
 impl Timing {
-    /// The period in ticks; none of an asynchronous component.
+    /// The period in ticks; `None` for an asynchronous component.
     pub fn period(self) -> Option<u64> {
         match self {
             Timing::Synchronous { period, .. } => Some(period),
@@ -72,16 +72,16 @@ impl Timing {
     }
 }
 
-/// What a component does for some time.
+/// A phase of a component's cycle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phase {
     /// The name.
     pub name: String,
-    /// What is read, written or elaborated, by the word in the text.
+    /// What is read, written or elaborated, as named in the text.
     pub subject: String,
     /// What it does.
     pub action: Action,
-    /// How long it takes, in ticks, without waiting for a lock.
+    /// Its duration in ticks, without waiting for a lock.
     pub time: u64,
     /// Where it is declared.
     pub span: Span,
@@ -90,11 +90,11 @@ pub struct Phase {
 /// What a phase does.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Action {
-    /// Reads the channel of this index.
+    /// Reads the channel with this index.
     Read(usize),
-    /// Writes the channel of this index.
+    /// Writes the channel with this index.
     Write(usize),
-    /// Computes; by a rule of the specification that takes the scheduler.
+    /// Computes, by a rule of the specification that takes the scheduler.
     Elaborate(Option<Link>),
 }
 
@@ -107,28 +107,28 @@ pub struct Channel {
     pub from: usize,
     /// The index of the component that reads.
     pub to: usize,
-    /// What it is made of.
+    /// Its kind.
     pub kind: ChannelKind,
     /// Where it is declared: its name.
     pub span: Span,
 }
 
-/// What a channel is made of.
+/// The kinds of channels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ChannelKind {
     /// A swinging buffer.
     Buffer {
-        /// How many arrays.
+        /// The number of arrays.
         arrays: u64,
         /// The index of the component that updates the indexes.
         master: usize,
     },
     /// A message queue.
     Queue {
-        /// How many messages it holds.
+        /// The number of messages it can hold.
         capacity: u64,
     },
-    /// One value.
+    /// A single value.
     Shared,
 }
 
@@ -139,7 +139,7 @@ pub struct Device {
     pub name: String,
     /// The text shown.
     pub text: String,
-    /// A sensor; else an actuator.
+    /// Whether it is a sensor; otherwise it is an actuator.
     pub is_sensor: bool,
     /// Where it is declared: its name.
     pub span: Span,

@@ -1,6 +1,6 @@
-//! Chart → the text of a chart file, in its canonical layout.
+//! Writes the text of a chart file, in its canonical layout.
 //!
-//! INVARIANT: reading the text gives the chart again, but for places. Paths are written as long as they go on in one way.
+//! INVARIANT: reading the text gives the same chart, except for places. Each path is as long as possible.
 
 use std::fmt::Write;
 
@@ -69,7 +69,7 @@ fn declaration(shape: &Shape) -> String {
     format!("{word} {}{of} \"{text}\"{link}{refinement}", shape.name)
 }
 
-/// The arrows, each once, joined to paths.
+/// The arrows, each once, joined into paths.
 fn paths(out: &mut String, machine: &Machine) {
     let name = |end: End| match end {
         End::Enter => "enter",
@@ -86,7 +86,7 @@ fn paths(out: &mut String, machine: &Machine) {
         _ => true,
     };
     let mut done = vec![false; machine.arrows.len()];
-    // Paths begin at states; what is left then begins at the other exits of guards.
+    // Paths begin at states first, then at the remaining exits of guards.
     for states in [true, false] {
         for start in 0..machine.arrows.len() {
             if done[start] || is_state(machine.arrows[start].from) != states {

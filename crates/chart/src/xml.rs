@@ -1,8 +1,8 @@
-//! XML as it is written: characters that have a meaning of their own, escaped.
+//! Escapes characters that have a meaning in XML.
 
 use std::fmt::{Display, Formatter, Result, Write};
 
-/// Text between tags, or in an attribute where no end of line is to stay one.
+/// Text between tags, or in an attribute where line ends need not be preserved.
 pub struct Text<'t>(pub &'t str);
 
 impl Display for Text<'_> {

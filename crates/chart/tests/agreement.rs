@@ -1,4 +1,4 @@
-//! Charts, what is built from them and what is extracted from that say the same; so do the library and its charts.
+//! Charts, the models built from them and the charts extracted from these agree; so do the library and its charts.
 
 use std::collections::BTreeSet;
 
@@ -24,7 +24,7 @@ fn checked(name: &str, text: &str) -> Checked {
     checked
 }
 
-/// The transitions of a chart by what its shapes are linked to; staying where the machine is counts as a target.
+/// The transitions of a chart, by the links of its shapes; staying in the control state counts as a target.
 fn meaning(chart: &Chart, rule: &str) -> BTreeSet<String> {
     let machine = chart.machines.iter().find(|machine| machine.rule.as_ref().is_some_and(|link| link.name == rule));
     let machine = machine.unwrap_or_else(|| panic!("no machine {rule} in {}", chart.name));
@@ -90,13 +90,13 @@ fn built_and_extracted_again() {
     let built = build(&chart, &known, Some(&specification)).expect("the library parses");
     assert_eq!(built.to_write, Vec::<String>::new());
     let model = checked("PatternMachines.asm", &built.text).model;
-    // What was built does what was there before, and the chart comes out of it again.
+    // The built model does what the original did, and the same chart is extracted from it.
     let extracted = extract(&model, None, None);
     assert_eq!(extracted.others, []);
     for rule in chart.machines.iter().filter_map(|machine| Some(machine.rule.as_ref()?.name.as_str())) {
         assert_eq!(meaning(&extracted.chart, rule), meaning(&chart, rule), "{rule}");
     }
-    // Its text reads back as itself.
+    // Its text reads back as the same chart.
     let again = crate::agreement::chart(&write(&extracted.chart));
     for machine in &extracted.chart.machines {
         let rule = &machine.rule.as_ref().expect("an extracted machine has a rule").name;

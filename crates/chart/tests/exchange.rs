@@ -1,4 +1,4 @@
-//! SCXML there and back: what our export writes is read back as the same machine; a change made in another tool is kept.
+//! SCXML round trip: our export reads back as the same machine; a change made in another tool is kept.
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own charts")]
 
@@ -16,7 +16,7 @@ fn chart(text: &str) -> Chart {
     chart
 }
 
-/// What a machine of a chart is and does, whatever the order of its shapes.
+/// The shapes and transitions of a chart's machine, independent of the order of shapes.
 fn lines(chart: &Chart, machine: &str) -> BTreeSet<String> {
     let mut alone = chart.clone();
     alone.imports.clear();
@@ -32,7 +32,7 @@ fn there_and_back(text: &str) {
         let document = scxml_of(&before, machine);
         let back = scxml(FileId(0), &document, "Back");
         assert_eq!(back.diagnostics, [], "{document}");
-        // The other patterns of the chart stand in files of their own then; here they are put beside it.
+        // The chart's other patterns are exported to files of their own; here they are put back beside the machine.
         let mut whole: String = back
             .text
             .expect("no errors")

@@ -1,5 +1,5 @@
-//! What is extracted is a chart without faults that agrees with its model, and with what is built of it; what is not drawn
-//! is told.
+//! An extracted chart has no faults and agrees with its model and with what is built from it; what cannot be extracted
+//! is reported.
 
 use chart::{Chart, Extracted, Known, build, dump, extract, probed, read, write};
 use expect_test::{Expect, expect};
@@ -18,7 +18,8 @@ fn checked(source: SourceFile, loader: &mut dyn Loader) -> Checked {
     checked
 }
 
-/// Extracts the machines of a model, and holds their chart to it in every way that there is; the chart as it is read back.
+/// Extracts the machines of a model and checks their chart in every available way; also returns the chart as it is read
+/// back.
 fn kept(source: &SourceFile, loader: &mut dyn Loader) -> (Extracted, Chart) {
     let model = checked(source.clone(), loader).model;
     let mut extracted = extract(&model, None, None);
@@ -32,7 +33,7 @@ fn kept(source: &SourceFile, loader: &mut dyn Loader) -> (Extracted, Chart) {
     let (chart, faults) = read(FileId(0), &parse_chart(FileId(0), &text));
     assert_eq!(errors(&faults), Vec::<&Diagnostic>::new(), "{text}");
     agrees(&chart, &source.name, &source.text, loader);
-    // What is built into the model does the same, and has the same chart.
+    // The model with the chart built into it does the same, and has the same chart.
     let beside = source.name.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/")) + "Imports.asm";
     let known = Known::imported(&chart, &beside, loader).unwrap_or_else(|unknown| panic!("{unknown:#?}"));
     let built = build(&chart, &known, Some(&source.text)).expect("the model has no faults");
@@ -62,7 +63,7 @@ fn every_model_of_this_repository() {
     assert!(machines > 20, "only {machines}");
 }
 
-/// The chart of a model's own rules, and what is told of the others.
+/// The chart of a model's own rules, and what is reported of the others.
 fn found(signature: &str, rules: &str, init: &str) -> String {
     let text = format!(
         "asm M\nimport StandardLibrary\nsignature:\n enum domain Mode = {{IDLE | BUSY | DONE}}\n controlled mode: Mode\n {signature}\n\
@@ -117,7 +118,7 @@ fn a_machine_that_unsets_its_control_location() {
           busy --[]/--> undefined
     "#]],
     );
-    // What enters it when it is undef, too, is a pattern.
+    // A machine that is also entered from undef is a pattern.
     let rule = "rule r_fetch = if isUndef(mode) then mode := BUSY elseif mode = BUSY then mode := undef endif";
     shows(
         "",

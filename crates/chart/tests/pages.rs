@@ -1,5 +1,5 @@
-//! The pages in spec/ say the truth: the charts of `charts.md` have no faults, what they are built to is what the page
-//! shows, passes `check`, and each fault has a page whose example shows it.
+//! The pages in spec/ are correct: the charts of `charts.md` have no faults, they are built to what the page shows,
+//! which passes `check`, and each fault has a page whose example shows it.
 
 use chart::{Chart, Known, build, probed, read};
 use model::check;
@@ -11,7 +11,7 @@ fn chart(text: &str) -> (Chart, Vec<Diagnostic>) {
     read(FileId(0), &parse_chart(FileId(0), text))
 }
 
-/// What the library of patterns declares.
+/// What the pattern library declares.
 fn patterns() -> Known {
     let (importing, _) = chart("chart C import patterns/ControlTask");
     Known::imported(&importing, "Imports.asm", &mut Patterns).expect("the library has no faults")
@@ -90,7 +90,7 @@ fn what_is_written_by_hand_stays() {
     assert!(rebuilt.contains("enum domain ArmState = {REACHING | WAITING}"), "{rebuilt}");
     assert!(rebuilt.contains("arm($c) := WAITING"), "{rebuilt}");
     assert_eq!(build(&changed, &Known::default(), Some(&rebuilt)).expect("no faults").text, rebuilt);
-    // An unchanged chart changes nothing.
+    // Building an unchanged chart changes nothing.
     changed = chart(code).0;
     assert_eq!(build(&changed, &Known::default(), Some(&text)).expect("no faults").text, text);
 }

@@ -1,4 +1,4 @@
-//! Building into a file that has been edited by hand loses nothing of it, whatever the chart did meanwhile.
+//! Building into a file that was edited by hand loses none of its contents, however the chart changed meanwhile.
 
 use chart::{Known, build, read};
 use syntax::{FileId, parse_chart};
@@ -6,7 +6,7 @@ use syntax::{FileId, parse_chart};
 const CHART: &str = "chart M machine m control phase initial state idle state busy guard ready action work action rest \
                      idle -> ready yes -> work -> busy busy -> rest -> idle endmachine";
 
-/// What a user wrote, each of which must be there afterwards.
+/// Texts written by a user, which must all be preserved.
 const BY_HAND: [&str; 7] = [
     "n := n + 1 // each time",
     "// my own rule",

@@ -1,4 +1,5 @@
-//! A system is held to its model: every change of a chart is told, in the words of the system, and what means the same is not.
+//! A system is compared with its model: every change of a chart is reported in the system's terms, and a text with the
+//! same meaning is not.
 
 use chart::{Known, build, probed};
 use model::check;
@@ -51,7 +52,7 @@ fn built(text: &str) -> String {
     build(&drawn, &known, None).expect("there was no file").text
 }
 
-/// What is told of a chart and a model.
+/// The reported differences of a chart and a model.
 fn differences(text: &str, model: &str) -> Vec<String> {
     let loaded = chart::load(SourceFile::new("Cell.chart", text), &mut Patterns);
     let probed = probed(&loaded.chart, model).expect("the model parses");
@@ -60,7 +61,7 @@ fn differences(text: &str, model: &str) -> Vec<String> {
     faults.iter().map(|fault| format!("{}: {}", fault.id, fault.message)).collect()
 }
 
-/// The chart with one text for another, held to the model of the chart as it was.
+/// Replaces a text of the chart, and compares the result with the model of the original chart.
 fn changed(from: &str, to: &str) -> Vec<String> {
     assert!(CELL.contains(from), "{from}");
     differences(&CELL.replacen(from, to, 1), &built(CELL))
@@ -155,7 +156,7 @@ fn what_is_left_out_or_added() {
 #[test]
 fn what_means_the_same_is_not_told() {
     let model = built(CELL);
-    // The cases turned round, the variable renamed, a comment, parentheses.
+    // Reordered cases, a renamed variable, a comment, parentheses.
     let drawn = "function task_period($t in Task) =\n\t\tswitch $t\n\t\t\tcase camera_task: 100";
     assert!(model.contains(drawn), "{model}");
     let same = model.replace("clock := clock + 1", "clock := /* on */ clock   + 1");
@@ -193,7 +194,7 @@ fn changes_of_the_model() {
         ("function sem_permits($s in Semaphore) = 1", "function sem_permits($s in Semaphore) = 2"),
         ("function sb_pending($b in SwingingBuffer) = false", "function sb_pending($b in SwingingBuffer) = true"),
     ] {
-        // Of each of the two buffers.
+        // One for each of the two buffers.
         assert_eq!(differences(CELL, &model.replacen(from, to, 1)).len(), 2, "{from}");
     }
 }

@@ -1,4 +1,4 @@
-//! What the imports of a chart declare, by name: links to these are kept, others are made.
+//! The names that a chart's imports declare: links to these are kept, other names are created.
 
 use std::collections::BTreeSet;
 
@@ -8,16 +8,16 @@ use syntax::{Diagnostic, Severity, SourceFile};
 use crate::chart::Chart;
 use crate::fault;
 
-/// The library of patterns, as a chart imports it that does not know where it is.
+/// The import path of the pattern library for a chart that does not import it by another path.
 const PATTERNS: &str = "patterns/ControlTask";
 
-/// What the patterns have to declare and the imports of a chart do not.
+/// The first declaration of the patterns that the chart's imports lack.
 pub(super) fn missing(known: &Known) -> Option<&'static str> {
     let domain = OWNED.into_iter().find(|domain| !known.domains.contains(*domain));
     domain.or_else(|| ["r_scheduler_execute", "r_sem_arbitrate"].into_iter().find(|rule| !known.rules.contains(*rule)))
 }
 
-/// Domains whose elements the chart alone decides.
+/// Domains whose elements the chart alone determines.
 pub(crate) const OWNED: [&str; 7] =
     ["Scheduler", "Task", "SwingingBuffer", "Semaphore", "SchedulePhase", "MessageQueue", "SharedValue"];
 
@@ -35,16 +35,16 @@ pub struct Known {
 /// Why the imports of a chart cannot be used.
 #[derive(Debug, Clone)]
 pub struct Unknown {
-    /// Faults of the imports themselves; the places are those of the chart.
+    /// Faults of the imports themselves; their places are in the chart.
     pub imports: Vec<Diagnostic>,
-    /// Faults within the imported modules; the places are those of `checked`.
+    /// Faults within the imported modules; their places are in `checked`.
     pub modules: Vec<Diagnostic>,
-    /// A module that imports what the chart does.
+    /// A module with the same imports as the chart.
     pub checked: Checked,
 }
 
 impl Known {
-    /// What the imports of a chart declare; `beside` names a file in the folder of the chart.
+    /// The names that a chart's imports declare; `beside` names a file in the chart's folder.
     ///
     /// # Errors
     /// The faults of the imports.
@@ -72,8 +72,8 @@ impl Known {
         Err(Box::new(Unknown { imports: placed.collect(), modules, checked }))
     }
 
-    /// As [`Known::imported`]; a system to which no import brings the patterns imports them itself where the loader finds
-    /// them, as if the chart said so.
+    /// Like [`Known::imported`]. If a system's imports lack the patterns and the loader finds them, their import is
+    /// added to the chart.
     ///
     /// # Errors
     /// The faults of the imports.
@@ -94,7 +94,7 @@ impl Known {
         }
     }
 
-    /// The names of a model, those of its imports included.
+    /// The names of a model, including those of its imports.
     pub fn of(model: &Model) -> Known {
         let mut known = Known::default();
         known.terms.extend(model.functions.iter().map(|function| function.name.clone()));

@@ -1,6 +1,7 @@
-//! A chart's parts into a file that is there: what the chart decides is replaced, what is missing is added, the rest stays.
+//! Merges a chart's parts into an existing file: replaces what the chart determines, adds what is missing, keeps the
+//! rest.
 //!
-//! In: the file's text, without errors. Out: the new text; every byte outside the replaced items is the old one.
+//! In: the file's text, without errors. Out: the new text; bytes outside the replaced items do not change.
 
 use std::collections::BTreeSet;
 
@@ -17,7 +18,7 @@ struct Edit {
     text: String,
 }
 
-/// The parts, merged into a text, and the names that the text declared before.
+/// Merges the parts into a text; also returns the names that the text declared before.
 pub(super) fn into(text: &str, chart: &Chart, parts: &Parts) -> Result<(String, Vec<String>), Vec<Diagnostic>> {
     let parse = syntax::parse_asmetal(FileId(0), text);
     if parse.diagnostics.iter().any(|fault| fault.severity == Severity::Error) {
@@ -64,7 +65,7 @@ fn section(root: &SyntaxNode, kind: SyntaxKind) -> Option<SyntaxNode> {
     root.children().find(|node| node.kind() == kind)
 }
 
-/// A chart that was extracted imports the model that it is built into again.
+/// If the model to build into is among the chart's imports, as after an extraction, it does not import itself.
 fn imports(root: &SyntaxNode, chart: &Chart, parts: &Parts, edits: &mut Vec<Edit>) {
     let there: Vec<SyntaxNode> = root.children().filter(|node| node.kind() == IMPORT).collect();
     let has = |path: &String| there.iter().any(|node| node.text().to_string().trim_end().ends_with(path.as_str()));
@@ -102,7 +103,7 @@ fn items(section: &SyntaxNode, wanted: &[Item], edits: &mut Vec<Edit>) {
     edits.push(Edit { start: at, end: at, text });
 }
 
-/// Elements of the system's domains that are no longer in the chart.
+/// Removes elements of the system's domains that are no longer in the chart.
 fn forgotten(signature: &SyntaxNode, parts: &Parts, edits: &mut Vec<Edit>) {
     for node in signature.children().filter(|node| node.kind() == FUNCTION_DECL) {
         let text = node.text().to_string();
@@ -116,7 +117,7 @@ fn forgotten(signature: &SyntaxNode, parts: &Parts, edits: &mut Vec<Edit>) {
     }
 }
 
-/// Without the comment above: the file has its own.
+/// The text without its leading comment: the file has its own.
 fn without_note(text: &str) -> &str {
     let mut rest = text;
     while let Some(("", behind)) = rest.split_once("//").map(|(before, behind)| (before.trim(), behind)) {

@@ -1,8 +1,8 @@
-//! Chart → AsmetaL: one readable rule a machine, in the shape of the paper's Listing 2.
+//! Builds AsmetaL from a chart: one readable rule per machine, in the form of the paper's Listing 2.
 //!
-//! In: a chart without errors, what its imports declare ([`Known`]), and the text of the file as it stands, if there is
-//! one. Out: the new text. What charts decide (the machines' rules, the control states) is written anew; every other
-//! declaration and definition that the file has stays as it is, and what is missing is added.
+//! In: a chart without errors, the names that its imports declare ([`Known`]), and the present text of the file, if
+//! any. Out: the new text. What charts determine (the machines' rules, the control states) is rewritten; every other
+//! declaration and definition in the file stays as it is, and what is missing is added.
 
 mod known;
 mod merge;
@@ -20,16 +20,16 @@ pub use system::{busy, late};
 use crate::chart::{Chart, Control, Machine, ShapeKind};
 use crate::fault;
 
-/// What is built.
+/// The result of building.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Built {
     /// The whole file.
     pub text: String,
-    /// Names of rules and functions that were made and are still to be written, in order.
+    /// Names of rules and functions that were created and are still to be written by hand, in order.
     pub to_write: Vec<String>,
 }
 
-/// What of a chart cannot be built; the places are those of the chart.
+/// The parts of a chart that cannot be built; the places are in the chart.
 pub fn unbuilt(chart: &Chart, known: &Known) -> Vec<syntax::Diagnostic> {
     if chart.machines.is_empty() && chart.system.is_none() {
         let file = chart.places.first().map_or(syntax::FileId(0), |place| place.file);
@@ -49,8 +49,8 @@ pub fn unbuilt(chart: &Chart, known: &Known) -> Vec<syntax::Diagnostic> {
     faults
 }
 
-/// Names that would be made of two things: an action's rule that is a machine's, a guard's function that is a control
-/// variable. What is linked names on purpose what there is.
+/// Reports a name that two things would create: an action's rule and a machine's, or a guard's function and a control
+/// variable. Links refer to existing names on purpose, so they do not count.
 fn twice(chart: &Chart, known: &Known) -> Vec<syntax::Diagnostic> {
     let mut faults = Vec::new();
     for machine in &chart.machines {
@@ -77,16 +77,16 @@ fn twice(chart: &Chart, known: &Known) -> Vec<syntax::Diagnostic> {
     faults
 }
 
-/// The text of a chart's system where there is no file yet, whatever the imports declare.
+/// The text that a chart's system is built to if there is no file yet, whatever the imports declare.
 pub(crate) fn fresh(chart: &Chart) -> String {
     let known = Known::default();
     chart.system.as_ref().map_or_else(String::new, |one| module::fresh(chart, &system::parts(chart, one, &known)))
 }
 
-/// Builds the specification of a chart of which nothing is [`unbuilt`].
+/// Builds the specification of a chart for which [`unbuilt`] is empty.
 ///
 /// # Errors
-/// The faults of `existing`, which is not touched then.
+/// The faults of `existing`; it is then left unchanged.
 pub fn build(chart: &Chart, known: &Known, existing: Option<&str>) -> Result<Built, Vec<syntax::Diagnostic>> {
     let parts = match &chart.system {
         Some(system) => system::parts(chart, system, known),

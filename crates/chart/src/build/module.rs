@@ -1,7 +1,7 @@
-//! What a chart's file consists of: the names that are made, the stubs of what is still to be written, the machines' rules.
+//! The contents of a chart's file: the created names, stubs of what is still to be written, the machines' rules.
 //!
-//! In: a chart, and the names that its imports have. Out: [`Parts`], and from these the text of a new file. A machine
-//! with a control variable of its own makes the file an `asm` that runs; a file of patterns alone is a `module`.
+//! In: a chart, and the names of its imports. Out: [`Parts`], and from these the text of a new file. If a machine has a
+//! control variable of its own, the file is an `asm` that runs; a file of patterns only is a `module`.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -12,33 +12,33 @@ use super::spelling::{applied, call, function_name, rule_name, state_value};
 use crate::chart::{Chart, Control, Machine, Shape, ShapeKind};
 use crate::flow::is_block;
 
-/// A declaration or definition by its name.
+/// A declaration or definition.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Item {
     /// The name it declares.
     pub(super) name: String,
     /// Its text.
     pub(super) text: String,
-    /// The chart alone decides it: it is written anew each time.
+    /// Whether the chart alone determines it, so that it is rewritten each time.
     pub(super) decided: bool,
 }
 
-/// What the file consists of.
+/// The parts of the file.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Parts {
     /// Imports.
     pub(super) imports: Vec<String>,
-    /// For the signature.
+    /// Declarations of the signature.
     pub(super) declarations: Vec<Item>,
-    /// For the definitions.
+    /// The definitions.
     pub(super) definitions: Vec<Item>,
-    /// The main rule and the initial state of a file that runs.
+    /// The main rule of a file that runs.
     pub(super) main: Option<String>,
-    /// See there.
+    /// The initial state of a file that runs.
     pub(super) init: Option<String>,
-    /// The chart decides the elements of some domains, the main rule and the initial state.
+    /// Whether the chart determines the elements of some domains, the main rule and the initial state.
     pub(super) owns: bool,
-    /// Names still to be written by hand.
+    /// Names that are still to be written by hand.
     pub(super) to_write: Vec<String>,
 }
 
@@ -79,7 +79,7 @@ fn add(items: &mut Vec<Item>, name: &str, text: String, decided: bool) -> bool {
     new
 }
 
-/// Domains of parameters that nothing declares: one element each, so that the file runs.
+/// Adds domains of parameters that nothing declares, with one element each, so that the file runs.
 fn domains(chart: &Chart, known: &Known, parts: &mut Parts) {
     for parameter in chart.machines.iter().flat_map(|machine| &machine.parameters) {
         let domain = &parameter.domain;
@@ -92,7 +92,7 @@ fn domains(chart: &Chart, known: &Known, parts: &mut Parts) {
     }
 }
 
-/// Control variables and the domains of their values.
+/// Adds control variables and the domains of their values.
 fn controls(chart: &Chart, known: &Known, parts: &mut Parts) {
     let mut made: BTreeMap<String, Vec<String>> = BTreeMap::new();
     let mut order: Vec<(&Machine, String)> = Vec::new();
@@ -136,7 +136,7 @@ fn capitalised(name: &str) -> String {
     letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }
 
-/// The domains of the arguments of an application whose arguments are parameters of the machine.
+/// The domains of the arguments of an application, if they are parameters of the machine.
 fn parameters_of(machine: &Machine, text: &str) -> Option<Vec<(String, String)>> {
     let Some((_, rest)) = text.split_once(['(', '[']) else { return Some(Vec::new()) };
     let inner = rest.trim_end().trim_end_matches([')', ']']).trim();
@@ -150,7 +150,8 @@ fn parameters_of(machine: &Machine, text: &str) -> Option<Vec<(String, String)>>
     inner.split(',').map(|argument| domain_of(argument.trim())).collect()
 }
 
-/// What a guard or an action stands for, if nothing declares it: a monitored function, a rule that does nothing yet.
+/// Adds what a guard or an action stands for if nothing declares it: a monitored function, or a rule that does nothing
+/// yet.
 fn stub(machine: &Machine, shape: &Shape, known: &Known, of_a_machine: bool, parts: &mut Parts) {
     let text = call(machine, shape);
     let is_application = shape.link.as_ref().is_none_or(|link| link.is_application);
@@ -227,7 +228,7 @@ fn initial_state(chart: &Chart, machines: &[&Machine]) -> String {
     text
 }
 
-/// A new file.
+/// The text of a new file.
 pub(super) fn fresh(chart: &Chart, parts: &Parts) -> String {
     let word = if parts.main.is_some() { "asm" } else { "module" };
     let decided = match chart.system {
@@ -255,7 +256,7 @@ pub(super) fn fresh(chart: &Chart, parts: &Parts) -> String {
     text
 }
 
-/// A path as an import takes it.
+/// A path as written in an import.
 pub(super) fn quoted(path: &str) -> String {
     if path.contains(' ') { format!("\"{path}\"") } else { path.to_string() }
 }

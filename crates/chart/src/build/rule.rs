@@ -1,7 +1,8 @@
-//! The rule of a machine: for each control state what its paths do, guards as nested `if`, actions in `par`.
+//! Builds the rule of a machine: for each control state what its paths do, with guards as nested `if` and actions in
+//! `par`.
 //!
-//! In: a machine without errors. Out: the text of its rule, not yet laid out. The shape is that of the paper's Listing 2:
-//! an `if` for the entering arrow, then one for each control state, all in parallel.
+//! In: a machine without errors. Out: the unformatted text of its rule. The form is that of the paper's Listing 2: an
+//! `if` for the entering arrow, then one for each control state, all in parallel.
 
 use std::fmt::Write;
 
@@ -9,7 +10,7 @@ use super::spelling::{call, control_location, rule_name, state_value, substitute
 use crate::chart::{Chart, End, Machine, ShapeId, ShapeKind};
 use crate::flow::{Origin, is_beside, is_block, origins};
 
-/// The rule of a machine under a name.
+/// The rule of a machine, with this name.
 pub(crate) fn machine_rule(chart: &Chart, machine: &Machine, name: &str) -> String {
     let parameters: Vec<String> =
         machine.parameters.iter().map(|parameter| format!("{} in {}", parameter.variable, parameter.domain)).collect();
@@ -31,12 +32,12 @@ pub(crate) fn machine_rule(chart: &Chart, machine: &Machine, name: &str) -> Stri
     format!("rule {name}{parameters} =\n{}\n", par(&rules))
 }
 
-/// What holds of control variables at an origin; none where there is none.
+/// The condition on control variables at an origin; `None` if there is none.
 pub(crate) fn origin_condition(chart: &Chart, machine: &Machine, origin: Origin) -> Option<String> {
     Writer { chart, machine }.condition(origin)
 }
 
-/// Rules in parallel; one alone stands for itself.
+/// Rules in parallel; a single rule stands alone.
 fn par(rules: &[String]) -> String {
     match rules {
         [] => "skip".to_string(),
@@ -51,7 +52,7 @@ struct Writer<'c> {
 }
 
 impl Writer<'_> {
-    /// What is done from one origin; nothing where no path starts.
+    /// What is done from one origin; `None` if no path starts there.
     fn origin(&self, origin: Origin) -> Option<String> {
         let machine = self.machine;
         let start = match origin {
@@ -76,7 +77,7 @@ impl Writer<'_> {
         }
     }
 
-    /// What holds of control variables at an origin; none where there is none.
+    /// The condition on control variables at an origin; `None` if there is none.
     fn condition(&self, origin: Origin) -> Option<String> {
         let control = control_location(self.machine)?;
         Some(match origin {
@@ -86,7 +87,7 @@ impl Writer<'_> {
         })
     }
 
-    /// In a block: its pattern goes on, or, when it has been left, the paths behind it start.
+    /// In a block its pattern continues; once it has been left, the paths after it start.
     fn block(&self, id: ShapeId, paths: &[String]) -> String {
         let note = self.machine.shape(id).text.replace('\n', " ");
         let (control, value) = (self.control(), self.value(id));
@@ -96,7 +97,7 @@ impl Writer<'_> {
         format!("// {note}\nif {control} = {value} then\nif isUndef({inner}) then\n{left}\nelse\n{call}\nendif\nendif")
     }
 
-    /// The control variable of an instance's pattern, with the arguments in the place of its parameters.
+    /// The control variable of an instance's pattern, with the arguments instead of its parameters.
     fn inner_control(&self, id: ShapeId) -> String {
         let shape = self.machine.shape(id);
         let (Some(pattern), ShapeKind::Instance(instance)) = (self.chart.pattern_of(shape), &shape.kind) else {
@@ -126,7 +127,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The rules of the way from an end to where the step ends; `chain` holds the actions on the way so far.
+    /// The rules of the paths from an end to the end of the step; `chain` contains the actions so far.
     fn from(&self, end: End, chain: &mut Vec<(ShapeId, String)>) -> Vec<String> {
         let last = |rule: String, chain: &[(ShapeId, String)]| {
             let mut rules = self.chained(chain);
@@ -186,7 +187,7 @@ impl Writer<'_> {
         Some(text)
     }
 
-    /// The actions of a way: in parallel, but for those that the chart puts in sequence.
+    /// The actions of a path: in parallel, except those that the chart puts in sequence.
     fn chained(&self, chain: &[(ShapeId, String)]) -> Vec<String> {
         let mut rules = Vec::new();
         let mut rest = chain;

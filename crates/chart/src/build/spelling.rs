@@ -1,4 +1,4 @@
-//! How the parts of a chart are written in AsmetaL: names of rules and functions, values of states, calls.
+//! Spells the parts of a chart in AsmetaL: names of rules and functions, values of states, calls.
 
 use crate::chart::{Chart, Control, Machine, Shape, ShapeId, ShapeKind};
 
@@ -10,8 +10,9 @@ pub(crate) fn rule_name(machine: &Machine) -> String {
     }
 }
 
-/// The value of the control variable in a state or block: the linked one, or one made of the shape's name. Literals are
-/// one name space, so a name that a machine with another control variable has as well gets the machine's before it.
+/// The value of the control variable in a state or block: the linked one, or one derived from the shape's name.
+/// Literals share one name space, so if a machine with another control variable has the same name, the machine's name
+/// is put before it.
 pub(crate) fn state_value(chart: &Chart, machine: &Machine, id: ShapeId) -> String {
     let shape = machine.shape(id);
     if let (Some(link), ShapeKind::State { .. }) = (&shape.link, &shape.kind) {
@@ -79,13 +80,13 @@ pub(crate) fn call(machine: &Machine, shape: &Shape) -> String {
     }
 }
 
-/// The name of a function made of a name.
+/// The name of a function, derived from another name.
 pub(crate) fn function_name(name: &str) -> String {
     let mut letters = name.chars();
     letters.next().map(|first| first.to_lowercase().chain(letters).collect()).unwrap_or_default()
 }
 
-/// A text with variables replaced, each whole.
+/// A text in which whole variables are replaced by values.
 pub(crate) fn substituted(text: &str, variables: &[&str], values: &[String]) -> String {
     let mut out = String::new();
     let mut rest = text;

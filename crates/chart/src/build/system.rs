@@ -1,8 +1,8 @@
-//! System → the whole ground model over the library of patterns: elements, configuration and initial state.
+//! Builds the whole ground model of a system over the pattern library: elements, configuration and initial state.
 //!
-//! In: a system without errors. Out: [`Parts`]. Each component is a scheduler with a task and its phases; a phase for
-//! waiting comes last. The patterns choose the reading and writing machine by kind and role; so kinds, masters, periods
-//! and times are data of the initial state. Elaborations are rules, written by hand and kept.
+//! In: a system without errors. Out: [`Parts`]. Each component is a scheduler with a task and its phases; a waiting
+//! phase comes last. The patterns select the reading and writing machines by kind and role. So kinds, masters, periods
+//! and times are data of the initial state. Elaborations are rules; they are written by hand and kept.
 
 use std::fmt::Write;
 
@@ -15,7 +15,7 @@ use crate::chart::Chart;
 use crate::fault;
 use crate::system::{Action, ChannelKind, Component, Phase, System, Timing};
 
-/// What of a system cannot be built.
+/// The parts of a system that cannot be built.
 pub(super) fn unbuilt(system: &System, known: &Known) -> Vec<Diagnostic> {
     match missing(known) {
         Some(missing) => vec![fault::no_patterns(system.span, missing)],
@@ -23,7 +23,7 @@ pub(super) fn unbuilt(system: &System, known: &Known) -> Vec<Diagnostic> {
     }
 }
 
-/// Deadlines for which there are no patterns.
+/// Deadlines that the patterns cannot express.
 pub fn late(system: &System) -> Vec<Diagnostic> {
     let late = system.components.iter().filter(|component| match component.timing {
         Timing::Synchronous { period, deadline, .. } => period < deadline,
@@ -104,7 +104,7 @@ fn lock(channel: &str) -> String {
     format!("{channel}_lock")
 }
 
-/// `switch $x case a: b … otherwise z`, or `z` where there is no case. The commonest value is the last one.
+/// `switch $x case a: b … otherwise z`, or `z` if there are no cases. The most frequent value becomes the last one.
 fn by_case(subject: &str, cases: &[(String, String)]) -> String {
     let count = |value: &str| cases.iter().filter(|(_, other)| other == value).count();
     let Some(rest) = cases.iter().map(|(_, value)| value).max_by_key(|value| (count(value), *value == "undef")) else {
@@ -163,7 +163,7 @@ fn tasks(system: &System, define: &mut impl FnMut(&str, &str)) {
     }
 }
 
-/// The ticks of a cycle without waiting: a slave's access takes one more than its time, a master's two.
+/// The ticks of a cycle without waiting: a slave's access takes one tick more than its time, a master's two.
 pub fn busy(system: &System, component: &Component) -> u64 {
     component.phases.iter().map(|phase| taken(system, component, phase)).sum()
 }
@@ -183,7 +183,7 @@ pub(crate) fn taken(system: &System, component: &Component, phase: &Phase) -> u6
 fn channels(system: &System, define: &mut impl FnMut(&str, &str)) {
     let buffers = || system.channels.iter().enumerate().filter(|(_, c)| matches!(c.kind, ChannelKind::Buffer { .. }));
     define("sem_permits($s in Semaphore)", "1");
-    // The shorter the period, the more urgent; asynchronous ones come last.
+    // A shorter period is more urgent; asynchronous tasks come last.
     let users = buffers().map(|(_, channel)| {
         let mut ends = [&system.components[channel.from], &system.components[channel.to]];
         ends.sort_by_key(|component| component.timing.period().unwrap_or(u64::MAX));
@@ -249,7 +249,7 @@ fn schedulers(system: &System, define: &mut impl FnMut(&str, &str)) {
     define("scheduler_actionStart($c in Scheduler)", "0");
 }
 
-/// What is configured of a phase.
+/// The configuration of a phase.
 #[derive(Default)]
 struct Row {
     name: String,
@@ -310,7 +310,7 @@ fn phases(system: &System, define: &mut impl FnMut(&str, &str)) {
     define("elaborationRule($p in SchedulePhase)", &by_case("$p", &column(&rule)));
 }
 
-/// Lets a phase use a channel; its action by the kind of that: a buffer, a queue, a value.
+/// Makes a phase use a channel; the channel's kind (buffer, queue, value) selects the action.
 fn use_channel(row: &mut Row, system: &System, channel: usize, actions: [&'static str; 3]) {
     let channel = &system.channels[channel];
     let name = Some(channel.name.clone());

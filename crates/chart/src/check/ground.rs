@@ -1,9 +1,9 @@
-//! The model of a system as tables: which elements there are, what each function is for each of them, and the few rules
-//! and invariants that every such model has.
+//! The model of a system as tables: its elements, the value of each function for each element, and the few rules and
+//! invariants that every such model has.
 //!
-//! In: the text of a model. Out: a [`Ground`]. Two texts with one meaning give equal tables: layout, comments, parentheses
-//! around values, names of variables, the order of cases and which value stands behind `otherwise` are not in them. What a
-//! function is in any other form than a value or a `switch` over its parameter is kept as a text.
+//! In: the text of a model. Out: a [`Ground`]. Texts with the same meaning have equal tables: layout, comments,
+//! parentheses around values, names of variables, the order of cases and the choice of the `otherwise` value do not
+//! matter. A function that is defined neither by a value nor by a `switch` over its parameter is kept as text.
 
 use std::collections::BTreeMap;
 
@@ -12,17 +12,17 @@ use syntax::{FileId, Span, SyntaxKind, SyntaxNode};
 
 use crate::build::OWNED;
 
-/// A text without its layout, and where it stands.
+/// A text without its layout, and its place.
 pub(super) type Placed = (String, Span);
 
 /// The tables of a model.
 #[derive(Debug, Default)]
 pub(super) struct Ground {
-    /// Elements of the patterns' domains, each with its domain.
+    /// The elements of the patterns' domains, with their domains.
     pub(super) elements: BTreeMap<String, Placed>,
     /// Initial values.
     pub(super) given: BTreeMap<String, Given>,
-    /// Rules and invariants by name, and, as `main rule` and `agent D`, the others.
+    /// Rules and invariants by name; the main rule and agents as `main rule` and `agent D`.
     pub(super) texts: BTreeMap<String, Placed>,
     /// Paths of imports.
     pub(super) imports: Vec<String>,
@@ -35,18 +35,18 @@ pub(super) struct Ground {
 pub(super) struct Given {
     /// The domains of its parameters.
     pub(super) domains: Vec<String>,
-    /// Its value for single elements.
+    /// Its values for single elements.
     cases: BTreeMap<String, Placed>,
-    /// Its value for all others; none: undef.
+    /// Its value for all other elements; `None` for undef.
     pub(super) otherwise: Option<Placed>,
-    /// It is a value, or a `switch` of values over its parameter.
+    /// Whether it is a value, or a `switch` of values over its parameter.
     pub(super) is_table: bool,
-    /// Where it is given.
+    /// The place of its definition.
     pub(super) span: Span,
 }
 
 impl Given {
-    /// The value for an element, and where it stands.
+    /// The value for an element, and its place.
     pub(super) fn at(&self, element: &str) -> (&str, Span) {
         let found = self.cases.get(element).or(self.otherwise.as_ref());
         found.map_or(("undef", self.span), |(text, span)| (text, *span))
@@ -54,7 +54,7 @@ impl Given {
 }
 
 impl Ground {
-    /// The tables of a text.
+    /// Reads the tables of a text.
     pub(super) fn read(file: FileId, text: &str) -> Ground {
         let mut ground = Ground::default();
         let Some(tree) = ast::SourceFile::cast(syntax::parse_asmetal(file, text).syntax()) else { return ground };
@@ -138,7 +138,7 @@ impl Reader {
                     let (Some(element), Some(value)) = (case.value(), case.term()) else { continue };
                     let value = unwrapped(value);
                     given.is_table &= is_value(&value);
-                    // The first case that fits is taken.
+                    // The first matching case counts.
                     let place = (normal(value.syntax()), self.span(value.syntax()));
                     given.cases.entry(normal_text(element.syntax())).or_insert(place);
                 }
@@ -157,7 +157,7 @@ impl Reader {
     }
 }
 
-/// Something that does not depend on the parameter.
+/// Whether a term does not depend on the parameter.
 fn is_value(term: &Term) -> bool {
     !matches!(term, Term::Switch(_) | Term::If(_) | Term::Let(_))
         && !term
@@ -177,13 +177,13 @@ fn unwrapped(mut term: Term) -> Term {
     term
 }
 
-/// The first name of an invariant.
+/// The name of an invariant.
 fn name_of(node: &SyntaxNode) -> Option<String> {
     let mut tokens = node.descendants_with_tokens().filter_map(|element| element.into_token());
     tokens.find(|token| token.kind() == SyntaxKind::INVARIANT_ID).map(|token| token.text().to_string())
 }
 
-/// A path of an import without what may be left out of it.
+/// An import's path without its optional parts.
 pub(super) fn plain(path: &str) -> String {
     path.replace('\\', "/").trim_start_matches("./").trim_end_matches(".asm").to_string()
 }
@@ -196,7 +196,7 @@ fn normal_text(node: &SyntaxNode) -> String {
     words.join(" ")
 }
 
-/// The text of a node without its layout, its variables numbered as they come.
+/// The text of a node without its layout, with variables numbered in order of appearance.
 fn normal(node: &SyntaxNode) -> String {
     let mut variables: Vec<String> = Vec::new();
     let mut words = Vec::new();

@@ -1,11 +1,11 @@
-//! Traceability: whether a chart and its specification say the same, transition by transition.
+//! Traceability: checks that a chart and its specification agree, transition by transition.
 //!
-//! In: a chart and the specification's text ([`probed`] puts the chart's own rules beside it, under names of their own),
-//! then what checking that text gave. Out: faults: links that lead nowhere or to the wrong kind, transitions and actions
-//! that only one side has, each with the place on both sides; and notes of what is still to be refined.
+//! In: a chart and the specification's text ([`probed`] adds the chart's own rules to it, under separate names), then
+//! the result of checking that text. Out: faults, each with the places on both sides: links that lead nowhere or to the
+//! wrong kind, transitions and actions that only one side has; notes on what is still to be refined.
 //!
-//! Both rules are executed symbolically for each value of the control variable; what they do under which tests is
-//! compared as propositional formulas over the tests, exactly. LIMIT: tests are told apart by their text.
+//! Both rules are executed symbolically for each value of the control variable. Their effects are compared exactly, as
+//! propositional formulas over the tests. LIMIT: tests with different texts count as different.
 
 mod ground;
 mod paths;
@@ -27,16 +27,16 @@ use crate::flow::{Origin, transitions};
 use crate::read::flat;
 use crate::symbolic::{Depth, Explorer, Guarded, Path, Reason, consistent};
 
-/// A specification with the chart's rules in it.
+/// A specification with the chart's rules added.
 #[derive(Debug, Clone)]
 pub struct Probed {
     /// The text.
     pub text: String,
-    /// Where the rule of each machine stands in it.
+    /// The range of each machine's rule in it.
     ranges: Vec<Range<usize>>,
 }
 
-/// Puts the chart's rules at the end of a specification's definitions, on one line, so that no line is moved.
+/// Adds the chart's rules to the end of a specification's definitions, on one line, so that line numbers do not change.
 ///
 /// # Errors
 /// The faults of the specification's syntax.
@@ -72,12 +72,12 @@ fn probe_name(index: usize) -> String {
     format!("r_chart_{index}_probe")
 }
 
-/// The errors of a model that was built from a chart, those of its links told at the chart; without one the model is as
-/// good as any.
+/// The errors of a model that was built from a chart; those of links are reported in the chart. Without errors, the
+/// model can be used.
 pub fn built_faults(chart: &Chart, probed: &Probed, checked: &Checked) -> Vec<Diagnostic> {
     let (of_links, others) = located(chart, probed, checked);
     let known: BTreeSet<&str> = of_links.iter().map(|(message, _)| message.as_str()).collect();
-    // The rule of a machine has the same fault where it is built and where it is probed.
+    // The rule of a machine has the same fault in the built model and in the probe.
     let others = others.into_iter().filter(|fault| !known.contains(fault.message.as_str()));
     let mut faults: Vec<Diagnostic> = others.collect();
     faults.extend(of_links.into_iter().map(|(_, fault)| fault));
@@ -86,7 +86,8 @@ pub fn built_faults(chart: &Chart, probed: &Probed, checked: &Checked) -> Vec<Di
     faults
 }
 
-/// The errors of a probed specification: those within a probe, told at its links with what they said, and the others.
+/// The errors of a probed specification: first those within a probe, moved to their links, with their former messages;
+/// then the others.
 fn located(chart: &Chart, probed: &Probed, checked: &Checked) -> (Vec<(String, Diagnostic)>, Vec<Diagnostic>) {
     let (mut of_links, mut others) = (Vec::new(), Vec::new());
     for diagnostic in checked.diagnostics.iter().filter(|found| found.severity == Severity::Error) {
@@ -104,7 +105,7 @@ fn located(chart: &Chart, probed: &Probed, checked: &Checked) -> (Vec<(String, D
     (of_links, others)
 }
 
-/// Compares a chart with its specification; `solver` decides of guards what cannot be gone through.
+/// Compares a chart with its specification; `solver` decides guards that cannot be enumerated.
 pub fn check(chart: &Chart, probed: &Probed, checked: &Checked, solver: &mut dyn Solver) -> Vec<Diagnostic> {
     let (of_links, mut faults) = located(chart, probed, checked);
     faults.extend(of_links.into_iter().map(|(_, fault)| fault));
@@ -125,7 +126,7 @@ pub fn check(chart: &Chart, probed: &Probed, checked: &Checked, solver: &mut dyn
     faults
 }
 
-/// A fault within a probe, told at the link that it comes from.
+/// A fault within a probe, moved to the link that causes it.
 fn broken(machine: &Machine, snippet: &str, diagnostic: &Diagnostic) -> Diagnostic {
     let shapes = machine.shapes.iter().map(|shape| {
         let text = match (&shape.kind, &shape.link) {
@@ -143,7 +144,7 @@ fn broken(machine: &Machine, snippet: &str, diagnostic: &Diagnostic) -> Diagnost
     };
     let all: Vec<(String, Span)> = shapes.chain(control).collect();
     let word = snippet.split(['(', '[', ' ']).next().unwrap_or(snippet);
-    // The whole of a link says more than a part of one.
+    // A match with a whole link is more specific than one with a part.
     let exact = all.iter().find(|(text, _)| text == snippet);
     let whole = exact.or_else(|| all.iter().find(|(text, _)| text.contains(snippet)));
     let place = whole.or_else(|| all.iter().find(|(text, _)| text.contains(word))).map_or(machine.span, |(_, at)| *at);
@@ -257,7 +258,7 @@ impl Side<'_> {
         }
     }
 
-    /// The end of the chart's transition in a case, if it is one alone.
+    /// The end of the chart's transition in a case, if there is exactly one.
     fn transition(&self, case: &Path) -> Option<Span> {
         let bare = |text: &str| text.replace(char::is_whitespace, "");
         let fits = |one: &&crate::flow::Transition| {

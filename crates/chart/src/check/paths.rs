@@ -1,9 +1,10 @@
-//! Paths from one control state against each other: two that hold together and lead to different places, and states in
+//! Compares the paths from each control state: finds two that hold together but lead to different places, and states in
 //! which none holds.
 //!
-//! In: a machine whose links resolve, its model, a solver. Out: faults with a state that shows the case, or that it is not
-//! known, and why. Each question is a condition written in AsmetaL over the guards of the paths, which is lowered as guards
-//! of rules are, and so means what the guards mean. A state with a single guard waits for it; no gap is told of that.
+//! In: a machine whose links resolve, its model, a solver. Out: faults with a state that shows the case, or the reason
+//! why the case is undecided. Each question is an AsmetaL condition over the guards of the paths. It is lowered like
+//! guards of rules, so it means what the guards mean. A state with a single guard waits for it; that is not reported as
+//! a gap.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -21,13 +22,13 @@ use crate::fault;
 use crate::flow::{Origin, Target, Transition, transitions};
 use crate::symbolic::Path;
 
-/// LIMIT: so many pairs of paths of one machine are compared.
+/// LIMIT: how many pairs of paths of one machine are compared.
 const MAX_PAIRS: usize = 2_000;
 
-/// What the guards of a chart are over.
+/// The model that a chart's guards refer to.
 pub(super) struct Guards {
     model: Model,
-    /// The model as the machine has it, with the questions so far; why there is none, as a clause.
+    /// The machine's program, with the questions so far; or a clause that says why there is none.
     program: Result<Arc<Program>, String>,
 }
 
@@ -135,7 +136,7 @@ impl Asker<'_> {
         if guards.len() < 2 || from.iter().any(|one| one.guards.is_empty()) {
             return;
         }
-        // That a guard has both exits is seen without knowing what it means.
+        // Paths that use both exits of their guards cover all cases, whatever the guards mean.
         let named = |one: &&Transition| -> Path {
             one.guards.iter().map(|(id, holds)| (call(self.machine, self.machine.shape(*id)), *holds)).collect()
         };
@@ -165,7 +166,7 @@ impl Asker<'_> {
         self.guards.ask(&text, self.solver)
     }
 
-    /// The guards of a path, as the steps test them.
+    /// The guards of a path, as a step evaluates them.
     fn condition(&self, path: &Transition) -> String {
         let tests = path.guards.iter().map(|(id, holds)| {
             let text = call(self.machine, self.machine.shape(*id));

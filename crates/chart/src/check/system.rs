@@ -1,11 +1,11 @@
-//! Whether a system and its model mean the same.
+//! Checks that a system and its model mean the same.
 //!
-//! In: a system, the text that it is built to, and its model's. Out: a fault for each difference, in the system's words, with
-//! both places. The two texts are compared as tables ([`Ground`]): for each element what each function is. What follows
-//! from a difference that is told (a budget from a phase's time, the order at a lock from a period) is not told again.
-//! INVARIANT: that nothing is told means that building would change neither an element, an initial value, the main rule, the
-//! program of the agents, nor the rule and the invariants that every system has. Elaborations are not looked at: they are
-//! written by hand.
+//! In: a system, the text that it is built to, and its model's text. Out: a fault for each difference, in the system's
+//! terms, with both places. The two texts are compared as tables ([`Ground`]): for each element the value of each
+//! function. A consequence of a reported difference (a budget of a phase's time, the order at a lock of a period) is
+//! not reported again. INVARIANT: if nothing is reported, building would change neither an element, an initial value,
+//! the main rule, the program of the agents, nor the rule and the invariants that every system has. Elaborations are
+//! not compared: they are written by hand.
 
 use std::collections::BTreeSet;
 
@@ -16,7 +16,7 @@ use crate::chart::Chart;
 use crate::fault;
 use crate::system::{Component, System};
 
-/// The differences of a chart's system and the model in a file.
+/// The differences between a chart's system and the model in a file.
 pub(super) fn compare(chart: &Chart, system: &System, file: FileId, text: &str) -> Vec<Diagnostic> {
     let built = Ground::read(FileId(u32::MAX), &crate::build::fresh(chart));
     let model = Ground::read(file, text);
@@ -33,11 +33,11 @@ struct Comparison<'c> {
     built: Ground,
     model: Ground,
     faults: Vec<Diagnostic>,
-    /// Differences that were found: a function or a domain, and the element.
+    /// The reported differences: a function or a domain, and the element.
     told: BTreeSet<(String, String)>,
 }
 
-/// Values from which others are computed come before these.
+/// Values that are computed from others, which are compared first.
 const DERIVED: [&str; 5] = ["indexRead", "nextPhase", "scheduler_currentPhase", "sem_users", "task_timeForElaboration"];
 
 impl Comparison<'_> {
@@ -45,7 +45,7 @@ impl Comparison<'_> {
         self.faults.push(fault::system_differs(place, message, model));
     }
 
-    /// Where a part of the model stands that is not there.
+    /// The place to report when a part of the model is missing.
     fn nowhere(&self) -> Option<(Span, &'static str)> {
         self.model.name.map(|name| (name, "the model"))
     }
@@ -66,7 +66,7 @@ impl Comparison<'_> {
                 Some((other, _)) if other == domain => {}
                 Some((other, span)) => {
                     self.told.insert(("element".to_string(), name.clone()));
-                    // The lock of a buffer comes and goes with it.
+                    // The lock of a buffer belongs to the buffer.
                     if domain != "Semaphore" {
                         let message =
                             format!("{who} is a {} in the chart, a {} in the model", bare(&domain), bare(&other));
@@ -101,7 +101,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// A task, a lock or a waiting of something that is told itself.
+    /// Whether an element is the task, lock or waiting phase of an element that is reported itself.
     fn comes_with_another(&self, name: &str) -> bool {
         let ends = ["_task", "_lock", "_wait"].iter().find_map(|end| name.strip_suffix(end));
         ends.is_some_and(|owner| {
@@ -176,7 +176,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// A function that has two values for one element.
+    /// Reports a function with two values for one element.
     fn row(&mut self, function: &str, element: &str, values: (&str, &str), model: Option<Span>) {
         if self.follows(function, element) {
             return;
@@ -203,7 +203,7 @@ impl Comparison<'_> {
         self.tell(place, message, model);
     }
 
-    /// The difference is nothing but what follows from one that is told.
+    /// Whether a difference is only a consequence of a reported one.
     fn follows(&self, function: &str, element: &str) -> bool {
         let told = |function: &str, element: &str| self.told.contains(&(function.to_string(), element.to_string()));
         let missing = |element: &str| told("element", element);
@@ -239,7 +239,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// When the first cycle of a task begins: its first period is put a period before that.
+    /// When the first cycle of a task begins: its initial period starts one period before that.
     fn offset(&self, ground: &Ground, task: &str) -> Option<i64> {
         let number = |function: &str| number(ground.given.get(function)?.at(task).0);
         Some(number("task_periodStart")? + number("task_period")?)
@@ -283,7 +283,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// The component of a phase, or of an element that is made of a component's name.
+    /// The component of a phase, or of an element that is named after a component.
     fn owner(&self, element: &str) -> Option<&Component> {
         let made = |component: &Component| {
             [component.name.clone(), format!("{}_task", component.name), format!("{}_wait", component.name)]
@@ -296,7 +296,7 @@ impl Comparison<'_> {
             .find(|component| made(component) || component.phases.iter().any(|phase| phase.name == element))
     }
 
-    /// What an element is in the chart, and where.
+    /// What an element is in the chart, and its place.
     fn who(&self, element: &str) -> (String, Span) {
         if let Some(component) = self.owner(element) {
             return match component.phases.iter().find(|phase| phase.name == element) {
@@ -316,7 +316,7 @@ impl Comparison<'_> {
         }
     }
 
-    /// A value in the system's words.
+    /// A value in the system's terms.
     fn shown(&self, function: &str, value: &str) -> String {
         let ticks = ["task_period", "task_deadline", "task_timeForElaboration", "task_periodStart", "time"];
         if value == "undef" {
@@ -353,7 +353,7 @@ impl Comparison<'_> {
     }
 }
 
-/// What a function tells, in the system's words.
+/// The meaning of a function in the system's terms.
 fn what(function: &str) -> String {
     match function {
         "task_period" => "the period",
@@ -376,7 +376,7 @@ fn what(function: &str) -> String {
     .to_string()
 }
 
-/// An element of a domain.
+/// The word for an element of a domain.
 fn bare(domain: &str) -> &'static str {
     match domain {
         "Scheduler" => "component",
@@ -390,16 +390,16 @@ fn bare(domain: &str) -> &'static str {
     }
 }
 
-/// A whole number, its sign apart from it or not.
+/// A whole number, with or without a space after its sign.
 fn number(text: &str) -> Option<i64> {
     text.replace(' ', "").parse().ok()
 }
 
-/// So many ticks, in the largest unit in which they are a short number.
+/// A number of ticks, in the largest unit that makes it a short number.
 pub(crate) fn length(ticks: i64, tick_ns: u64) -> String {
     let nanoseconds = i128::from(ticks) * i128::from(tick_ns);
     let units = [("s", 1_000_000_000_i128), ("ms", 1_000_000), ("us", 1_000), ("ns", 1)];
-    // Three places are enough for what somebody wrote; what needs more is shown in a smaller unit.
+    // Three decimals are enough for a time written by hand; otherwise a smaller unit is used.
     let unit = units.into_iter().find(|(_, size)| nanoseconds.abs() >= *size && nanoseconds * 1_000 % size == 0);
     let (name, size) = unit.unwrap_or(("ms", 1_000_000));
     let thousandths = nanoseconds * 1_000 / size;

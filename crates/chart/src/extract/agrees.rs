@@ -1,8 +1,8 @@
-//! Whether a machine that was extracted can be kept: its chart, as it is written, has no faults and does what the rule does.
+//! Decides whether an extracted machine can be kept: its written chart has no faults and does what the rule does.
 //!
-//! In: a machine, and the rule and location of which it was made. Out: the reason where it cannot. Its text is read back and
-//! built, and both rules are executed symbolically, as `chart check` does; so what one of them refuses is not written. It
-//! needs no file: the built rule is checked as a fragment of the model.
+//! In: a machine, and the rule and location that it was made from. Out: the reason if it cannot be kept. Its text is
+//! read back and built, and both rules are executed symbolically, as in `chart check`; so an extracted chart always
+//! passes that check. No file is needed: the built rule is checked as a fragment of the model.
 
 use model::{FunctionId, Model, Rule, RuleId, RuleKind};
 use syntax::ast::{self, AstNode};
@@ -17,7 +17,7 @@ use crate::symbolic::{Depth, Explorer, Guarded, Reason};
 /// Judges the machines of one model.
 pub(super) struct Judge<'m> {
     model: &'m Model,
-    /// The same, with the rule of a chart behind its own.
+    /// The model with the rule of a chart added.
     probed: Model,
 }
 
@@ -64,7 +64,7 @@ impl<'m> Judge<'m> {
         None
     }
 
-    /// The rule that is built of a machine, as a rule of the model; none where it has faults there.
+    /// The rule that is built from a machine, as a rule of the model; `None` if it has faults there.
     fn probe(&mut self, chart: &Chart, machine: &Machine) -> Option<RuleId> {
         let built = machine_rule(chart, machine, "r_probe");
         let (_, body) = built.split_once("=\n")?;

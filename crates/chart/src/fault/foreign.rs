@@ -4,14 +4,14 @@ use syntax::{Diagnostic, Span};
 
 const ID: &str = "foreign-notation";
 
-/// The text is no such document.
+/// The text is not a document of this kind.
 pub(crate) fn malformed(span: Span, message: &str) -> Diagnostic {
     Diagnostic::error(ID, span, format!("this is no SCXML: {message}"))
         .here("here reading ends")
         .with_help("a document of State Chart XML has the element `scxml` around its states")
 }
 
-/// Something that charts have nothing for, and that cannot be left out.
+/// Charts cannot express this, and it cannot be left out.
 pub(crate) fn no_counterpart(span: Span, what: &str, help: &str) -> Diagnostic {
     Diagnostic::error(ID, span, format!("charts have nothing for {what}"))
         .here("left out, the chart would mean something else")
@@ -25,14 +25,14 @@ pub(crate) fn left_out(span: Span, what: &str, help: &str) -> Diagnostic {
         .with_help(help.to_string())
 }
 
-/// Something in another language than AsmetaL, which is kept as the text of a shape.
+/// Something in a language other than AsmetaL, which is kept as the text of a shape.
 pub(crate) fn kept_as_text(span: Span, what: &str, name: &str) -> Diagnostic {
     Diagnostic::warning(ID, span, format!("{what} becomes `{name}`, which is to be refined"))
         .here("it is not AsmetaL")
         .with_help(format!("write `{name}` in the specification, or link the shape to what it stands for"))
 }
 
-/// A second state of an id.
+/// A second state with the same id.
 pub(crate) fn second_state(span: Span, id: &str, first: Span) -> Diagnostic {
     Diagnostic::error(ID, span, format!("a second state with the id `{id}`"))
         .here("transitions could not tell the two apart")
@@ -40,14 +40,14 @@ pub(crate) fn second_state(span: Span, id: &str, first: Span) -> Diagnostic {
         .with_help("give each state an id of its own")
 }
 
-/// A transition to a state that there is not.
+/// A transition to a state that does not exist.
 pub(crate) fn unknown_target(span: Span, id: &str) -> Diagnostic {
     Diagnostic::error(ID, span, format!("there is no state `{id}`"))
         .here("a transition leads there")
         .with_help("correct the target; in a `parallel`, states of other regions cannot be targets")
 }
 
-/// A state that begins in one which does not lie within it.
+/// A state whose initial state does not lie within it.
 pub(crate) fn begins_outside(span: Span, id: &str) -> Diagnostic {
     Diagnostic::error(ID, span, format!("`{id}`, where this state begins, does not lie within it"))
         .here("to enter the state would never end, or lead elsewhere")

@@ -11,7 +11,7 @@ pub(crate) fn not_found(span: Span, path: &str, reason: &str) -> Diagnostic {
         .with_help("paths of imports start at the folder of the file they stand in")
 }
 
-/// A chart that leads back to itself.
+/// A chart that imports itself, directly or through others.
 pub(crate) fn circular(span: Span, circle: &[&str]) -> Diagnostic {
     Diagnostic::error(ID, span, format!("the charts import each other: {}", circle.join(" → ")))
         .here("this import closes the circle")
@@ -25,7 +25,7 @@ pub(crate) fn twice(span: Span, path: &str) -> Diagnostic {
         .with_help("remove one of the imports")
 }
 
-/// Two patterns of one name, from two charts.
+/// Two patterns with the same name, from two charts.
 pub(crate) fn ambiguous(span: Span, name: &str, second: Span, first: Span) -> Diagnostic {
     Diagnostic::error(ID, span, format!("two imported patterns are called `{name}`"))
         .here("an instance could not tell the two apart")
@@ -34,7 +34,7 @@ pub(crate) fn ambiguous(span: Span, name: &str, second: Span, first: Span) -> Di
         .with_help("rename one of them, or import only one of the charts")
 }
 
-/// A module that the chart imports is at fault.
+/// A module that the chart imports has faults.
 pub(crate) fn no_model(span: Span, found: &Diagnostic, chart: Option<&str>) -> Diagnostic {
     let fault =
         Diagnostic::error(ID, span, found.message.clone()).here("the links of the chart may name what it declares");

@@ -1,4 +1,4 @@
-//! The faults of charts: one constructor each, so that all texts are seen together.
+//! The faults of charts: one constructor each, so that all texts can be read together.
 //!
 //! In: the place, and what is there. Out: a diagnostic whose id is one of [`IDS`] and has a page `spec/faults/<id>.md`.
 
@@ -40,7 +40,7 @@ pub const IDS: &[&str] = &[
     "unreachable-shape",
 ];
 
-/// A way over guards and actions that comes back to itself.
+/// A path over guards and actions that returns to itself.
 pub(crate) fn circular_path(span: Span, name: &str) -> Diagnostic {
     Diagnostic::error("circular-path", span, format!("the path comes back to `{name}` without a control state"))
         .here("all guards and actions of a path fire in one step, so this step would never end")
@@ -54,7 +54,7 @@ pub(crate) fn contains_itself(span: Span, over: &[String]) -> Diagnostic {
         .with_help("lead a path back to a control state instead")
 }
 
-/// No control variable, or two.
+/// No control variable.
 pub(crate) fn no_control(span: Span, machine: &str) -> Diagnostic {
     Diagnostic::error("control-variable", span, format!("`{machine}` has control states and no control variable"))
         .here("the control states are the values of a variable")
@@ -69,14 +69,14 @@ pub(crate) fn second_control(span: Span, first: Span) -> Diagnostic {
         .with_help("remove one, or split the machine in two")
 }
 
-/// A shape from which nothing goes on.
+/// A shape from which no path leads on.
 pub(crate) fn dead_end(span: Span, kind: &str, name: &str) -> Diagnostic {
     Diagnostic::error("dead-end", span, format!("no arrow leads on from the {kind} `{name}`"))
         .here("a path ends at a control state or, in a pattern, at `exit`")
         .with_help(format!("write a path `{name} -> …` on to a control state"))
 }
 
-/// Two things of one name.
+/// Two things with the same name.
 pub(crate) fn duplicate(span: Span, what: &str, name: &str, first: Span) -> Diagnostic {
     Diagnostic::error("duplicate-shape", span, format!("a second {what} `{name}`"))
         .here("paths and layouts could not tell the two apart")
@@ -84,7 +84,7 @@ pub(crate) fn duplicate(span: Span, what: &str, name: &str, first: Span) -> Diag
         .with_help("rename one of them")
 }
 
-/// Two ways on from an action.
+/// Two arrows that leave an action.
 pub(crate) fn forked_path(span: Span, kind: &str, name: &str, first: Span) -> Diagnostic {
     Diagnostic::error("forked-path", span, format!("a second arrow out of the {kind} `{name}`"))
         .here("a path goes on in one way; only control states start several")
@@ -99,14 +99,14 @@ pub(crate) fn bare_guard(span: Span, name: &str) -> Diagnostic {
         .with_help(format!("write `{name} yes -> …` or `{name} no -> …`"))
 }
 
-/// `yes` or `no` behind something else than a guard.
+/// `yes` or `no` after something that is not a guard.
 pub(crate) fn needless_exit(span: Span, name: &str) -> Diagnostic {
     Diagnostic::error("guard-exit", span, format!("`{name}` is no guard"))
         .here("only guards have the exits yes and no")
         .with_help("remove `yes` or `no`, or declare the shape as a guard")
 }
 
-/// None or several initial states.
+/// No initial state.
 pub(crate) fn no_initial(span: Span, machine: &str) -> Diagnostic {
     Diagnostic::error("initial-state", span, format!("`{machine}` has no initial state"))
         .here("a machine starts in one of its control states")
@@ -143,7 +143,7 @@ pub(crate) fn same_value(span: Span, value: &str, first: Span) -> Diagnostic {
         .with_help("link each control state to a value of its own")
 }
 
-/// `enter` or `exit` where they cannot stand.
+/// `enter` or `exit` in a wrong position.
 pub(crate) fn misplaced_exit(span: Span, word: &str, reason: &str) -> Diagnostic {
     Diagnostic::error("misplaced-exit", span, format!("`{word}` cannot stand here"))
         .here(reason)
@@ -169,24 +169,24 @@ pub(crate) fn unreachable(span: Span, kind: &str, name: &str) -> Diagnostic {
         .with_help("lead a path to it, or remove it")
 }
 
-/// A link that leads nowhere, or to something of another kind.
+/// A link that leads nowhere, or to something of the wrong kind.
 pub(crate) fn broken_link(span: Span, message: &str, help: Option<&str>) -> Diagnostic {
     let fault = Diagnostic::error("broken-link", span, format!("a link is broken: {message}"))
         .here("the specification is asked for this");
     fault.with_help(help.unwrap_or("correct the link, or write what it names"))
 }
 
-/// Where the two sides of a difference stand.
+/// The places of both sides of a difference.
 pub(crate) struct Sides {
     /// The control state in the chart.
     pub(crate) state: Span,
-    /// Where the chart's transition of this case ends.
+    /// The end of the chart's transition in this case.
     pub(crate) transition: Option<Span>,
     /// The place in the rule, and what it is.
     pub(crate) rule: (Span, &'static str),
 }
 
-/// A case in which the chart and the rule do not do the same.
+/// A case in which the chart and the rule differ.
 pub(crate) fn chart_differs(
     sides: Sides,
     origin: &str,
@@ -213,7 +213,7 @@ pub(crate) fn chart_differs(
         .with_help("change the chart or the rule; `groundstate chart build` writes the rule as the chart says")
 }
 
-/// A system and its model that do not mean the same: where in the chart, what, and where in the model.
+/// A difference between a system and its model: the place in the chart, the message, the place in the model.
 pub(crate) fn system_differs(place: Span, message: String, model: Option<(Span, &str)>) -> Diagnostic {
     let fault = Diagnostic::error("system-differs", place, message).here("the chart's");
     let fault = match model {
@@ -223,14 +223,14 @@ pub(crate) fn system_differs(place: Span, message: String, model: Option<(Span, 
     fault.with_help("change the chart or the model; `groundstate chart build` writes the model as the chart says")
 }
 
-/// A chart of which nothing can be built.
+/// A chart from which nothing can be built.
 pub(crate) fn empty_chart(span: Span) -> Diagnostic {
     Diagnostic::error("empty-chart", span, "the chart has no machine and no system: there is nothing to build")
         .here("a model is built from these")
         .with_help("write a `machine`, a `pattern` or a `system`")
 }
 
-/// A system whose imports do not bring the patterns that it is built of.
+/// A system whose imports lack the patterns that it is built from.
 pub(crate) fn no_patterns(span: Span, missing: &str) -> Diagnostic {
     Diagnostic::error(
         "chart-import",
@@ -241,7 +241,7 @@ pub(crate) fn no_patterns(span: Span, missing: &str) -> Diagnostic {
     .with_help("import it: `import …/library/patterns/ControlTask`, as a path from the chart's folder")
 }
 
-/// Two parts of a chart of which one name is made.
+/// Two parts of a chart that would create the same name.
 pub(crate) fn made_twice(span: Span, what: &str, name: &str, first: Span) -> Diagnostic {
     Diagnostic::error("made-name", span, format!("a second {what} `{name}` would be made"))
         .here("of this name")
@@ -249,7 +249,7 @@ pub(crate) fn made_twice(span: Span, what: &str, name: &str, first: Span) -> Dia
         .with_help(format!("rename one of them, or link it to what it stands for: `{{…}}` instead of `{name}`"))
 }
 
-/// A cycle that cannot be done in time, with what it consists of.
+/// A cycle that takes too long, with its parts.
 pub(crate) fn long_cycle(span: Span, name: &str, sum: &str, until: &str) -> Diagnostic {
     Diagnostic::warning("long-cycle", span, format!("every cycle of `{name}` misses {until}: it takes {sum}"))
         .here("the phases take longer than there is time")
@@ -274,14 +274,14 @@ pub(crate) fn to_refine(span: Span, name: &str, by: Option<&str>) -> Diagnostic 
     Diagnostic { severity: syntax::Severity::Note, ..fault }.here("drawn dashed")
 }
 
-/// A channel that is not used as its ends say.
+/// A channel that is not used as its ends require.
 pub(crate) fn channel_ends(span: Span, name: &str, reason: &str) -> Diagnostic {
     Diagnostic::error("channel-ends", span, format!("the channel `{name}` does not fit: {reason}"))
         .here("its sender writes it once a cycle, its receiver reads it once")
         .with_help("correct the channel, or the phases of its two ends")
 }
 
-/// A buffer whose master cannot be told.
+/// A buffer whose master cannot be determined.
 pub(crate) fn channel_master(span: Span, name: &str) -> Diagnostic {
     Diagnostic::error("channel-master", span, format!("the master of the buffer `{name}` must be said"))
         .here("it is the slower of two synchronous components, or the asynchronous one of a mixed pair")
@@ -295,35 +295,35 @@ pub(crate) fn unknown_unit(span: Span, unit: &str) -> Diagnostic {
         .with_help("write `ns`, `us`, `ms` or `s`")
 }
 
-/// A length that is no whole number of ticks.
+/// A time that is no whole number of ticks.
 pub(crate) fn no_whole_ticks(span: Span) -> Diagnostic {
     Diagnostic::error("time-unit", span, "this is no whole number of ticks")
         .here("the model goes on by one tick a step")
         .with_help("write another length, or a shorter `tick`")
 }
 
-/// A part of a system that is not built.
+/// A part of a system that cannot be built.
 pub(crate) fn not_built(span: Span, what: &str) -> Diagnostic {
     Diagnostic::error("not-built", span, format!("{what} cannot be built"))
         .here("the next cycle begins at the end of the period, and would have to wait")
         .with_help("let the deadline be the period, or make the period longer")
 }
 
-/// A name of the chart from which no name of a function can be made.
+/// A name in the chart from which no function name can be derived.
 pub(crate) fn made_name(span: Span, name: &str) -> Diagnostic {
     Diagnostic::error("made-name", span, format!("`{name}` cannot be the name of a function"))
         .here("a function of this name is made in the specification")
         .with_help("choose a name that starts with a small letter and is no keyword, or link it")
 }
 
-/// A control variable to be made that an import has already.
+/// A control variable to be created that an import already declares.
 pub(crate) fn made_already(span: Span, name: &str) -> Diagnostic {
     Diagnostic::error("made-name", span, format!("an import declares `{name}` already"))
         .here("a control variable of this name is made in the specification")
         .with_help(format!("choose another name, or link it: `control {{{name}}}`"))
 }
 
-/// Two paths from one control state that hold together and lead to different places.
+/// Two paths from one control state that hold together but lead to different places.
 pub(crate) fn overlapping_paths(first: (Span, &str), second: (Span, &str), from: &str, state: &[String]) -> Diagnostic {
     let (first, one) = first;
     let (second, other) = second;
@@ -334,13 +334,13 @@ pub(crate) fn overlapping_paths(first: (Span, &str), second: (Span, &str), from:
         .with_help("lead the second path through the `no` of the first one's guard, or make sure that both never hold")
 }
 
-/// A state in which a machine stays where it is, although it has a choice of guards.
+/// A state in which no path of a machine can be taken, although it has several guards.
 pub(crate) fn uncovered_case(span: Span, from: &str, state: &[String]) -> Diagnostic {
     let message = format!("from `{from}`, no path is open: {}", listed(state));
     note(Diagnostic::error("uncovered-case", span, message).here("the machine waits here"))
 }
 
-/// Something about paths that cannot be told.
+/// A question about paths that cannot be decided.
 pub(crate) fn undecided_paths(span: Span, from: &str, what: &str, reason: &str) -> Diagnostic {
     let message = format!("from `{from}`, it is not known whether the paths {what}: {reason}");
     note(Diagnostic::error("undecided-paths", span, message).here("the paths from here"))

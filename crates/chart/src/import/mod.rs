@@ -1,7 +1,7 @@
-//! Charts from the notations of other tools: SCXML.
+//! Imports charts from the notations of other tools: SCXML.
 //!
-//! In: a text. Out: the text of a chart, and what of the other notation has no counterpart, each with its place. INVARIANT:
-//! nothing is left out without a word; with an error there is no chart.
+//! In: a text. Out: the text of a chart, and everything in the other notation that has no counterpart, with its place.
+//! INVARIANT: nothing is left out silently; if there is an error, there is no chart.
 
 mod names;
 mod scxml;
@@ -11,11 +11,11 @@ pub use scxml::scxml;
 
 use syntax::Diagnostic;
 
-/// What an import gives.
+/// The result of an import.
 #[derive(Debug, Clone)]
 pub struct Imported {
-    /// The text of the chart; none where there is an error.
+    /// The text of the chart; `None` if there is an error.
     pub text: Option<String>,
-    /// What could not be taken over, and faults.
+    /// What could not be imported, and faults.
     pub diagnostics: Vec<Diagnostic>,
 }

@@ -1,4 +1,4 @@
-//! Names of shapes made of names and texts from elsewhere.
+//! Derives names of shapes from foreign names and texts.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// A name made of a text, that nothing has yet; letters of both sizes count as one, as literals are made of names.
+    /// An unused name derived from a text. Case does not distinguish names, since literals are derived from them.
     pub(super) fn fresh(&mut self, text: &str) -> String {
         let base = bare(text);
         let mut name = base.clone();
@@ -28,7 +28,7 @@ fn key(name: &str) -> String {
     name.replace('_', "").to_lowercase()
 }
 
-/// The letters, digits and underscores of a text, words joined; it begins with a letter.
+/// The letters, digits and underscores of a text, with words joined; it begins with a letter.
 pub(super) fn bare(text: &str) -> String {
     let mut out = String::new();
     let mut gap = false;
@@ -46,7 +46,7 @@ pub(super) fn bare(text: &str) -> String {
     if starts { out } else { format!("x{out}") }
 }
 
-/// A name that a function can have: it begins with a small letter.
+/// A name that a function can have: it begins with a lower-case letter.
 pub(super) fn function(text: &str) -> String {
     let name = bare(text);
     let mut letters = name.chars();

@@ -1,10 +1,11 @@
-//! SCXML → chart: states that lie in each other are made flat, transitions become paths, tried in their order.
+//! Reads SCXML as a chart: nested states become flat, transitions become paths that are tried in order.
 //!
-//! In: an SCXML document of the W3C's, <https://www.w3.org/TR/scxml/>, as tools write it. Out: the text of a chart. The first
-//! transition that is enabled is taken, those of inner states before those of outer ones: so each is led through the `no`
-//! of those before it. An event is a guard, true when it comes; a condition in AsmetaL is one too. What stands in another
-//! language becomes the text of a shape that is to be refined. On a transition is done, in sequence, what leaving, the
-//! transition and entering say. What our own export wrote is read back shape by shape. SYNC(scxml): `export.rs`.
+//! In: an SCXML document as defined by the W3C, <https://www.w3.org/TR/scxml/>, and as tools write it. Out: the text of
+//! a chart. SCXML takes the first enabled transition, those of inner states before those of outer ones; so each path
+//! leads through the `no` exits of those before it. An event becomes a guard that is true when the event comes; a
+//! condition in AsmetaL becomes a guard, too. Text in another language becomes the text of a shape to be refined. A
+//! transition executes, in sequence, the exit actions, its own actions and the entry actions. What our own export wrote
+//! is read back shape by shape. SYNC(scxml): `export.rs`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -19,7 +20,7 @@ use crate::export::{NAMESPACE, condition, script};
 use crate::fault::foreign as fault;
 use crate::read::spoken;
 
-/// Reads an SCXML document; `name` is the chart's, `file` names the text in faults.
+/// Reads an SCXML document; `name` is the chart's name, `file` identifies the text in faults.
 pub fn scxml(file: FileId, text: &str, name: &str) -> Imported {
     if let Some(at) = crowded_tag(text) {
         let span = Span { file, start: at, end: at };
@@ -62,16 +63,16 @@ pub fn scxml(file: FileId, text: &str, name: &str) -> Imported {
     Imported { text: sound.then(|| syntax::format(&parse)), diagnostics: faults }
 }
 
-/// LIMIT: attributes of one element. The reader of XML compares each with each.
+/// LIMIT: attributes of one element. The XML reader compares every pair of them.
 const MAX_ATTRIBUTES: usize = 1000;
 
-/// Where the first tag is that has more attributes than that.
+/// The place of the first tag with more attributes than that.
 fn crowded_tag(text: &str) -> Option<u32> {
     let mut rest = text;
     while let Some(start) = rest.find('<') {
         rest = &rest[start..];
         let tag = (text.len() - rest.len()) as u32;
-        // What stands in these is no attribute.
+        // Text in these contains no attributes.
         let other = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>")];
         if let Some((open, close)) = other.iter().find(|(open, _)| rest.starts_with(open)) {
             let end = rest[open.len()..].find(close)?;
@@ -107,17 +108,17 @@ struct Reader<'d, 'f> {
     document: Node<'d, 'd>,
     root: Node<'d, 'd>,
     states: States<'d>,
-    /// Conditions and scripts are AsmetaL.
+    /// Whether conditions and scripts are AsmetaL.
     asmetal: bool,
     names: Names,
-    /// The names of flat states in the chart.
+    /// The names of the flat states in the chart.
     called: BTreeMap<usize, String>,
     shapes: String,
     sequences: String,
     paths: String,
-    /// Functions and rules for what is written in another language.
+    /// Functions and rules for texts in another language.
     foreign: BTreeMap<(&'static str, String), String>,
-    /// Charts of patterns that are invoked.
+    /// Charts of the invoked patterns.
     imports: BTreeSet<String>,
     faults: &'f mut Vec<Diagnostic>,
 }
@@ -125,9 +126,9 @@ struct Reader<'d, 'f> {
 /// A guard or action of our own export.
 struct Own {
     is_guard: bool,
-    /// Its declaration; it is of use where a path leads over it.
+    /// Its declaration, which is used if a path contains the shape.
     declaration: String,
-    /// What it stands for.
+    /// The text that it stands for.
     text: String,
 }
 
@@ -194,7 +195,8 @@ impl<'d, 'f> Reader<'d, 'f> {
             let name = self.names.fresh(&name);
             let before = self.shapes.len();
             self.shape(word, &name, &plain);
-            // An instance beside the paths is one that no path leads over.
+            // An instance is declared at once, since it may stand beside all paths; other shapes only if a path
+            // contains them.
             let declaration = if word == "instance" { String::new() } else { self.shapes.split_off(before) };
             let made = if word == "guard" { function(&name) } else { format!("r_{name}[]") };
             let parameters = self.document.attribute((NAMESPACE, "parameters")).unwrap_or_default();
@@ -210,7 +212,7 @@ impl<'d, 'f> Reader<'d, 'f> {
         found
     }
 
-    /// Declares a shape with what is said about it.
+    /// Declares a shape with its attributes.
     fn shape(&mut self, word: &str, name: &str, about: &dyn Fn(&str) -> Option<String>) {
         let _ = write!(self.shapes, "{word} {name}");
         if let Some(of) = about("of") {
@@ -228,7 +230,7 @@ impl<'d, 'f> Reader<'d, 'f> {
         self.shapes.push('\n');
     }
 
-    /// Elements that have no counterpart.
+    /// Reports elements that have no counterpart.
     fn unused(&mut self, node: Node<'d, 'd>) {
         for child in node.children().filter(|child| child.is_element() && is_scxml(*child)) {
             let at = place(self.file, child);
@@ -259,7 +261,7 @@ impl<'d, 'f> Reader<'d, 'f> {
         }
     }
 
-    /// The flat state in which a state, or the whole machine, begins.
+    /// The flat initial state of a state, or of the whole machine.
     fn initial(&mut self, node: Node<'d, 'd>, parent: Option<usize>) -> Option<usize> {
         let element = node.children().find(|child| is(*child, "initial"));
         let transition = element.and_then(|element| element.children().find(|child| is(*child, "transition")));
@@ -278,7 +280,7 @@ impl<'d, 'f> Reader<'d, 'f> {
         self.leaf(first)
     }
 
-    /// The flat state in which one is when it is entered.
+    /// The flat state that is reached by entering a state.
     fn leaf(&mut self, state: usize) -> Option<usize> {
         let mut state = state;
         for _ in 0..self.states.all.len() {
@@ -336,7 +338,7 @@ impl<'d, 'f> Reader<'d, 'f> {
         }
     }
 
-    /// The paths of a flat state: its own transitions, then those of the states around it.
+    /// The paths of a flat state: its own transitions, then those of the enclosing states.
     fn transitions(&mut self, state: usize, is_pattern: bool, declared: &BTreeMap<String, Own>) {
         let from = self.stop(state, is_pattern);
         let mut before = vec![from.clone()];
@@ -354,7 +356,7 @@ impl<'d, 'f> Reader<'d, 'f> {
                     continue;
                 }
                 let Some((rest, target)) = self.rest(transition, state, owner, is_pattern) else { continue };
-                // What fails on the way leads on to the next transition.
+                // When a guard fails, the path continues with the next transition.
                 let mut next = Vec::new();
                 for guard in self.events(transition) {
                     self.lead(&mut before, &guard);
@@ -379,7 +381,7 @@ impl<'d, 'f> Reader<'d, 'f> {
         }
     }
 
-    /// A transition of our own export, as it was; not if it has been changed since.
+    /// Restores a transition of our own export, unless it has been changed since.
     fn own(
         &mut self,
         transition: Node<'d, 'd>,
@@ -388,7 +390,7 @@ impl<'d, 'f> Reader<'d, 'f> {
         declared: &BTreeMap<String, Own>,
     ) -> bool {
         let Some(path) = transition.attribute((NAMESPACE, "path")) else {
-            // A path without guards and actions has none.
+            // A path without guards and actions has no attribute `path`.
             let bare = transition.attribute("cond").is_none() && !transition.children().any(|child| child.is_element());
             let event = transition.attribute("event").is_none_or(|event| event.starts_with("done.invoke."));
             let ours = self.document.attribute((NAMESPACE, "kind")).is_some();
@@ -431,14 +433,14 @@ impl<'d, 'f> Reader<'d, 'f> {
         true
     }
 
-    /// Paths from some stops on.
+    /// Continues the paths from some stops.
     fn lead(&mut self, from: &mut Vec<String>, to: &str) {
         for from in from.drain(..) {
             let _ = writeln!(self.paths, "{from} -> {to}");
         }
     }
 
-    /// A guard for each event of a transition; one of them is enough.
+    /// A guard for each event of a transition; any one of them suffices.
     fn events(&mut self, transition: Node<'d, 'd>) -> Vec<String> {
         let events = transition.attribute("event").unwrap_or_default().split_whitespace();
         let all: Vec<&str> = events.collect();
@@ -459,7 +461,7 @@ impl<'d, 'f> Reader<'d, 'f> {
         Some(self.guard(cond, link, true))
     }
 
-    /// What a text in another language is linked to: one name for all its uses; and whether it is new.
+    /// The name that a text in another language is linked to, the same for all its uses; and whether it is new.
     fn made(&mut self, kind: &'static str, text: &str, name: &dyn Fn(&str) -> String) -> (String, bool) {
         if let Some(known) = self.foreign.get(&(kind, text.to_string())) {
             return (known.clone(), false);
@@ -487,7 +489,7 @@ impl<'d, 'f> Reader<'d, 'f> {
         name
     }
 
-    /// The actions of a transition in the order in which they are done, and where it leads.
+    /// The actions of a transition in the order of execution, and its target.
     fn rest(
         &mut self,
         transition: Node<'d, 'd>,
@@ -497,7 +499,7 @@ impl<'d, 'f> Reader<'d, 'f> {
     ) -> Option<(Vec<String>, String)> {
         let at = place(self.file, transition);
         let Some(id) = transition.attribute("target") else {
-            // Without a target nothing is left or entered.
+            // Without a target, no state is left or entered.
             let actions = self.actions(transition);
             return Some((actions, self.stop(state, is_pattern)));
         };
@@ -511,7 +513,7 @@ impl<'d, 'f> Reader<'d, 'f> {
             return None;
         };
         let leaf = self.leaf(target)?;
-        // The innermost state around both that stays is neither left nor entered.
+        // The innermost state that contains both is neither left nor entered.
         let (left, entered) = (self.states.around(state), self.states.around(leaf));
         let internal = transition.attribute("type") == Some("internal") && entered.contains(&owner);
         let outer: Vec<usize> = self.states.around(owner).into_iter().skip(usize::from(!internal)).collect();
@@ -576,7 +578,7 @@ impl<'d, 'f> Reader<'d, 'f> {
     }
 }
 
-/// The Boolean function that is true when an event comes; `*` is any event.
+/// The Boolean function that is true when an event comes; `*` stands for any event.
 fn event_function(event: &str) -> String {
     if event == "*" { "anyEvent".to_string() } else { function(event.trim_end_matches(".*")) }
 }

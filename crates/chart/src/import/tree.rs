@@ -1,6 +1,6 @@
-//! The states of an SCXML document: which lie in which, where each begins, and what happens on entering and leaving them.
+//! The states of an SCXML document: their nesting, their initial states, and their entry and exit actions.
 //!
-//! In: the elements. Out: [`States`], flat lists with parents. What has no counterpart is told on the way.
+//! In: the elements. Out: [`States`], flat lists with parents. What has no counterpart is reported.
 
 use std::collections::BTreeMap;
 
@@ -11,19 +11,19 @@ use crate::fault::foreign as fault;
 
 /// The namespace of SCXML.
 pub(super) const SCXML: &str = "http://www.w3.org/2005/07/scxml";
-/// LIMIT: so deep states may lie in each other.
+/// LIMIT: how deeply states may be nested.
 const MAX_DEPTH: usize = 100;
 
 /// A state.
 #[derive(Debug)]
 pub(super) struct State<'d> {
-    /// Its id, or one made of its place.
+    /// Its id, or one derived from its position.
     pub(super) id: String,
     /// Its element.
     pub(super) node: Node<'d, 'd>,
-    /// The state that it lies in.
+    /// The enclosing state.
     pub(super) parent: Option<usize>,
-    /// States lie in it.
+    /// Whether it contains states.
     pub(super) compound: bool,
 }
 
@@ -32,23 +32,23 @@ pub(super) struct State<'d> {
 pub(super) struct States<'d> {
     /// In the order of the document, outer ones first.
     pub(super) all: Vec<State<'d>>,
-    /// The first state of each id.
+    /// The first state with each id.
     named: BTreeMap<String, usize>,
     /// The first state in each state, and in the whole machine.
     first: BTreeMap<Option<usize>, usize>,
 }
 
-/// The span of an element's first tag's name.
+/// The span of the element's name in its start tag.
 pub(super) fn place(file: FileId, node: Node<'_, '_>) -> Span {
     let range = node.range();
     let start = range.start as u32;
-    // A name of ASCII letters; anything else is told at the bracket alone.
+    // A name of ASCII letters; otherwise only the bracket is marked.
     let text = &node.document().input_text()[range];
     let length = text[1..].bytes().take_while(|byte| byte.is_ascii_alphanumeric() || b":_-.".contains(byte)).count();
     Span { file, start, end: start + 1 + length as u32 }
 }
 
-/// It is an element of SCXML of that name; one without a namespace counts, as some tools leave it out.
+/// Whether it is an SCXML element with this name; the namespace may be missing, as some tools omit it.
 pub(super) fn is(node: Node<'_, '_>, name: &str) -> bool {
     node.is_element() && node.tag_name().name() == name && is_scxml(node)
 }
@@ -63,7 +63,7 @@ pub(super) fn text_of(node: Node<'_, '_>) -> String {
     texts.collect::<Vec<_>>().join(" ").split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// The machines of a document: the whole, or each region of a `parallel` that is all there is.
+/// The machines of a document: the whole, or each region if it consists of one `parallel`.
 pub(super) fn machines<'d>(document: &'d Document<'d>) -> Vec<Node<'d, 'd>> {
     let root = document.root_element();
     let states: Vec<Node<'_, '_>> = root.children().filter(|node| is_state(*node)).collect();
@@ -125,12 +125,12 @@ impl<'d> States<'d> {
         }
     }
 
-    /// The state of that id.
+    /// The state with this id.
     pub(super) fn named(&self, id: &str) -> Option<usize> {
         self.named.get(id).copied()
     }
 
-    /// The state in which one begins, or the whole machine, by its id.
+    /// The initial state with this id, of a state or of the whole machine.
     pub(super) fn begins(&self, id: &str, parent: Option<usize>) -> Result<usize, impl Fn(Span) -> Diagnostic> {
         let found = self.named(id);
         let within = |state: &usize| parent.is_none_or(|parent| self.around(*state)[1..].contains(&parent));
@@ -141,7 +141,7 @@ impl<'d> States<'d> {
         })
     }
 
-    /// The states around one, itself first.
+    /// The enclosing states of a state, itself first.
     pub(super) fn around(&self, state: usize) -> Vec<usize> {
         let mut around = vec![state];
         while let Some(parent) = around.last().and_then(|last| self.all[*last].parent) {
@@ -150,7 +150,7 @@ impl<'d> States<'d> {
         around
     }
 
-    /// The first state directly within one, or within the whole machine.
+    /// The first direct child of a state, or of the whole machine.
     pub(super) fn first_in(&self, parent: Option<usize>) -> Option<usize> {
         self.first.get(&parent).copied()
     }

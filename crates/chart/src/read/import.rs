@@ -1,9 +1,9 @@
-//! Imports of charts: the patterns of another chart's file, found by a loader, each file read once.
+//! Imports of charts: loads the patterns of other charts, reading each file once.
 //!
-//! In: a root text and a [`Loader`]. Out: its chart with the patterns of the charts that it imports itself, and the faults
-//! of all files. An imported chart stands for its model too: that, and what it imports, join the imports of the importing
-//! chart, as paths from there. INVARIANT: no chart leads back to itself; an import that would close a circle is a fault
-//! and leads nowhere. It must not know where files are.
+//! In: a root text and a [`Loader`]. Out: its chart with the patterns of directly imported charts, and the faults of
+//! all files. Importing a chart also imports its model: that model and its imports are added to the imports of the
+//! importing chart, as paths relative to it. INVARIANT: no chart imports itself; an import that would close a circle is
+//! a fault and is ignored. It must not know where files are.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -15,7 +15,7 @@ use syntax::{Diagnostic, FileId, SourceFile, Sources, Span};
 use crate::chart::Chart;
 use crate::fault;
 
-/// A chart with all that it imports.
+/// A chart with its imports.
 #[derive(Debug, Clone)]
 pub struct Loaded {
     /// The texts of the charts read, the root first.
@@ -31,7 +31,7 @@ pub fn load(root: SourceFile, loader: &mut dyn Loader) -> Loaded {
     load_beside(Sources::default(), root, loader)
 }
 
-/// As [`load`], with the texts put behind others.
+/// Like [`load`], but adds the texts to existing ones.
 pub fn load_beside(sources: Sources, root: SourceFile, loader: &mut dyn Loader) -> Loaded {
     let mut files = Files { sources, faults: Vec::new(), loader, seen: BTreeMap::new(), open: Vec::new() };
     let chart = files.read(root);
@@ -44,7 +44,7 @@ struct Files<'l> {
     sources: Sources,
     faults: Vec<Diagnostic>,
     loader: &'l mut dyn Loader,
-    /// The chart of each file; none while it is being read.
+    /// The chart of each file; `None` while it is being read.
     seen: BTreeMap<String, Option<Rc<Chart>>>,
     /// The files being read, the innermost last.
     open: Vec<String>,
@@ -96,7 +96,7 @@ impl Files<'_> {
         Some(stacker::maybe_grow(128 << 10, 2 << 20, || self.read(source)))
     }
 
-    /// Takes over the patterns of an imported chart, and its model.
+    /// Adds the patterns of an imported chart, and its model.
     fn join(&mut self, imported: &mut Imported, path: &str, span: Span, chart: &Chart) {
         if imported.charts.iter().any(|known| tidied(known) == tidied(path)) {
             self.faults.push(fault::import::twice(span, path));
@@ -120,14 +120,14 @@ impl Files<'_> {
     }
 }
 
-/// What the imports of a chart bring.
+/// What the imports of a chart contribute.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Imported {
     /// Paths of charts, as written.
     pub(super) charts: Vec<String>,
-    /// Paths of models, from the importing file.
+    /// Paths of models, relative to the importing file.
     pub(super) models: Vec<String>,
-    /// Where each is imported.
+    /// The place of each import.
     pub(super) places: Vec<Span>,
     /// Patterns of the imported charts.
     pub(super) patterns: Vec<crate::chart::Machine>,
@@ -142,7 +142,7 @@ impl Imported {
     }
 }
 
-/// The imports of a text that stands alone: models are taken on trust, charts cannot be found.
+/// The imports of a text without a loader: models are assumed to exist, charts cannot be found.
 pub(super) fn alone(file: FileId, tree: Option<ChartFile>) -> (Imported, Vec<Diagnostic>) {
     let mut imported = Imported::default();
     let mut faults = Vec::new();
@@ -166,7 +166,7 @@ fn names_chart(path: &str) -> bool {
     path.ends_with(".chart")
 }
 
-/// A path with `.`, `..` and backslashes resolved, so that two routes to a file are seen to be the same.
+/// A path with `.`, `..` and backslashes resolved, so that two paths to the same file are equal.
 fn tidied(path: &str) -> String {
     let mut parts: Vec<&str> = Vec::new();
     for part in path.split(['/', '\\']) {

@@ -1,4 +1,4 @@
-//! Links: the AsmetaL between braces, as text on one line, and the name that stands for it in pictures.
+//! Links: the AsmetaL between braces, as text on one line, and the name that pictures show for it.
 
 use syntax::ast::{self, AstNode, Rule, Term};
 use syntax::{FileId, Span, SyntaxKind, SyntaxNode};
@@ -14,7 +14,7 @@ pub(crate) fn flat(node: &SyntaxNode) -> String {
             space = !text.is_empty();
             continue;
         }
-        // Where a line was broken within brackets there is no gap.
+        // A line break within parentheses leaves no space.
         let bracket = text.ends_with(['(', '[']) || [")", "]", ","].contains(&token.text());
         if std::mem::take(&mut space) && !bracket {
             text.push(' ');
@@ -24,7 +24,7 @@ pub(crate) fn flat(node: &SyntaxNode) -> String {
     text
 }
 
-/// What a link holds; none when there is nothing in it.
+/// The contents of a link; `None` if it is empty.
 pub(super) fn link(file: FileId, node: &ast::Link) -> Option<Link> {
     let inner = node.syntax().children().find(|child| child.kind() != SyntaxKind::ERROR);
     let (text, range) = match (&inner, node.rule_name()) {

@@ -47,13 +47,13 @@ impl Reader {
             machine.sequences.push(shapes);
         }
         self.made(&machine);
-        // What follows from names that are not known is no news.
+        // Faults that follow from unknown names are not reported.
         let sound = self.faults.len() == before;
         self.faults.extend(structure::faults(&machine, sound));
         Some(machine)
     }
 
-    /// Names of which functions are made.
+    /// Names from which functions are derived.
     fn made(&mut self, machine: &Machine) {
         if let Some(Control::Made { name, span }) = &machine.control {
             self.function_name(name, *span);
@@ -162,7 +162,7 @@ impl Reader {
             self.faults.push(fault::misplaced_exit(end, "enter", "a pattern is entered from outside"));
         } else if let Some(target) = target {
             let known = |arrow: &&Arrow| arrow.from == source && arrow.branch == from.branch() && arrow.to == target;
-            // A path may be told twice over a stretch that it shares with another one.
+            // Two paths may both contain an arrow that they share.
             if machine.arrows.iter().find(known).is_none() {
                 machine.arrows.push(Arrow { from: source, branch: from.branch(), to: target, span: end });
             }

@@ -1,7 +1,7 @@
-//! Tree → chart: names resolved, links taken out, and what is wrong with the shape of the machines.
+//! Reads the tree of a chart file: resolves names, extracts links, and checks the structure of the machines.
 //!
-//! In: the tree of one chart file, and what it imports. Out: a [`Chart`], as whole as the text allows, and the faults in the
-//! order of their places. Whether links resolve is for `check` to say.
+//! In: the tree of one chart file, and its imports. Out: a [`Chart`], as complete as the text allows, and the faults in
+//! the order of their places. Whether links resolve is for `check` to decide.
 
 mod import;
 mod link;
@@ -21,7 +21,7 @@ pub use import::{Loaded, load, load_beside};
 pub(crate) use link::{flat, names_function};
 pub(crate) use machine::spoken;
 
-/// Reads the chart of a text that stands alone; to import a chart is a fault.
+/// Reads a chart without a loader, so importing another chart is a fault.
 pub fn read(file: FileId, parse: &Parse) -> (Chart, Vec<Diagnostic>) {
     let (imported, unfound) = import::alone(file, ChartFile::cast(parse.syntax()));
     let (chart, mut faults) = read_with(file, parse, imported);
@@ -80,7 +80,7 @@ impl Reader {
         }
     }
 
-    /// Each instance is of a pattern that is here or imported, with fitting arguments.
+    /// Checks that each instance names a known pattern, with fitting arguments.
     fn instances(&mut self, chart: &Chart) {
         let patterns: Vec<&str> = chart.all_patterns().map(|machine| machine.name.as_str()).collect();
         for shape in chart.machines.iter().flat_map(|machine| &machine.shapes) {

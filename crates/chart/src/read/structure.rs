@@ -1,4 +1,4 @@
-//! Whether a machine's arrows make sense: every path leads from a control state to one, in one way, without a circle.
+//! Checks a machine's arrows: every path leads from a control state to another, unambiguously and without a circle.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,10 +7,10 @@ use syntax::Diagnostic;
 use crate::chart::{Arrow, Control, End, Machine, Shape, ShapeId, ShapeKind};
 use crate::fault;
 
-/// Shapes by their name, for faults about values.
+/// Shapes by the value of their control state, for faults about values.
 type ByValue<'m> = BTreeMap<&'m str, &'m Shape>;
 
-/// The faults of a machine; `sound` when all names of its paths are known.
+/// The faults of a machine; `sound` if all names in its paths are known.
 pub(super) fn faults(machine: &Machine, sound: bool) -> Vec<Diagnostic> {
     let mut faults = Vec::new();
     control(machine, &mut faults);
@@ -41,12 +41,12 @@ fn control(machine: &Machine, faults: &mut Vec<Diagnostic>) {
     }
 }
 
-/// It has control states.
+/// Whether it has control states.
 pub(super) fn has_states(machine: &Machine) -> bool {
     machine.shapes.iter().any(|shape| matches!(shape.kind, ShapeKind::State { .. }))
 }
 
-/// No two control states have one value.
+/// No two control states have the same value.
 fn values(machine: &Machine, faults: &mut Vec<Diagnostic>) {
     let mut seen: ByValue<'_> = BTreeMap::new();
     for shape in machine.shapes.iter().filter(|shape| matches!(shape.kind, ShapeKind::State { .. })) {
@@ -108,7 +108,7 @@ fn dead_ends(machine: &Machine, faults: &mut Vec<Diagnostic>) {
     for (id, shape) in machine.numbered() {
         let leads_on = machine.out_of(End::Shape(id)).next().is_some();
         let is_reached = machine.arrows.iter().any(|arrow| arrow.to == End::Shape(id));
-        // A control state may be final; an instance beside the paths runs in parallel to them.
+        // A control state may be final; an instance without arrows runs parallel to the paths.
         let ends = match shape.kind {
             ShapeKind::State { .. } => false,
             ShapeKind::Instance(_) => is_reached && !leads_on,
@@ -120,7 +120,7 @@ fn dead_ends(machine: &Machine, faults: &mut Vec<Diagnostic>) {
     }
 }
 
-/// A path never comes back to one of its own guards or actions.
+/// A path never returns to one of its own guards or actions.
 fn circles(machine: &Machine, faults: &mut Vec<Diagnostic>) {
     let mut done = BTreeSet::new();
     for (id, _) in machine.numbered().filter(|(id, _)| is_inner(machine, *id)) {
@@ -129,7 +129,7 @@ fn circles(machine: &Machine, faults: &mut Vec<Diagnostic>) {
     }
 }
 
-/// A shape on which a step does not end.
+/// Whether a step continues after a shape.
 fn is_inner(machine: &Machine, id: ShapeId) -> bool {
     matches!(machine.shape(id).kind, ShapeKind::Guard | ShapeKind::Action)
 }
@@ -162,7 +162,7 @@ fn circle_from(
 
 fn unreachable(machine: &Machine, faults: &mut Vec<Diagnostic>) {
     let mut open = vec![if machine.is_pattern { Some(End::Enter) } else { machine.initial().map(End::Shape) }];
-    // A location of the specification is set by other rules, too: they may lead to any of the control states.
+    // Other rules may also set a location of the specification, so they may lead to any control state.
     if let Some(Control::Linked(_)) = machine.control {
         let states = machine.numbered().filter(|(_, shape)| matches!(shape.kind, ShapeKind::State { .. }));
         open.extend(states.map(|(id, _)| Some(End::Shape(id))));

@@ -1,7 +1,7 @@
-//! One system: names resolved, lengths of time in ticks, the master of each buffer chosen.
+//! Reads a system: resolves names, converts times to ticks, chooses the master of each buffer.
 //!
-//! The master of a swinging buffer is chosen as in the paper's section V-B: of two synchronous components the slower one,
-//! of a mixed pair the asynchronous one; of two that are alike it must be said.
+//! The master of a swinging buffer is chosen as in the paper's section V-B: of two synchronous components the slower
+//! one, of a mixed pair the asynchronous one. If the two do not differ in this, the chart must name the master.
 
 use syntax::ast::{self, AstNode, PhaseKind};
 use syntax::{Span, SyntaxKind, SyntaxToken};
@@ -81,7 +81,7 @@ impl Reader {
         Some(system)
     }
 
-    /// Cycles that cannot be done in time, whatever they wait for.
+    /// Reports cycles that take too long even without waiting.
     fn long_cycles(&mut self, system: &System) {
         for component in &system.components {
             let Timing::Synchronous { period, deadline, .. } = component.timing else { continue };
@@ -120,7 +120,7 @@ impl Reader {
         };
         let value: f64 = number.text().parse().ok()?;
         let nanoseconds = (value * scale as f64).round();
-        // Beyond a day nothing here is a period.
+        // Periods longer than a day are not accepted.
         (nanoseconds <= 86_400e9).then_some(nanoseconds as u64)
     }
 
@@ -255,7 +255,7 @@ impl Reader {
         }
     }
 
-    /// A channel is written and read.
+    /// Checks that a channel is written and read.
     fn ends(&mut self, index: usize, system: &System) {
         let channel = &system.channels[index];
         let does = |component: usize, wanted: &Action| {
@@ -278,7 +278,7 @@ impl Reader {
     }
 }
 
-/// The master of a swinging buffer; none where it must be said.
+/// The master of a swinging buffer; `None` if the chart must name it.
 fn master(from: usize, to: usize, system: &System) -> Option<usize> {
     match (system.components[from].timing.period(), system.components[to].timing.period()) {
         (Some(sender), Some(receiver)) if sender > receiver => Some(from),

@@ -1,6 +1,6 @@
-//! Conditions as ways through their tests: each way is a list of atoms with their values, and what comes out.
+//! Executes conditions symbolically: each path is a list of atoms with their values, and has a result.
 //!
-//! INVARIANT: the ways of one condition exclude each other and cover all cases; none tests one atom twice.
+//! INVARIANT: the paths of one condition exclude each other and cover all cases; none tests an atom twice.
 
 use std::rc::Rc;
 
@@ -11,7 +11,7 @@ use super::{Bound, Explorer, Frame};
 /// Tests and their outcomes, in the order in which they are made.
 pub(crate) type Path = Vec<(String, bool)>;
 
-/// A path followed by another; none where the two contradict.
+/// A path followed by another; `None` if they contradict each other.
 pub(super) fn joined(path: &Path, rest: &Path) -> Option<Path> {
     let mut out = path.clone();
     for (atom, holds) in rest {
@@ -24,14 +24,14 @@ pub(super) fn joined(path: &Path, rest: &Path) -> Option<Path> {
     Some(out)
 }
 
-/// No atom of two paths has different values on them.
+/// Whether no atom has different values on two paths.
 pub(crate) fn consistent(a: &Path, b: &Path) -> bool {
     joined(a, b).is_some()
 }
 
 type Ways = Vec<(Path, bool)>;
 
-/// Ways, and on each of them further ways, chosen by what came out.
+/// Extends each path by further paths, chosen by its result.
 fn then(first: &Ways, next: impl Fn(bool) -> Ways) -> Ways {
     let mut out = Vec::new();
     for (path, holds) in first {
@@ -46,7 +46,7 @@ fn decided(holds: bool) -> Ways {
 }
 
 impl<'m> Explorer<'m> {
-    /// The ways through a condition.
+    /// The paths through a condition.
     pub(super) fn condition(&self, term: &'m Term, frame: &Rc<Frame<'m>>, depth: usize) -> Ways {
         if depth > 40 {
             return self.atom(term, frame);
@@ -109,7 +109,7 @@ impl<'m> Explorer<'m> {
         vec![(vec![(text.clone(), true)], true), (vec![(text, false)], false)]
     }
 
-    /// `a = b`, decided where both are constants.
+    /// `a = b`, decided if both are constants.
     pub(super) fn equality(&self, a: &'m Term, b: &'m Term, frame: &Rc<Frame<'m>>) -> Ways {
         if let (Some(a), Some(b)) = (self.constant(a, frame), self.constant(b, frame)) {
             return decided(a == b);
@@ -125,7 +125,7 @@ impl<'m> Explorer<'m> {
         }
     }
 
-    /// A function with a definition, looked into.
+    /// A function with a definition, which is expanded.
     fn defined(&self, function: model::FunctionId, arguments: &'m [Term], frame: &Rc<Frame<'m>>, depth: usize) -> Ways {
         let Some(definition) = &self.model.function(function).definition else { return decided(true) };
         let mut bound: Vec<Option<Bound<'m>>> = vec![None; definition.variables.len()];

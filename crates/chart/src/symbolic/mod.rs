@@ -1,16 +1,17 @@
-//! Symbolic execution of a rule, for one value of its control variable: under which conditions it does what.
+//! Executes a rule symbolically for one value of its control variable: what it does under which conditions.
 //!
-//! In: a checked model, a rule, a control location and a value for it. Out: [`Guarded`] effects: each an update or another
-//! rule, with the tests on its way. Macro calls and definitions are looked into where it matters, by name, as the machine
-//! does; `if`, `switch` and `let` nested in any way come to the same. Tests of the control location are decided, all
-//! others are atoms, told apart by their text.
+//! In: a checked model, a rule, a control location and a value for it. Out: [`Guarded`] effects: each is an update or
+//! another rule, with the tests on its path. Macro calls and definitions are expanded where it matters, by name, as in
+//! the machine; differently nested `if`, `switch` and `let` give the same result. Tests of the control location are
+//! decided; all others are atoms, distinguished by their text.
 //!
-//! Conditions stay terms of the model, and are not asked of `solve`: a difference is told in the words of the chart and of
-//! the rule, which the IR has no more, and charts and rules that are to agree have the same words. Of the encoder there
-//! only the connectives would be of use here: what it is about (numbers, undef, faults) is inside of atoms.
+//! Conditions stay terms of the model and are not passed to `solve`. Differences are reported in the words of the chart
+//! and of the rule, which the IR no longer has; and charts and rules that should agree use the same words. Only the
+//! encoder's connectives would help here: its subject (numbers, undef, faults) lies inside of atoms.
 //!
-//! LIMIT: rules behind `seq`, `forall`, `choose` and the like are effects as a whole; one that sets the control location
-//! inside is [`Reason::Hidden`]. Calls are followed [`MAX_DEPTH`] deep and [`MAX_EFFECTS`] effects are kept.
+//! LIMIT: a rule inside `seq`, `forall`, `choose` and the like is one effect as a whole; if it sets the control
+//! location, that is [`Reason::Hidden`]. Calls are followed up to [`MAX_DEPTH`], and at most [`MAX_EFFECTS`] effects
+//! are kept.
 
 mod condition;
 mod print;
@@ -25,18 +26,18 @@ use syntax::Span;
 
 pub(crate) use condition::{Path, consistent};
 
-/// How deep calls are followed.
+/// How deeply calls are followed.
 const MAX_DEPTH: usize = 64;
 /// How many effects of one rule are kept.
 const MAX_EFFECTS: usize = 4096;
 
-/// The variables of a declaration, and what stands in their place.
+/// The variables of a declaration, and their arguments.
 pub(crate) struct Frame<'m> {
     variables: &'m [Variable],
     bound: Vec<Option<Bound<'m>>>,
 }
 
-/// What stands in the place of a variable.
+/// The argument of a variable.
 #[derive(Clone)]
 struct Bound<'m> {
     text: String,
@@ -52,39 +53,39 @@ pub(crate) enum Effect {
         location: String,
         /// The new value.
         value: String,
-        /// The new value is a literal or undef.
+        /// Whether the new value is a literal or undef.
         constant: bool,
     },
     /// Another rule.
     Rule(String),
 }
 
-/// An effect with the tests on its way.
+/// An effect with the tests on its path.
 #[derive(Debug, Clone)]
 pub(crate) struct Guarded {
     /// The tests, in the order in which they are made.
     pub(crate) path: Path,
     /// What is done.
     pub(crate) effect: Effect,
-    /// Where it is written.
+    /// Its place.
     pub(crate) span: Span,
 }
 
 /// Why a rule is not in control-state form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Reason {
-    /// It sets the control location behind `seq`, `forall`, `choose` or the like.
+    /// It sets the control location inside `seq`, `forall`, `choose` or the like.
     Hidden(Span),
-    /// It sets the control location to something else than a literal or undef.
+    /// It sets the control location to something other than a literal or undef.
     Computed(Span),
     /// It is too large.
     Large,
 }
 
-/// How far macro calls are looked into.
+/// Which macro calls are expanded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Depth {
-    /// Only where the control location is read or set.
+    /// Those that read or set the control location.
     Control,
     /// All of them.
     Full,
@@ -97,10 +98,10 @@ pub(crate) struct Explorer<'m> {
     pub(crate) function: FunctionId,
     /// The control location, as [`Explorer::print`] writes it.
     pub(crate) control: String,
-    /// Its value; `undef` too.
+    /// Its value, which may be `undef`.
     pub(crate) origin: String,
     pub(crate) depth: Depth,
-    /// How often the control location was read.
+    /// How often the control location has been read.
     reads: Cell<usize>,
 }
 
@@ -109,7 +110,7 @@ impl<'m> Explorer<'m> {
         Explorer { model, function, control, origin, depth, reads: Cell::new(0) }
     }
 
-    /// What a rule does, its parameters called by these names, where there are any.
+    /// What a rule does, with these names for its parameters, if it has any.
     ///
     /// # Errors
     /// It is not in control-state form.
@@ -125,7 +126,7 @@ impl<'m> Explorer<'m> {
         Ok(effects)
     }
 
-    /// How often the control location was read.
+    /// How often the control location has been read.
     pub(crate) fn reads(&self) -> usize {
         self.reads.get()
     }
@@ -182,7 +183,7 @@ impl<'m> Explorer<'m> {
                 let (before, mut inner) = (self.reads.get(), Vec::new());
                 self.branches(rule, frame, path, depth, &mut inner)?;
                 let matters = self.reads.get() > before || inner.iter().any(|guarded| self.sets_control(guarded));
-                // What the tests before have decided is no test.
+                // A test that earlier tests decide does not count as a test.
                 let decided = inner.iter().all(|guarded| guarded.path == *path);
                 if matters || decided || self.depth == Depth::Full {
                     out.extend(inner);
@@ -222,7 +223,7 @@ impl<'m> Explorer<'m> {
         }
     }
 
-    /// An update of the control function somewhere in a rule, calls included.
+    /// Finds an update of the control function in a rule, including calls.
     fn find_update(&self, rule: &'m RuleNode, depth: usize, found: &mut Option<Span>) {
         rule.walk(&mut |rule| match &rule.kind {
             RuleKind::Update { target: Target::Location { function, .. }, .. } if *function == self.function => {
@@ -272,7 +273,7 @@ impl<'m> Explorer<'m> {
         depth: usize,
         out: &mut Vec<Guarded>,
     ) -> Result<(), Reason> {
-        // The ways on which no branch was taken so far.
+        // The paths on which no branch was taken so far.
         let mut open: Vec<Path> = vec![path.clone()];
         let otherwise = match &rule.kind {
             RuleKind::If { branches, otherwise } => {
@@ -322,7 +323,7 @@ impl<'m> Explorer<'m> {
         Ok(())
     }
 
-    /// The constant that a term is, the control location included.
+    /// The constant value of a term, where the control location counts as one.
     fn constant(&self, term: &'m Term, frame: &Rc<Frame<'m>>) -> Option<String> {
         match &term.kind {
             TermKind::Literal(Literal::Undef | Literal::Enum(..) | Literal::Boolean(_) | Literal::Integer(_)) => {
@@ -343,7 +344,7 @@ impl<'m> Explorer<'m> {
         }
     }
 
-    /// A function whose definition reads the control function.
+    /// Whether the definition of a function reads the control function.
     fn reads_control(&self, function: FunctionId, depth: usize) -> bool {
         let declared = self.model.function(function);
         let Some(definition) = declared.definition.as_ref().filter(|_| depth < 16) else { return false };

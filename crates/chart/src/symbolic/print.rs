@@ -1,7 +1,7 @@
-//! Terms and rules as AsmetaL on one line, with what stands in the place of variables written out.
+//! Prints terms and rules as AsmetaL on one line, with arguments substituted for variables.
 //!
-//! INVARIANT: the text reads back as the same term or rule, so it can stand in a link; equal terms have equal texts.
-//! LIMIT: a variable bound inside keeps its name, also where a text put in for another one has the same.
+//! INVARIANT: the text parses as the same term or rule, so it can stand in a link; equal terms have equal texts. LIMIT:
+//! a bound variable keeps its name even if a substituted text contains the same name.
 
 use std::rc::Rc;
 
@@ -12,7 +12,7 @@ use model::{
 
 use super::{Explorer, Frame};
 
-/// The sign of a library function that is written between its operands.
+/// The operator of a library function that is written between its operands.
 fn infix(name: &str) -> Option<&str> {
     Some(match name {
         "eq" => "=",
@@ -63,7 +63,7 @@ impl<'m> Explorer<'m> {
         }
     }
 
-    /// A term beside an operator.
+    /// A term as an operand.
     pub(super) fn operand(&self, term: &Term, frame: &Rc<Frame<'m>>) -> String {
         let text = self.print(term, frame);
         let compound = match &term.kind {
@@ -71,7 +71,7 @@ impl<'m> Explorer<'m> {
                 let declared = self.model.function(*function);
                 declared.library && (infix(&declared.name).is_some() || declared.name == "not") && !arguments.is_empty()
             }
-            // What stands in its place may be compound.
+            // The substituted text may be compound.
             TermKind::Variable(_) => text.contains(' ') && !text.ends_with(')'),
             _ => false,
         };
