@@ -1,6 +1,7 @@
-//! What a solver prints → an answer: `sat` with values, `unsat`, or anything else.
+//! Parses a solver's output: `sat` with values, `unsat`, or anything else.
 //!
-//! In: the solver's output. Out: [`Answer`]; values that are no constants of ours (algebraic numbers, say) are left out.
+//! In: the solver's output. Out: [`Answer`]; values that are not our constants, such as algebraic numbers, are left
+//! out.
 
 use std::collections::BTreeMap;
 
@@ -15,9 +16,9 @@ use crate::symbol::Shape;
 /// A solver's answer.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Answer {
-    /// The condition holds in this state, of which some values may be missing.
+    /// The condition holds in this state, in which some values may be missing.
     Sat(State),
-    /// It holds in none.
+    /// It holds in no state.
     Unsat,
     /// Something else; the first line says what.
     Other(String),
@@ -39,7 +40,7 @@ pub(crate) fn answer(question: &Question, output: &str) -> Answer {
         let (Some(value), Some((id, arguments))) = (value, question.location(*location)) else { continue };
         let Some(unknown) = question.unknown(*location) else { continue };
         let value = match (value, unknown.sort) {
-            // The solver has its own numbers for elements without names.
+            // The solver numbers unnamed elements in its own way.
             (Constant::Integer(number), sort @ (Shape::Element(_) | Shape::Coded, domain)) => {
                 let first = question.named(sort).1;
                 let next = first + nameless.keys().filter(|(of, _)| *of == domain).count() as i128;

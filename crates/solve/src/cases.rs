@@ -1,10 +1,10 @@
-//! Going through cases: locations get values, one at a time, as the condition turns out to need them.
+//! Case enumeration: assigns values to locations, one at a time, as the condition turns out to need them.
 //!
-//! In: a question. Out: a state in which it holds, or that there is none, or that going through cases does not tell. A
-//! location over a finite domain has its values; an open domain gets as many nameless elements as there are terms over it,
-//! which is enough, as elements can only be compared. A number that is only compared with constants has one value for each
-//! gap between these. Other numbers get the same few values, then some near to what the condition says, so that a state may
-//! be found; that none is found says nothing.
+//! In: a question. Out: a state in which the condition holds, that there is none, or that enumeration cannot decide. A
+//! location over a finite domain takes all its values. An open domain gets as many unnamed elements as there are terms
+//! over it; that suffices, since elements can only be compared. A number that is only compared with constants takes one
+//! value in each gap between these. Other numbers take the same few values, then some near the numbers in the
+//! condition. So a state may be found, but finding none proves nothing.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,21 +15,21 @@ use crate::session::Constant;
 use crate::shared::{Bounds, Node, Op, VariableId};
 use crate::symbol::Shape;
 
-/// LIMIT: so many cases are gone through.
+/// LIMIT: the most cases that are tried.
 pub(crate) const MAX_CASES: usize = 200_000;
 
-/// What going through cases gives.
+/// The result of enumeration.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Cases {
     /// A state, location by location.
     Found(State),
-    /// There is none.
+    /// There is no such state.
     None,
-    /// Not told.
+    /// Undecided.
     Open(Reason),
 }
 
-/// Why cases do not tell.
+/// Why enumeration cannot decide.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Reason {
     /// There are too many.
@@ -41,7 +41,7 @@ pub(crate) enum Reason {
 /// The values of some locations.
 pub(crate) type State = Vec<((VariableId, Vec<Constant>), Constant)>;
 
-/// Looks for a state.
+/// Enumerates states.
 pub(crate) fn cases(question: &Question) -> Cases {
     let mut numbers = Numbers::of(question);
     match searched(question, &numbers) {
@@ -64,12 +64,12 @@ fn searched(question: &Question, numbers: &Numbers) -> Cases {
     }
 }
 
-/// Whether the condition holds in a state; none where the state leaves it open.
+/// Whether the condition holds in a state; `None` if the state does not determine it.
 pub(crate) fn holds(question: &Question, state: &State) -> Option<bool> {
     value_in(question, state, question.condition).map(|value| value == Constant::Boolean(true))
 }
 
-/// The value of a term in a state; none where the state leaves it open.
+/// The value of a term in a state; `None` if the state does not determine it.
 pub(crate) fn value_in(question: &Question, state: &State, node: Node) -> Option<Constant> {
     match Evaluation::of(question, state).evaluate(node) {
         Outcome::Value(value) => Some(value),
@@ -77,13 +77,13 @@ pub(crate) fn value_in(question: &Question, state: &State, node: Node) -> Option
     }
 }
 
-/// Values that numbers are tried with.
+/// The values to try for numbers.
 struct Numbers {
     integers: Vec<i128>,
     reals: Vec<f64>,
-    /// They stand for all numbers.
+    /// Whether they represent all numbers.
     complete: bool,
-    /// Nameless elements of each domain.
+    /// Unnamed elements of each domain.
     nameless: BTreeMap<DomainId, i128>,
 }
 
@@ -120,7 +120,7 @@ impl Numbers {
         all
     }
 
-    /// Adds numbers near to those that the condition held before it was simplified.
+    /// Adds numbers near those that the condition contained before it was simplified.
     fn add_near(&mut self, question: &Question) {
         for constant in question.terms.constants() {
             match constant {
@@ -135,7 +135,7 @@ impl Numbers {
         self.arrange();
     }
 
-    /// Puts real numbers between those that there are, and what people would think of first to the front.
+    /// Adds real numbers between the present ones, and moves familiar values to the front.
     fn arrange(&mut self) {
         let Numbers { integers: whole, reals: broken, .. } = self;
         whole.sort_unstable();
@@ -180,11 +180,11 @@ fn is_numeric(shape: Shape) -> bool {
     matches!(shape, Shape::Integer | Shape::Real)
 }
 
-/// Which terms are numbers of the model: elements are numbers of ours, too.
+/// The terms that are numbers of the model; elements are encoded as numbers, too, but do not count.
 fn numbers(question: &Question, parts: &[Node]) -> BTreeSet<Node> {
     let mut found: BTreeSet<Node> = BTreeSet::new();
     let is_location = |node: &Node| question.unknown(*node).is_some_and(|one| is_numeric(one.sort.0));
-    // By what they are made of, then by what is made of them.
+    // First from operands to terms, then from terms to operands.
     for node in parts {
         let numeric = match question.terms.op(*node) {
             Op::Variable(_) | Op::Apply(..) => is_location(node),
@@ -243,7 +243,7 @@ struct Search<'q> {
 }
 
 impl Search<'_> {
-    /// Whether the state can be completed; none when there are too many cases.
+    /// Whether the state can be completed; `None` if there are too many cases.
     fn run(&mut self) -> Option<bool> {
         self.budget = self.budget.checked_sub(1)?;
         let mut evaluation = Evaluation::of(self.question, &self.state);
@@ -268,13 +268,13 @@ impl Search<'_> {
 #[derive(Clone, Copy)]
 enum Outcome {
     Value(Constant),
-    /// This location must have a value first; its arguments have.
+    /// This location needs a value first; its arguments have values.
     Needs(Node),
-    /// No number results.
+    /// The operation has no result.
     Trouble,
 }
 
-/// What terms come to in a state, each worked out once.
+/// Evaluates terms in a state, each once.
 struct Evaluation<'q> {
     question: &'q Question,
     state: &'q State,
@@ -295,7 +295,7 @@ impl<'q> Evaluation<'q> {
         outcome
     }
 
-    /// The values of all, or what the first has instead that has none.
+    /// The values of all terms, or the outcome of the first that has none.
     fn evaluate_all(&mut self, nodes: &[Node]) -> Result<Vec<Constant>, Outcome> {
         let value = |node: &Node| match self.evaluate(*node) {
             Outcome::Value(value) => Ok(value),
@@ -353,7 +353,7 @@ impl<'q> Evaluation<'q> {
         }
     }
 
-    /// One that decides is enough; trouble is for a condition elsewhere to exclude, so it decides nothing.
+    /// One deciding operand is enough. Trouble decides nothing, since another part of the condition must exclude it.
     fn junction(&mut self, terms: &[Node], deciding: bool) -> Outcome {
         let mut open = None;
         for term in terms {

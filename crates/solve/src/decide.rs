@@ -1,7 +1,7 @@
-//! The decision: cases first, then a solver, then that it is unknown.
+//! Decides a question: by case enumeration, then by a solver; otherwise the answer is unknown.
 //!
-//! INVARIANT: a state that is given back makes the condition true, by our own evaluation where it holds no fractions; that
-//! there is none is said only of all cases, or by the solver.
+//! INVARIANT: a state that is returned satisfies the condition, checked by our own evaluation if it contains no
+//! fractions. *Impossible* is returned only if all cases were tried, or on the solver's word.
 
 use crate::answer::{Answer, answer};
 use crate::cases::{Cases, MAX_CASES, Reason, State, cases, holds, value_in};
@@ -10,25 +10,25 @@ use crate::script::script;
 use crate::session::Constant;
 use crate::shared::{Kind, Node, VariableId};
 
-/// Something that decides SMT-LIB scripts, such as a process of z3 or cvc5.
+/// Decides SMT-LIB scripts, for example by a process of z3 or cvc5.
 pub trait Solver {
-    /// What the solver prints for a script. The error is why there is none, as a clause: "no solver is installed".
+    /// The solver's output for a script. The error says why there is none, as a clause: "no solver is installed".
     fn solve(&mut self, script: &str) -> Result<String, String>;
 }
 
 /// Whether a condition can hold.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Decision {
-    /// It does in this state: its locations with their values, one a text.
+    /// It holds in this state: its locations with their values, one text each.
     Possible(Vec<String>),
-    /// It never does.
+    /// It never holds.
     Impossible,
-    /// Not told, for this reason, which is a clause.
+    /// Undecided, for this reason, which is a clause.
     Unknown(String),
 }
 
 impl Question {
-    /// Looks for a state in which the condition holds.
+    /// Searches for a state in which the condition holds.
     pub fn decide(&self, solver: &mut dyn Solver) -> Decision {
         let reason = match cases(self) {
             Cases::Found(state) => return Decision::Possible(self.shown(&state)),
@@ -52,7 +52,7 @@ impl Question {
         }
     }
 
-    /// The SMT-LIB script that a solver is given.
+    /// The SMT-LIB script for a solver.
     pub fn script(&self) -> String {
         script(self)
     }
@@ -61,7 +61,7 @@ impl Question {
         self.terms.parts([self.condition]).into_iter().any(|node| self.terms.kind(node) == Kind::Real)
     }
 
-    /// A state, location by location, in the order in which the condition reads them.
+    /// The locations of a state, in the order in which the condition reads them.
     fn shown(&self, state: &State) -> Vec<String> {
         let place = |(id, arguments): &(VariableId, Vec<Constant>)| {
             let is_it = |node: &Node| {
@@ -74,7 +74,7 @@ impl Question {
         };
         let mut placed: Vec<_> = state.iter().map(|one| (place(&one.0), one)).collect();
         placed.sort_by_key(|(place, _)| *place);
-        // That a location is defined is seen from its value.
+        // A location with a value need not be shown as defined.
         let is_defined = |id, value: &Constant| {
             *value == Constant::Boolean(true) && self.unknowns.get(id).is_some_and(|unknown| unknown.definedness)
         };

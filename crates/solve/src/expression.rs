@@ -1,4 +1,4 @@
-//! What solvers print: expressions in parentheses, and the numbers among them.
+//! Parses the output of solvers: expressions in parentheses, and the numbers in them.
 
 /// An S-expression.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -37,7 +37,7 @@ pub(crate) fn real(expression: &Expression) -> Option<f64> {
     }
 }
 
-/// The expressions of a text; brackets that do not match are let go.
+/// The expressions of a text; unmatched parentheses are ignored.
 pub(crate) fn expressions(text: &str) -> Vec<Expression> {
     let mut open: Vec<Vec<Expression>> = vec![Vec::new()];
     let mut letters = text.char_indices().peekable();

@@ -1,7 +1,7 @@
-//! A condition about a state that may be any, in terms, with the names that people have for what it speaks of.
+//! A condition about an arbitrary state, as terms, with names for the locations and elements in it.
 //!
-//! In: a program and a condition over it. Out: a [`Question`], first-order logic without quantifiers over the locations that
-//! the condition reads. What it means stands at [`crate::encode::free`].
+//! In: a program and a condition over it. Out: a [`Question`], first-order logic without quantifiers over the locations
+//! that the condition reads. [`crate::encode::free`] defines its meaning.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -16,25 +16,25 @@ use crate::session::Constant;
 use crate::shared::{Node, Op, Terms, VariableId};
 use crate::symbol::{Codes, Shape};
 
-/// See the module.
+/// A condition about an arbitrary state.
 #[derive(Debug)]
 pub struct Question {
     program: Arc<Program>,
     pub(crate) terms: Terms,
     codes: Codes,
     pub(crate) unknowns: BTreeMap<VariableId, Unknown>,
-    /// What is to hold.
+    /// The condition.
     pub(crate) condition: Node,
-    /// What is known of the values of locations.
+    /// Facts about the values of locations.
     pub(crate) given: Vec<Node>,
-    /// The locations in the condition, those that others depend on first.
+    /// The locations in the condition, each after those it depends on.
     pub(crate) locations: Vec<Node>,
 }
 
-/// The question whether a condition can hold; an `exist` at its top asks for values of its variables, too.
+/// The question whether a condition can hold; for an `exist` at its top, values of its variables are searched as well.
 ///
 /// # Errors
-/// The condition holds something that has no place in terms.
+/// The condition contains something that cannot be encoded.
 pub fn question(program: &Arc<Program>, condition: &Expression) -> Result<Question, Outside> {
     let machine = Machine::new(Arc::clone(program), Limits::default());
     let mut encoder = Encoder::new(machine, Bounds::new(), true, BTreeSet::new());
@@ -56,12 +56,12 @@ impl Question {
         }
     }
 
-    /// What is known of the values of a location.
+    /// Known facts about a location's values.
     pub(crate) fn unknown(&self, node: Node) -> Option<&Unknown> {
         self.unknowns.get(&self.location(node)?.0)
     }
 
-    /// The elements of a sort that have names, by their numbers; and the number of the first that has none.
+    /// The numbers of a sort's named elements, and the number of the first unnamed one.
     pub(crate) fn named(&self, (shape, domain): Sort) -> (Vec<i128>, i128) {
         let count = match (&self.program.domain(domain).kind, shape) {
             (_, Shape::Coded) => {

@@ -1,14 +1,15 @@
-//! Question → SMT-LIB 2.6: one script, which asks whether the condition holds in some state and for that state's values.
+//! Writes a question as SMT-LIB 2.6: one script that asks whether the condition holds in some state, and for that
+//! state's values.
 //!
-//! Elements are their numbers, of which those behind the last have no name. Integers have 64 bits: each location is
-//! bounded, and the condition says of each operation that it meets no fault.
+//! Elements are encoded by their numbers; those after the last named one are unnamed. Integers have 64 bits: each
+//! location is bounded, and the condition states for each operation that it does not fault.
 
 use std::fmt::Write;
 
 use crate::question::Question;
 use crate::shared::{Script, Terms, VariableId};
 
-/// The script; it asks for the values of the locations, in order.
+/// The script; it asks for the values of the locations in order.
 pub(crate) fn script(question: &Question) -> String {
     let Question { terms, unknowns, locations, .. } = question;
     let mut out = "(set-option :produce-models true)\n(set-logic ALL)\n".to_string();

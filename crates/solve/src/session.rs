@@ -1,6 +1,6 @@
-//! A solver that is asked one question after the other and keeps what it was told.
+//! A solver that answers one question after another and keeps what it was told.
 //!
-//! In: commands of SMT-LIB. Out: what the solver answers, as [`Verdict`]s and [`Constant`]s. The process is the shell's.
+//! In: commands of SMT-LIB. Out: the solver's answers, as [`Verdict`]s and [`Constant`]s. The shell runs the process.
 
 use crate::expression::{Expression, expressions, integer, real, spelled};
 use crate::shared::Kind;
@@ -8,40 +8,40 @@ use crate::shared::Kind;
 /// Why a solver does not answer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Silence {
-    /// It thinks for too long.
+    /// It exceeds the time limit.
     Late,
-    /// Whoever waits has had enough.
+    /// The caller stopped waiting.
     Stopped,
-    /// It cannot be run, or has ended: a clause that says how.
+    /// It cannot be run, or has ended; a clause says why.
     Broken(String),
 }
 
-/// A solver at work. After a [`Silence`] it is not asked again.
+/// A running solver. After a [`Silence`] it is not asked again.
 pub trait Session {
-    /// Tells it commands, the last of which it answers, and gives the answer: one expression. So many seconds are waited;
-    /// `go_on` is asked every now and then.
+    /// Sends commands, the last of which has an answer, and returns that answer: one expression. Waits at most this
+    /// many seconds; asks `go_on` regularly whether to continue.
     ///
     /// # Errors
     /// There is no answer.
     fn ask(&mut self, commands: &str, seconds: u32, go_on: &mut dyn FnMut() -> bool) -> Result<String, Silence>;
 }
 
-/// Where solvers come from.
+/// Starts solvers.
 pub trait Solvers {
-    /// The solver as one speaks of it: `z3 4.8.12`.
+    /// The solver's name and version: `z3 4.8.12`.
     ///
     /// # Errors
-    /// There is none: why, as a clause.
+    /// There is no solver; a clause says why.
     fn name(&self) -> Result<String, String>;
 
-    /// Starts one.
+    /// Starts a solver.
     ///
     /// # Errors
-    /// There is none, or it does not run.
+    /// There is no solver, or it does not run.
     fn start(&mut self) -> Result<Box<dyn Session>, Silence>;
 }
 
-/// What a solver says of satisfiability.
+/// A solver's answer about satisfiability.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
     /// `sat`
@@ -55,7 +55,7 @@ pub enum Verdict {
 /// The verdict in an answer.
 ///
 /// # Errors
-/// It is no verdict; what it is.
+/// The answer is no verdict; says what it is.
 pub fn verdict(answer: &str) -> Result<Verdict, Silence> {
     match answer.trim() {
         "sat" => Ok(Verdict::Possible),
@@ -78,8 +78,8 @@ pub enum Constant {
     Real(f64),
 }
 
-/// The values in an answer to `get-value`, whose terms had these kinds; none where a value is none of ours (an algebraic
-/// number, say).
+/// The values in an answer to `get-value` for terms of these kinds; `None` for values that are not our constants, such
+/// as algebraic numbers.
 pub fn constants(answer: &str, kinds: &[Kind]) -> Vec<Option<Constant>> {
     let pairs = match expressions(answer).into_iter().next() {
         Some(Expression::List(pairs)) => pairs,
@@ -97,7 +97,7 @@ pub fn constants(answer: &str, kinds: &[Kind]) -> Vec<Option<Constant>> {
     kinds.iter().enumerate().map(|(index, kind)| value(index, kind)).collect()
 }
 
-/// Whether a text is a whole answer: a word on a line, or an expression with all its brackets.
+/// Whether a text is a complete answer: a word on a line, or an expression with balanced parentheses.
 pub fn is_answer(text: &str) -> bool {
     let (mut depth, mut quoted, mut inside) = (0i64, None, false);
     for letter in text.chars() {

@@ -1,8 +1,9 @@
-//! Values that are not known yet: terms of a solver in the place of the machine's values.
+//! Symbolic values: terms of a solver instead of the machine's values.
 //!
-//! A value is known, a number or an element in a term with the condition under which it is defined, a tuple of such, or a
-//! set of such with the condition under which each is in it. What an element is called is a matter of codes: enum literals
-//! and elements of abstract domains have their numbers; strings and what else can only be compared, their place in a list.
+//! A symbolic value is one of these: a known value; a number or an element, as a term with the condition under which it
+//! is defined; a tuple of symbolic values; a set of them, each with the condition under which it is in the set.
+//! Elements are encoded as numbers: enum literals and elements of abstract domains by their own numbers; strings and
+//! other values that can only be compared, by their index in a list.
 
 use machine::{Real, Value};
 use program::DomainId;
@@ -10,7 +11,7 @@ use program::DomainId;
 use crate::session::Constant;
 use crate::shared::{Kind, Node, Terms};
 
-/// What the values of a term are.
+/// The kind of a term's values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Shape {
     /// Truth values.
@@ -23,12 +24,12 @@ pub enum Shape {
     Enum(DomainId),
     /// Elements of an abstract domain, by number.
     Element(DomainId),
-    /// Values that are only compared, by their place in [`Codes`].
+    /// Values that are only compared, by their index in [`Codes`].
     Coded,
 }
 
 impl Shape {
-    /// What its terms are.
+    /// The kind of its terms.
     pub fn kind(self) -> Kind {
         match self {
             Shape::Boolean => Kind::Boolean,
@@ -50,27 +51,28 @@ impl Shape {
     }
 }
 
-/// A scalar in terms.
+/// A scalar, as a term.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Open {
-    /// What its values are.
+    /// The shape of its values.
     pub shape: Shape,
-    /// Its value, where it is defined.
+    /// Its value, if it is defined.
     pub value: Node,
-    /// Where it is defined.
+    /// The condition under which it is defined.
     pub defined: Node,
 }
 
-/// A value, known or not.
+/// A value, known or symbolic.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Symbol {
-    /// Known.
+    /// A known value.
     Known(Value),
-    /// A scalar that is not.
+    /// A scalar that is not known.
     Open(Open),
     /// A tuple.
     Tuple(Vec<Symbol>),
-    /// Elements that may be in a set, each with the condition that it is. INVARIANT: no two that are in it are equal.
+    /// The possible elements of a set, each with the condition that it is in the set. INVARIANT: no two elements that
+    /// are in the set are equal.
     Set(Vec<(Node, Symbol)>),
 }
 
@@ -87,7 +89,7 @@ impl Symbol {
         }
     }
 
-    /// The value, where it is known.
+    /// The value, if it is known.
     pub fn known(&self) -> Option<&Value> {
         match self {
             Symbol::Known(value) => Some(value),
@@ -117,7 +119,7 @@ impl Codes {
         &self.values
     }
 
-    /// The value of a code; of one that stands for none so far, a string that is not there.
+    /// The value of a code; for an unused code, a string that does not occur.
     pub fn value(&self, code: i128) -> Value {
         let known = usize::try_from(code).ok().and_then(|code| self.values.get(code));
         known.cloned().unwrap_or_else(|| {
@@ -128,7 +130,7 @@ impl Codes {
     }
 }
 
-/// The constant of a shape that a value is.
+/// A value as a constant of its shape.
 pub fn constant(terms: &mut Terms, codes: &mut Codes, value: &Value) -> Node {
     match value {
         Value::Boolean(truth) => terms.boolean(*truth),
@@ -142,7 +144,7 @@ pub fn constant(terms: &mut Terms, codes: &mut Codes, value: &Value) -> Node {
     }
 }
 
-/// The value of a shape that a constant is.
+/// A constant as a value of this shape.
 pub fn value_of(codes: &Codes, shape: Shape, constant: Constant) -> Option<Value> {
     Some(match (shape, constant) {
         (Shape::Boolean, Constant::Boolean(truth)) => Value::Boolean(truth),

@@ -1,5 +1,5 @@
-//! Questions mean what the machine does: a generated condition holds in a state, by the machine's evaluation, exactly when the
-//! question of "this state and the condition" is found possible: by cases, and by the solvers that are installed.
+//! Questions agree with the machine: a generated condition holds in a state, by the machine's evaluation, exactly if
+//! the question "this state and the condition" is found possible, by cases and by the installed solvers.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use syntax::ast::{AstNode, TermFile};
 use syntax::{FileId, SourceFile};
 use testkit::{NoFiles, NoSolver, solver};
 
-/// Numbers that look random and are the same in every run.
+/// Pseudo-random numbers, the same in every run.
 struct Dice(u64);
 
 impl Dice {
@@ -123,7 +123,7 @@ fn conditions_mean_what_the_machine_does() {
             }
             let agree = match (&decided, expected) {
                 (Decision::Possible(_), Some(true)) | (Decision::Impossible, Some(false) | None) => true,
-                // Cases alone do not exclude what numbers they do not try might do.
+                // Cases alone cannot exclude numbers that they do not try.
                 (Decision::Unknown(_), Some(false) | None) => true,
                 _ => false,
             };
@@ -134,7 +134,7 @@ fn conditions_mean_what_the_machine_does() {
     assert!(counts.iter().all(|count| *count > 50), "{counts:?}");
 }
 
-/// What a solver says.
+/// A solver's verdict.
 fn told(session: &mut dyn Session, question: &Question) -> Verdict {
     let script = question.script();
     let (before, _) = script.split_once("(check-sat)").expect("it asks");
@@ -152,7 +152,7 @@ fn asked(checked: &mut model::Checked, condition: &str) -> Question {
     question(&Arc::new(program), &lowered.expect("it is lowered")).expect("it is inside")
 }
 
-/// The truth of a condition in the initial state; none where evaluating it is a fault.
+/// The truth of a condition in the initial state; `None` if its evaluation faults.
 fn evaluated(checked: &mut model::Checked, condition: &str) -> Option<bool> {
     let parse = syntax::parse_term(FileId(9), condition);
     let term = TermFile::cast(parse.syntax()).and_then(|file| file.term()).expect("a term");

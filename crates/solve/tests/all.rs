@@ -1,5 +1,5 @@
-//! The tests of `solve` as one program: each file of this folder is a module here, since linking takes longer than most of
-//! them run.
+//! The tests of `solve` as one program, since linking takes longer than most of them run. Each file of this folder is a
+//! module here.
 
 mod agreement;
 mod decide;

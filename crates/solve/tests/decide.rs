@@ -1,4 +1,4 @@
-//! Conditions over a small model: which can hold, in which state, and what is asked of a solver.
+//! Conditions over a small model: which can hold, in which state, and what a solver is asked.
 
 use std::sync::Arc;
 
@@ -41,7 +41,7 @@ definitions:
 
 fn model(text: &str) -> Checked {
     let checked = check_model(SourceFile::new("Plant.asm", text), &mut NoFiles);
-    // A static function without a definition is one that is not known.
+    // A static function without a definition counts as unknown.
     let told = checked.diagnostics.iter().filter(|found| found.id != "undefined-function");
     assert_eq!(told.count(), 0, "{:?}", checked.diagnostics);
     checked
@@ -62,7 +62,7 @@ fn question_of(text: &str, condition: &str) -> Result<Question, String> {
     solve::question(&Arc::new(program), &lowered.expect("it is lowered")).map_err(|outside| outside.what)
 }
 
-/// Says what was recorded, and keeps the script.
+/// Returns a recorded answer, and keeps the script.
 struct Recorded(Result<&'static str, &'static str>, Option<String>);
 
 impl Solver for Recorded {
@@ -72,7 +72,7 @@ impl Solver for Recorded {
     }
 }
 
-/// Decided without a solver.
+/// Checks a condition that needs no solver.
 fn check(condition: &str, expected: Expect) {
     expected.assert_eq(&decided(MODEL, condition));
 }

@@ -1,6 +1,6 @@
-//! The library functions on symbols, as `machine/src/builtin` has them on values.
+//! Encodes the library functions, like `machine/src/builtin`.
 //!
-//! SYNC(operations): the faults are the machine's; what is not here is outside of what solvers are told.
+//! SYNC(operations): the faults are the machine's; functions missing here are not encoded.
 
 use machine::Value;
 use program::{Builtin, TermId};
@@ -83,14 +83,14 @@ impl Encoder {
         }
     }
 
-    /// A fault where an operand is undef.
+    /// Adds a fault if an operand is undef.
     pub(super) fn need(&mut self, operand: &Symbol) {
         let defined = self.defined(operand);
         let undefined = self.terms.not(defined);
         self.fault(FaultClass::Undefined, undefined);
     }
 
-    /// `chooseone(S)`: undef of an empty set.
+    /// `chooseone(S)`: undef for an empty set.
     fn choose_one(&mut self, elements: Vec<(crate::shared::Node, Symbol)>) -> Result {
         if elements.is_empty() {
             return Ok(Symbol::UNDEF);
@@ -108,7 +108,7 @@ impl Encoder {
         Ok(value)
     }
 
-    /// By candidate, the condition that it is the one that is picked among those that are there.
+    /// For each candidate, the condition that it is the one picked from those that exist.
     pub(super) fn pick(&mut self, candidates: &[(crate::shared::Node, Vec<Symbol>)]) -> Vec<crate::shared::Node> {
         if let [(present, _)] = candidates {
             return vec![*present];

@@ -1,10 +1,10 @@
-//! Conditions about a state that may be any: what is read of it is unknown, a function that whoever decides may choose.
+//! Encodes conditions about an arbitrary state: each function of the state is unknown, so a solver may choose it.
 //!
-//! In: a program and a condition over it; an `exist` at its top binds variables that are left unknown, too. Out: the term
-//! that the condition is true, which includes that evaluating it meets no fault. A location is taken to be defined, unless
-//! the condition asks whether it is (`isDef`, `isUndef`, `= undef`). A domain that may have elements besides those with
-//! names is open: a dynamic one, one of a module, `Agent`. It is not ranged over, and a value of it may be none of those.
-//! LIMIT: arguments of a location are taken to be defined.
+//! In: a program and a condition over it; an `exist` at its top binds variables that are unknown as well. Out: the term
+//! that the condition is true, including that its evaluation does not fault. A location counts as defined unless the
+//! condition asks whether it is (`isDef`, `isUndef`, `= undef`). A domain that may have elements besides its named ones
+//! is open: a dynamic one, one of a module, `Agent`. Such a domain cannot be enumerated, and its values may be unnamed.
+//! LIMIT: arguments of a location count as defined.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -22,42 +22,42 @@ use crate::session::Constant;
 use crate::shared::{Bounds, Kind, Node, Op, Terms, VariableId};
 use crate::symbol::{Open, Shape, Symbol, constant};
 
-/// LIMIT: a domain of more elements is not listed.
+/// LIMIT: larger domains are not listed.
 const VALUES: usize = 10_000;
 
-/// What values are: their shape, and the type domain that names them.
+/// The sort of a value: its shape, and the type domain that names it.
 pub type Sort = (Shape, DomainId);
 
-/// A function of the state, or a variable, of which nothing is known but what its domain says.
+/// A function of the state, or a variable, of which only the domain is known.
 #[derive(Debug, Clone)]
 pub struct Unknown {
-    /// The name; that of a definedness test is the function's.
+    /// The name; for a definedness test, the function's name.
     pub name: String,
-    /// It is true where the function of this name is defined.
+    /// Whether it is the test that the function of this name is defined.
     pub definedness: bool,
-    /// What its arguments are.
+    /// The sorts of its arguments.
     pub parameters: Vec<Sort>,
-    /// What its values are.
+    /// The sort of its values.
     pub sort: Sort,
-    /// The values themselves, where they are listed.
+    /// Its possible values, if they are listed.
     pub values: Option<Vec<Constant>>,
 }
 
 /// The unknowns of a condition.
 #[derive(Debug, Default)]
 pub(super) struct Free {
-    /// Functions that are asked whether they are defined.
+    /// Functions whose definedness is tested.
     tested: BTreeSet<FunctionId>,
-    /// The symbol of each function, and that of its definedness.
+    /// The symbols of each function's value and definedness.
     functions: BTreeMap<(FunctionId, bool), VariableId>,
     unknowns: BTreeMap<VariableId, Unknown>,
 }
 
 impl Encoder {
-    /// The term that a condition holds in a state that may be any.
+    /// The term that a condition holds in an arbitrary state.
     ///
     /// # Errors
-    /// It holds something that has no place in terms.
+    /// It contains something that cannot be encoded.
     pub fn condition_of_any_state(&mut self, condition: &Expression) -> Result<Node> {
         self.free = Some(Free { tested: tested(&self.program, condition), ..Free::default() });
         let program = Arc::clone(&self.program);
@@ -79,7 +79,7 @@ impl Encoder {
         Ok(condition)
     }
 
-    /// The unknowns of a condition, by their symbols.
+    /// The unknowns of a condition, keyed by their symbols.
     pub fn unknowns(&mut self) -> BTreeMap<VariableId, Unknown> {
         self.free.take().unwrap_or_default().unknowns
     }
@@ -104,7 +104,7 @@ impl Encoder {
         }
     }
 
-    /// A new symbol for values of a domain; for `isDef` of a function where `tests` says so.
+    /// A new symbol for values of a domain, or with `tests` for the definedness of a function.
     fn unknown(
         &mut self,
         name: String,
@@ -165,7 +165,7 @@ impl Encoder {
         }
     }
 
-    /// The value of a symbol at arguments; what its domain says of it is given.
+    /// The value of a symbol at arguments; records what its domain says about it.
     fn location(&mut self, id: VariableId, arguments: Vec<Node>) -> Node {
         let node = self.terms.apply(id, arguments);
         let values = self.free.as_ref().and_then(|free| free.unknowns.get(&id)?.values.clone());
@@ -217,8 +217,8 @@ impl Encoder {
         Ok(self.symbol(Open { shape: sort.0, value, defined }))
     }
 
-    /// Whether an element is in a collection that is written out, by its elements or its ends; none where it is not. The
-    /// element comes first, as people read it: which fault is met before another does not count here.
+    /// Whether an element is in a collection that is written out by its elements or its ends; `None` if it is not
+    /// written out. The element is evaluated first, in reading order: here the order of faults does not matter.
     pub(super) fn is_written_in(&mut self, collection: TermId, element: TermId) -> Result<Option<Symbol>> {
         let program = Arc::clone(&self.program);
         match program.term(collection) {
@@ -251,7 +251,7 @@ impl Encoder {
         }
     }
 
-    /// Whether a domain may have elements that are not known.
+    /// Whether a domain may have unknown elements.
     pub(super) fn is_open(&mut self, domain: DomainId) -> bool {
         let program = Arc::clone(&self.program);
         match &program.domain(domain).kind {
@@ -269,12 +269,12 @@ impl Encoder {
 
     /// All elements of a domain that is not open.
     pub(super) fn elements_if_closed(&mut self, domain: DomainId) -> Option<Vec<machine::Value>> {
-        // A domain whose contents need itself has none, so that asking ends.
+        // A domain whose contents depend on themselves has none, so the recursion ends.
         let known = self.machine.elements(domain).ok().filter(|known| known.len() <= VALUES)?;
         (!self.is_open(domain)).then_some(known)
     }
 
-    /// Whether the value of a term is the same in every state, but for its variables.
+    /// Whether a term has the same value in every state, except for its variables.
     pub(super) fn is_settled(&mut self, id: TermId) -> bool {
         let program = Arc::clone(&self.program);
         let (mut open, mut entered) = (vec![id], BTreeSet::new());
@@ -289,7 +289,7 @@ impl Encoder {
                 }
                 Term::Builtin { builtin, .. } => builtin.info().effect.is_none(),
                 Term::Domain(domain) => self.elements_if_closed(*domain).is_some(),
-                // A long one is compared with its ends.
+                // A long range is not listed; its ends are compared.
                 Term::Range { .. } => true,
                 Term::Missing(_) | Term::Unbound | Term::Rule(_) => false,
                 Term::Constant(_)
@@ -312,7 +312,7 @@ impl Encoder {
         true
     }
 
-    /// A String is no Char, though both have codes.
+    /// States that a String is no Char, although both are encoded by codes.
     fn tell_texts_apart(&mut self, condition: Node) {
         let program = Arc::clone(&self.program);
         for node in self.terms.parts([condition]) {
@@ -335,7 +335,7 @@ impl Encoder {
     }
 }
 
-/// Whether a value that has a code is one of a domain.
+/// Whether an encoded value belongs to a domain.
 pub(crate) fn is_text_of(program: &Program, domain: DomainId, value: &machine::Value) -> bool {
     match program.domain(domain).kind {
         DomainKind::Basic(Basic::Char) => matches!(value, machine::Value::Char(_)),

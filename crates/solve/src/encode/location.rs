@@ -1,7 +1,7 @@
-//! Locations: the variables of the state, what is read of them and which of them an update means; inputs.
+//! Encodes locations: the variables of the state, reads and updates of them; inputs.
 //!
-//! A function over finite domains has one place for each location. LIMIT: so many of one function. An argument outside of its
-//! domain names a location that is no place: an update of it is beyond what solvers are told.
+//! A function over finite domains has one place for each location. LIMIT: a function may have only so many places. An
+//! argument outside of its domain names a location without a place: an update of it is not encoded.
 
 use std::sync::Arc;
 
@@ -16,26 +16,26 @@ use crate::shared::{Bounds, Kind, Node, Terms};
 use crate::symbol::{Open, Shape, Symbol, constant};
 
 const PLACES: usize = 10_000;
-/// LIMIT: values that an input without an order is given.
+/// LIMIT: how many values an unordered input may have.
 const VALUES: usize = 256;
 
-/// The places of a function, by their arguments.
+/// The places of a function, keyed by their arguments.
 pub(super) type Rows = Vec<(Vec<Value>, usize)>;
 
 /// A location of the state.
 #[derive(Debug, Clone)]
 pub struct Place {
-    /// Which it is.
+    /// The location.
     pub location: Location,
-    /// What its values are.
+    /// The shape of its values.
     pub shape: Shape,
     /// Its value, as a variable.
     pub value: Node,
-    /// Whether it is defined, as a variable; a constant where it always is.
+    /// Whether it is defined, as a variable; a constant if it always is.
     pub defined: Node,
-    /// It is part of the state between steps.
+    /// Whether it is part of the state between steps.
     pub kept: bool,
-    /// What is known of its value by its domain.
+    /// What its domain says about its value.
     pub typed: Node,
 }
 
@@ -109,7 +109,7 @@ impl Encoder {
         Ok(value.unwrap_or(Symbol::UNDEF))
     }
 
-    /// The value that a monitored location has in the step.
+    /// The value of a monitored location in this step.
     fn input_at(&mut self, function: FunctionId, arguments: Vec<Value>, span: Span) -> Result {
         let key = (function, arguments);
         if let Some(known) = self.given_inputs.get(&key) {
@@ -143,11 +143,11 @@ impl Encoder {
         Ok(symbol)
     }
 
-    /// An input that has one of some values.
+    /// An input with one of these values.
     fn input_among(&mut self, name: &str, key: &(FunctionId, Vec<Value>), values: Vec<Value>, span: Span) -> Result {
         if let [value] = &values[..] {
             let value = Symbol::Known(value.clone());
-            // It is still asked for.
+            // With only one value the input is still read.
             let shape = Shape::Coded;
             let Symbol::Known(known) = &value else { return Ok(value) };
             let code = self.codes.code(known);
@@ -190,7 +190,7 @@ impl Encoder {
         Ok(symbol)
     }
 
-    /// A term is one of some constants.
+    /// The condition that a term equals one of some constants.
     pub(super) fn one_of(&mut self, value: Node, nodes: &[Node]) -> Node {
         let numbers: Option<Vec<i128>> = nodes.iter().map(|node| self.terms.whole(*node)).collect();
         if let Some(mut numbers) = numbers {
@@ -235,7 +235,7 @@ impl Encoder {
         Ok(rows)
     }
 
-    /// The condition that arguments are those of a row.
+    /// The condition that the arguments are those of a row.
     fn matches(&mut self, arguments: &[Symbol], row: &[Value]) -> Result<Node> {
         let mut all = Terms::TRUE;
         for (argument, value) in arguments.iter().zip(row) {
@@ -248,7 +248,8 @@ impl Encoder {
         Ok(all)
     }
 
-    /// The places that arguments may mean, each with the condition that it is the one; and the condition that it is none.
+    /// The places that the arguments may denote, each with the condition that it is the one; and the condition that it
+    /// is none of them.
     pub(super) fn places_at(
         &mut self,
         function: FunctionId,
@@ -269,7 +270,7 @@ impl Encoder {
                 places.push((here, *place));
             }
         }
-        // That it is one of them is often known by bounds, where the solver would have to find out.
+        // Bounds often show that it is one of them, which saves the solver the proof.
         let elsewhere = if self.all_within(function, arguments) {
             Terms::FALSE
         } else {
@@ -279,7 +280,7 @@ impl Encoder {
         Ok((places, elsewhere))
     }
 
-    /// Whether bounds tell that each argument is in its domain.
+    /// Whether bounds show that each argument is in its domain.
     fn all_within(&mut self, function: FunctionId, arguments: &[Symbol]) -> bool {
         let program = Arc::clone(&self.program);
         let parameters = &program.function(function).parameters;
@@ -306,7 +307,7 @@ impl Encoder {
         (low..=high).all(|number| numbers.contains(&number))
     }
 
-    /// The places of a function, by their arguments.
+    /// The places of a function, keyed by their arguments.
     fn places_of(&mut self, function: FunctionId, span: Span) -> Result<Arc<Rows>> {
         if let Some(known) = self.listed.get(&function) {
             return Ok(Arc::clone(known));
@@ -346,10 +347,10 @@ impl Encoder {
         Ok(rows)
     }
 
-    /// Makes the places of a function, if there are none yet.
+    /// Creates the places of a function, if there are none yet.
     ///
     /// # Errors
-    /// Its locations or values cannot be told.
+    /// Its locations or values cannot be encoded.
     pub fn know(&mut self, function: FunctionId) -> Result<()> {
         let span = self.program.function(function).span;
         self.places_of(function, span).map(drop)
@@ -371,7 +372,7 @@ impl Encoder {
         })
     }
 
-    /// The bounds of a domain's values; the values themselves where bounds do not tell them.
+    /// The bounds of a domain's values; also the values themselves if bounds do not determine them.
     fn values_of(&mut self, domain: DomainId, shape: Shape) -> (Bounds, Vec<Node>) {
         let natural = matches!(self.program.domain(domain).kind, DomainKind::Basic(Basic::Natural));
         let listed = match shape {
@@ -395,7 +396,7 @@ impl Encoder {
         }
     }
 
-    /// An update of a location; the conditions of `path` are added.
+    /// An update of a location, under the condition `path`.
     pub(super) fn update(
         &mut self,
         function: FunctionId,
@@ -437,7 +438,7 @@ impl Encoder {
         Ok(())
     }
 
-    /// The condition that a value may not be written to a function of that codomain.
+    /// The condition that a value is outside of the codomain.
     fn not_member(&mut self, domain: DomainId, value: &Symbol) -> Result<Node> {
         let program = Arc::clone(&self.program);
         match (&program.domain(domain).kind, value) {

@@ -1,13 +1,13 @@
-//! A step of the machine in terms of a solver: for each location, its next value as a function of the state, the inputs and
-//! the choices; and under which conditions the step is no step.
+//! Encodes a step of the machine for a solver: the next value of each location as a function of the state, the inputs
+//! and the choices; and the conditions under which the step fails.
 //!
-//! In: a program. Out: what `verify` makes a transition relation of. Rules are run in the machine's order with symbols for
-//! values; every branch that may be taken is. INVARIANT: for every state and answer, `faults` holds the class of the first
-//! fault that the machine meets, and the update set is the machine's; `beyond` holds where that is not so. Tests hold the
-//! two to each other, and nobody is told of a run that the machine does not make.
+//! In: a program. Out: what `verify` builds a transition relation from. Rules are executed in the machine's order on
+//! symbolic values; every branch that may be taken is executed. INVARIANT: for every state and answer, `faults` gives
+//! the class of the first fault that the machine meets, and the update set is the machine's; `beyond` holds wherever
+//! that is not so. Tests compare the two, and a run that the machine does not make is never reported.
 //!
-//! Each file owns one part: terms, builtins, numbers, ranges, rules, locations; [`free`] a condition about a state that may
-//! be any, of which no step is made.
+//! Each file owns one part: terms, builtins, numbers, ranges, rules, locations. [`free`] encodes a condition about an
+//! arbitrary state, without a step.
 
 mod builtin;
 pub(crate) mod free;
@@ -32,124 +32,124 @@ use crate::symbol::{Codes, Open, Shape, Symbol, constant, value_of};
 pub use free::Unknown;
 pub use location::Place;
 
-/// LIMIT: terms and rules that are gone through for one step.
+/// LIMIT: how many terms and rules are encoded for one step.
 const WORK: usize = 2_000_000;
 /// LIMIT: shared terms.
 const TERMS: usize = 4_000_000;
-/// LIMIT: calls in each other, of which a solver is told all.
+/// LIMIT: nested calls that are encoded.
 const DEPTH: usize = 100;
 
-/// Why something has no place in terms.
+/// Why something cannot be encoded.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Outside {
     /// What it is, as a noun: "a term of the domain Seq(Integer)".
     pub what: String,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
 }
 
-/// What is in terms, or why something has no place in them.
+/// An encoding, or why there is none.
 pub type Result<T = Symbol> = std::result::Result<T, Outside>;
 
-/// What a step takes from outside.
+/// Something that a step reads from the environment.
 #[derive(Debug, Clone)]
 pub struct Input {
     /// Its value.
     pub variable: Node,
-    /// What it is.
+    /// Its kind.
     pub kind: InputKind,
 }
 
-/// What an input is.
+/// The kinds of inputs.
 #[derive(Debug, Clone)]
 pub enum InputKind {
     /// The value of a monitored location.
     Location(FunctionId, Vec<Value>, Shape),
-    /// A place in the candidates of a choice.
+    /// An index into the candidates of a choice.
     Pick,
     /// A number drawn by a choice.
     Number,
-    /// What rounding does to a real number.
+    /// The rounding of a real number.
     Rounding,
 }
 
 /// A choice: its candidates with the condition that each is taken.
 #[derive(Debug, Clone)]
 pub struct Choice {
-    /// It is made, and has candidates.
+    /// The condition that the choice is made and has candidates.
     pub made: Node,
-    /// By candidate, that it is taken, and the values of the variables.
+    /// For each candidate, the condition that it is taken, and the values of the variables.
     pub candidates: Vec<(Node, Vec<Symbol>)>,
-    /// Numbers that are drawn before.
+    /// Numbers that are drawn first.
     pub draws: Vec<Symbol>,
 }
 
-/// The updates of a unit: by place, the condition that there is one, and its value.
+/// The updates of a unit: for each place, the condition that there is an update, and its value.
 type Unit = BTreeMap<usize, (Node, Symbol)>;
 
-/// See the module.
+/// Encodes a program.
 #[derive(Debug)]
 pub struct Encoder {
-    /// What is encoded.
+    /// The encoded program.
     pub program: Arc<Program>,
-    /// The terms that were made.
+    /// The terms created so far.
     pub terms: Terms,
-    /// What values that are only compared are called.
+    /// The codes of values that are only compared.
     pub codes: Codes,
-    /// Evaluates what does not depend on the state.
+    /// Evaluates terms that do not depend on the state.
     machine: Machine,
     bounds: Bounds,
-    /// Reals are computed without rounding.
+    /// Whether reals are computed without rounding.
     exact: bool,
     /// Functions whose locations may be undef.
     partial: BTreeSet<FunctionId>,
-    /// The locations that were met.
+    /// The locations read or updated so far.
     pub places: Vec<Place>,
     listed: BTreeMap<FunctionId, Arc<location::Rows>>,
-    /// The values of places now, and before the step.
+    /// The present values of places, and those before the step.
     values: Vec<Symbol>,
     original: Vec<Symbol>,
     before: bool,
     agent: Symbol,
-    /// What was taken from outside.
+    /// The inputs read so far.
     pub inputs: Vec<Input>,
     given_inputs: FxHashMap<(FunctionId, Vec<Value>), Symbol>,
-    /// The choices that were met.
+    /// The choices made so far.
     pub choices: Vec<Choice>,
-    /// What is known of inputs.
+    /// Facts about inputs.
     pub given: Vec<Node>,
     frame: Vec<Symbol>,
-    /// The condition under which the rule or term at hand is run.
+    /// The condition under which the present rule or term is executed.
     path: Node,
-    /// No fault was met so far.
+    /// The condition that no fault has occurred.
     live: Node,
     faults: [Node; 3],
-    /// Where the machine may do what is not told to solvers.
+    /// Conditions under which the machine may do what is not encoded.
     pub beyond: Vec<(Node, Outside)>,
     units: Vec<Unit>,
-    /// By term: its free variables, if its value depends on them alone.
+    /// For each term its free variables, if its value depends on them alone.
     fixed: FxHashMap<TermId, Option<Arc<[Slot]>>>,
     work: usize,
     depth: usize,
-    /// A real number was computed.
+    /// Whether a real number was computed.
     pub inexact: bool,
-    /// The unknowns, where the state may be any.
+    /// The unknowns, for a condition about an arbitrary state.
     free: Option<free::Free>,
 }
 
-/// The state between two parts of an encoding.
+/// The progress of an encoding between two parts.
 #[derive(Debug, Clone, Copy)]
 pub struct Course {
-    /// The condition under which what comes next is run.
+    /// The condition under which the next part is executed.
     pub path: Node,
-    /// No fault was met.
+    /// The condition that no fault has occurred.
     pub live: Node,
-    /// By class, where a fault was the first.
+    /// For each class, the condition that its fault was the first.
     pub faults: [Node; 3],
 }
 
 impl Encoder {
-    /// An encoder of the program of a started machine, which evaluates what does not depend on the state.
+    /// An encoder for the program of a started machine. The machine evaluates what does not depend on the state.
     pub fn new(machine: Machine, bounds: Bounds, exact: bool, partial: BTreeSet<FunctionId>) -> Encoder {
         Encoder {
             program: Arc::clone(machine.program()),
@@ -183,7 +183,7 @@ impl Encoder {
         }
     }
 
-    /// The constants of domains.
+    /// The machine, which knows the contents of domains.
     pub fn machine(&mut self) -> &mut Machine {
         &mut self.machine
     }
@@ -192,7 +192,7 @@ impl Encoder {
         Err(Outside { what: what.into(), span })
     }
 
-    /// What is outside has the place of the term or rule at hand, where nothing nearer is known.
+    /// Adds the place of the present term or rule if the error has none.
     fn placed<T>(outcome: Result<T>, span: Span) -> Result<T> {
         outcome.map_err(|outside| match outside.span {
             Span { start: 0, end: 0, .. } => Outside { span, ..outside },
@@ -200,7 +200,7 @@ impl Encoder {
         })
     }
 
-    /// Counts against the limits.
+    /// Counts work against the limits.
     fn count(&mut self, span: Span) -> Result<()> {
         self.work += 1;
         if self.work > WORK || self.terms.count() > TERMS {
@@ -209,10 +209,10 @@ impl Encoder {
         Ok(())
     }
 
-    /// Runs the main rule as a unit of its own.
+    /// Executes the main rule as a unit of its own.
     ///
     /// # Errors
-    /// It holds something that has no place in terms; so below.
+    /// It contains something that cannot be encoded; likewise below.
     pub fn step(&mut self) -> Result<()> {
         let main = self.program.main.map(|main| self.program.procedure(main).clone());
         let Some(main) = main else {
@@ -222,7 +222,7 @@ impl Encoder {
         self.in_frame(Vec::new(), main.frame, main.span, |this| this.perform(main.body))
     }
 
-    /// The next value of a place after [`Encoder::step`], and whether it is another one.
+    /// The value of a place after [`Encoder::step`], and whether it has changed.
     ///
     /// # Errors
     /// See [`Encoder::step`].
@@ -237,8 +237,8 @@ impl Encoder {
         Ok((self.merge(guard, &value, &old)?, changed))
     }
 
-    /// Whether a condition is true, in the state before the step, and whether it has a value at all; by itself, so that its
-    /// faults are none of the step.
+    /// Whether a condition is true in the state before the step, and whether it has a value. It is encoded separately,
+    /// so its faults are not the step's.
     ///
     /// # Errors
     /// See [`Encoder::step`].
@@ -252,7 +252,7 @@ impl Encoder {
         Ok((self.terms.and([truth, live]), live))
     }
 
-    /// Whether a condition is true, evaluated behind what was run before: its faults are the step's.
+    /// Whether a condition is true, evaluated after what was executed before; its faults are the step's.
     ///
     /// # Errors
     /// See [`Encoder::step`].
@@ -266,22 +266,22 @@ impl Encoder {
         })
     }
 
-    /// How the run is so far.
+    /// The progress so far.
     pub fn course(&self) -> Course {
         Course { path: self.path, live: self.live, faults: self.faults }
     }
 
-    /// Goes on from there.
+    /// Continues from there.
     pub fn resume(&mut self, course: Course) {
         (self.path, self.live, self.faults) = (course.path, course.live, course.faults);
     }
 
-    /// From now on only where this holds.
+    /// Restricts everything from now on to this condition.
     pub fn assume(&mut self, condition: Node) {
         self.path = self.terms.and([self.path, condition]);
     }
 
-    /// Runs `body` where a condition holds as well; none where that is nowhere.
+    /// Runs `body` under an additional condition; `None` if that can never hold.
     fn under<T>(&mut self, condition: Node, body: impl FnOnce(&mut Self) -> Result<T>) -> Result<Option<T>> {
         let path = self.terms.and([self.path, condition]);
         if path == Terms::FALSE {
@@ -293,7 +293,7 @@ impl Encoder {
         outcome.map(Some)
     }
 
-    /// A fault where a condition holds.
+    /// Adds a fault under a condition.
     fn fault(&mut self, class: FaultClass, condition: Node) {
         let here = self.terms.and([self.path, self.live, condition]);
         if here != Terms::FALSE {
@@ -303,7 +303,7 @@ impl Encoder {
         }
     }
 
-    /// What happens where a condition holds is not told.
+    /// Marks what happens under a condition as not encoded.
     fn beyond(&mut self, condition: Node, what: &str, span: Span) {
         let here = self.terms.and([self.path, self.live, condition]);
         if here != Terms::FALSE {
@@ -318,7 +318,7 @@ impl Encoder {
         self.live = self.terms.and([self.live, not]);
     }
 
-    /// What the machine has met instead of a value.
+    /// Records the fault that the machine reported instead of a value.
     fn met(&mut self, fault: &Fault) -> Result {
         if let FaultKind::Limit { .. } | FaultKind::Interrupted(_) | FaultKind::Environment { .. } = fault.kind {
             return self.outside("a term that the machine does not evaluate by itself", fault.span);
@@ -351,7 +351,7 @@ impl Encoder {
         self.frame[slot.0 as usize] = value;
     }
 
-    /// A symbol as a scalar in terms; none if it is none. The value of undef is `like`.
+    /// A symbol as a scalar term; `None` if it is not a scalar. For undef, the value is that of `like`.
     fn open(&mut self, symbol: &Symbol, like: Option<Open>) -> Option<Open> {
         match symbol {
             Symbol::Open(open) => Some(*open),
@@ -364,7 +364,7 @@ impl Encoder {
         }
     }
 
-    /// A scalar as a symbol, which is known where it can be.
+    /// A scalar as a symbol, which is a known value if possible.
     fn symbol(&self, open: Open) -> Symbol {
         if open.defined == Terms::FALSE {
             return Symbol::UNDEF;
@@ -381,7 +381,7 @@ impl Encoder {
         use crate::session::Constant;
         let constant = self.terms.constant(node)?;
         match (shape, constant) {
-            // One that is not there yet may come.
+            // A code that does not exist yet may be added later.
             (Shape::Coded, Constant::Integer(_))
             | (_, Constant::Boolean(_) | Constant::Integer(_) | Constant::Real(_)) => {
                 value_of(&self.codes, shape, constant)
@@ -389,7 +389,7 @@ impl Encoder {
         }
     }
 
-    /// The first symbol where a condition holds, else the second.
+    /// The first symbol if a condition holds, else the second.
     fn merge(&mut self, condition: Node, yes: &Symbol, no: &Symbol) -> Result {
         match self.terms.truth(condition) {
             Some(true) => return Ok(yes.clone()),

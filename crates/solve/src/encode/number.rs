@@ -1,8 +1,7 @@
-//! Numbers: arithmetic, order and conversions, with the faults that the machine meets.
+//! Encodes numbers: arithmetic, order and conversions, with the machine's faults.
 //!
-//! Integers have 64 bits: a result beyond is a fault. The machine's reals are rounded; a relation that is to find runs
-//! computes with exact ones, one that is to prove something lets every result be anything within the error of rounding.
-//! LIMIT: reals beyond the doubles' range.
+//! Integers have 64 bits: a larger result is a fault. The machine rounds reals. A relation for finding runs computes
+//! exactly; one for proofs allows every result within the rounding error. LIMIT: reals beyond the range of doubles.
 
 use machine::Value;
 use program::Builtin;
@@ -12,15 +11,15 @@ use super::{Encoder, FaultClass, InputKind, Result};
 use crate::shared::{Kind, Node, Terms};
 use crate::symbol::{Open, Shape, Symbol};
 
-/// The integers that there are.
+/// The range of integers.
 pub(super) const INTEGERS: (Option<i128>, Option<i128>) = (Some(i64::MIN as i128), Some(i64::MAX as i128));
 
 impl Encoder {
-    /// A number's term; a fault where it is undef.
+    /// A number's term; adds a fault if it is undef.
     fn operand(&mut self, symbol: &Symbol) -> Option<Open> {
         self.need(symbol);
         match symbol {
-            // The fault has been met; any number will do.
+            // The fault has been recorded, so any number will do.
             Symbol::Known(Value::Undef) => {
                 let value = self.terms.integer(0);
                 Some(Open { shape: Shape::Integer, value, defined: Terms::TRUE })
@@ -47,7 +46,7 @@ impl Encoder {
         }
     }
 
-    /// What the machine has in the place of a real.
+    /// A real as the machine rounds it.
     fn rounded(&mut self, real: Node) -> Node {
         if self.terms.constant(real).is_some() {
             return real;
@@ -88,7 +87,7 @@ impl Encoder {
         }
     }
 
-    /// A result that must have 64 bits.
+    /// A result that must fit in 64 bits.
     fn fitting(&mut self, value: Node) -> Option<Symbol> {
         let fits = self.terms.within(value, INTEGERS);
         let overflow = self.terms.not(fits);
@@ -101,7 +100,8 @@ impl Encoder {
         Some(self.symbol(Open { shape: Shape::Real, value, defined: Terms::TRUE }))
     }
 
-    /// The functions of numbers; none where this is none of them, or its operands are no such numbers.
+    /// Encodes the functions of numbers; `None` if this is not one of them, or its operands are not numbers of that
+    /// kind.
     pub(super) fn number(&mut self, builtin: Builtin, operands: &[Symbol], span: Span) -> Result<Option<Symbol>> {
         use Builtin::*;
         let known = matches!(
@@ -247,7 +247,7 @@ impl Encoder {
 
     fn real_number(&mut self, builtin: Builtin, operands: &[Node]) -> Option<Symbol> {
         let zero = self.terms.real(0.0);
-        // Not rounded: the result is an operand, or its negative.
+        // Not rounded: the result is an operand or its negative.
         let as_it_is = |this: &Self, value| Some(this.symbol(Open { shape: Shape::Real, value, defined: Terms::TRUE }));
         match (builtin, operands) {
             (Builtin::RealNeg, [a]) => {

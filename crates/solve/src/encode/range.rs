@@ -1,6 +1,6 @@
-//! What binders range over: elements with the condition that each is there.
+//! Encodes the ranges of binders: elements, each with the condition that it is in the range.
 //!
-//! LIMIT: so many bindings of one rule or term.
+//! LIMIT: the bindings of one rule or term.
 
 use machine::Value;
 use program::{Binder, Term, TermId};
@@ -12,7 +12,7 @@ use crate::shared::{Node, Terms};
 use crate::symbol::{Open, Shape, Symbol};
 
 const BINDINGS: usize = 50_000;
-/// LIMIT: numbers of a range whose ends are not known.
+/// LIMIT: how many numbers a range with unknown ends may have.
 const WIDE: i128 = 1000;
 
 impl Encoder {
@@ -77,7 +77,7 @@ impl Encoder {
         }
     }
 
-    /// The integers from one to another.
+    /// The integers between two ends.
     pub(super) fn range_between(&mut self, low: TermId, high: TermId, span: Span) -> Result<Vec<(Node, Symbol)>> {
         let (low, high) = (self.evaluate(low)?, self.evaluate(high)?);
         let (low, high) = (self.integer_operand(&low, span)?, self.integer_operand(&high, span)?);

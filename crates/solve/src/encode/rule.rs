@@ -1,6 +1,6 @@
-//! Rules → updates with their conditions, as `machine/src/perform.rs` has them.
+//! Encodes rules as conditional updates, like `machine/src/perform.rs`.
 //!
-//! SYNC(perform): units, the parts of a sequence, and which faults are met on the way. LIMIT: so many rounds of a loop.
+//! SYNC(perform): units, the parts of a sequence, and the order of faults. LIMIT: the rounds of a loop.
 
 use std::sync::Arc;
 
@@ -16,11 +16,11 @@ use crate::symbol::{Open, Shape, Symbol};
 
 const ROUNDS: usize = 64;
 
-/// What places held before a sequence.
+/// The values of places before a sequence.
 type Log = Vec<(usize, Symbol)>;
 
 impl Encoder {
-    /// Runs a rule.
+    /// Executes a rule.
     pub(super) fn perform(&mut self, id: RuleId) -> Result<()> {
         let span = self.program.rule_span(id);
         self.count(span)?;
@@ -132,7 +132,7 @@ impl Encoder {
         self.in_frame(arguments, procedure.frame, span, |this| this.perform(procedure.body))
     }
 
-    /// A call whose updates are a unit, which is joined to the current one; gives what it writes to `result`.
+    /// A call whose updates are a unit, which joins the current one; returns what it writes to `result`.
     fn turbo(&mut self, procedure: ProcedureId, arguments: TermList, span: Span) -> Result<Option<(Node, Symbol)>> {
         self.units.push(Unit::new());
         let outcome = self.call(procedure, arguments, span);
@@ -169,7 +169,7 @@ impl Encoder {
         .map(drop)
     }
 
-    /// Runs the program of an agent; `self` is the agent within it.
+    /// Executes the program of an agent; `self` is the agent in it.
     fn run_agent(&mut self, agent: TermId, span: Span) -> Result<()> {
         let agent = match self.evaluate(agent)? {
             Symbol::Known(agent) => agent,
@@ -185,14 +185,14 @@ impl Encoder {
         outcome
     }
 
-    /// The program of an agent: that of the most specific domain it is in, which comes first.
+    /// The program of an agent: that of its most specific domain, which comes first.
     pub(super) fn agent_program(&mut self, agent: &Value) -> Option<ProcedureId> {
         let program = Arc::clone(&self.program);
         let fitting = |entry: &&program::AgentProgram| !agent.is_undef() && self.machine.contains(entry.domain, agent);
         program.agents.iter().find(fitting).map(|entry| entry.procedure)
     }
 
-    /// Runs parts one after the other; their net effect, without that on some functions, joins the current unit.
+    /// Executes parts in sequence; their net effect, except on some functions, joins the current unit.
     fn sequence(
         &mut self,
         without: &[FunctionId],
@@ -209,7 +209,7 @@ impl Encoder {
         self.join(unit)
     }
 
-    /// Runs one part of a sequence; gives the condition that it has any update.
+    /// Executes one part of a sequence; returns the condition that it has any update.
     fn perform_part(&mut self, rule: RuleId, (net, log): &mut (Unit, Log)) -> Result<Node> {
         self.units.push(Unit::new());
         let outcome = self.perform(rule);
@@ -229,7 +229,7 @@ impl Encoder {
         Ok(any)
     }
 
-    /// A loop: while a condition holds and, where that counts, there is something to update.
+    /// A loop: repeats while a condition holds and, with `fixpoint`, while there are updates.
     fn repeat(&mut self, condition: Option<TermId>, body: RuleId, fixpoint: bool, span: Span) -> Result<()> {
         self.sequence(&[], |this, effect| {
             let path = this.path;
@@ -319,7 +319,7 @@ impl Encoder {
         self.under(none, |this| if_none.map_or(Ok(()), |rule| this.perform(rule))).map(drop)
     }
 
-    /// Which numbers a binder ranges over, if they are all of a kind.
+    /// The kind of numbers that a binder ranges over, if it ranges over all numbers of a kind.
     fn numbers(&self, binder: &Binder) -> Option<Basic> {
         let Term::Domain(domain) = self.program.term(binder.range) else { return None };
         match self.program.domain(*domain).kind {
@@ -328,7 +328,7 @@ impl Encoder {
         }
     }
 
-    /// Binds variables over all numbers to any number.
+    /// Binds variables over all numbers to arbitrary numbers.
     fn draws(&mut self, binders: &[Binder], condition: Option<TermId>) -> Result<Vec<Symbol>> {
         let mut draws = Vec::new();
         for binder in binders {

@@ -1,11 +1,11 @@
-//! Sets of symbols: each element with the condition that it is in the set.
+//! Symbolic sets: each element with the condition that it is in the set.
 
 use super::{Encoder, Result, elements};
 use crate::shared::{Node, Terms};
 use crate::symbol::{Open, Shape, Symbol};
 
 impl Encoder {
-    /// The set of some elements, of which each is there under a condition; what is equal is there once.
+    /// The set of some elements, each present under a condition; equal elements are merged.
     pub(super) fn set_of(&mut self, all: Vec<(Node, Symbol)>) -> Result {
         let mut distinct: Vec<(Node, Symbol)> = Vec::new();
         for (mut present, element) in all {
@@ -27,7 +27,7 @@ impl Encoder {
         Ok(Symbol::Set(distinct))
     }
 
-    /// One set where a condition holds, else another.
+    /// One set if a condition holds, else the other.
     pub(super) fn merge_sets(&mut self, condition: Node, yes: Vec<(Node, Symbol)>, no: Vec<(Node, Symbol)>) -> Result {
         let not = self.terms.not(condition);
         let mut all: Vec<(Node, Symbol)> = Vec::new();
@@ -64,7 +64,7 @@ impl Encoder {
         self.symbol(Open { shape: Shape::Integer, value: sum, defined: Terms::TRUE })
     }
 
-    /// The elements of the first set that are, or are not, in the second.
+    /// The elements of the first set that are (or are not) in the second.
     pub(super) fn filtered(&mut self, set: &[(Node, Symbol)], by: &[(Node, Symbol)], inside: bool) -> Result {
         let mut kept = Vec::new();
         for (present, element) in set {
@@ -80,7 +80,7 @@ impl Encoder {
         Ok(Symbol::Set(kept))
     }
 
-    /// The elements of two operands that are sets.
+    /// The elements of two operands, if both are sets.
     pub(super) fn two_sets(operands: &[Symbol]) -> Option<[Vec<(Node, Symbol)>; 2]> {
         match operands {
             [a, b] => Some([elements(a)?, elements(b)?]),

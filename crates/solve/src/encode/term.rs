@@ -1,6 +1,6 @@
-//! Terms → symbols, as `machine/src/evaluate.rs` has them.
+//! Encodes terms, like `machine/src/evaluate.rs`.
 //!
-//! SYNC(evaluate): what is evaluated before what, and which faults are met on the way.
+//! SYNC(evaluate): the order of evaluation and of faults.
 
 use machine::{Closed, Value};
 use program::{
@@ -100,7 +100,7 @@ impl Encoder {
         }
     }
 
-    /// The value of a term that depends on nothing but variables that are known: the machine evaluates it.
+    /// The value of a term that depends only on known variables: the machine evaluates it.
     fn evaluate_fixed(&mut self, id: TermId) -> Result<Option<Symbol>> {
         let Some(slots) = self.free_variables(id) else { return Ok(None) };
         let mut bindings = Vec::with_capacity(slots.len());
@@ -138,7 +138,7 @@ impl Encoder {
         program.term_list(list).iter().map(|term| self.evaluate(*term)).collect()
     }
 
-    /// The condition that a guard holds; a fault where it is undef.
+    /// The condition that a guard holds; adds a fault if it is undef.
     pub(super) fn holds(&mut self, id: TermId) -> Result<Node> {
         match self.evaluate(id)? {
             Symbol::Known(Value::Boolean(truth)) => Ok(self.terms.boolean(truth)),
@@ -177,7 +177,7 @@ impl Encoder {
         self.either(holds, yes, no)
     }
 
-    /// What two branches come to, of which one may be nowhere.
+    /// The result of two branches, of which one may be impossible.
     fn either(&mut self, condition: Node, yes: Option<Symbol>, no: Option<Symbol>) -> Result {
         match (yes, no) {
             (Some(yes), Some(no)) => self.merge(condition, &yes, &no),
@@ -201,7 +201,7 @@ impl Encoder {
         bindings: Vec<(Node, Vec<Symbol>)>,
         condition: Option<TermId>,
     ) -> Result {
-        // One that decides ends it.
+        // A deciding element ends the evaluation.
         let (mut once, mut twice, mut refuted) = (Terms::FALSE, Terms::FALSE, Terms::FALSE);
         for (present, values) in bindings {
             self.bind_all(binders, &values);
@@ -236,7 +236,7 @@ impl Encoder {
         Ok(Symbol::boolean(value))
     }
 
-    /// The connectives evaluate their right operand only where it matters; `pre` looks back.
+    /// The connectives evaluate their right operand only if it matters; `pre` reads the state before the step.
     fn evaluate_builtin(&mut self, builtin: Builtin, arguments: &[TermId], id: TermId) -> Result {
         match (builtin, arguments) {
             (Builtin::And | Builtin::Or | Builtin::Implies, [left, right]) => {
@@ -292,7 +292,7 @@ impl Encoder {
         }
     }
 
-    /// The conditions that a truth value is true, and false.
+    /// The conditions that a truth value is true and that it is false.
     pub(super) fn truths(&mut self, symbol: &Symbol) -> (Node, Node) {
         match symbol {
             Symbol::Known(Value::Boolean(truth)) => (self.terms.boolean(*truth), self.terms.boolean(!truth)),

@@ -1,11 +1,11 @@
-//! Which functions a condition asks whether they are defined, definitions included.
+//! Finds the functions whose definedness a condition tests, including in definitions.
 
 use std::collections::BTreeSet;
 
 use model::Literal;
 use program::{Builtin, Expression, FunctionId, Program, Term, TermId};
 
-/// How deep definitions are looked into for what their value may be.
+/// How deeply definitions are expanded to find the functions that a value may come from.
 const DEPTH: usize = 16;
 
 /// The functions under `isDef`, `isUndef` or compared with undef.
@@ -40,7 +40,7 @@ pub(super) fn tested(program: &Program, condition: &Expression) -> BTreeSet<Func
     found
 }
 
-/// The functions whose value a term may be.
+/// The functions that a term's value may come from.
 fn read(program: &Program, id: TermId, found: &mut BTreeSet<FunctionId>, depth: usize) {
     if depth > DEPTH {
         return;

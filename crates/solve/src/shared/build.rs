@@ -1,11 +1,11 @@
-//! Making terms: the constructors of [`Terms`], which simplify.
+//! The constructors of [`Terms`], which simplify.
 //!
-//! Real constants are compared but never computed with: the machine's arithmetic on them is rounded, that of solvers is not.
+//! Real constants are compared but never computed with: the machine rounds, solvers do not.
 
 use super::{Bounds, Kind, Node, Op, Terms, Variable, VariableId};
 use crate::session::Constant;
 
-/// The operands of which a result is the least, or the greatest.
+/// The operands of an extreme result.
 type Corner = Option<(i128, i128)>;
 
 impl Terms {
@@ -15,7 +15,7 @@ impl Terms {
         self.apply(id, Vec::new())
     }
 
-    /// A new function, of which nothing is known but the bounds of its values.
+    /// A new uninterpreted function, of which only the bounds of its values are known.
     pub fn function(
         &mut self,
         name: impl Into<String>,
@@ -27,7 +27,7 @@ impl Terms {
         VariableId(self.variables.len() as u32 - 1)
     }
 
-    /// The value of a function; of one without parameters it is a variable.
+    /// The value of a function at arguments; without parameters, a variable.
     pub fn apply(&mut self, function: VariableId, arguments: Vec<Node>) -> Node {
         let Variable { kind, bounds, .. } = self.variables[function.0 as usize];
         let op = match arguments.is_empty() {
@@ -37,7 +37,7 @@ impl Terms {
         self.put(op, kind, bounds)
     }
 
-    /// A variable that there is.
+    /// An existing variable.
     pub fn known(&mut self, id: VariableId) -> Node {
         self.apply(id, Vec::new())
     }
@@ -52,12 +52,12 @@ impl Terms {
         self.put(Op::Integer(number), Kind::Integer, (Some(number), Some(number)))
     }
 
-    /// A real number, which is finite.
+    /// A finite real number.
     pub fn real(&mut self, number: f64) -> Node {
         self.put(Op::Real((number + 0.0).to_bits()), Kind::Real, (None, None))
     }
 
-    /// A constant; a real one is finite.
+    /// A constant; a real one must be finite.
     pub fn of_constant(&mut self, constant: Constant) -> Node {
         match constant {
             Constant::Boolean(truth) => self.boolean(truth),
@@ -66,7 +66,7 @@ impl Terms {
         }
     }
 
-    /// The integer of a constant.
+    /// The integer that a constant is.
     pub fn whole(&self, node: Node) -> Option<i128> {
         match self.op(node) {
             Op::Integer(number) => Some(*number),
@@ -85,7 +85,7 @@ impl Terms {
         matches!(self.op(node), Op::Boolean(_) | Op::Integer(_) | Op::Real(_))
     }
 
-    /// The opposite.
+    /// Negation.
     #[allow(clippy::should_implement_trait, reason = "it is no operator of Rust's")]
     pub fn not(&mut self, a: Node) -> Node {
         match self.op(a) {
@@ -95,12 +95,12 @@ impl Terms {
         }
     }
 
-    /// All of them.
+    /// Conjunction.
     pub fn and(&mut self, all: impl IntoIterator<Item = Node>) -> Node {
         self.joined(all.into_iter().collect(), true)
     }
 
-    /// One of them.
+    /// Disjunction.
     pub fn or(&mut self, all: impl IntoIterator<Item = Node>) -> Node {
         self.joined(all.into_iter().collect(), false)
     }
@@ -132,13 +132,13 @@ impl Terms {
         }
     }
 
-    /// The first implies the second.
+    /// Implication.
     pub fn implies(&mut self, a: Node, b: Node) -> Node {
         let not = self.not(a);
         self.or([not, b])
     }
 
-    /// `yes` where the condition holds, else `no`; both of one kind.
+    /// `yes` if the condition holds, else `no`; both are of one kind.
     pub fn choose(&mut self, condition: Node, yes: Node, no: Node) -> Node {
         if let Op::Not(inner) = self.op(condition) {
             return self.choose(*inner, no, yes);
@@ -159,7 +159,7 @@ impl Terms {
             (_, _, Some(false)) => return self.and([condition, yes]),
             _ => {}
         }
-        // Inside of a branch the condition is known.
+        // Within a branch the condition is known.
         let yes = match self.op(yes) {
             Op::If(inner, first, _) if *inner == condition => *first,
             _ => yes,
@@ -206,7 +206,7 @@ impl Terms {
         self.put(Op::Equal(a, b), Kind::Boolean, (None, None))
     }
 
-    /// Whether one integer is always, or never, less than another.
+    /// Whether one integer is always (or never) less than another.
     fn below(&self, a: Node, b: Node) -> Option<bool> {
         let (a, b) = (self.bounds(a), self.bounds(b));
         match (a.1.zip(b.0), a.0.zip(b.1)) {
@@ -216,7 +216,7 @@ impl Terms {
         }
     }
 
-    /// Less.
+    /// Less than.
     pub fn less(&mut self, a: Node, b: Node) -> Node {
         if a == b {
             return Terms::FALSE;
@@ -242,7 +242,7 @@ impl Terms {
         self.put(Op::Less(a, b), Kind::Boolean, (None, None))
     }
 
-    /// Less or equal.
+    /// Less than or equal.
     pub fn at_most(&mut self, a: Node, b: Node) -> Node {
         let greater = self.less(b, a);
         self.not(greater)
@@ -262,7 +262,7 @@ impl Terms {
         self.and(all)
     }
 
-    /// The bounds of a variable, as a condition: what is known of it, written out.
+    /// The bounds of a variable, written out as a condition.
     pub fn bound(&mut self, id: VariableId, (low, high): Bounds) -> Node {
         let variable =
             self.put(Op::Variable(id), self.variables[id.0 as usize].kind, self.variables[id.0 as usize].bounds);
@@ -270,7 +270,7 @@ impl Terms {
         for (bound, below) in [(low, true), (high, false)] {
             let Some(bound) = bound else { continue };
             let bound = self.integer(bound);
-            // They are known, so that no constructor would make them.
+            // The bounds decide this comparison, so a constructor would simplify it away.
             let (a, b) = if below { (variable, bound) } else { (bound, variable) };
             let beyond = self.put(Op::Less(a, b), Kind::Boolean, (None, None));
             all.push(self.not(beyond));
@@ -340,19 +340,19 @@ impl Terms {
         }
     }
 
-    /// Quotient of integers towards zero; the divisor is not 0.
+    /// Integer quotient, truncated toward zero; the divisor must not be 0.
     pub fn quotient(&mut self, a: Node, b: Node) -> Node {
         if let (Some(x), Some(y)) = (self.whole(a), self.whole(b))
             && let Some(result) = x.checked_div(y)
         {
             return self.integer(result);
         }
-        // Its size is no more than that of the dividend.
+        // Its absolute value is at most that of the dividend.
         let most = self.size(a);
         self.put(Op::Quotient(a, b), Kind::Integer, (most.map(|most| -most), most))
     }
 
-    /// What the quotient leaves.
+    /// Remainder of the truncated quotient.
     pub fn remainder(&mut self, a: Node, b: Node) -> Node {
         if let (Some(x), Some(y)) = (self.whole(a), self.whole(b))
             && let Some(result) = x.checked_rem(y)
@@ -370,7 +370,7 @@ impl Terms {
             let (yes, no) = (self.remainder(yes, b), self.remainder(no, b));
             return self.choose(condition, yes, no);
         }
-        // Where the dividend is smaller it stays as it is.
+        // A smaller dividend is its own remainder.
         if let (Some(number), (Some(least), Some(greatest))) = (self.whole(b), self.bounds(a))
             && least >= 0
             && greatest < number
@@ -380,13 +380,13 @@ impl Terms {
         self.put(Op::Remainder(a, b), Kind::Integer, (low, high))
     }
 
-    /// The greatest absolute value.
+    /// The largest absolute value.
     fn size(&self, a: Node) -> Option<i128> {
         let (low, high) = self.bounds(a);
         Some(low?.checked_abs()?.max(high?.checked_abs()?))
     }
 
-    /// Quotient of reals; the divisor is not 0.
+    /// Quotient of reals; the divisor must not be 0.
     pub fn divide(&mut self, a: Node, b: Node) -> Node {
         self.put(Op::Divide(a, b), Kind::Real, (None, None))
     }
@@ -399,7 +399,7 @@ impl Terms {
         }
     }
 
-    /// The greatest integer that is not above a real.
+    /// The largest integer that is not greater than a real.
     pub fn floor(&mut self, a: Node) -> Node {
         match self.double(a) {
             Some(number) if number.abs() < 9e15 => self.integer(number.floor() as i128),

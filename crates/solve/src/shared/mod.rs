@@ -1,8 +1,9 @@
-//! Terms that share their parts, for formulas that are too large as trees: what a step does to a state.
+//! Terms with shared subterms, for formulas that are too large as trees, such as a step's effect on a state.
 //!
-//! Each term stands once in a [`Terms`] and is named by a [`Node`]; equal terms have equal names. Every number has bounds,
-//! worked out from those of the variables, and comparisons that these decide are decided. INVARIANT: an operand's name is
-//! below its term's; what a constructor gives back has the meaning of the operation in all values within the bounds.
+//! Each term is stored once in a [`Terms`] and identified by a [`Node`]; equal terms have equal nodes. Every number has
+//! bounds, derived from those of the variables; comparisons that the bounds decide are simplified. INVARIANT: an
+//! operand's node is less than its term's; a constructor's result has the meaning of the operation for all values
+//! within the bounds.
 
 mod build;
 mod value;
@@ -13,38 +14,38 @@ use rustc_hash::FxHashMap;
 pub use value::value_at;
 pub use write::{Script, exact_real};
 
-/// Names a term.
+/// Identifies a term.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Node(pub(crate) u32);
 
-/// What a term's values are.
+/// The kind of a term's values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Kind {
     /// Truth values.
     Boolean,
-    /// Integers without limit.
+    /// Unbounded integers.
     Integer,
     /// Real numbers.
     Real,
 }
 
-/// Bounds of an integer, both included; none where there is none.
+/// Inclusive bounds of an integer; `None` for unbounded.
 pub type Bounds = (Option<i128>, Option<i128>);
 
-/// A variable, or a function of which nothing is known.
+/// A variable, or an uninterpreted function.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Variable {
-    /// Its name, of which different variables may have the same.
+    /// Its name, which need not be unique.
     pub name: String,
-    /// What its values are.
+    /// The kind of its values.
     pub kind: Kind,
-    /// The kinds of its arguments, where it is a function.
+    /// The kinds of its arguments, if it is a function.
     pub parameters: Vec<Kind>,
     /// The bounds of its values.
     pub bounds: Bounds,
 }
 
-/// Names a variable.
+/// Identifies a variable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct VariableId(pub u32);
 
@@ -55,7 +56,7 @@ pub enum Op {
     Boolean(bool),
     /// An integer.
     Integer(i128),
-    /// A real number: the bits of a double that is one.
+    /// A finite real number: the bits of a double.
     Real(u64),
     /// A variable.
     Variable(VariableId),
@@ -63,15 +64,15 @@ pub enum Op {
     Apply(VariableId, Box<[Node]>),
     /// Negation.
     Not(Node),
-    /// All of them.
+    /// Conjunction.
     And(Box<[Node]>),
-    /// One of them.
+    /// Disjunction.
     Or(Box<[Node]>),
     /// Equality.
     Equal(Node, Node),
-    /// Less.
+    /// Less than.
     Less(Node, Node),
-    /// The second where the first holds, else the third.
+    /// The second operand if the first holds, else the third.
     If(Node, Node, Node),
     /// Sum.
     Add(Node, Node),
@@ -79,15 +80,15 @@ pub enum Op {
     Subtract(Node, Node),
     /// Product.
     Multiply(Node, Node),
-    /// Quotient of integers, towards zero.
+    /// Integer quotient, truncated toward zero.
     Quotient(Node, Node),
-    /// What that leaves, with the sign of the first operand.
+    /// Its remainder, with the sign of the first operand.
     Remainder(Node, Node),
     /// Quotient of reals.
     Divide(Node, Node),
     /// An integer as a real.
     ToReal(Node),
-    /// The greatest integer that is not above a real.
+    /// The largest integer that is not greater than a real.
     Floor(Node),
 }
 
@@ -122,7 +123,7 @@ impl Terms {
     /// `true`
     pub const TRUE: Node = Node(1);
 
-    /// How many terms there are.
+    /// The number of terms.
     pub fn count(&self) -> usize {
         self.ops.len()
     }
@@ -132,7 +133,7 @@ impl Terms {
         &self.ops[node.0 as usize]
     }
 
-    /// What a term's values are.
+    /// The kind of a term's values.
     pub fn kind(&self, node: Node) -> Kind {
         self.kinds[node.0 as usize]
     }
@@ -142,7 +143,7 @@ impl Terms {
         self.bounds[node.0 as usize]
     }
 
-    /// The variable of that name.
+    /// The variable with this identifier.
     pub fn variable_of(&self, id: VariableId) -> &Variable {
         &self.variables[id.0 as usize]
     }
@@ -186,7 +187,7 @@ impl Terms {
         }
     }
 
-    /// The terms that these are made of, themselves included, operands first.
+    /// All subterms of these terms, including themselves, operands first.
     pub fn parts(&self, roots: impl IntoIterator<Item = Node>) -> Vec<Node> {
         let mut seen = vec![false; self.ops.len()];
         let mut open: Vec<Node> = roots.into_iter().collect();
@@ -212,7 +213,7 @@ impl Terms {
         found
     }
 
-    /// A term with other terms in the place of variables; `made` keeps what was worked out, for the same replacement.
+    /// A term in which terms replace variables; `made` caches results for the same replacement.
     pub fn replace(
         &mut self,
         node: Node,

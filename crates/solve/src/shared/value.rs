@@ -1,4 +1,4 @@
-//! The value of a term where its variables have values.
+//! Evaluates terms, given the values of their variables.
 
 use super::{Node, Op, Terms, VariableId};
 use crate::session::Constant;
@@ -14,13 +14,13 @@ impl Terms {
         }
     }
 
-    /// The constants that there are, also those that simplification has left nothing of.
+    /// All constants, including those that simplification has removed from terms.
     pub(crate) fn constants(&self) -> Vec<Constant> {
         (0..self.count()).filter_map(|index| self.constant(Node(index as u32))).collect()
     }
 
-    /// The values of all terms, by their names; none where something has none, such as a quotient by zero. Reals are those of
-    /// doubles.
+    /// The values of all terms, indexed by node; `None` for terms without a value, such as a quotient by zero. Reals
+    /// are computed as doubles.
     pub fn values(&self, variable: &dyn Fn(VariableId) -> Option<Constant>) -> Vec<Option<Constant>> {
         let mut values: Vec<Option<Constant>> = Vec::with_capacity(self.count());
         for index in 0..self.count() {
@@ -34,7 +34,7 @@ impl Terms {
         values
     }
 
-    /// The value of an operation by those of its operands; a variable or function has none.
+    /// The value of an operation, given those of its operands; `None` for a variable or function.
     pub(crate) fn value_by(&self, node: Node, of: &dyn Fn(Node) -> Option<Constant>) -> Option<Constant> {
         use Constant::{Boolean, Integer, Real};
         let at = |node: &Node| of(*node);
@@ -86,7 +86,7 @@ impl Terms {
     }
 }
 
-/// What a term is among all values.
+/// The value of a term, looked up in the values of all terms.
 pub fn value_at(values: &[Option<Constant>], node: Node) -> Option<Constant> {
     values[node.0 as usize]
 }

@@ -1,7 +1,7 @@
-//! Shared terms as SMT-LIB 2.6.
+//! Writes shared terms as SMT-LIB 2.6.
 //!
-//! A term is written for a *time*: variables get it as a part of their names, so that one transition relation can be
-//! written again and again. What occurs more than once gets a name by `define-fun`, or by `let` within a quantifier.
+//! A term is written for a *time*, which becomes part of the names of variables, so that one transition relation can be
+//! written for many steps. Shared subterms are named by `define-fun`, or by `let` within a quantifier.
 
 use std::fmt::Write;
 
@@ -9,7 +9,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::{Kind, Node, Op, Terms, VariableId};
 
-/// Writes terms of one time.
+/// Writes the terms of one time.
 #[derive(Debug, Default)]
 pub struct Script {
     defined: FxHashSet<Node>,
@@ -28,7 +28,7 @@ impl Script {
         }
     }
 
-    /// The text of a term at a time; what is shared in it is defined before, in `out`, unless that has been done.
+    /// The text of a term at a time; definitions of its shared subterms are added to `out` once.
     pub fn term(&mut self, terms: &Terms, node: Node, time: usize, out: &mut String) -> String {
         let parts = terms.parts([node]);
         let mut uses: FxHashMap<Node, u32> = FxHashMap::default();
@@ -46,7 +46,7 @@ impl Script {
         self.text(terms, node, time)
     }
 
-    /// The text of a term, by the names that are defined.
+    /// The text of a term, in terms of the defined names.
     fn text(&self, terms: &Terms, node: Node, time: usize) -> String {
         let mut text = String::new();
         let named = |node: Node| self.defined.contains(&node).then(|| format!("n{}@{time}", node.0));
@@ -54,7 +54,7 @@ impl Script {
         text
     }
 
-    /// A term within a quantifier over its variables: what is shared in it is bound by `let`.
+    /// A term within a quantifier over its variables; shared subterms are bound by `let`.
     pub fn closed(terms: &Terms, node: Node) -> String {
         let parts = terms.parts([node]);
         let mut uses: FxHashMap<Node, u32> = FxHashMap::default();
@@ -98,7 +98,7 @@ impl Script {
         name(terms, id, None)
     }
 
-    /// Declares functions and variables as they are named without a time.
+    /// Declares functions and variables without a time.
     pub fn declare_bound(terms: &Terms, functions: &[VariableId], out: &mut String) {
         for id in functions {
             let function = terms.variable_of(*id);
@@ -175,7 +175,7 @@ fn put(terms: &Terms, node: Node, time: Option<usize>, named: &dyn Fn(Node) -> O
     }
 }
 
-/// SMT-LIB's quotients are Euclid's.
+/// SMT-LIB's integer division is Euclidean.
 fn towards_zero(
     operation: &str,
     terms: &Terms,
@@ -193,7 +193,7 @@ fn towards_zero(
     let _ = write!(out, " (- ({operation} ");
     list("-", &[a], out);
     out.push(' ');
-    // An operand alone, as an operation of one.
+    // An operation with a single operand.
     list("+ 0", &[b], out);
     out.push_str(")))");
 }
@@ -202,7 +202,7 @@ fn integer(number: i128) -> String {
     if number < 0 { format!("(- {})", number.unsigned_abs()) } else { number.to_string() }
 }
 
-/// A double as the number that it is.
+/// The exact value of a double.
 pub fn exact_real(number: f64) -> String {
     let size = number.abs();
     let bits = size.to_bits();
