@@ -1,9 +1,9 @@
-//! A run that was found, made again as `run` makes it: only then something is called violated.
+//! Repeats a run that was found, as `run` would make it; only then a check is called violated.
 //!
-//! In: a run, and what is violated at its end. Out: whether a machine that explores nothing makes the same steps from the same
-//! inputs and choices, and comes to the same end. It judges the search. Where it comes to another one the search is at fault,
-//! and nothing is known. LIMIT: that no step changes the last state, and that a run without end violates a formula, is not
-//! asked again; the steps that lead there are.
+//! In: a run, and what is violated at its end. Out: whether a machine without exploration makes the same steps from the
+//! same inputs and choices, and ends the same way. This checks the search: if the results differ, the search is at
+//! fault, and nothing is known. LIMIT: that no step changes the last state, and that an infinite run violates a
+//! formula, is not checked again; the steps that lead there are.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use program::{DomainId, Program};
 use crate::target::Target;
 use crate::trace::Trace;
 
-/// What a step was told to take.
+/// The inputs and choices of a step.
 #[derive(Debug, Default)]
 struct Given<'t> {
     inputs: &'t [(Location, Value)],
@@ -46,7 +46,8 @@ impl Environment for Given<'_> {
     }
 }
 
-/// Whether a run is one, and what is looked for is at its end; none is a run that violates by its steps alone.
+/// Whether the machine makes this run and meets the target at its end; without a target, the run violates by its steps
+/// alone.
 pub(crate) fn made_again(program: &Arc<Program>, settings: &Settings, trace: &Trace, target: Option<Target>) -> bool {
     let mut machine = Machine::new(Arc::clone(program), settings.limits.clone());
     machine.use_engine(EngineChoice::Interpreted);
@@ -81,7 +82,7 @@ pub(crate) fn made_again(program: &Arc<Program>, settings: &Settings, trace: &Tr
     }
 }
 
-/// Whether a step is made as it was told, and ends so.
+/// Whether a step is made with these inputs and choices, and ends as expected.
 fn step(machine: &mut Machine, settings: &Settings, told: &Told, ends: Option<Target>) -> bool {
     let mut given = Given::new(told);
     let outcome = machine.prepare(&mut given);
@@ -100,7 +101,7 @@ fn step(machine: &mut Machine, settings: &Settings, told: &Told, ends: Option<Ta
                     Ok(Value::Boolean(true)) => {}
                     Ok(_) if *assumed => return false,
                     Ok(_) => violated |= ends == Some(Target::StepCondition(index)),
-                    // One that cannot be evaluated is a fault of the step.
+                    // A condition that cannot be evaluated is a fault of the step.
                     Err(fault) => return is_fault(&fault, ends) && same_inputs(machine),
                 }
             }
@@ -122,7 +123,7 @@ fn step(machine: &mut Machine, settings: &Settings, told: &Told, ends: Option<Ta
                 && changes.iter().zip(&told.changes).all(|(a, b)| (&a.location, &a.after) == (&b.location, &b.after));
             same && !matches!(ends, Some(Target::Fault(_)))
         }
-        // The run stays where its step cannot be made.
+        // If its step cannot be made, the run stays where it is.
         (Some(fault), Some(other)) => {
             FaultClass::of(&fault) == FaultClass::of(other) && (ends.is_none() || is_fault(&fault, ends))
         }

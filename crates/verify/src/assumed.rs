@@ -1,8 +1,8 @@
-//! Bounds of inputs that the model's assumptions give: `INVAR level >= 0 and level <= 10`.
+//! Derives bounds of inputs from the model's assumptions: `INVAR level >= 0 and level <= 10`.
 //!
-//! In: the INVARs of a program. Out: for each input over an infinite domain whose least and greatest value they fix, the
-//! values between. The INVARs themselves still hold; a bound only says which inputs need not be tried. LIMIT: comparisons
-//! with written numbers, joined by `and`, below `forall` over the whole domain of an argument.
+//! In: the INVARs of a program. Out: for each input over an infinite domain whose least and greatest value they
+//! determine, the range of values. The INVARs still apply; a bound only tells which inputs need not be tried. LIMIT:
+//! comparisons with literal numbers, joined by `and`, inside `forall` over the whole domain of an argument.
 
 use std::collections::BTreeMap;
 
@@ -12,10 +12,10 @@ use program::{
     Builtin, DomainKind, FunctionId, FunctionKind, Literal, Program, PropertyKind, Quantifier, Slot, Term, TermId,
 };
 
-/// LIMIT: a bound of more values is none.
+/// LIMIT: larger ranges are not used as bounds.
 const VALUES: i64 = 1 << 16;
 
-/// See the module.
+/// The bounds that a program's assumptions give.
 pub fn assumed_bounds(program: &Program) -> Bounds {
     let mut found: BTreeMap<FunctionId, (Option<i64>, Option<i64>)> = BTreeMap::new();
     for property in program.properties.iter().filter(|property| property.kind == PropertyKind::Invar) {
@@ -39,7 +39,7 @@ pub fn assumed_bounds(program: &Program) -> Bounds {
     bounds
 }
 
-/// Adds the bounds that a formula gives; `whole` are the variables that take every value of a domain.
+/// Adds the bounds in a formula; `whole` are the variables that take every value of a domain.
 fn collect(
     program: &Program,
     term: TermId,
@@ -86,7 +86,7 @@ fn collect(
     }
 }
 
-/// The input that a term reads, at all of its arguments at once.
+/// The input that a term reads for all of its arguments at once.
 fn input(program: &Program, term: TermId, whole: &[(Slot, program::DomainId)]) -> Option<FunctionId> {
     let Term::Read { function, arguments } = program.term(term) else { return None };
     let declared = program.function(*function);
@@ -95,7 +95,7 @@ fn input(program: &Program, term: TermId, whole: &[(Slot, program::DomainId)]) -
         _ => false,
     };
     let arguments = program.term_list(*arguments);
-    // `f($x,$x)` speaks of some arguments only.
+    // `f($x,$x)` covers only some of the arguments.
     let slots: Vec<&Term> = arguments.iter().map(|term| program.term(*term)).collect();
     if (1..slots.len()).any(|index| slots[..index].contains(&slots[index])) {
         return None;
@@ -118,7 +118,7 @@ fn number(program: &Program, term: TermId) -> Option<i64> {
     }
 }
 
-/// `a < b` as said of b.
+/// `a < b` rewritten with b on the left.
 fn turned(builtin: Builtin) -> Builtin {
     match builtin {
         Builtin::Ge => Builtin::Le,

@@ -1,8 +1,8 @@
-//! A request carried out: an engine goes through the states, and what it found becomes a verdict for each check.
+//! Carries out a request: an engine explores the states, and its findings become a verdict for each check.
 //!
-//! In: a program and [`Options`]. Out: a [`Report`]: a verdict for each of the checks that nobody need ask for and for each
-//! property as written. INVARIANT: nothing Holds unless every state was met and every alternative taken; what was cut off
-//! is named in the verdict.
+//! In: a program and [`Options`]. Out: a [`Report`]: a verdict for each built-in check and for each property as
+//! written. INVARIANT: nothing Holds unless every state was explored and every alternative taken; the verdict names
+//! what was cut off.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -25,10 +25,10 @@ use crate::runs::{RunPlan, decide};
 use crate::target::Target;
 use crate::temporal::fairness::AgentFairness;
 
-/// Carries out a request. The listener hears of progress, and of violations while the search goes on.
+/// Carries out a request. The listener receives progress, and violations while the search goes on.
 ///
 /// # Errors
-/// There is no initial state, a solver cannot be asked, or what was kept does not fit.
+/// There is no initial state, a solver cannot be asked, or the checkpoint does not fit.
 pub(crate) fn verify_request(
     program: &Arc<Program>,
     options: &Options,
@@ -43,13 +43,13 @@ pub(crate) fn verify_request(
     let mut ended = engine_of(options.engine, &question.plan, task.keeper.is_some()).run(task)?;
     let reasons = reasons(&ended, &question, options);
     let assumed: Vec<Reason> = reasons.iter().filter(|reason| matches!(reason, Reason::Bounded(_))).copied().collect();
-    // All states may have been met by then.
+    // All states may have been explored by then.
     let is_enough = options.first && !ended.found.is_empty();
     let (mut proofs, mut left) = (BTreeMap::new(), BTreeMap::new());
     let by_solver = matches!(ended.engine, EngineKind::Solver(_));
     let (mut of_runs, runs) = match by_solver {
         true => Default::default(),
-        // Their graph keeps all of the states, of which there are too many.
+        // The graph for temporal properties would store all states in full, and there are too many.
         false if ended.omission.is_some() => Default::default(),
         false if is_enough => Default::default(),
         false => of_runs(program, &question, options, agents, &reasons, &mut |progress| listener.at(progress)),
@@ -60,7 +60,7 @@ pub(crate) fn verify_request(
             None if is_enough => Outcome::Unknown(vec![Reason::Stopped(Stop::Found)]),
             None => of_runs.remove(subject).unwrap_or(Outcome::Unknown(vec![Reason::Temporal])),
             Some(target) => match ended.found.remove(target) {
-                // With other inputs the state might not rest.
+                // With other inputs the state might not be a deadlock.
                 Some(_) if *target == Target::Rest && !options.bounds.is_empty() => Outcome::Unknown(reasons.clone()),
                 Some(trace) => Outcome::Violated(Box::new(trace)),
                 None if ended.odd.contains(target) => {
@@ -114,8 +114,8 @@ pub(crate) fn verify_request(
     })
 }
 
-/// The outcomes of temporal properties, and why those are unknown that are. A limit that ended the search is none for them
-/// if their own graph is complete.
+/// The outcomes of temporal properties, and why the unknown ones are unknown. A limit that ended the search does not
+/// affect them if their own graph is complete.
 fn of_runs(
     program: &Arc<Program>,
     question: &Question,
@@ -139,7 +139,7 @@ fn of_runs(
     let stays = |reason: &&Reason| !matches!(reason, Reason::Stopped(_));
     let reasons: Vec<Reason> = reasons.iter().filter(stays).copied().collect();
     let mut unknown = BTreeMap::new();
-    // There are initial states: the search has begun with them.
+    // The search has begun with initial states, so they exist.
     let decided = decide(program, &plan, watch).unwrap_or_default();
     let outcomes = decided.into_iter().map(|(index, decided)| {
         let outcome = match decided {
@@ -147,7 +147,7 @@ fn of_runs(
                 Outcome::Unknown(vec![Reason::Odd])
             }
             OfRuns::Holds if reasons.is_empty() => Outcome::Holds,
-            // Inputs that were not tried may lead to what one tree of runs is found to lack, not undo what one run does.
+            // Untried inputs may add what one tree of runs lacks, but cannot undo what a single run does.
             OfRuns::Violated(trace) if !trace.branch || reasons.is_empty() => Outcome::Violated(trace),
             OfRuns::Holds | OfRuns::Violated(_) => Outcome::Unknown(reasons.clone()),
             OfRuns::Unknown(why) => {
@@ -160,7 +160,7 @@ fn of_runs(
     (outcomes.collect(), unknown)
 }
 
-/// Why a check that found nothing is still not known to hold.
+/// Why a check without a violation is still not known to hold.
 fn reasons(search: &Ended, question: &Question, options: &Options) -> Vec<Reason> {
     let mut reasons = BTreeSet::new();
     reasons.extend(search.stop.map(Reason::Stopped));

@@ -1,9 +1,7 @@
-//! Which engine is taken: the one that was named; where none was, states one after the other, and a solver where that has no
-//! end.
+//! Chooses an engine: the one that was named; otherwise explicit search, and a solver if that has no end.
 //!
-//! In: what was chosen, and the plan. Out: an [`Engine`]. Sets are for whoever names them: the library that makes them has once
-//! given nodes away twice (`symbolic/apart.rs`), and what mends that has not been tried for long enough to be what is taken
-//! unasked.
+//! In: the engine option and the plan. Out: an [`Engine`]. Symbolic search is used only if named: its library once
+//! handed out nodes twice (`symbolic/apart.rs`), and the remedy has not been tested for long enough.
 
 use machine::Cause;
 use model::Basic;
@@ -21,14 +19,14 @@ use crate::solver::solve;
 use crate::storage::Storage;
 use crate::symbolic::apart::Symbolic;
 
-/// LIMIT: of states that may have no end so many are gone through before a solver is asked.
+/// LIMIT: if the states may be infinitely many, this many are explored before a solver is asked.
 const FEW: u64 = 4_000_000;
 
-/// The engine that is taken for a plan.
+/// The engine for a plan.
 pub(crate) fn engine_of(choice: EngineKind, plan: &Plan, is_kept: bool) -> Box<dyn Engine> {
-    // Sets are not made level by level, and have no bound of their size that a user could think of.
+    // Symbolic search does not proceed level by level, and its size has no bound that a user could give.
     let bounded = plan.max_depth < u64::MAX || plan.max_states < u64::MAX || plan.first;
-    // Only states that are gone through one by one are kept in one way or another.
+    // These options apply only to single states.
     let one_by_one =
         plan.storage != Storage::Exact || plan.partial_order || plan.symmetry || plan.disk.is_some() || is_kept;
     match choice {
@@ -39,9 +37,9 @@ pub(crate) fn engine_of(choice: EngineKind, plan: &Plan, is_kept: bool) -> Box<d
     }
 }
 
-/// States one after the other; where they may have no end, first a few of them, then a solver, then all that there is room for.
+/// Explicit search. If it may not end: first a few states, then a solver, then all states that there is room for.
 struct Automatic {
-    /// Somebody has said where the search is to end.
+    /// Whether the user bounded the search.
     bounded: bool,
 }
 
@@ -57,7 +55,7 @@ impl Engine for Automatic {
         let memory = ended.stop == Some(Stop::Memory);
         let mut solved = None;
         if ((endless && full) || !ended.unbounded.is_empty()) && ended.stop != Some(Stop::Asked) && asks {
-            // What solvers have no place for, or do not know, stays as it is.
+            // If the solver cannot encode the model or does not know, the result of the search stands.
             solved = solve(program, plan, Method::Portfolio, solvers, &mut |progress| heed.at(progress)).ok();
             if solved.as_ref().is_some_and(|solved| solved.left.is_empty()) {
                 ended.take(solved);
@@ -74,10 +72,10 @@ impl Engine for Automatic {
         }
         let (found, odd) = (std::mem::take(&mut ended.found), std::mem::take(&mut ended.odd));
         drop(ended);
-        // What was given back makes room for what comes.
+        // The memory of the first search has been freed.
         plan.settings.interrupt.relieve();
         let mut ended = unless_stopped(Explicit.run(Task { program, plan, solvers, keeper: None, heed }))?;
-        // It may have been ended before it came as far as the search before it.
+        // The second search may have ended earlier than the first.
         found.into_iter().for_each(|(target, trace)| _ = ended.found.entry(target).or_insert(trace));
         ended.odd.extend(odd);
         ended.take(solved);
@@ -85,7 +83,7 @@ impl Engine for Automatic {
     }
 }
 
-/// A search that comes after another one: where it was stopped before it began, what was found before still counts.
+/// If a second search is stopped before it begins, the findings of the first still count.
 fn unless_stopped(ended: Result<Ended, NoStart>) -> Result<Ended, NoStart> {
     match ended {
         Err(NoStart::Stopped(stop)) => Ok(Ended { stop: Some(stop), ..Ended::without_states(EngineKind::Explicit) }),
@@ -93,7 +91,7 @@ fn unless_stopped(ended: Result<Ended, NoStart>) -> Result<Ended, NoStart> {
     }
 }
 
-/// Whether some location has infinitely many values to take, or some domain may grow.
+/// Whether a location can have infinitely many values, or a domain may grow.
 fn has_infinite_values(program: &Program) -> bool {
     let kept = |kind| matches!(kind, FunctionKind::Controlled | FunctionKind::Out | FunctionKind::Shared);
     let mut functions = program.functions.iter().filter(|function| kept(function.kind) && !function.library);
@@ -101,7 +99,7 @@ fn has_infinite_values(program: &Program) -> bool {
         || program.rules.iter().any(|rule| matches!(rule, Rule::Extend { .. }))
 }
 
-/// Whether a domain has finitely many elements, as far as its kind tells.
+/// Whether a domain is finite, judged by its kind.
 fn is_finite(program: &Program, domain: DomainId) -> bool {
     match &program.domain(domain).kind {
         DomainKind::Basic(basic) => {

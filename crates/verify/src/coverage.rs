@@ -1,14 +1,15 @@
-//! Rules that no step of any reachable state runs.
+//! Finds rules that no step of any reachable state runs.
 //!
-//! In: by rule, whether some step ran it, of all states. Out: the places of rules that never ran though the rule around them, or a call of
-//! them, did. A rule that stands in the program several times, specialised for its callers, ran if one of them did.
+//! In: for each rule, whether some step ran it, over all states. Out: the places of rules that never ran although the
+//! enclosing rule, or a call of them, did. A rule that occurs several times in the program, specialised for its
+//! callers, ran if any of them ran.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use program::{Program, Rule, RuleId};
 use syntax::Span;
 
-/// See the module.
+/// The places of such rules.
 pub fn unreachable_rules(program: &Program, executed: &[bool]) -> Vec<Span> {
     let mut ran: BTreeMap<Span, bool> = BTreeMap::new();
     for (rule, executed) in executed.iter().enumerate() {

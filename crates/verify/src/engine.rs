@@ -1,8 +1,8 @@
-//! What every engine has in common: what it is given, and in which form it tells what it found.
+//! The interface of all engines: their input and the form of their findings.
 //!
-//! An [`Engine`] goes through the states of a program in its own way, or proves something about them. INVARIANT: whichever it
-//! is, nothing Holds by one that is violated by another; a shortest run may be another one. Which is taken is chosen in
-//! [`crate::choose`].
+//! An [`Engine`] explores the states of a program in its own way, or proves something about them. INVARIANT: what Holds
+//! by one engine is never violated by another; they may find different shortest runs. [`crate::choose`] selects the
+//! engine.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -24,63 +24,63 @@ use crate::symmetry::Symmetry;
 use crate::target::Target;
 use crate::trace::Trace;
 
-/// What an engine is given.
+/// The input of an engine.
 pub(crate) struct Task<'t, 'k, 'h> {
     pub program: &'t Arc<Program>,
     pub plan: &'t Plan,
-    /// For who asks solvers.
+    /// For engines that ask solvers.
     pub solvers: &'t mut dyn Solvers,
-    /// For who can be kept and resumed.
+    /// For engines whose search can be kept and resumed.
     pub keeper: Option<&'k mut dyn Keeper>,
-    /// Who is told how far it is.
+    /// Receives progress and findings.
     pub heed: &'t mut Heed<'h>,
 }
 
-/// A way to find what is looked for, or to prove that it is nowhere.
+/// A method of finding targets, or of proving that they are unreachable.
 pub(crate) trait Engine {
-    /// Does what the task asks for, as far as it comes.
+    /// Carries out the task as far as possible.
     ///
     /// # Errors
     /// It cannot begin.
     fn run(&self, task: Task<'_, '_, '_>) -> Result<Ended, NoStart>;
 }
 
-/// What an engine came to: the same form for all.
+/// The result of an engine, in the same form for all.
 pub(crate) struct Ended {
-    /// What was found, with a shortest run to it.
+    /// The targets found, each with a shortest run to it.
     pub found: BTreeMap<Target, Trace>,
-    /// What was found with a run that the machine does not make.
+    /// Targets whose run the machine does not make.
     pub odd: BTreeSet<Target>,
-    /// Why it ended early; none where all states were met.
+    /// Why it ended early; `None` if all states were explored.
     pub stop: Option<Stop>,
-    /// Where less than the states was kept: how many are to be expected to have been left out.
+    /// If states were not stored in full: the expected number of omitted states.
     pub omission: Option<f64>,
-    /// Why all steps were made, where fewer were wanted.
+    /// Why partial-order reduction was not possible, if it was requested.
     pub unreduced: Option<Unreduced>,
-    /// Which elements were interchangeable, where that was to be found out.
+    /// The interchangeable elements, if symmetry reduction was requested.
     pub symmetry: Option<Symmetry>,
     /// How far it came.
     pub progress: Progress,
-    /// What could not be gone through.
+    /// What could not be enumerated.
     pub unbounded: BTreeSet<Unbounded>,
-    /// Conditions whose truth is not known in some state.
+    /// Conditions whose truth is unknown in some state.
     pub unknown: BTreeSet<usize>,
     /// How many words a state has, and how many bits of them are used.
     pub width: (usize, usize),
-    /// By rule, whether a machine ran it.
+    /// For each rule, whether a machine ran it.
     pub executed: Vec<bool>,
-    /// Which engine it was.
+    /// The engine.
     pub engine: EngineKind,
-    /// What a solver has proved not to be found.
+    /// Targets that a solver proved unreachable.
     pub proved: BTreeMap<Target, Proof>,
-    /// What a solver has left open.
+    /// Targets that a solver left open.
     pub left: BTreeMap<Target, Left>,
     /// The solver that was asked.
     pub solver: Option<String>,
 }
 
 impl Ended {
-    /// Nothing is known of states.
+    /// A result of an engine that explores no states.
     pub fn without_states(engine: EngineKind) -> Ended {
         Ended {
             found: BTreeMap::new(),
@@ -101,7 +101,7 @@ impl Ended {
         }
     }
 
-    /// Keeps of what was found only what the machine comes to by the same runs.
+    /// Keeps only the findings that the machine confirms by making the same runs.
     pub fn judged(mut self, program: &Arc<Program>, plan: &Plan) -> Ended {
         let Ended { found, odd, .. } = &mut self;
         found.retain(|target, trace| {
@@ -114,7 +114,7 @@ impl Ended {
         self
     }
 
-    /// Adds what a solver has found and proved; what has been found before stays.
+    /// Adds a solver's findings and proofs; earlier findings stay.
     pub fn take(&mut self, solved: Option<Solved>) {
         let Some(solved) = solved else { return };
         for (target, trace) in solved.found {

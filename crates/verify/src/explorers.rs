@@ -1,7 +1,7 @@
-//! Explorers of one search, which pack states alike.
+//! Creates the explorers of a search, which all pack states in the same way.
 //!
-//! In: a program, the settings, what did not fit before. Out: as many explorers as there are workers, all with the initial states
-//! that the first has made.
+//! In: a program, the settings, and the widening from earlier attempts. Out: an explorer for each worker, all with the
+//! initial states that the first one has made.
 
 use std::sync::Arc;
 
@@ -11,38 +11,38 @@ use program::Program;
 
 use crate::plan::Plan;
 
-/// Makes explorers that pack states alike.
+/// Creates explorers that pack states alike.
 #[derive(Debug, Clone)]
 pub(crate) struct Maker {
     pub program: Arc<Program>,
     settings: Settings,
     widening: Widening,
     pub interner: Arc<Interner>,
-    /// The initial states, once some explorer has made them.
+    /// The initial states, once an explorer has made them.
     starts: Option<Arc<Starts>>,
 }
 
 impl Maker {
-    /// Of explorers with room for what did not fit.
+    /// For explorers with room for what did not fit before.
     pub fn new(program: &Arc<Program>, plan: &Plan, widening: &Widening) -> Maker {
         let (settings, interner) = (plan.settings.clone(), Arc::default());
         Maker { program: Arc::clone(program), settings, widening: widening.clone(), interner, starts: None }
     }
 
-    /// One of explorers that go through all alternatives however long that takes.
+    /// Makes explorers enumerate all alternatives, however long that takes.
     pub fn tireless(mut self) -> Maker {
         self.settings.interrupt = Interrupt::default();
         self
     }
 
-    /// The first one, whose initial states the others take.
+    /// The first explorer, whose initial states the others use.
     pub fn first(&mut self) -> Result<Explorer, Trouble> {
         let explorer = self.explorer()?;
         self.starts = Some(explorer.starts());
         Ok(explorer)
     }
 
-    /// One more.
+    /// A further explorer.
     pub fn explorer(&self) -> Result<Explorer, Trouble> {
         let Maker { program, settings, widening, interner, starts } = self;
         Explorer::like(program, settings.clone(), widening, interner, starts.as_ref())
@@ -59,7 +59,7 @@ pub(crate) fn representatives(explorer: &mut Explorer, orbits: Option<&Orbits>) 
     starts
 }
 
-/// Attempts a search again and again, each time with room for what did not fit the time before.
+/// Repeats a search, each time with room for what did not fit before.
 pub(crate) fn widened<T>(mut attempt: impl FnMut(&Widening) -> Result<T, Trouble>) -> Result<T, Trouble> {
     let mut widening = Widening::default();
     loop {

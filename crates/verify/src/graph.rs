@@ -1,23 +1,23 @@
-//! An explored state graph: what temporal properties are decided on.
+//! The explored state graph, on which temporal properties are decided.
 //!
-//! In: what the search met, edge after edge ([`Builder`]). Out: an immutable [`Graph`] in compressed rows, with one bit a
-//! state for each proposition. INVARIANT: every state has at least one edge, but those that the search was ended before. An ASM's run is infinite: where a step
-//! changes nothing the run goes on in the same state, and a state whose step cannot be made at all (a fault) or that is
-//! declared terminal gets an edge to itself marked [`Label::STUTTER`].
+//! In: the edges that the search found, one after another ([`Builder`]). Out: an immutable [`Graph`] in compressed
+//! rows, with one bit per state for each proposition. INVARIANT: every state has at least one edge, except unexplored
+//! ones. Runs of an ASM are infinite: if a step changes nothing, the run stays in its state. A state whose step cannot
+//! be made (a fault), or that is declared terminal, gets an edge to itself marked [`Label::STUTTER`].
 
-/// The number of a state, in the order the search met it: initial states first, then by distance.
+/// The number of a state, in the order of discovery: initial states first, then by distance.
 pub type StateId = u32;
 
-/// How an edge came about: what was chosen and given in its step. Labels are numbered by the search.
+/// Identifies the choices and inputs of an edge's step. The search numbers the labels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Label(pub u32);
 
 impl Label {
-    /// No step: the state goes on unchanged because it has no other future.
+    /// No step: the state stays unchanged because it has no successor.
     pub const STUTTER: Label = Label(u32::MAX);
 }
 
-/// A set of numbers below a bound, one bit each.
+/// A set of numbers below a bound, stored as bits.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct StateSet {
     words: Vec<u64>,
@@ -42,7 +42,7 @@ impl StateSet {
         self.len
     }
 
-    /// Whether no number is in it.
+    /// Whether the set is empty.
     pub fn is_empty(&self) -> bool {
         self.words.iter().all(|word| *word == 0)
     }
@@ -58,7 +58,7 @@ impl StateSet {
         self.words[index as usize / 64] >> (index % 64) & 1 == 1
     }
 
-    /// Puts a number in; tells whether it was not there.
+    /// Adds a number; returns whether it is new.
     #[inline]
     pub fn insert(&mut self, index: StateId) -> bool {
         let (word, bit) = (&mut self.words[index as usize / 64], 1u64 << (index % 64));
@@ -67,7 +67,7 @@ impl StateSet {
         new
     }
 
-    /// Takes a number out; tells whether it was there.
+    /// Removes a number; returns whether it was present.
     #[inline]
     pub fn remove(&mut self, index: StateId) -> bool {
         let (word, bit) = (&mut self.words[index as usize / 64], 1u64 << (index % 64));
@@ -76,7 +76,7 @@ impl StateSet {
         there
     }
 
-    /// Adds one more number to the bound, in the set or not.
+    /// Raises the bound by one; `inside` tells whether the new number is in the set.
     pub fn push(&mut self, inside: bool) {
         if self.len == 64 * self.words.len() {
             self.words.push(0);
@@ -87,24 +87,24 @@ impl StateSet {
         }
     }
 
-    /// Keeps what is in both.
+    /// Intersects with another set.
     pub fn intersect(&mut self, other: &StateSet) {
         self.words.iter_mut().zip(&other.words).for_each(|(mine, theirs)| *mine &= theirs);
     }
 
-    /// Adds what is in the other.
+    /// Unites with another set.
     pub fn unite(&mut self, other: &StateSet) {
         self.words.iter_mut().zip(&other.words).for_each(|(mine, theirs)| *mine |= theirs);
     }
 
-    /// The numbers that are not in it.
+    /// The numbers that are not in the set.
     pub fn complement(&self) -> StateSet {
         let mut bits = StateSet { words: self.words.iter().map(|word| !word).collect(), len: self.len };
         bits.trim();
         bits
     }
 
-    /// The numbers in it, ascending.
+    /// The numbers in the set, ascending.
     pub fn iter(&self) -> impl Iterator<Item = StateId> + '_ {
         self.words.iter().enumerate().flat_map(|(index, word)| {
             let mut rest = *word;
@@ -127,25 +127,25 @@ impl StateSet {
 /// The graph.
 #[derive(Debug, Clone, Default)]
 pub struct Graph {
-    /// By state, and one more: where its edges begin.
+    /// For each state, and one more, where its edges begin.
     first_edge: Vec<u64>,
     targets: Vec<StateId>,
     labels: Vec<Label>,
     initial: Vec<StateId>,
     propositions: Vec<StateSet>,
-    /// Met, but their steps were not made.
+    /// States that were discovered, but whose steps were not made.
     unexplored: StateSet,
-    /// Propositions whose truth is not known in these.
+    /// Propositions whose truth is unknown in these states.
     unknown: Vec<usize>,
 }
 
 impl Graph {
-    /// How many states there are.
+    /// The number of states.
     pub fn states(&self) -> usize {
         self.first_edge.len().saturating_sub(1)
     }
 
-    /// How many edges there are.
+    /// The number of edges.
     pub fn edges(&self) -> usize {
         self.targets.len()
     }
@@ -155,7 +155,7 @@ impl Graph {
         &self.initial
     }
 
-    /// The states that a step leads to, in the canonical order of choices and inputs; one may come up twice.
+    /// The successors of a state, in the canonical order of choices and inputs; a state may occur twice.
     #[inline]
     pub fn successors(&self, state: StateId) -> &[StateId] {
         &self.targets[self.edges_of(state)]
@@ -167,39 +167,39 @@ impl Graph {
         self.first_edge[state as usize] as usize..self.first_edge[state as usize + 1] as usize
     }
 
-    /// Where an edge leads.
+    /// The state that an edge leads to.
     #[inline]
     pub fn target(&self, edge: usize) -> StateId {
         self.targets[edge]
     }
 
-    /// How an edge came about.
+    /// The label of an edge.
     #[inline]
     pub fn label(&self, edge: usize) -> Label {
         self.labels[edge]
     }
 
-    /// The states in which a proposition holds, by the number it was given to the search with.
+    /// The states in which a proposition holds; propositions are numbered as they were given to the search.
     pub fn proposition(&self, index: usize) -> &StateSet {
         &self.propositions[index]
     }
 
-    /// The states that were met and whose steps were not made, because a limit ended the search.
+    /// The states that were discovered but not explored, because a limit ended the search.
     pub fn unexplored(&self) -> &StateSet {
         &self.unexplored
     }
 
-    /// Whether a proposition's truth is known in unexplored states too.
+    /// Whether a proposition's truth is also known in unexplored states.
     pub fn is_known_where_unexplored(&self, index: usize) -> bool {
         !self.unknown.contains(&index)
     }
 
-    /// Whether every state that can be reached is in the graph with all its edges.
+    /// Whether the graph contains every reachable state with all its edges.
     pub fn is_complete(&self) -> bool {
         self.unexplored.is_empty()
     }
 
-    /// The graph turned around: by state, its predecessors, ascending.
+    /// The predecessors of each state, ascending.
     pub fn predecessors(&self) -> Predecessors {
         let states = self.states();
         let mut first = vec![0u64; states + 1];
@@ -230,43 +230,43 @@ pub struct Predecessors {
 }
 
 impl Predecessors {
-    /// The states that have an edge to this one, ascending; one comes up as often as it has edges.
+    /// The predecessors of this state, ascending, once for each edge.
     #[inline]
     pub fn of(&self, state: StateId) -> &[StateId] {
         &self.sources[self.first[state as usize] as usize..self.first[state as usize + 1] as usize]
     }
 }
 
-/// Puts a graph together, state after state in the order of their numbers.
+/// Builds a graph, state after state in the order of their numbers.
 #[derive(Debug, Clone)]
 pub struct Builder {
     graph: Graph,
 }
 
 impl Builder {
-    /// A graph without states whose states will be marked with so many propositions.
+    /// A graph without states, for this many propositions.
     pub fn new(propositions: usize) -> Builder {
         let propositions = vec![StateSet::default(); propositions];
         Builder { graph: Graph { first_edge: vec![0], propositions, ..Graph::default() } }
     }
 
-    /// The truth of a proposition is not known in states whose steps were not made.
+    /// Marks a proposition's truth as unknown in unexplored states.
     pub fn unknown_where_unexplored(&mut self, proposition: usize) {
         self.graph.unknown.push(proposition);
     }
 
-    /// The next state is an initial one.
+    /// Makes the next state an initial one.
     pub fn initial(&mut self) {
         self.graph.initial.push(self.graph.states() as StateId);
     }
 
-    /// An edge of the next state.
+    /// Adds an edge of the next state.
     pub fn edge(&mut self, target: StateId, label: Label) {
         self.graph.targets.push(target);
         self.graph.labels.push(label);
     }
 
-    /// Ends the next state: which propositions hold in it, one truth each. Without edges it gets one to itself.
+    /// Completes the next state, given the truth of each proposition in it. Without edges it gets one to itself.
     pub fn state(&mut self, truths: impl IntoIterator<Item = bool>) -> StateId {
         if self.graph.first_edge.last() == Some(&(self.graph.targets.len() as u64)) {
             self.edge(self.graph.states() as StateId, Label::STUTTER);
@@ -274,7 +274,7 @@ impl Builder {
         self.end_state(truths, false)
     }
 
-    /// Ends the next state, whose steps were not made.
+    /// Completes the next state as unexplored.
     ///
     /// # Panics
     /// An edge was given for it.

@@ -1,8 +1,8 @@
-//! Whoever waits for a search: is told how far it is and what it has found, while it goes on.
+//! Reports progress and findings of a search while it goes on.
 //!
-//! In: a [`Listener`], from outside, who knows of checks. Out: a [`Heed`] for who searches, who knows of what it looks for.
-//! INVARIANT: what is told is what the verdict will be: of what is found at one distance the least is known only when all there is
-//! at that distance was looked at, and is told no sooner.
+//! In: a [`Listener`] from outside, which knows checks. Out: a [`Heed`] for the search, which knows targets. INVARIANT:
+//! reported violations equal the final verdicts. The least of several findings at one distance is known only when
+//! everything at that distance was explored, so it is not reported sooner.
 
 use std::collections::BTreeMap;
 
@@ -11,45 +11,46 @@ use crate::question::Subject;
 use crate::target::{Found, Target};
 use crate::trace::Trace;
 
-/// Whoever waits for verdicts.
+/// Receives the progress and the violations of a verification.
 pub trait Listener {
-    /// The search is so far; whether it goes on.
+    /// Reports progress; returns whether to go on.
     fn at(&mut self, progress: &Progress) -> bool;
 
-    /// Whether it is time to be told of what was found already. Asked where something was.
+    /// Whether to report what was found already. Asked only after something was found.
     fn wants(&mut self) -> bool {
         false
     }
 
-    /// A check is violated, at the end of this run. Each check is told of once at most; the report tells of it again.
+    /// Reports a violation, at the end of this run. Each check is reported at most once here; the report contains it
+    /// again.
     fn violated(&mut self, subject: Subject, trace: &Trace) {
         let _ = (subject, trace);
     }
 }
 
-/// A function hears of progress alone.
+/// A function that receives only progress.
 impl<F: FnMut(&Progress) -> bool> Listener for F {
     fn at(&mut self, progress: &Progress) -> bool {
         self(progress)
     }
 }
 
-/// See the module.
+/// Translates a search's findings for its listener.
 pub(crate) struct Heed<'l> {
     pub listener: &'l mut dyn Listener,
-    /// The checks that are violated where something is found.
+    /// The check that each target violates.
     pub subjects: BTreeMap<Target, Subject>,
-    /// What was told, and the distance it is at.
+    /// What was reported, and its distance.
     pub told: BTreeMap<Target, (usize, Trace)>,
 }
 
 impl Heed<'_> {
-    /// The search is so far; whether it goes on.
+    /// Reports progress; returns whether to go on.
     pub fn at(&mut self, progress: &Progress) -> bool {
         self.listener.at(progress)
     }
 
-    /// Tells of what was found, unless that was told.
+    /// Reports a finding, unless it was reported before.
     pub fn tell(&mut self, found: &Found, trace: Trace) {
         let known = self.told.insert(found.target, (found.depth, trace)).is_some();
         if let (Some(subject), false) = (self.subjects.get(&found.target), known) {
@@ -57,7 +58,7 @@ impl Heed<'_> {
         }
     }
 
-    /// Whether this is to be told of now.
+    /// Whether this finding should be reported now.
     pub fn is_news(&self, found: &Found) -> bool {
         self.subjects.contains_key(&found.target) && !self.told.contains_key(&found.target)
     }

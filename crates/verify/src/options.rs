@@ -1,4 +1,4 @@
-//! How a program is checked: which engine, how far, what is kept of states.
+//! Options of a verification: the engine, the extent of the search, how states are stored.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -10,58 +10,57 @@ use crate::solver::method::Method;
 use crate::storage::Storage;
 use crate::storage::disk::Disk;
 
-/// How states are gone through.
+/// How states are explored.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum EngineKind {
-    /// One after the other, and a solver where that has no end.
+    /// One after another, then a solver if that has no end.
     #[default]
     Automatic,
-    /// One after the other.
+    /// One after another.
     Explicit,
     /// As sets, by binary decision diagrams.
     Symbolic,
-    /// Not at all: by an SMT solver.
+    /// Not at all: an SMT solver is asked.
     Solver(Method),
 }
 
-/// How a program is checked.
+/// Options of a verification.
 #[derive(Debug, Clone)]
 pub struct Options {
     /// The machine's limits.
     pub limits: Limits,
-    /// How states are gone through.
+    /// How states are explored.
     pub engine: EngineKind,
-    /// How many workers search.
+    /// The number of workers.
     pub workers: usize,
-    /// The search ends with the first level in which a check is violated.
+    /// End the search with the first level that contains a violation.
     pub first: bool,
-    /// The most states.
+    /// The largest number of states.
     pub max_states: u64,
-    /// The most steps from an initial state.
+    /// The largest number of steps from an initial state.
     pub max_depth: u64,
-    /// The most bytes for states.
+    /// The largest number of bytes for states.
     pub max_bytes: u64,
-    /// The values that inputs are given, where they are not all those of their domains. What Holds under such a bound is
-    /// Unknown without.
+    /// The values to try for inputs, if not all of their domains. What would Hold is Unknown with such a bound.
     pub bounds: Bounds,
-    /// States in which this holds may rest.
+    /// States in which this holds are no deadlocks.
     pub terminal: Option<Expression>,
-    /// Steps are always made by a machine, never remembered.
+    /// Make all steps by a machine, remembering none.
     pub forgetful: bool,
     /// What makes the steps that are not remembered; `Automatic` compiles them where remembering does not pay.
     pub steps: EngineChoice,
-    /// What is kept of each state; where that is not all of it, nothing Holds.
+    /// How states are stored; unless they are stored in full, nothing Holds.
     pub storage: Storage,
-    /// Draws the hash, where less than the state is kept.
+    /// Selects the hash, if states are not stored in full.
     pub seed: u64,
-    /// Where the main rule chooses who moves: of moves that do not concern each other one order is enough.
+    /// Partial-order reduction: if the main rule chooses who moves, make independent moves in one order only.
     pub partial_order: bool,
-    /// States that differ by a permutation of elements that nothing tells apart are one. They are gone through one by one then;
-    /// not with `partial_order`, nor where the search is kept.
+    /// Symmetry reduction: treat states as one if they differ only by a permutation of interchangeable elements. Needs
+    /// explicit search; excludes `partial_order` and checkpoints.
     pub symmetry: bool,
-    /// Where states go that memory has no room for, if all of each is kept. They are gone through one by one then.
+    /// Stores states on the disk when memory is full, if they are stored in full. Needs explicit search.
     pub disk: Option<Arc<dyn Disk>>,
-    /// Raised from another thread to end whatever takes long; looked at more often than the one who watches is asked.
+    /// Ends long work when raised from another thread; checked more often than the listener is asked.
     pub interrupt: Interrupt,
 }
 

@@ -1,4 +1,4 @@
-//! What a search is to do: which states and steps count, what is looked for in them, and how far it goes.
+//! The plan of a search: which states and steps count, what to look for in them, and how far to go.
 
 use std::sync::Arc;
 
@@ -7,38 +7,37 @@ use explore::Settings;
 use crate::storage::Storage;
 use crate::storage::disk::Disk;
 
-/// What the search is to do.
+/// The plan of a search.
 #[derive(Debug, Clone, Default)]
 pub struct Plan {
-    /// What explorers are made with.
+    /// Settings of explorers.
     pub settings: Settings,
-    /// The conditions on states that are assumptions: states in which one does not hold are left out.
+    /// Conditions on states that are assumptions: states in which one is false are skipped.
     pub assumed: Vec<usize>,
-    /// The condition on states that may rest.
+    /// The condition for states that are no deadlocks.
     pub terminal: Option<usize>,
-    /// The conditions on states that are looked for where they do not hold.
+    /// Conditions on states whose violations are looked for.
     pub wanted: Vec<usize>,
-    /// The conditions on steps that are looked for where they do not hold.
+    /// Conditions on steps whose violations are looked for.
     pub wanted_steps: Vec<usize>,
-    /// How many workers.
+    /// The number of workers.
     pub workers: usize,
-    /// The search ends with the first level in which something is found.
+    /// End the search with the first level that contains a finding.
     pub first: bool,
-    /// The most states.
+    /// The largest number of states.
     pub max_states: u64,
-    /// The most steps from an initial state.
+    /// The largest number of steps from an initial state.
     pub max_depth: u64,
-    /// The most bytes for states.
+    /// The largest number of bytes for states.
     pub max_bytes: u64,
-    /// What is kept of each state.
+    /// How states are stored.
     pub storage: Storage,
-    /// Draws the hash, where less than the state is kept.
+    /// Selects the hash, if states are not stored in full.
     pub seed: u64,
-    /// Of moves that do not concern each other one order is enough.
+    /// Whether to use partial-order reduction.
     pub partial_order: bool,
-    /// States that differ by a permutation of interchangeable elements are one; not with `partial_order`, nor where the search is
-    /// kept.
+    /// Whether to use symmetry reduction; not with `partial_order` or a checkpoint.
     pub symmetry: bool,
-    /// Where states go that memory has no room for; only where all of them is kept, and the search is not.
+    /// Stores states when memory is full; only if they are stored in full, and without a checkpoint.
     pub disk: Option<Arc<dyn Disk>>,
 }

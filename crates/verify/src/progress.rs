@@ -1,38 +1,38 @@
-//! How far a search is, and why it ended before its end.
+//! The progress of a search, and why it ended early.
 
 use machine::Cause;
 
 /// How far a search is.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Progress {
-    /// States met.
+    /// States discovered.
     pub states: u64,
     /// Steps that change the state.
     pub transitions: u64,
-    /// States that are still to be expanded.
+    /// States that still have to be expanded.
     pub queue: u64,
-    /// The greatest distance of a state from an initial one.
+    /// The largest distance of a state from an initial one.
     pub depth: u64,
-    /// Bytes of memory that states take.
+    /// Bytes of memory for states.
     pub bytes: u64,
     /// Bytes of files.
     pub spilled: u64,
 }
 
-/// Why a search ended before it had met all states.
+/// Why a search ended before it had explored all states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stop {
-    /// As many states as are allowed.
+    /// The limit of states was reached.
     States,
-    /// As deep as is allowed.
+    /// The limit of depth was reached.
     Depth,
-    /// As many bytes as are allowed.
+    /// The limit of memory was reached.
     Memory,
     /// A file could not be written or read.
     Disk,
-    /// Whoever watches the search has had enough.
+    /// The caller asked to stop.
     Asked,
-    /// Something was found and that is enough.
+    /// A finding was enough.
     Found,
 }
 

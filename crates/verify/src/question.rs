@@ -1,7 +1,7 @@
-//! What is asked of a program: the checks that nobody need ask for, its properties, its assumptions.
+//! The checks of a program: the built-in ones, its properties, its assumptions.
 //!
-//! In: a program and [`Options`]. Out: a [`Question`], which does not change: the checks in the order in which they are told,
-//! and the [`Plan`] that a search is given. It knows no engine.
+//! In: a program and [`Options`]. Out: an immutable [`Question`]: the checks in the order of the report, and the
+//! [`Plan`] of the search. It knows no engine.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use crate::options::Options;
 use crate::plan::Plan;
 use crate::target::Target;
 
-/// What a verdict is about.
+/// The subject of a verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Subject {
     /// No step has an inconsistent update set.
@@ -29,19 +29,20 @@ pub enum Subject {
     Property(usize),
 }
 
-/// See the module.
+/// The checks of a program.
 #[derive(Debug)]
 pub(crate) struct Question {
-    /// What a search is asked for.
+    /// The plan of the search.
     pub plan: Plan,
-    /// The checks, each with what is looked for in states; none where it speaks of runs.
+    /// The checks, each with its target among states; `None` for properties of runs.
     pub subjects: Vec<(Subject, Option<Target>)>,
-    /// By condition, the property that it comes from.
+    /// For each condition, the property that it comes from.
     property_of: Vec<usize>,
 }
 
 impl Question {
-    /// By what may be found, the check that is violated then. With other inputs a state might not rest.
+    /// The check that each target violates. With bounded inputs a state without steps violates nothing, since other
+    /// inputs might change it.
     pub fn violated(&self, options: &Options) -> BTreeMap<Target, Subject> {
         let targets = self.subjects.iter().filter_map(|(subject, target)| Some(((*target)?, *subject)));
         targets.filter(|(target, _)| *target != Target::Rest || options.bounds.is_empty()).collect()
@@ -52,7 +53,7 @@ impl Question {
         self.property_of[condition]
     }
 
-    /// What is asked of a program by its properties and these options.
+    /// The checks of a program under these options.
     pub fn of(program: &Program, options: &Options) -> Question {
         let mut bounds = assumed_bounds(program);
         bounds.extend(options.bounds.iter().map(|(function, values)| (*function, values.clone())));

@@ -1,4 +1,4 @@
-//! What verification comes to: a verdict for each check, how far the search came, or why nothing could be checked.
+//! The result of a verification: a verdict for each check, the extent of the search, or why nothing could be checked.
 
 use std::collections::BTreeMap;
 
@@ -19,86 +19,86 @@ use crate::storage::Storage;
 use crate::symmetry::Symmetry;
 use crate::trace::Trace;
 
-/// Why it is not known whether a property holds.
+/// Why it is unknown whether a property holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Reason {
-    /// The search ended before it had met all states.
+    /// The search ended before it had explored all states.
     Stopped(Stop),
-    /// Less than the states was kept, so some may be left out; [`Report::omission`] tells how likely that is.
+    /// States were not stored in full, so some may be omitted; [`Report::omission`] tells how likely that is.
     Compacted,
-    /// Alternatives that cannot be gone through.
+    /// Alternatives that cannot be enumerated.
     Unbounded(Unbounded),
-    /// An input was given only some of its values.
+    /// Only some values of an input were tried.
     Bounded(FunctionId),
     /// An assumption could not be evaluated in some state.
     Assumption(usize),
-    /// It asks in some state for what cannot be gone through.
+    /// In some state it depends on something that cannot be enumerated.
     Undecided,
-    /// It speaks of runs; [`Report::runs`] tells why it is not known.
+    /// It is a property of runs; [`Report::runs`] tells why it is unknown.
     Temporal,
     /// A solver left it open; [`Report::left`] tells why.
     Left,
-    /// A run was found that the machine does not make: this program is at fault, not the model.
+    /// The machine does not make the run that was found: this program is at fault, not the model.
     Odd,
 }
 
-/// What a check comes to.
+/// The outcome of a check.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Outcome {
-    /// In every state that can be reached.
+    /// It holds in every reachable state.
     Holds,
-    /// Not at the end of this run, which is a shortest one.
+    /// It is violated at the end of this run, which is a shortest one.
     Violated(Box<Trace>),
-    /// Not known; why, at least one reason.
+    /// It is unknown, for at least one reason.
     Unknown(Vec<Reason>),
 }
 
-/// A check and what it comes to.
+/// The verdict of a check.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Verdict {
-    /// What is checked.
+    /// The check.
     pub subject: Subject,
-    /// What it comes to.
+    /// Its outcome.
     pub outcome: Outcome,
 }
 
-/// What verification came to.
+/// The result of a verification.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Report {
-    /// The verdicts, the checks that nobody asked for first, then properties in the order of the text.
+    /// The verdicts: built-in checks first, then properties in the order of the text.
     pub verdicts: Vec<Verdict>,
-    /// What went through the states in the end.
+    /// The engine that produced the verdicts.
     pub engine: EngineKind,
     /// How far the search came.
     pub progress: Progress,
     /// Why the search ended early, if it did.
     pub stop: Option<Stop>,
-    /// Every state that can be reached was met.
+    /// Whether every reachable state was explored.
     pub complete: bool,
     /// How many words a state has, and how many bits of them are used.
     pub width: (usize, usize),
-    /// Rules that run in no step, though the rule around them or its caller does; only where every state was met.
+    /// Rules that run in no step, although the enclosing rule or a caller does; known only if every state was explored.
     pub unreachable: Vec<Span>,
-    /// By property: why it is not known whether a property of runs holds, where that is so.
+    /// For each property of runs that is unknown, why.
     pub runs: BTreeMap<usize, Why>,
-    /// What was kept of each state.
+    /// How states were stored.
     pub storage: Storage,
-    /// Where less than the states was kept: how many are to be expected to have been left out for being taken for others,
-    /// which is no less than the probability that any was.
+    /// If states were not stored in full: the expected number of states that were mistaken for others and omitted. It
+    /// is an upper bound of the probability that any was.
     pub omission: Option<Expected>,
-    /// Where partial-order reduction was asked for: that states were reduced, or why not.
+    /// If partial-order reduction was requested: whether it was possible, or why not.
     pub reduced: Option<Result<(), Unreduced>>,
-    /// Where interchangeable elements were to be found: which there are. States are counted up to their permutations.
+    /// If symmetry reduction was requested: the interchangeable elements. States are then counted up to permutations.
     pub symmetry: Option<Symmetry>,
-    /// How it was proved what a solver has proved.
+    /// How a solver proved what it proved.
     pub proofs: BTreeMap<Subject, Proof>,
-    /// Why a solver left something open.
+    /// Why a solver left a check open.
     pub left: BTreeMap<Subject, Left>,
     /// The solver that was asked.
     pub solver: Option<String>,
 }
 
-/// An expected number, which is no less than 0.
+/// An expected number, at least 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Expected(pub f64);
 
@@ -109,15 +109,15 @@ impl Eq for Expected {}
 pub enum NoStart {
     /// An initial state cannot be made.
     Fault(Box<Fault>),
-    /// The initial states cannot be gone through.
+    /// The initial states cannot be enumerated.
     Unbounded(Unbounded),
-    /// Whoever waits has had enough before all initial states were made.
+    /// The caller asked to stop before all initial states were found.
     Stopped(Stop),
-    /// It has a part that solvers have no place for.
+    /// A part of the model cannot be encoded for solvers.
     Outside(Outside),
-    /// There is no solver: why, as a clause.
+    /// There is no solver; a clause says why.
     NoSolver(String),
-    /// What was kept of a search is none to go on with.
+    /// The search cannot continue from its checkpoint.
     Refused(Refusal),
 }
 

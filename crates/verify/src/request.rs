@@ -1,8 +1,7 @@
-//! A verification as it is asked for.
+//! A request for a verification.
 //!
-//! In: a program and [`Options`], and what else is wanted of the search. Out: a [`Request`] that can be carried out, or the
-//! [`Conflict`] between two things that do not go together. INVARIANT: a request that was built has no conflict, so that a shell
-//! has nothing to check and cannot forget to.
+//! In: a program, [`Options`] and further wishes. Out: a [`Request`] that can be carried out, or the [`Conflict`]
+//! between two parts. INVARIANT: a request that was built has no conflict, so shells need not check for any.
 
 use std::fmt;
 use std::sync::Arc;
@@ -20,7 +19,7 @@ use crate::report::{NoStart, Report};
 use crate::storage::Storage;
 use crate::temporal::fairness::AgentFairness;
 
-/// A part of a request that not every engine has, or that does not go with every other part.
+/// A part of a request that not every engine supports, or that excludes another part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Part {
     /// [`Options::first`].
@@ -33,7 +32,7 @@ pub enum Part {
     PartialOrder,
     /// [`Options::symmetry`].
     Symmetry,
-    /// [`Options::storage`] that keeps less than the states.
+    /// A lossy [`Options::storage`].
     Storage,
     /// A [`Keeper`].
     Checkpoint,
@@ -41,7 +40,7 @@ pub enum Part {
     Disk,
 }
 
-/// All parts, in the order in which their conflicts are looked for.
+/// All parts, in the order in which conflicts are checked.
 const PARTS: [Part; 8] = [
     Part::First,
     Part::MaxStates,
@@ -53,7 +52,7 @@ const PARTS: [Part; 8] = [
     Part::Disk,
 ];
 
-/// Parts that do not go together.
+/// Parts that exclude each other.
 const APART: [(Part, Part); 5] = [
     (Part::Symmetry, Part::PartialOrder),
     (Part::Checkpoint, Part::Symmetry),
@@ -65,9 +64,9 @@ const APART: [(Part, Part); 5] = [
 /// Why a request cannot be carried out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Conflict {
-    /// The engine that was chosen has no such part.
+    /// The chosen engine does not support this part.
     Engine(Part, EngineKind),
-    /// The two do not go together.
+    /// These two parts exclude each other.
     Parts(Part, Part),
 }
 
@@ -82,11 +81,11 @@ impl fmt::Display for Conflict {
 
 impl std::error::Error for Conflict {}
 
-/// A request that is being put together.
+/// A request under construction.
 #[derive(Debug, Clone)]
 pub struct RequestBuilder(Request);
 
-/// See the module.
+/// A request without conflicts.
 #[derive(Debug, Clone)]
 pub struct Request {
     program: Arc<Program>,
@@ -96,13 +95,13 @@ pub struct Request {
 }
 
 impl RequestBuilder {
-    /// Takes the main rule's choice of who moves to be fair in temporal properties.
+    /// Assumes in temporal properties that the main rule's choice of who moves is fair.
     pub fn fair(mut self, agents: Option<AgentFairness>) -> RequestBuilder {
         self.0.agents = agents;
         self
     }
 
-    /// Whether a search that a limit ends is kept, and resumed if it was; [`Request::verify_kept`] carries it out.
+    /// Whether to keep the search when a limit ends it, and to resume it; then [`Request::verify_kept`] carries it out.
     pub fn kept(mut self, kept: bool) -> RequestBuilder {
         self.0.kept = kept;
         self
@@ -111,7 +110,7 @@ impl RequestBuilder {
     /// The request.
     ///
     /// # Errors
-    /// Two parts of it do not go together.
+    /// Two of its parts exclude each other.
     pub fn build(self) -> Result<Request, Conflict> {
         let RequestBuilder(request) = self;
         let engine = request.options.engine;
@@ -125,10 +124,10 @@ impl RequestBuilder {
     }
 }
 
-/// Whether an engine has a part.
+/// Whether an engine supports a part.
 fn has(engine: EngineKind, part: Part) -> bool {
     match part {
-        // Sets of states are not made level by level, and have no size that a user could bound.
+        // Symbolic search does not proceed level by level, and its size has no bound that a user could give.
         Part::First | Part::MaxStates | Part::MaxDepth => engine != EngineKind::Symbolic,
         Part::PartialOrder | Part::Symmetry | Part::Storage | Part::Checkpoint | Part::Disk => {
             matches!(engine, EngineKind::Automatic | EngineKind::Explicit)
@@ -142,7 +141,7 @@ impl Request {
         RequestBuilder(Request { program: Arc::clone(program), options, agents: None, kept: false })
     }
 
-    /// The same, looking at another request to stop.
+    /// The same request with another interrupt.
     #[must_use]
     pub fn interrupted_by(mut self, interrupt: Interrupt) -> Request {
         self.options.interrupt = interrupt;
@@ -163,26 +162,26 @@ impl Request {
         }
     }
 
-    /// Carries the request out. The listener hears of progress and of violations, and may end it; SMT solvers are asked where
-    /// the engine wants one.
+    /// Carries out the request. The listener receives progress and violations, and may end the search. SMT solvers are
+    /// asked if the engine needs one.
     ///
     /// # Errors
     /// There is no initial state, or a solver cannot be asked.
     ///
     /// # Panics
-    /// The search is to be kept.
+    /// The request is for a search that is kept.
     pub fn verify(&self, solvers: &mut dyn Solvers, listener: &mut dyn Listener) -> Result<Report, NoStart> {
         assert!(!self.kept, "a search that is to be kept needs who keeps it");
         verify_request(&self.program, &self.options, self.agents, solvers, None, listener)
     }
 
-    /// Carries the request out with a search that is kept where a limit ends it, and resumed if it was.
+    /// Carries out the request with a search that is resumed if possible and kept if a limit ends it.
     ///
     /// # Errors
-    /// There is no initial state, a solver cannot be asked, or what was kept does not fit.
+    /// There is no initial state, a solver cannot be asked, or the checkpoint does not fit.
     ///
     /// # Panics
-    /// The search is not to be kept.
+    /// The request is not for a search that is kept.
     pub fn verify_kept(
         &self,
         solvers: &mut dyn Solvers,
@@ -194,7 +193,7 @@ impl Request {
     }
 }
 
-/// Verifies a program by states alone, without a solver; `watch` hears how far the search is and says whether it goes on.
+/// Verifies a program by exploring states, without a solver; `watch` receives progress and tells whether to go on.
 ///
 /// # Errors
 /// There is no initial state.

@@ -1,17 +1,17 @@
-//! The set of states met, and the states themselves in the order in which they were met.
+//! The set of discovered states, which also lists them in the order of discovery.
 //!
-//! In: packed states. Out: whether one is new. A state stands once in a list of chunks, which never moves, and once in an
-//! open-addressed table: itself where it is a single word, else its place with a part of its hash. The table grows by
-//! half, so that states and table together take at most 22 bytes for a state of one word. The order of states is theirs of arrival
-//! and nothing else; no hash order comes out.
+//! In: packed states. Out: whether one is new. A state is stored once in a list of chunks, which never moves, and once
+//! in an open-addressed table: as itself if it is a single word, else as its index with a part of its hash. The table
+//! grows by half, so states and table together take at most 22 bytes for a state of one word. Only the order of arrival
+//! is visible, never the order of hashes.
 
 /// States in a chunk.
 const CHUNK: usize = 1 << 14;
-/// How many lookups are begun before the first is ended, so that their memory is fetched at the same time.
+/// How many lookups are in progress at a time, so that their memory is fetched in parallel.
 const AHEAD: usize = 16;
-/// The table is at most seven eighths full.
+/// The largest load of the table.
 const FULL: (usize, usize) = (7, 8);
-/// Marks an occupied slot that holds a state itself.
+/// Marks an occupied slot that contains a state itself.
 const OCCUPIED: u64 = 1 << 63;
 
 /// The hash of a state.
@@ -26,22 +26,22 @@ pub fn hash(state: &[u64]) -> u64 {
     hash ^ hash >> 29
 }
 
-/// See the module.
+/// A set of states in the order of arrival.
 #[derive(Debug)]
 pub struct Table {
     words: usize,
     chunks: Vec<Vec<u64>>,
     len: usize,
     slots: Vec<u64>,
-    /// The table is given up once its capacity would be passed.
+    /// Set when the table may not grow further.
     full: bool,
 }
 
 impl Table {
-    /// LIMIT: states of one table.
+    /// LIMIT: the most states in one table.
     pub const MOST: usize = u32::MAX as usize - 1;
 
-    /// An empty set of states of so many words.
+    /// An empty set of states with this many words.
     pub fn new(words: usize) -> Table {
         Table { words, chunks: Vec::new(), len: 0, slots: vec![0; 1 << 10], full: false }
     }
@@ -56,12 +56,12 @@ impl Table {
         self.full
     }
 
-    /// How many bytes it takes.
+    /// The number of bytes it takes.
     pub fn bytes(&self) -> usize {
         8 * self.slots.len() + self.chunks.iter().map(|chunk| 8 * chunk.capacity()).sum::<usize>()
     }
 
-    /// How many bytes it would take with so many states, at least as many as it has.
+    /// The number of bytes it would take with this many states, at least as many as now.
     pub fn bytes_of(&self, len: usize) -> usize {
         let mut slots = self.slots.len();
         while (len + AHEAD) * FULL.1 > slots * FULL.0 {
@@ -70,12 +70,12 @@ impl Table {
         8 * slots + len.div_ceil(CHUNK) * CHUNK * self.words * 8
     }
 
-    /// The states, as they came.
+    /// The states in the order of arrival.
     pub fn chunks(&self) -> impl Iterator<Item = &[u64]> {
         self.chunks.iter().map(Vec::as_slice)
     }
 
-    /// The states, in the order of their words.
+    /// The states in ascending order.
     pub fn sorted(self) -> Vec<u64> {
         let Table { words, chunks, len, slots, .. } = self;
         drop(slots);
@@ -95,18 +95,18 @@ impl Table {
         all
     }
 
-    /// A state by its place.
+    /// The state at an index.
     #[inline]
     pub fn state(&self, index: usize) -> &[u64] {
         let start = index % CHUNK * self.words;
         &self.chunks[index / CHUNK][start..start + self.words]
     }
 
-    /// Adds states, one after the other; calls `new` with each that is.
+    /// Adds states one after another; calls `new` with each new one.
     pub fn insert_all(&mut self, states: &[u64], new: &mut impl FnMut(&[u64])) {
         let mut hashes = [0; AHEAD];
         for batch in states.chunks(AHEAD * self.words) {
-            // The capacity is kept ahead, so that places stay right within a batch.
+            // Growing in advance keeps slots valid within a batch.
             if (self.len + AHEAD) * FULL.1 > self.slots.len() * FULL.0 {
                 self.grow();
             }
@@ -129,7 +129,7 @@ impl Table {
         ((u128::from(hash) * self.slots.len() as u128) >> 64) as usize
     }
 
-    // The inner loop of a search: a call here costs what a lookup does.
+    // The inner loop of a search: a function call here would cost as much as a lookup.
     #[inline(always)]
     fn find_or_add(&mut self, state: &[u64], hash: u64) -> bool {
         let mut slot = self.slot_of(hash);

@@ -1,19 +1,19 @@
-//! What is looked for in states, and where it was found.
+//! The targets of a search, and where they were found.
 
-/// What is looked for in a state.
+/// Something to look for in a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Target {
-    /// A step that is a fault, by its class.
+    /// A step faults, by the fault's class.
     Fault(usize),
     /// No step changes the state.
     Rest,
-    /// A condition that does not hold, by its number.
+    /// A condition is false, by its number.
     Condition(usize),
-    /// A condition on the step that does not hold in one of its steps, by its number.
+    /// A condition on steps is false for one of its steps, by its number.
     StepCondition(usize),
 }
 
-/// Where something was found first.
+/// The first place where a target was found.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Found {
     /// What.

@@ -1,6 +1,7 @@
-//! A run as it is told: its beginning and its steps, one by one.
+//! A run in full: its initial state and its steps, one by one.
 //!
-//! In: states of which each leads to the next. Out: a [`Trace`]. Of the steps from one state to the next the first is told.
+//! In: states that each lead to the next. Out: a [`Trace`]. If several steps lead from one state to the next, the first
+//! is used.
 
 use std::ops::ControlFlow;
 
@@ -12,19 +13,19 @@ use crate::target::{Found, Target};
 /// A run from an initial state.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Trace {
-    /// What the initial state took from outside.
+    /// The inputs and choices of the initial state.
     pub start: Told,
     /// The initial state.
     pub values: Vec<(Location, Value)>,
-    /// The steps. The last one may be one that cannot be made, or one whose inputs violate a condition.
+    /// The steps. The last one may fail, or its inputs may violate a condition.
     pub steps: Vec<Told>,
-    /// The step that the run goes back to after the last one, again and again; none for a run that ends.
+    /// The step to which the run returns after the last one, forever; `None` for a run that ends.
     pub turn: Option<usize>,
-    /// The violation is that of a tree of runs, of which this is one branch.
+    /// Whether a tree of runs violates the property, of which this is only one branch.
     pub branch: bool,
 }
 
-/// The first alternative of a state that is as wanted.
+/// The first alternative of a state that satisfies `wanted`.
 fn first_path(explorer: &mut Explorer, state: &[u64], wanted: &mut dyn FnMut(&Path) -> bool) -> Option<Path> {
     let mut first = None;
     let _ = explorer.paths_until(state, &mut |path| {
@@ -37,13 +38,13 @@ fn first_path(explorer: &mut Explorer, state: &[u64], wanted: &mut dyn FnMut(&Pa
     first
 }
 
-/// The answers of the first alternative that leads from one state to another.
+/// The picks of the first alternative that leads from one state to another.
 pub(crate) fn picks_between(explorer: &mut Explorer, from: &[u64], to: &[u64]) -> Vec<u32> {
     let mut leads = |path: &Path| matches!(&path.outcome, Outcome::Next(next) if **next == *to);
     first_path(explorer, from, &mut leads).expect("the step was made before").picks
 }
 
-/// The steps from an initial state along a chain of states.
+/// The run from an initial state along a chain of states.
 pub(crate) fn tell_way(explorer: &mut Explorer, chain: &[Box<[u64]>]) -> Trace {
     let start = explorer.initial().iter().find(|(state, _)| *state == chain[0]).map(|(_, start)| *start);
     let start = start.map(|start| explorer.told_of_start(start)).unwrap_or_default();

@@ -1,5 +1,5 @@
-//! The tests of `verify` as one program: each file of this folder is a module here, since linking takes longer than most of
-//! them run.
+//! The tests of `verify` as one program, since linking takes longer than most of them run. Each file of this folder is
+//! a module here.
 
 mod checkpoint;
 mod disk;

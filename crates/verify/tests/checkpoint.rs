@@ -1,4 +1,4 @@
-//! A search that is interrupted, kept, and gone on with ends as one that is not; what was damaged is refused.
+//! A search that is interrupted, kept and continued ends like one that is not; a damaged checkpoint is refused.
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
@@ -29,14 +29,14 @@ fn growing(most: u32) -> Arc<Program> {
     lowered(SourceFile::new("Grow.asm", text))
 }
 
-/// Keeps words in memory.
+/// Stores words in memory.
 #[derive(Default)]
 struct Memory {
     model: u64,
     kept: Option<Vec<u64>>,
     unfinished: Vec<u64>,
     read: usize,
-    /// Each so many rounds it is time.
+    /// A checkpoint is due every this many rounds.
     every: usize,
     rounds: usize,
     times: usize,
@@ -88,7 +88,7 @@ fn straight(program: &Arc<Program>, options: &Options) -> Report {
     verify::verify(program, options, &mut |_| true).expect("there is an initial state")
 }
 
-/// Interrupted again and again, with as many workers as stand there in turn, it ends as without.
+/// Interrupted again and again, with these numbers of workers in turn, a search ends as it does without interruptions.
 fn agrees(program: &Arc<Program>, options: &Options, steps: u64, workers: &[usize]) {
     let whole = straight(program, &Options { workers: 1, engine: verify::EngineKind::Explicit, ..options.clone() });
     let mut keeper = Memory::default();
@@ -100,7 +100,7 @@ fn agrees(program: &Arc<Program>, options: &Options, steps: u64, workers: &[usiz
             assert!(keeper.kept.is_some() && report.verdicts.iter().all(|v| v.outcome != Outcome::Holds));
             continue;
         }
-        // One that ended at the first violation might go on without --first.
+        // A search that ended at the first violation might continue without --first.
         assert_eq!(keeper.kept.is_some(), report.stop.is_some(), "a search that has ended is not kept");
         assert!(keeper.times > 2, "{}", keeper.times);
         assert_eq!(report.verdicts, whole.verdicts);
@@ -141,7 +141,7 @@ fn pauses_change_nothing() {
     }
 }
 
-/// A checkpoint of a search that is not at its end.
+/// A checkpoint of an incomplete search.
 fn kept(program: &Arc<Program>) -> Memory {
     let mut keeper = Memory { model: 7, ..Memory::default() };
     check(program, &Options { max_states: 60, ..Options::default() }, &mut keeper).expect("it starts");

@@ -1,4 +1,4 @@
-//! States in files once memory ends: the same verdicts, counts and runs as in memory; and nothing holds where a file fails.
+//! States in files when memory is full: the same verdicts, counts and runs as in memory; nothing holds if a file fails.
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
@@ -17,7 +17,7 @@ fn program(name: &str) -> Arc<Program> {
     lowered(crate::models::Disk::read(&path).expect("the model is there"))
 }
 
-/// Files of a search: how many words may still be written or read, and how many files there are.
+/// The files of a search: how many more words may be written or read, and how many files there are.
 #[derive(Debug)]
 struct Files {
     left: Arc<AtomicI64>,
@@ -76,7 +76,7 @@ fn check(program: &Arc<Program>, options: &Options) -> Report {
     verify(program, options, &mut |_| true).expect("there is an initial state")
 }
 
-/// All that is told of a search but how much it took; the graph of temporal properties has no files.
+/// The whole result of a search except its cost; the graph for temporal properties uses no files.
 fn told(program: &Program, report: &Report) -> String {
     let progress = verify::Progress { bytes: 0, spilled: 0, ..report.progress };
     let is_temporal = |verdict: &&verify::Verdict| match verdict.subject {
@@ -87,7 +87,8 @@ fn told(program: &Program, report: &Report) -> String {
     format!("{verdicts:?} {progress:?} {:?} {} {:?}", report.stop, report.complete, report.unreachable)
 }
 
-/// Searches with so little memory that states go to files, with several numbers of workers; tells how many files there were.
+/// Searches with so little memory that states go to files, with several numbers of workers; returns the number of
+/// files.
 fn agrees(program: &Arc<Program>, options: &Options, bytes: u64) -> usize {
     let options = Options { engine: EngineKind::Explicit, ..options.clone() };
     let whole = check(program, &options);
@@ -108,7 +109,7 @@ fn agrees(program: &Arc<Program>, options: &Options, bytes: u64) -> usize {
 #[test]
 fn the_reference_systems_come_to_the_same() {
     for name in ["Swing", "SwingLive", "SwingUnlocked"] {
-        // Nothing fits, so that every level goes to files.
+        // Nothing fits, so every level goes to files.
         assert!(agrees(&program(name), &Options::default(), 0) > 2, "{name}");
     }
     for (name, bytes) in [("ChainXS", 300_000), ("ChainXS", 700_000), ("Phil12", 3 << 20)] {
@@ -128,7 +129,7 @@ fn limits_and_the_first_violation_end_it_alike() {
     ] {
         agrees(&program, &options, 0);
     }
-    // How many of a level are met by then depends on the workers.
+    // How much of a level is discovered by then depends on the number of workers.
     for workers in [1, 2, 3] {
         let disk = Some(Files::new(i64::MAX) as Arc<_>);
         let options = Options {
@@ -145,7 +146,7 @@ fn limits_and_the_first_violation_end_it_alike() {
     }
 }
 
-/// States of several words, assumptions, values that are numbered and come up as the search goes on.
+/// States of several words, assumptions, and numbered values that appear during the search.
 #[test]
 fn wide_states_and_numbered_values_come_to_the_same() {
     let text = "asm Walk\nimport StandardLibrary\nsignature:\n domain Place subsetof Integer\n monitored push: Boolean\n \
@@ -156,7 +157,7 @@ fn wide_states_and_numbered_values_come_to_the_same() {
                 visited := including(visited, $p) last := place($p) * 3 endpar\n\
                 default init s0:\n function place($p in Place) = 0\n function visited = {}\n function last = 0\n";
     let program = lowered(SourceFile::new("Walk.asm", text));
-    // Of several workers some gives the numbers first, so the order in files is another; what comes out is the same.
+    // With several workers the numbering varies, so the order in files does, too; the result is the same.
     assert!(agrees(&program, &Options { terminal: None, ..Options::default() }, 0) > 2);
 }
 

@@ -1,8 +1,8 @@
-//! On random models: what an explorer says of a state is what the machine does in it, whether it is remembered or not.
+//! On random models, an explorer agrees with the machine about every state, with and without remembered steps.
 //!
-//! A second exploration, straight and slow, goes beside it: states are copied, alternatives are those that a machine asks an
-//! ordinary environment for. `GROUNDSTATE_CASES` sets how many models (a few seconds' worth if absent), `GROUNDSTATE_SEED`
-//! the first seed.
+//! They are compared with a second, naive exploration: it copies states, and its alternatives are what a machine asks
+//! an ordinary environment for. `GROUNDSTATE_CASES` sets how many models (a few seconds' worth if absent),
+//! `GROUNDSTATE_SEED` the first seed.
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the environment")]
 
@@ -18,12 +18,12 @@ use program::{DomainId, DomainKind, FunctionId, FunctionKind, Program};
 use syntax::{Severity, SourceFile};
 use testkit::NoFiles;
 
-/// States of one model that are compared.
+/// The most states of one model that are compared.
 const STATES: usize = 60;
-/// Alternatives of one state that are compared.
+/// The most alternatives of one state that are compared.
 const PATHS: usize = 3_000;
 
-/// An odometer over what a machine asks for.
+/// Enumerates the answers to what a machine asks.
 #[derive(Default)]
 struct Odometer {
     picks: Vec<(usize, usize)>,
@@ -81,7 +81,7 @@ impl Environment for Odometer {
 
 type Key = (Vec<(Location, Value)>, Vec<Vec<Value>>);
 
-/// Whether there are elements that are not there from the start.
+/// Whether a domain may get elements that do not exist at the start.
 fn grows(program: &Program, domain: DomainId) -> bool {
     match &program.domain(domain).kind {
         DomainKind::Basic(basic) => *basic != model::Basic::Boolean,
@@ -95,7 +95,7 @@ fn grows(program: &Program, domain: DomainId) -> bool {
     }
 }
 
-/// A state by its values. Locations whose initial value may not have been needed yet say nothing.
+/// A state by its values, without locations whose initial value may not have been needed yet.
 fn key(program: &Program, values: Vec<(Location, Value)>, machine: Option<&mut Machine>) -> Key {
     let initialised: BTreeSet<FunctionId> = program.initials.iter().map(|initial| initial.function).collect();
     let keep = |location: &Location| {
@@ -116,7 +116,7 @@ fn key(program: &Program, values: Vec<(Location, Value)>, machine: Option<&mut M
     (values, grown.unwrap_or_default())
 }
 
-/// What the inputs can be in the machine's state.
+/// The possible inputs in the machine's state.
 fn inputs(program: &Program, machine: &mut Machine, bounds: &Bounds) -> BTreeMap<FunctionId, Vec<Value>> {
     let mut inputs = bounds.clone();
     for (index, function) in program.functions.iter().enumerate() {
@@ -170,7 +170,7 @@ struct Total {
     tried: u64,
 }
 
-/// The successors of the machine's state, itself left out; none where they cannot all be had.
+/// The successors of the machine's state other than itself; `None` if they cannot all be computed.
 fn straight(
     program: &Program,
     machine: &mut Machine,
@@ -207,7 +207,7 @@ fn straight(
     None
 }
 
-/// Two states are the same, or else it is said where they differ.
+/// Checks that two states are equal, and shows the difference if not.
 fn same(program: &Program, ours: &[(Location, Value)], theirs: &[(Location, Value)]) {
     let show = |of: &[(Location, Value)], other: &[(Location, Value)]| -> Vec<String> {
         let own = of.iter().filter(|pair| !other.contains(pair));
@@ -249,7 +249,7 @@ fn compare(program: &Arc<Program>, widening: &mut Widening, compiles: bool, tota
             total.compiled += compiled.compiled_states() - before;
             total.tried += 1;
         }
-        // Once more, now that all of it is remembered.
+        // Once more, now that all steps are remembered.
         again.clear();
         assert_eq!(quick.expand(&state, &mut again).map_err(narrow)?, expansion, "made and remembered");
         assert_eq!(out, again, "made and remembered");

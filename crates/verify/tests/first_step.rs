@@ -1,7 +1,7 @@
-//! What initial values have asked for: the first step keeps it, whoever goes through the states.
+//! Inputs that initial values have read are kept in the first step by every engine.
 //!
-//! The judge is a machine that explores nothing: it is started, and makes each step, with every answer to every question. An
-//! input is asked for anew where it forgets it, as in a run.
+//! They are compared with a machine without exploration: it is started, and makes each step with every answer to every
+//! question. An input that it has forgotten is asked for again, as in a run.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -19,7 +19,7 @@ fn model(text: &str) -> Arc<Program> {
     lowered(SourceFile::new("example.asm", format!("{header}{text}\n")))
 }
 
-/// Answers from the left, the last one to be counted up.
+/// Enumerates answers, the last one varying fastest.
 #[derive(Default)]
 struct Odometer {
     answers: Vec<(usize, usize)>,
@@ -65,17 +65,18 @@ impl Environment for Odometer {
 type State = Vec<(Location, Value)>;
 type Answers = Vec<(usize, usize)>;
 
-/// What the machine by itself comes to.
+/// The results of the machine by itself.
 #[derive(Debug, Default)]
 struct Judge {
-    /// By property, after how many steps it is violated first; one over inputs in the step after them.
+    /// For each property, the number of steps to its first violation; if it reads inputs, it is evaluated in the step
+    /// after them.
     violated: BTreeMap<usize, usize>,
     inconsistent: Option<usize>,
-    /// With the answers of the start: initial values that come up later depend on them.
+    /// With the answers at the start, since initial values that are computed later depend on them.
     states: BTreeSet<(Answers, State)>,
 }
 
-/// LIMIT: the steps of a run, in which all states of these models are met.
+/// LIMIT: the steps of a run; they suffice to reach all states of these models.
 const DEPTH: usize = 40;
 
 impl Judge {
@@ -112,7 +113,7 @@ impl Judge {
         judge
     }
 
-    /// The state after a step; none where it cannot be made, or an assumption leaves it out.
+    /// The state after a step; `None` if the step fails, or an assumption excludes it.
     fn successor(
         &mut self,
         program: &Arc<Program>,
@@ -151,7 +152,7 @@ impl Judge {
     }
 }
 
-/// Whether no assumption is false of the inputs that the start has asked for.
+/// Whether the inputs read at the start violate no assumption.
 fn admits(program: &Arc<Program>, machine: &mut Machine) -> bool {
     program.properties.iter().filter(|one| one.kind == PropertyKind::Invar).all(|property| {
         let mut more = Odometer::default();
@@ -159,7 +160,7 @@ fn admits(program: &Arc<Program>, machine: &mut Machine) -> bool {
     })
 }
 
-/// A machine that has begun so and made these steps. It goes back to nothing, so that it has the inputs of a run.
+/// A machine that was started and has made these steps. It never steps back, so it keeps the inputs as in a run.
 fn again(program: &Arc<Program>, path: &[Answers]) -> Machine {
     let mut machine = Machine::new(Arc::clone(program), Limits::default());
     machine.use_engine(EngineChoice::Interpreted);
@@ -176,7 +177,7 @@ fn state(machine: &Machine) -> State {
     machine.locations().into_iter().filter(|(location, _)| kind(location) != FunctionKind::Monitored).collect()
 }
 
-/// The ways in which states are gone through.
+/// The ways of exploring states.
 fn ways() -> Vec<(&'static str, Options)> {
     let plain = Options { engine: EngineKind::Explicit, ..Options::default() };
     vec![
@@ -283,7 +284,7 @@ fn a_shared_location_that_the_start_has_asked_for_stays() {
     );
 }
 
-/// A model at random: initial values, guards and properties over inputs, the state, a definition and each other.
+/// A random model: initial values, guards and properties over inputs, the state, a definition and each other.
 fn random(seed: u64) -> String {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut draw = |below: usize| {

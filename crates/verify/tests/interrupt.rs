@@ -1,5 +1,5 @@
-//! A search that is to end does, wherever it is: among the alternatives of one state, between states, at so many of them; and what was
-//! found by then was told.
+//! A search ends when asked, wherever it is: among the alternatives of one state, between states, at a given number of
+//! them; its findings so far are reported.
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
@@ -17,7 +17,7 @@ use verify::{
 
 use crate::models::lowered;
 
-/// A model of so much text between its name and its rules.
+/// A model with these texts between its name and its rules.
 fn model(name: &str, declared: &str, defined: &str, initial: &str) -> Arc<Program> {
     let text = format!(
         "asm {name}\nimport StandardLibrary\nimport CTLLibrary\nsignature:\n{declared}\ndefinitions:\n{defined}\n\
@@ -26,7 +26,7 @@ fn model(name: &str, declared: &str, defined: &str, initial: &str) -> Arc<Progra
     lowered(SourceFile::new(format!("{name}.asm"), text))
 }
 
-/// Inputs that make a million alternatives of each state.
+/// Each state has a million alternatives of inputs.
 fn sensors() -> Arc<Program> {
     model(
         "Sensors",
@@ -36,7 +36,7 @@ fn sensors() -> Arc<Program> {
     )
 }
 
-/// It goes on for ever, and an invariant is violated after some steps.
+/// Never ends; violates an invariant after some steps.
 fn endless() -> Arc<Program> {
     model(
         "Endless",
@@ -47,7 +47,7 @@ fn endless() -> Arc<Program> {
     )
 }
 
-/// A step has so many choices, each of which leads to another state.
+/// Each step has this many choices, and each leads to another state.
 fn wide(most: u32) -> Arc<Program> {
     model(
         "Wide",
@@ -145,7 +145,7 @@ fn sets_of_states_are_not_waited_for() {
             assert_eq!(report.stop, Some(Stop::Asked));
             assert!(report.verdicts.iter().all(|verdict| matches!(verdict.outcome, Outcome::Unknown(_))));
         }
-        // It had not got as far.
+        // It had not come as far.
         Err(trouble) => assert_eq!(trouble, NoStart::Stopped(Stop::Asked)),
     }
 }
@@ -158,7 +158,7 @@ fn a_limit_of_states_is_passed_by_the_steps_of_one_state_at_most() {
         let report = verify(&program, &options, &mut |_| true).expect("there is an initial state");
         assert_eq!((report.stop, report.progress.states), (Some(Stop::States), 1600), "all by the first state");
     }
-    // Two choices: level by level twice as many states.
+    // Two choices: the number of states doubles with each level.
     let program = endless();
     for max_states in [50, 3_000, 5_000] {
         let options = Options { engine: EngineKind::Explicit, workers: 1, max_states, ..Options::default() };
@@ -186,7 +186,7 @@ fn the_first_violation_is_enough() {
     assert_eq!(temporal.outcome, Outcome::Unknown(vec![Reason::Stopped(Stop::Found)]), "its graph has no end");
 }
 
-/// Has had enough once something was told.
+/// Asks to stop after the first report.
 #[derive(Default)]
 struct Ear(BTreeMap<Subject, Trace>);
 

@@ -1,4 +1,4 @@
-//! One order of moves instead of all: the verdicts are those of all steps, with fewer states.
+//! With partial-order reduction the verdicts are the same as with all steps, with fewer states.
 //!
 //! `GROUNDSTATE_CASES` sets how many random models (a few seconds' worth if absent), `GROUNDSTATE_SEED` the first seed.
 
@@ -25,7 +25,7 @@ fn check(program: &Arc<Program>, options: &Options) -> Report {
     verify(program, options, &mut |_| true).expect("there is an initial state")
 }
 
-/// Each step of a run begins where the one before has ended.
+/// Each step of a run begins in the state that the previous one led to.
 fn is_a_run(trace: &Trace) {
     let mut values: BTreeMap<&Location, &Value> =
         trace.values.iter().map(|(location, value)| (location, value)).collect();
@@ -48,7 +48,7 @@ fn verdicts(report: &Report) -> Vec<(Subject, char)> {
     each.collect()
 }
 
-/// The states of all steps, and of those that are enough; the verdicts are the same, whatever the number of workers.
+/// The number of states with all steps, and with the reduction; the verdicts must be equal for any number of workers.
 fn agrees(program: &Arc<Program>, text: &str) -> (u64, u64) {
     let options = Options { engine: EngineKind::Explicit, ..Options::default() };
     let whole = check(program, &options);
@@ -112,7 +112,7 @@ impl Random {
     }
 }
 
-/// A model whose agents move by random rules over locations of their own and shared ones.
+/// A model whose agents move by random rules over their own and shared locations.
 fn random_model(seed: u64) -> String {
     let mut random = Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) + 1);
     let mut text = String::from(

@@ -1,5 +1,5 @@
-//! The systems of the reference models, with the numbers of states that other checkers find in them, and what is wrong
-//! with those that are wrong. One step here is one step there.
+//! The systems of the reference models, with the numbers of states that other checkers find, and the faults of the
+//! faulty ones. A step here is a step there.
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
@@ -21,7 +21,7 @@ fn check(program: &Arc<Program>, options: &Options) -> Report {
     verify(program, options, &mut |_| true).expect("there is an initial state")
 }
 
-/// What is violated, and after how many steps.
+/// The violated checks, each with the number of steps.
 fn violated(program: &Program, report: &Report) -> Vec<(String, usize)> {
     let name = |subject: &Subject| match subject {
         Subject::Property(index) => program.properties[*index].name.clone(),

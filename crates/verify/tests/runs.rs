@@ -1,4 +1,4 @@
-//! Properties of runs of whole models, under fairness of several kinds.
+//! Properties of runs of whole models, under several kinds of fairness.
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
@@ -65,12 +65,12 @@ fn the_consumer_of_the_swinging_buffer_needs_strong_fairness() {
         assert!(answer.starts_with(&format!("{name} violated")), "{answer}");
     }
     assert_eq!(answers[5..], ["ltlSpec_readsIfLetIn holds", "ltlSpec_readsWhatWasWritten holds"]);
-    // Strong fairness: of the agents, or said as an assumption on what the consumer gets.
+    // Strong fairness: of the agents, or as an assumption about the consumer.
     let strong = RunPlan { agents: Some(AgentFairness::Strong), ..unlimited() };
     let let_in = swing("COMPASSION (lock = FREE, place(CONSUMER) = 1)");
     let answers = words(&plain, &strong);
     assert!(answers.iter().all(|answer| answer.ends_with(" holds")), "{answers:?}");
-    // The producer is not promised anything by what the consumer gets.
+    // Fairness for the consumer promises nothing to the producer.
     for (index, answer) in words(&let_in, &weak).iter().enumerate() {
         assert_eq!(answer.ends_with(" holds"), index != 3, "{answer}");
     }
@@ -87,7 +87,7 @@ fn who_asks_for_the_critical_section_gets_in_if_both_go_on() {
     assert!(weak.iter().all(|answer| answer.ends_with(" holds")), "{weak:?}");
 }
 
-/// What a machine comes to when it makes the steps of a trace.
+/// The states that a machine reaches by the steps of a trace.
 fn replay(program: &Arc<Program>, trace: &Trace) -> Vec<Vec<(machine::Location, Value)>> {
     /// Inputs and choices of a step.
     type Given = (Vec<(machine::Location, Value)>, Vec<Vec<Value>>);
@@ -148,7 +148,7 @@ fn a_lasso_goes_round_when_it_is_run() {
             })
         };
         assert!(!states[turn..].iter().any(reads));
-        // Without fairness the producer may rest; with it, the lock is taken and given back again and again.
+        // Without fairness the producer may rest; with it, the lock is taken and released again and again.
         let changes = trace.steps[turn..].iter().filter(|step| !step.changes.is_empty()).count();
         assert_eq!(changes > 0, agents.is_some(), "{trace:?}");
     }

@@ -1,4 +1,4 @@
-//! Less kept than the states: what is violated is found all the same, with real runs, and nothing holds.
+//! With lossy storage, violations are still found, with real runs, and nothing holds.
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
@@ -22,7 +22,7 @@ fn check(program: &Arc<Program>, options: &Options) -> Report {
     verify(program, options, &mut |_| true).expect("there is an initial state")
 }
 
-/// What is violated, with the run to it.
+/// The violated checks, with their runs.
 fn violated(report: &Report) -> BTreeMap<Subject, &Trace> {
     let of = |verdict: &verify::Verdict| verdict.subject;
     let each = report.verdicts.iter().filter_map(|verdict| match &verdict.outcome {
@@ -32,7 +32,7 @@ fn violated(report: &Report) -> BTreeMap<Subject, &Trace> {
     each.collect()
 }
 
-/// Each step of a run begins where the one before has ended.
+/// Each step of a run begins in the state that the previous one led to.
 fn is_a_run(trace: &Trace) {
     let mut values: BTreeMap<&Location, &Value> =
         trace.values.iter().map(|(location, value)| (location, value)).collect();
@@ -44,7 +44,7 @@ fn is_a_run(trace: &Trace) {
     }
 }
 
-/// The same is violated after as many steps, and nothing holds.
+/// The same checks are violated after as many steps, and nothing holds.
 fn agrees(program: &Arc<Program>, options: &Options) {
     let exact = check(program, &Options { engine: EngineKind::Explicit, ..options.clone() });
     for (storage, workers) in
@@ -67,7 +67,7 @@ fn agrees(program: &Arc<Program>, options: &Options) {
         let steps =
             |report| violated(report).into_iter().map(|(subject, trace)| (subject, trace.steps.len())).collect();
         let (ours, theirs): (Vec<_>, Vec<_>) = (steps(&report), steps(&exact));
-        // Temporal properties are not asked.
+        // Temporal properties are not compared.
         let temporal = |subject: &Subject| match subject {
             Subject::Property(index) => {
                 matches!(program.properties[*index].kind, PropertyKind::Ctl | PropertyKind::Ltl)
@@ -114,13 +114,13 @@ fn a_small_array_leaves_states_out_and_says_so() {
         assert!(omission < before, "{omission} {before}");
         assert_eq!(report.progress.states < exact, omission > 0.5, "{omission}, {} of {exact}", report.progress.states);
         before = omission;
-        // Another hash leaves out others.
+        // Another hash omits other states.
         let other = check(&program, &Options { storage, seed: 1, ..Options::default() });
         assert_eq!(other.progress.states == report.progress.states, omission < 0.5);
     }
 }
 
-/// Ways are found by halves: those as long as a power of two are no exception.
+/// Runs are found by halving distances; lengths that are powers of two are no exception.
 #[test]
 fn ways_of_all_lengths_are_found() {
     for steps in 1..18 {

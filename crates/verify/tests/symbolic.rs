@@ -1,4 +1,4 @@
-//! Sets of states against states one by one: the same verdicts, the same counts, shortest runs of the same length.
+//! Symbolic and explicit search agree: the same verdicts, the same counts, shortest runs of equal length.
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the repository's own models")]
 
@@ -73,7 +73,7 @@ fn philosophers() {
         })
     };
     assert_eq!(agree(&of(7)).progress.states, 3u64.pow(7) - 1);
-    // No other engine would end.
+    // No other engine would finish.
     let many = by(EngineKind::Symbolic, &of(24));
     assert_eq!(many.progress.states, 3u64.pow(24) - 1);
     let stuck = verdicts(&many);

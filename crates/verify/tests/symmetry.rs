@@ -1,4 +1,4 @@
-//! States up to permutations of elements that nothing tells apart: the verdicts are those of all states, and runs are real ones.
+//! With symmetry reduction the verdicts are those of all states, and runs are real ones.
 //!
 //! `GROUNDSTATE_CASES` sets how many random models (a few seconds' worth if absent), `GROUNDSTATE_SEED` the first seed.
 
@@ -20,18 +20,18 @@ fn check(program: &Arc<Program>, options: &Options) -> Report {
     verify(program, options, &mut |_| true).expect("there is an initial state")
 }
 
-/// Each step of a run begins where the one before has ended.
+/// Each step of a run begins in the state that the previous one led to.
 fn is_a_run(trace: &Trace) {
     let mut values: BTreeMap<&Location, &Value> =
         trace.values.iter().map(|(location, value)| (location, value)).collect();
     for change in trace.steps.iter().flat_map(|step| &step.changes) {
-        // A location with an initial value may come up later.
+        // A location with an initial value may appear later.
         let before = values.insert(&change.location, &change.after);
         assert!(before.is_none_or(|before| *before == change.before));
     }
 }
 
-/// By subject: how many steps there are to a violation, or H or U.
+/// For each subject: the number of steps to a violation, or H or U.
 fn verdicts(report: &Report) -> Vec<(Subject, String)> {
     let each = report.verdicts.iter().map(|verdict| match &verdict.outcome {
         Outcome::Holds => (verdict.subject, "H".to_string()),
@@ -45,7 +45,7 @@ fn verdicts(report: &Report) -> Vec<(Subject, String)> {
     each.collect()
 }
 
-/// All states, and those that represent them; the verdicts are the same, and runs as short.
+/// The number of all states, and of their representatives; verdicts must be equal, and runs as short.
 fn agrees(program: &Arc<Program>, text: &str) -> (u64, u64, Symmetry) {
     let options = Options { engine: EngineKind::Explicit, ..Options::default() };
     let whole = check(program, &options);
@@ -65,7 +65,7 @@ fn agrees(program: &Arc<Program>, text: &str) -> (u64, u64, Symmetry) {
     }
     assert_eq!(reports[0].verdicts, reports[1].verdicts, "{text}");
     assert_eq!(reports[0].progress.states, reports[1].progress.states, "{text}");
-    // Ways are found by searching again.
+    // Runs are found by repeating the search.
     let compact = check(program, &Options { storage: Storage::Compact, ..reduced });
     for (verdict, other) in verdicts(&compact).iter().zip(verdicts(&whole)) {
         assert!(verdict.1 == "U" || *verdict == other, "{text}");
@@ -74,7 +74,7 @@ fn agrees(program: &Arc<Program>, text: &str) -> (u64, u64, Symmetry) {
     (whole.progress.states, reports[0].progress.states, symmetry)
 }
 
-/// The classes, as they are written, and the domains without one.
+/// The classes as text, and the domains without one.
 fn told(program: &Program, symmetry: &Symmetry) -> String {
     let mut text = String::new();
     for (domain, class) in &symmetry.classes {
@@ -96,7 +96,7 @@ fn told(program: &Program, symmetry: &Symmetry) -> String {
     text.trim_end_matches("; ").to_string()
 }
 
-/// So many clients at a lock.
+/// A model with this many clients at a lock.
 fn lock(clients: usize) -> String {
     let names: Vec<String> = (1..=clients).map(|client| format!(" static c{client}: Client\n")).collect();
     format!(
@@ -124,7 +124,7 @@ fn clients_at_a_lock_are_interchangeable() {
         let n = clients as u64;
         let four = 4u64.pow(clients as u32);
         assert_eq!(whole, four + n * 2 * four / 4);
-        // How many there are of each of the four kinds, with and without an owner of one of two kinds.
+        // The number of each of the four kinds, with and without an owner of one of two kinds.
         let of = |n: u64| (n + 1) * (n + 2) * (n + 3) / 6;
         assert_eq!(reduced, of(n) + 2 * of(n - 1));
         let names: Vec<String> = (1..=clients).map(|client| format!("c{client}")).collect();
@@ -162,13 +162,13 @@ fn judge(text: &str, expected: &str) -> (u64, u64) {
 fn elements_that_are_told_apart_are_not_interchangeable() {
     let all = "Part p1 p2 p3";
     assert_eq!(judge(&model("", "", STEP, ""), all), (64, 20));
-    // Initial states may name elements: permuted ones are as good.
+    // Initial states may name elements: permuted initial states are equivalent.
     let named = "if $p = p1 then 1 else 0 endif";
     assert_eq!(
         judge(&model("", "", STEP, "").replace("count($p in Part) = 0", &format!("count($p in Part) = {named}")), all),
         (48, 19)
     );
-    // Of a constant that is named the others are interchangeable, until there is but one.
+    // If one element is named, the others are interchangeable, as long as there are two.
     assert_eq!(judge(&model("", " invariant inv_p over count: count(p1) < 4", STEP, ""), "Part p2 p3"), (64, 40));
     assert_eq!(
         judge(&model("", " invariant inv_p over count: count(p1) < 4 or count(p2) = 0", STEP, ""), "Part: named"),
@@ -176,12 +176,12 @@ fn elements_that_are_told_apart_are_not_interchangeable() {
     );
     let derived = " function first($p in Part) = ($p = p1 or $p = p2)\n invariant inv_p over count: (forall $p in Part with first($p) or count($p) < 4)";
     judge(&model(" static first: Part -> Boolean", derived, STEP, ""), "Part: named");
-    // A rule that is a value names one.
+    // A rule as a value names an element.
     let by_value = " rule r_First = count(p1) := 1\n";
     let signature = " controlled todo: Rule";
     let run = "par choose $p in Part with count($p) < 3 and $p != undef do count($p) := count($p) + 1 if total = 7 then todo[] endif endpar";
     judge(&model(signature, by_value, run, " function todo = <<r_First>>"), "Part p2 p3");
-    // An order shows.
+    // This reveals an order.
     let list = " invariant inv_p over count: first(asSequence({$p in Part | count($p) < 4 : $p})) != undef";
     judge(&model("", list, STEP, ""), "Part: told");
     let text = " invariant inv_p over count: (forall $p in Part with toString($p) != \"p2\" or count($p) < 3)";
@@ -203,15 +203,15 @@ fn faults_that_depend_on_the_order_of_elements_are_met() {
         "Part: ordered",
     );
     assert_eq!(whole, reduced);
-    // So do two kinds of faults below a forall.
+    // Two kinds of faults below a `forall`: which comes first depends on the order.
     let forall = "forall $p in Part with true do par count($p) := count($p) + 1 if count($p) = 3 then total := 1 / (count($p) - 3) endif endpar";
     let forall =
         forall.replace("total := 1 / (count($p) - 3)", "total := 1 div (count($p) - 3)").replace("1 div", "6 mod");
     judge(&model("", "", &forall, ""), "Part: ordered");
-    // A choice makes one alternative of each element, with faults of its own.
+    // A choice makes one alternative per element, each with its own faults.
     let choice = "choose $p in Part with true do count($p) := count($p) + 1";
     assert_eq!(judge(&model("", "", choice, ""), "Part p1 p2 p3"), (64, 20));
-    // An assumption that is false for one and has no value for another.
+    // An assumption that is false for one element and has no value for another.
     let assumed = " INVAR (forall $p in Part with 6 mod (count($p) - 2) = 0 and count($p) < 3)";
     let initial = "count($p in Part) = if $p = p1 then 2 else 3 endif";
     judge(&model("", assumed, STEP, "").replace("count($p in Part) = 0", initial), "Part: ordered");
@@ -249,7 +249,7 @@ fn elements_stand_in_all_kinds_of_values() {
         ),
         all,
     );
-    // Partial functions on three elements, and those of them that are not isomorphic.
+    // Partial functions on three elements, and their number up to isomorphism.
     assert_eq!(next, (64, 16));
     let relation = judge(
         &model(
@@ -260,7 +260,7 @@ fn elements_stand_in_all_kinds_of_values() {
         ),
         all,
     );
-    // Directed graphs with loops on three vertices, and those that are not isomorphic.
+    // Directed graphs with loops on three vertices, and their number up to isomorphism.
     assert_eq!(relation, (512, 104));
     let numbers = judge(
         &model(
@@ -359,7 +359,7 @@ impl Random {
     }
 }
 
-/// A model over an abstract domain, whose elements stand in all kinds of values and sometimes are told apart.
+/// A model over an abstract domain, whose elements occur in all kinds of values and are sometimes distinguished.
 fn random_model(seed: u64) -> String {
     let mut random = Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) + 1);
     let mut text = String::from(

@@ -1,7 +1,8 @@
-//! What a checkpoint is of: numbers that are the same where a search means the same.
+//! Numbers that identify the search that a checkpoint belongs to.
 //!
-//! In: a program and a plan, an explorer. Out: a number of the program with its properties, bounds and limits of the machine;
-//! one of how states are packed. How far a search goes (states, depth, memory, workers) is no part of it.
+//! In: a program, a plan and an explorer. Out: a number for the program with its properties, bounds and machine limits;
+//! a number for the layout of packed states. The extent of a search (states, depth, memory, workers) is not part of
+//! them.
 
 use std::fmt::{Debug, Write};
 
@@ -10,7 +11,7 @@ use program::Program;
 
 use crate::plan::Plan;
 
-/// FNV-1a over what is written.
+/// FNV-1a over what is written to it.
 struct Hash(u64);
 
 impl Write for Hash {
@@ -30,7 +31,7 @@ fn hash(parts: &[&dyn Debug]) -> u64 {
     hash.0
 }
 
-/// The number of what is searched, and for what.
+/// The number of the searched program and its targets.
 pub fn question(program: &Program, plan: &Plan) -> u64 {
     let Program { domains, functions, constants, terms, term_lists, rules, rule_lists, binder_lists, .. } = program;
     let Program { function_lists, procedures, main, initials, agents, properties, .. } = program;
@@ -42,7 +43,7 @@ pub fn question(program: &Program, plan: &Plan) -> u64 {
     ])
 }
 
-/// The number of how states are packed.
+/// The number of the layout of packed states.
 pub fn layout(explorer: &Explorer) -> u64 {
     let initial: Vec<&[u64]> = explorer.initial().iter().map(|(state, _)| &**state).collect();
     hash(&[&explorer.words(), &explorer.fields(), &initial])

@@ -1,34 +1,34 @@
-//! Who keeps a checkpoint, and why one is none to go on from.
+//! Stores checkpoints; reasons why one cannot be used.
 
-/// Where a checkpoint is kept: in a file, by a shell. Trouble with it is the shell's.
+/// Stores a checkpoint, for example in a file. The shell reports trouble with it.
 pub trait Keeper {
-    /// The model, by a number that another model does not have.
+    /// A number that identifies the model.
     fn model(&self) -> u64;
-    /// Whether it is time to keep what there is.
+    /// Whether it is time to write a checkpoint.
     fn is_due(&mut self) -> bool;
-    /// Begins to read the checkpoint; false where there is none.
+    /// Begins to read the checkpoint; `false` if there is none.
     fn open(&mut self) -> bool;
-    /// Reads on; false where there are not as many words.
+    /// Reads the next words; `false` if there are not that many.
     fn read(&mut self, words: &mut [u64]) -> bool;
-    /// Writes on.
+    /// Writes the next words.
     fn write(&mut self, words: &[u64]);
-    /// What was written is whole: it takes the place of the checkpoint before.
+    /// Completes the checkpoint, which replaces the previous one.
     fn end(&mut self);
-    /// The search has ended: there is nothing to go on with.
+    /// Removes the checkpoint after the search has ended.
     fn remove(&mut self);
 }
 
-/// Why a search does not go on from a checkpoint.
+/// Why a search cannot continue from a checkpoint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refusal {
-    /// It is none.
+    /// It is not a checkpoint.
     Foreign,
     /// Another version of this program made it.
     Version,
-    /// It is of another model.
+    /// It belongs to another model.
     Model,
-    /// It is of other properties, bounds or limits of the machine.
+    /// It belongs to other properties, bounds or machine limits.
     Question,
-    /// It is not as it was written.
+    /// It differs from what was written.
     Damaged,
 }

@@ -1,10 +1,11 @@
-//! A search that is kept while it is under way, and gone on with later.
+//! Checkpoints: keeps a search while it runs, and continues it later.
 //!
-//! In: the shards of a search between two rounds. Out: a checkpoint, and shards from one. States are packed as the machine packs
-//! them in this process: where values have numbers (a location over an infinite domain, a growing domain), the numbers come
-//! from the order in which values came up. They are not written down; the steps that made them come up are, by the places of
-//! their states, and are made again by the machine in their order. So are those that showed a packing to be too narrow.
-//! INVARIANT: a search that goes on from a checkpoint ends as it would have without.
+//! In: the shards of a search between two rounds. Out: a checkpoint, and shards from one. States are packed as in this
+//! process: some values have numbers (those of a location over an infinite domain, or of a growing domain), which
+//! depend on the order in which they first appeared. The checkpoint does not contain these numbers. It lists the states
+//! whose steps introduced new values, and the machine repeats those steps in order. It does the same for steps that
+//! showed a layout to be too narrow. INVARIANT: a search that continues from a checkpoint ends as it would have without
+//! it.
 
 mod identity;
 pub(crate) mod journal;
@@ -29,21 +30,21 @@ use crate::plan::Plan;
 use crate::storage::Store;
 use crate::target::{Found, Target};
 
-/// Raised whenever what is written means something else.
+/// Increased whenever the meaning of the written words changes.
 const VERSION: u64 = 3;
 
-/// What came before the search at hand: attempts that ended because states did not fit.
+/// The attempts before the present one, which ended because states did not fit.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Past {
-    /// What has been found not to fit.
+    /// What did not fit so far.
     pub widening: Widening,
-    /// Of each attempt: words of a state, how many states, and the states whose steps made new values come up, the last of
-    /// which did not fit.
+    /// For each attempt: the words of a state, the number of states, and the states whose steps introduced new values;
+    /// the last of these did not fit.
     attempts: Vec<u64>,
 }
 
 impl Past {
-    /// An attempt has ended because the steps of a state do not fit.
+    /// Ends an attempt because the steps of a state do not fit.
     pub fn close(&mut self, shard: &Shard, words: usize, more: &Widening) {
         let places = shard.journal.iter().flat_map(|journal| &journal.places).map(|place| *place as usize);
         let culprit = shard.next - 1;
@@ -54,7 +55,7 @@ impl Past {
     }
 }
 
-/// A search as it was kept, read but not yet understood.
+/// A checkpoint that was read but not yet interpreted.
 struct Kept {
     question: u64,
     numbers: Vec<u64>,
@@ -64,11 +65,11 @@ struct Kept {
     unbounded: Vec<u64>,
     executed: Vec<u64>,
     found: Vec<u64>,
-    /// By level.
+    /// For each level.
     states: Vec<Vec<u64>>,
 }
 
-/// A search to go on with.
+/// A search to continue.
 pub(crate) struct Resumed {
     pub past: Past,
     pub maker: Maker,
@@ -77,7 +78,7 @@ pub(crate) struct Resumed {
     pub unreduced: Option<Unreduced>,
 }
 
-/// Why there is no search to go on with.
+/// Why a search cannot be continued.
 pub(crate) enum Unfit {
     Refused(Refusal),
     Trouble(Trouble),
@@ -89,7 +90,7 @@ impl From<Refusal> for Unfit {
     }
 }
 
-/// Keeps a search.
+/// Writes a checkpoint.
 pub(crate) fn keep(
     keeper: &mut dyn Keeper,
     program: &Program,
@@ -133,7 +134,7 @@ pub(crate) fn keep(
     writer.word(levels as u64 + 1);
     for level in 0..=levels {
         let end = |shard: &Shard| shard.levels.get(level).copied().unwrap_or(shard.store.len());
-        // Those whose steps were made come first.
+        // States whose steps were made come first.
         let made = |shard: &Shard| end(shard).min(shard.next.max(begin(shard, level)));
         let count: usize = shards.iter().map(|shard| end(shard) - begin(shard, level)).sum();
         writer.word((count * words) as u64);
@@ -146,7 +147,7 @@ pub(crate) fn keep(
     writer.end();
 }
 
-/// Reads what was kept, if anything was, and makes what is needed to go on with it.
+/// Reads the checkpoint, if there is one, and prepares the search to continue.
 pub(crate) fn resume(keeper: &mut dyn Keeper, program: &Arc<Program>, plan: &Plan) -> Result<Option<Resumed>, Unfit> {
     let Some(kept) = read(keeper)? else { return Ok(None) };
     if kept.question != question(program, plan) {
@@ -258,7 +259,7 @@ impl Kept {
     }
 }
 
-/// Makes the steps of a state once more.
+/// Repeats the steps of a state.
 fn again(explorer: &mut Explorer, state: &[u64]) -> Result<(), Refusal> {
     explorer.expand(state, &mut Vec::new()).map(|_| ()).map_err(|_| Refusal::Damaged)
 }

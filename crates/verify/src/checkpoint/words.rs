@@ -1,16 +1,16 @@
-//! A checkpoint as words: sections, each with its length, and a sum over all of them at the end.
+//! The format of checkpoints: sections, each with its length, and a checksum at the end.
 //!
-//! In: a [`Keeper`], which is whoever has files. Out: what was written, or that it is not what was written. INVARIANT: no
-//! length is believed before as many words were read; nothing is used before the sum is right.
+//! In: a [`Keeper`], which does the I/O. Out: the sections, or that the words are damaged. INVARIANT: a length is not
+//! trusted before that many words were read; nothing is used before the checksum is verified.
 
 use crate::checkpoint::keeper::{Keeper, Refusal};
 
 /// The first word of a checkpoint: `gsverify`, as bytes.
 const MARK: u64 = u64::from_be_bytes(*b"gsverify");
-/// How many words are moved at a time.
+/// How many words are transferred at a time.
 const PIECE: usize = 1 << 12;
 
-/// Sums words so that one that is changed, lost, or in another place changes the sum.
+/// A checksum that detects words that are changed, missing or moved.
 #[derive(Debug, Clone, Copy)]
 struct Sum(u64);
 
@@ -21,7 +21,7 @@ impl Sum {
     }
 }
 
-/// Writes sections.
+/// Writes a checkpoint's sections.
 pub struct Writer<'k> {
     keeper: &'k mut dyn Keeper,
     sum: Sum,
@@ -37,7 +37,7 @@ impl<'k> Writer<'k> {
         writer
     }
 
-    /// One word.
+    /// Writes one word.
     pub fn word(&mut self, word: u64) {
         self.sum.add(word);
         self.piece.push(word);
@@ -47,13 +47,13 @@ impl<'k> Writer<'k> {
         }
     }
 
-    /// A section that is at hand.
+    /// Writes a whole section.
     pub fn section(&mut self, words: &[u64]) {
         self.word(words.len() as u64);
         words.iter().for_each(|word| self.word(*word));
     }
 
-    /// Ends the checkpoint, which counts from now on.
+    /// Completes the checkpoint.
     pub fn end(mut self) {
         let sum = self.sum.0;
         self.word(sum);
@@ -62,17 +62,17 @@ impl<'k> Writer<'k> {
     }
 }
 
-/// Reads sections.
+/// Reads a checkpoint's sections.
 pub struct Reader<'k> {
     keeper: &'k mut dyn Keeper,
     sum: Sum,
 }
 
 impl<'k> Reader<'k> {
-    /// Begins to read; none where there is no checkpoint.
+    /// Begins to read; `None` if there is no checkpoint.
     ///
     /// # Errors
-    /// It is no checkpoint, or one of another version.
+    /// It is not a checkpoint, or its version differs.
     pub fn begin(keeper: &'k mut dyn Keeper, version: u64) -> Result<Option<Reader<'k>>, Refusal> {
         if !keeper.open() {
             return Ok(None);
@@ -87,7 +87,7 @@ impl<'k> Reader<'k> {
         Ok(Some(reader))
     }
 
-    /// One word.
+    /// Reads one word.
     ///
     /// # Errors
     /// There is none.
@@ -100,7 +100,7 @@ impl<'k> Reader<'k> {
         Ok(word[0])
     }
 
-    /// A section.
+    /// Reads a section.
     ///
     /// # Errors
     /// It ends too soon.
@@ -123,7 +123,7 @@ impl<'k> Reader<'k> {
     /// Ends reading.
     ///
     /// # Errors
-    /// The sum is not right, or there is more.
+    /// The checksum is wrong, or more words follow.
     pub fn end(mut self) -> Result<(), Refusal> {
         let sum = self.sum.0;
         if self.word()? != sum || self.keeper.read(&mut [0]) { Err(Refusal::Damaged) } else { Ok(()) }

@@ -1,10 +1,10 @@
-//! Ways to states that were found, where the states before them were not kept.
+//! Finds runs to states when earlier states were not stored.
 //!
-//! In: a search with a compact store that has ended. Out: for each state found the states of a shortest way to it. The search is
-//! made again, and each state takes an ancestor along: the one of the last level whose number is a multiple of some distance.
-//! So a pass tells of each state that is wanted an ancestor that far away; with half the distance the next pass tells of
-//! the states between. INVARIANT: each pass meets the same states in the same order, for what a worker gets depends on the
-//! number of workers alone; so the ways are those of the first search.
+//! In: a search with a compact store that has ended. Out: for each found state, the states of a shortest run to it. The
+//! search is repeated, and each state carries an ancestor: the one on the last level whose number is a multiple of some
+//! distance. So a pass yields, for each wanted state, an ancestor that far away; the next pass, with half the distance,
+//! yields the states between. INVARIANT: each pass visits the same states in the same order, since what a worker
+//! receives depends only on the number of workers. So the runs are those of the first search.
 
 use std::collections::BTreeMap;
 
@@ -18,11 +18,11 @@ use crate::progress::{Progress, Stop};
 use crate::storage::Store;
 use crate::target::Found;
 
-/// The states on the way to one, by their level, as far as they are known.
+/// The known states on the way to one, by level.
 type Way = BTreeMap<usize, Box<[u64]>>;
 
 impl Search {
-    /// The states on the way to each state found.
+    /// The states on the way to each found state.
     pub(crate) fn chains_again(&mut self, watch: &mut dyn FnMut(&Progress) -> bool) -> Vec<Vec<Box<[u64]>>> {
         let deepest = self.found.iter().map(|found| found.depth).max().unwrap_or(0);
         let way = |found: &Found| Way::from([(found.depth, found.state.clone())]);
@@ -52,7 +52,7 @@ impl Search {
         ways.into_iter().map(|way| way.into_values().collect()).collect()
     }
 
-    /// Searches again, for ancestors alone.
+    /// Searches again, only for ancestors.
     fn pass(
         &mut self,
         every: usize,
@@ -64,7 +64,7 @@ impl Search {
         plan.settings.interrupt = Interrupt::default();
         let words = self.explorer.words();
         let count = self.shards.len();
-        // The states of the first search make room.
+        // Frees the states of the first search.
         self.shards.clear();
         let lineage = Lineage { every, wanted, ancestors: Vec::new() };
         let mut shards: Vec<Shard> = (0..count)
@@ -81,7 +81,7 @@ impl Search {
         let deepest = lineage.wanted.last_key_value().map_or(0, |(level, _)| *level as u64);
         let mut decide = |reports: &[Tally], depth: u64| {
             let progress = Tally::progress(reports, depth);
-            // What was found is to be told, however long that takes.
+            // Findings are reported however long that takes.
             watch(&progress);
             let broken = reports.iter().any(|report| report.narrow || report.broken);
             match reports.iter().any(|report| report.left > 0) {

@@ -1,4 +1,4 @@
-//! What a worker does on a pass that looks for nothing but ancestors of some states: see [`crate::explicit::ancestors`].
+//! A worker's task in a pass that only looks for ancestors of some states: see [`crate::explicit::ancestors`].
 
 use std::collections::BTreeMap;
 
@@ -6,14 +6,14 @@ use rustc_hash::FxHashSet;
 
 use crate::storage::Store;
 
-/// What a worker does on such a pass.
+/// A worker's task in such a pass.
 #[derive(Debug, Clone)]
 pub(crate) struct Lineage {
-    /// States of the levels that are multiples of this are taken along.
+    /// States on levels that are multiples of this become ancestors.
     pub every: usize,
-    /// The states whose ancestors are asked for, by level.
+    /// The states whose ancestors are wanted, by level.
     pub wanted: Wanted,
-    /// What was asked for.
+    /// The ancestors found.
     pub ancestors: Vec<(At, Box<[u64]>)>,
 }
 
@@ -22,7 +22,7 @@ pub(crate) type At = (usize, Box<[u64]>);
 /// States by their level.
 pub(crate) type Wanted = BTreeMap<usize, FxHashSet<Box<[u64]>>>;
 impl Lineage {
-    /// What the successors of a state of this level take along.
+    /// The ancestor that the successors of a state on this level carry.
     pub fn ancestor<'a>(&self, store: &'a Store, place: usize, level: usize) -> &'a [u64] {
         match store {
             Store::Compact(compact) if !level.is_multiple_of(self.every) => compact.more(place),
@@ -30,7 +30,7 @@ impl Lineage {
         }
     }
 
-    /// Notes the ancestor of a new state that is wanted.
+    /// Records the ancestor of a new state if it is wanted.
     pub fn meet(&mut self, level: usize, item: &[u64]) {
         let (state, ancestor) = item.split_at(item.len() / 2);
         if self.wanted.get(&level).is_some_and(|wanted| wanted.contains(state)) {

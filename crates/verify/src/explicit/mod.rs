@@ -1,7 +1,7 @@
-//! States one after the other: the engine that goes through all that can be reached, level by level.
+//! The explicit engine: explores all reachable states one after another, level by level.
 //!
-//! [`search`] leads the workers of [`shard`]; [`traces`] tells shortest runs to what was found, by
-//! [`ways`] or, where states were not kept, by [`ancestors`].
+//! [`search`] directs the workers of [`shard`]; [`traces`] makes shortest runs to the findings, by [`ways`], or by
+//! [`ancestors`] if states were not stored.
 
 mod ancestors;
 mod lineage;
@@ -18,13 +18,13 @@ use crate::plan::Plan;
 use crate::report::NoStart;
 use crate::storage::Storage;
 
-/// See the module.
+/// The explicit engine.
 pub(crate) struct Explicit;
 
 impl Engine for Explicit {
     fn run(&self, task: Task<'_, '_, '_>) -> Result<Ended, NoStart> {
         let Task { program, plan, keeper, heed, .. } = task;
-        // LIMIT: a search that is kept has its states in memory.
+        // LIMIT: a search with checkpoints keeps its states in memory.
         let spills = plan.storage == Storage::Exact && keeper.is_none();
         let symmetry = plan.symmetry && !plan.partial_order && keeper.is_none();
         let plan = &Plan { disk: plan.disk.clone().filter(|_| spills), symmetry, ..plan.clone() };

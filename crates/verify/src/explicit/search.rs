@@ -1,10 +1,9 @@
-//! The search: all states that can be reached, level by level.
+//! The explicit search: all reachable states, level by level.
 //!
-//! In: a program and what is asked of its states. Out: a [`Search`] that has ended, with the states by their distance and
-//! the first state of each kind that was looked for. Each worker ([`crate::explicit::shard`]) owns the states whose hash is its
-//! own. A level is ended before the next begins, so what is found is
-//! at the least distance, and of several states the least in canonical order: INVARIANT: what comes out is the same for
-//! any number of workers.
+//! In: a program and the targets. Out: a [`Search`] that has ended, with the states by distance and the first state for
+//! each target. Each worker ([`crate::explicit::shard`]) owns the states that hash to it. A level is completed before
+//! the next begins, so a finding is at the least distance, and of several states the least in canonical order.
+//! INVARIANT: the result is the same for any number of workers.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -37,34 +36,35 @@ pub struct Search {
     pub(crate) maker: Maker,
     pub(crate) plan: Plan,
     pub(crate) shards: Vec<Shard>,
-    /// What was found, each target at most once.
+    /// The findings, at most one per target.
     pub found: Vec<Found>,
-    /// Why it ended early; none where all states were met.
+    /// Why it ended early; `None` if all states were explored.
     pub stop: Option<Stop>,
     /// How far it came.
     pub progress: Progress,
-    /// What could not be gone through.
+    /// What could not be enumerated.
     pub unbounded: BTreeSet<Unbounded>,
-    /// Conditions whose truth is not known in some state.
+    /// Conditions whose truth is unknown in some state.
     pub unknown: BTreeSet<usize>,
-    /// By rule, whether a machine ran it.
+    /// For each rule, whether a machine ran it.
     pub executed: Vec<bool>,
-    /// How many states are to be expected to have been left out for being taken for others.
+    /// The expected number of states that were mistaken for others and omitted.
     pub omission: f64,
-    /// Which steps were enough, where not all of them were made.
+    /// The partial-order reduction, if it was used.
     pub(crate) reduction: Option<Arc<Reduction>>,
-    /// Why all steps were made, where fewer were wanted.
+    /// Why partial-order reduction was not possible, if it was requested.
     pub unreduced: Option<Unreduced>,
-    /// Which elements were interchangeable, where that was to be found out.
+    /// The interchangeable elements, if symmetry reduction was requested.
     pub symmetry: Option<Symmetry>,
     pub(crate) orbits: Option<Arc<Orbits>>,
 }
 
 impl Search {
-    /// Searches all states of a program; with a keeper, goes on with what it has kept, and keeps what a limit ends.
+    /// Explores all states of a program. With a keeper, continues from its checkpoint, and writes one when a limit ends
+    /// the search.
     ///
     /// # Errors
-    /// There is no initial state, or what was kept does not fit.
+    /// There is no initial state, or the checkpoint does not fit.
     pub(crate) fn run(
         program: &Arc<Program>,
         plan: &Plan,
@@ -90,7 +90,7 @@ impl Search {
             if let Some(found) = &symmetry
                 && found.unordered.is_empty() != plan.settings.unordered.is_empty()
             {
-                // There are none after all, so that quantifiers need not look at all elements.
+                // No elements are interchangeable after all, so quantifiers need not look at all elements.
                 continue;
             }
             let kept = keeper.as_mut().map(|keeper| (&mut **keeper, &past));
@@ -157,7 +157,7 @@ impl Search {
     }
 }
 
-/// What a search needs.
+/// The parts of a search.
 struct Begun {
     maker: Maker,
     explorer: Explorer,
@@ -167,7 +167,7 @@ struct Begun {
     starts: Vec<u64>,
 }
 
-/// A search that has not begun yet, with the states it begins with.
+/// A search at its beginning, with its initial states.
 fn begun(
     program: &Arc<Program>,
     plan: &Plan,
@@ -177,12 +177,12 @@ fn begun(
 ) -> Result<Begun, Unfit> {
     let (mut maker, mut explorer) = made(program, plan, &mut past.widening)?;
     if is_kept {
-        // What is kept must be whole: each state with its conditions, and the values that came up with its steps.
+        // A checkpoint needs complete results: each state with its conditions, and the values that its steps introduce.
         maker = maker.tireless();
         explorer.ignore_interrupts();
     }
     let orbits = symmetry.as_mut().and_then(|found| found.orbits(program, &explorer));
-    // The order in which values come up can be told of one worker alone.
+    // The order in which values appear can be reproduced only for one worker.
     let is_numbered = is_kept && !maker.interner.is_empty();
     let count = if is_numbered { 1 } else { plan.workers.max(1) };
     let (reduction, unreduced) = reduction(program, plan, &mut explorer);
@@ -197,14 +197,14 @@ fn begun(
     Ok(Begun { maker, explorer, shards, unreduced, starts })
 }
 
-/// Where the order of elements was found to matter, or what could not be gone through: perhaps by a quantifier that looked at
-/// more elements than it has to.
+/// Where the order of elements was found to matter, or what could not be enumerated; perhaps only because a quantifier
+/// looked at more elements than it must.
 fn ordered(shards: &[Shard]) -> Option<Span> {
     let unbounded = shards.iter().flat_map(|shard| &shard.unbounded).map(|unbounded| unbounded.span);
     shards.iter().find_map(|shard| shard.order_mattered).or(unbounded.min())
 }
 
-/// Searches until all states are met or something ends it, with pauses in which the search is kept.
+/// Searches until all states are explored or something ends it, with pauses for checkpoints.
 fn search<'k>(
     maker: &Maker,
     explorer: &mut Explorer,
@@ -217,7 +217,7 @@ fn search<'k>(
     let mut progress = Progress::default();
     let crew = Crew { plan, explore: &|| maker.explorer() };
     let words = explorer.words();
-    // LIMIT: where not all of the states is kept, or elements are interchangeable, what is found is told at the end.
+    // LIMIT: with lossy storage or symmetry reduction, findings are reported at the end.
     let tells = plan.storage == Storage::Exact && shards[0].orbits.is_none();
     let mut heard = 0;
     loop {
@@ -256,7 +256,7 @@ fn search<'k>(
     }
 }
 
-/// Tells of what was found at distances at which all there is was looked at, if the machine makes the run as well.
+/// Reports findings at distances that were explored completely, if the machine confirms the run.
 fn tell_news(maker: &Maker, plan: &Plan, explorer: &mut Explorer, shards: &mut [Shard], heed: &mut Heed<'_>) {
     let mut found = Vec::new();
     for one in shards.iter().flat_map(Shard::certain) {
@@ -265,7 +265,7 @@ fn tell_news(maker: &Maker, plan: &Plan, explorer: &mut Explorer, shards: &mut [
     found.retain(|one| heed.is_news(one));
     found.sort_by_key(|one| one.target);
     let interrupt = explorer.ignore_interrupts();
-    // It is not known only where files cannot be read: the search ends by that.
+    // Runs are missing only if files cannot be read, which ends the search.
     let ways = ways(explorer, shards, None, &found).unwrap_or_default();
     for (one, way) in found.iter().zip(&ways) {
         let trace = tell(explorer, way, one);
@@ -294,7 +294,7 @@ fn decide(
     if any(|report| report.lost) {
         return Decision::Stop(Some(Stop::Disk));
     }
-    // What has cut a round short may have passed, as memory that was given back has; what was left out has not.
+    // The cause that cut a round short may be gone, such as a lack of memory, but the round is still incomplete.
     let cut = any(|report| report.cut).then(|| plan.settings.interrupt.cause().unwrap_or(Cause::Memory));
     if let Some(cause) = cut {
         return Decision::Stop(Some(cause.into()));
@@ -302,7 +302,7 @@ fn decide(
     if left + fresh + pending == 0 {
         return Decision::Stop(None);
     }
-    // What goes to files keeps to its room by itself.
+    // With a disk, storage observes its own limit.
     if any(|report| report.full) || (progress.bytes > plan.max_bytes && plan.disk.is_none()) {
         return Decision::Stop(Some(Stop::Memory));
     }
@@ -315,7 +315,7 @@ fn decide(
     if progress.states >= plan.max_states {
         return Decision::Stop(Some(Stop::States));
     }
-    // The rest is decided between levels, where it does not depend on how the work is shared.
+    // Other limits are checked between levels, where they do not depend on how the work is shared.
     if left > 0 {
         return Decision::Round;
     }

@@ -1,9 +1,9 @@
-//! A worker of a search, with the states that are its own.
+//! A worker of a search, with the states that it owns.
 //!
-//! In: a plan, successors from all workers. Out: the states whose hash is its own by their distance, and what was found in
-//! them. All workers work in rounds: each makes the steps of some of its states of the level and sends the successors to
-//! their owners; each takes in what came; then the first of them decides how it goes on. INVARIANT: what a worker gets, and
-//! in which order, depends on the number of workers alone.
+//! In: a plan, and successors from all workers. Out: the states that hash to this worker, by distance, and the findings
+//! in them. All workers proceed in rounds: each makes the steps of some of its states on the level and sends the
+//! successors to their owners; each takes in what it received; then the first worker decides how to continue.
+//! INVARIANT: what a worker receives, and in which order, depends only on the number of workers.
 
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -21,99 +21,98 @@ use crate::storage::{Storage, Store};
 use crate::table::hash;
 use crate::target::{Found, Target};
 
-/// How many states a worker expands before all exchange successors.
+/// How many states a worker expands before successors are exchanged.
 const ROUND: usize = 1 << 12;
-/// It expands no more once it has so many words of successors.
+/// A worker stops expanding in a round at this many words of successors.
 const BULK: u64 = 1 << 20;
 
-/// The states that are a worker's own, and what it knows of them.
+/// A worker's states, and what it knows of them.
 #[derive(Debug)]
 pub(crate) struct Shard {
     pub store: Store,
-    /// Where each level that is or was expanded ends among the states of the store.
+    /// For each level that is or was expanded, where its states end in the store.
     pub levels: Vec<usize>,
     pub found: Vec<Found>,
     pub transitions: u64,
-    /// The next state to be expanded.
+    /// The next state to expand.
     pub next: usize,
-    /// A truth that is not known.
+    /// Conditions whose truth is unknown in some state.
     pub unknown: BTreeSet<usize>,
     pub widening: Widening,
     pub unbounded: BTreeSet<Unbounded>,
-    /// How often each rule ran; more than 0 if it did at all.
+    /// How often each rule ran; only whether it is 0 matters.
     pub executed: Vec<u64>,
-    /// Where values are numbered and the search is to be kept: which states' steps made new ones come up.
+    /// For a checkpoint with numbered values: which states' steps introduced new values.
     pub journal: Option<Journal>,
-    /// Which steps are enough, where not all of them have to be made.
+    /// The partial-order reduction, if it is used.
     pub reduction: Option<Arc<Reduction>>,
-    /// Which states are one, where elements are interchangeable.
+    /// The symmetry reduction, if it is used.
     pub orbits: Option<Arc<Orbits>>,
-    /// Where it was found that they are not.
+    /// Where the order of elements was found to matter.
     pub order_mattered: Option<Span>,
-    /// Where nothing but the ways to some states is looked for.
+    /// For a pass that only looks for runs to some states.
     pub lineage: Option<Lineage>,
-    /// Not all was done, since whoever waits has had enough.
+    /// Some work was left undone because the caller asked to stop.
     pub cut: bool,
 }
 
-/// All that workers share but what they send each other.
+/// What all workers share besides their messages.
 pub(crate) struct Crew<'a> {
     pub plan: &'a Plan,
-    /// A machine may not go from thread to thread, so each worker makes its own explorer; the first has one.
+    /// A machine cannot move between threads, so each worker creates its own explorer; the first has one.
     pub explore: &'a (dyn Fn() -> Result<Explorer, Trouble> + Sync),
 }
 
-/// Successors on their way: from one worker to another.
+/// Successors on their way from one worker to another.
 type Mail = Vec<Vec<Mutex<Vec<u64>>>>;
 
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// What workers tell each other at the end of a round.
+/// What workers share at the end of a round.
 #[derive(Debug)]
 struct Board {
     /// By worker.
     reports: Vec<Tally>,
     decision: Decision,
-    /// How many successors each worker may make in the next round before it expands no further state, so that there are not many
-    /// more states than are allowed.
+    /// How many successors each worker may make in the next round before it expands no further state, so that the limit
+    /// of states is not exceeded by much.
     quota: u64,
-    /// The round was cut short, and what came of it does not count: the ways to what was found are found by making whole rounds
-    /// again.
+    /// The round was cut short and its results do not count: finding runs repeats whole rounds.
     void: bool,
 }
 
-/// What a worker tells the leader.
+/// What a worker reports to the leader.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Tally {
     pub states: u64,
     pub transitions: u64,
-    /// States of this level that are still to be expanded.
+    /// States of this level that still have to be expanded.
     pub left: u64,
     /// States of the next level.
     pub fresh: u64,
-    /// States of which it is not known yet whether they are of the next level.
+    /// States that may turn out not to be new on the next level.
     pub pending: u64,
     pub bytes: u64,
     /// Bytes of files.
     pub spilled: u64,
     pub full: bool,
-    /// Files have met trouble.
+    /// A file could not be read or written.
     pub lost: bool,
-    /// It all begins anew.
+    /// A state did not fit, so the search starts again.
     pub narrow: bool,
     pub found: bool,
-    /// So much was found at distances at which all there is was looked at.
+    /// The number of findings at distances that were explored completely.
     pub certain: usize,
-    /// Not all of the round was done, since whoever waits has had enough.
+    /// Some of the round was left undone because the caller asked to stop.
     pub cut: bool,
     /// The worker has panicked.
     pub broken: bool,
 }
 
 impl Tally {
-    /// How far a search is whose workers report this.
+    /// The progress of a search, from its workers' reports.
     pub fn progress(reports: &[Tally], depth: u64) -> Progress {
         let sum = |of: fn(&Tally) -> u64| reports.iter().map(of).sum::<u64>();
         let fresh = sum(|report| report.fresh);
@@ -128,25 +127,25 @@ impl Tally {
     }
 }
 
-/// How it goes on.
+/// How to continue.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Decision {
-    /// The level goes on.
+    /// Continue the level.
     Round,
-    /// The level has ended: states that are pending are settled.
+    /// The level has ended: settle pending states.
     Settle,
-    /// The next level begins.
+    /// Begin the next level.
     Level,
-    /// All workers stop.
+    /// Stop all workers.
     Stop(Option<Stop>),
 }
 
-/// Decides how it goes on, from what all workers report and the depth of the states that come in.
+/// Decides how to continue, from the reports of all workers and the depth of the incoming states.
 pub(crate) type Leader<'a> = dyn FnMut(&[Tally], u64) -> Decision + 'a;
 
 impl Crew<'_> {
-    /// Lets the workers of the shards work until the leader decides to stop. `starts` are states that come in first, each
-    /// with what goes with it, so many words together.
+    /// Runs the workers of the shards until the leader decides to stop. `starts` are the initial states, each followed
+    /// by its additional words.
     pub fn work(
         &self,
         explorer: &mut Explorer,
@@ -176,7 +175,7 @@ impl Crew<'_> {
                     let mut explorer = explore().expect("the leader has made the same");
                     shard.work(&mut explorer, index + 1, plan, mail, barrier, board, &mut |_, _| Decision::Round);
                 };
-                // Steps may be deep; the stack grows on demand beyond this.
+                // Steps may recurse deeply; beyond this, the stack grows on demand.
                 let spawned = std::thread::Builder::new().stack_size(16 << 20).spawn_scoped(scope, body);
                 assert!(spawned.is_ok(), "a thread can be made");
             }
@@ -185,12 +184,12 @@ impl Crew<'_> {
     }
 }
 
-/// Which worker a state belongs to.
+/// The worker that owns a state.
 pub(crate) fn owner(state: &[u64], workers: usize) -> usize {
     if workers == 1 { 0 } else { (hash(state) & 0xffff) as usize % workers }
 }
 
-/// Keeps the nearest, and of equally near ones the least.
+/// Keeps the nearest finding, and of equally near ones the least.
 pub(crate) fn note(found: &mut Vec<Found>, one: Found, explorer: &mut Explorer) {
     match found.iter_mut().find(|other| other.target == one.target) {
         None => found.push(one),
@@ -225,7 +224,7 @@ impl Shard {
         }
     }
 
-    /// Works until the leader, who is worker 0, decides to stop.
+    /// Works until the leader, worker 0, decides to stop.
     #[allow(clippy::too_many_arguments, reason = "all of them are shared by the workers and used here alone")]
     fn work(
         &mut self,
@@ -241,13 +240,13 @@ impl Shard {
         let mut settles = false;
         let mut quota = 1;
         if self.reduction.is_some() {
-            // Parts are told apart once the steps of some state were made.
+            // Expanding a state determines the parts of the main rule.
             let initial = explorer.initial().first().map(|(state, _)| state.clone());
             let _ = initial.map(|state| explorer.expand(&state, &mut Vec::new()));
         }
         loop {
             let mut panic = None;
-            // Who panics still meets the others at the barriers, so that all end; then the panic goes on.
+            // A worker that panics still meets the others at the barriers, so that all end; then the panic continues.
             let mut guard = |body: &mut dyn FnMut()| {
                 panic = panic.take().or(catch_unwind(AssertUnwindSafe(body)).err());
             };
@@ -279,7 +278,7 @@ impl Shard {
             barrier.wait();
             if index == 0 {
                 let reports = lock(board).reports.clone();
-                // The depth of the states that come in, once the initial ones are there.
+                // The depth of the incoming states, once the initial ones are there.
                 let depth = self.levels.len() as u64;
                 let decided = catch_unwind(AssertUnwindSafe(|| leader(&reports, depth)));
                 let mut board = lock(board);
@@ -318,8 +317,8 @@ impl Shard {
         }
     }
 
-    /// What was found at distances at which all states of this worker were looked at: the states that come in are those of the
-    /// next distance, and of those of this one not all steps may have been made.
+    /// Findings at distances of which this worker has explored all states. Incoming states are at the next distance;
+    /// steps may be missing at this one.
     pub fn certain(&self) -> impl Iterator<Item = &Found> {
         let (steps, states) = (self.levels.len().saturating_sub(1), self.levels.len());
         self.found.iter().filter(move |found| match found.target {
@@ -348,8 +347,8 @@ impl Shard {
         }
     }
 
-    /// Makes the steps of some states of the level, and puts the successors where they belong. A state whose steps were not all
-    /// made, since whoever waits has had enough, is none whose steps were made; then it is false.
+    /// Makes the steps of some states on the level and sends the successors to their owners. Returns `false` if the
+    /// caller asked to stop while a state's steps were made; that state then counts as not expanded.
     fn expand_round(&mut self, explorer: &mut Explorer, plan: &Plan, quota: u64, sent: &mut [Vec<u64>]) -> bool {
         let end = self.levels.last().copied().unwrap_or(0).min(self.next + ROUND);
         let words = explorer.words();
@@ -411,7 +410,7 @@ impl Shard {
         true
     }
 
-    /// Notes what is looked for in an expansion.
+    /// Checks an expansion for targets.
     #[cold]
     fn look_at(&mut self, explorer: &mut Explorer, plan: &Plan, place: usize, expansion: &Expansion) {
         let depth = self.levels.len() - 1;
@@ -423,7 +422,7 @@ impl Shard {
             let may_rest = plan.terminal.map(|terminal| explorer.truth(terminal, &state));
             match may_rest {
                 Some(Truth::True) => {}
-                // It was not judged to the end, and the search ends.
+                // Evaluation was interrupted, and the search ends.
                 Some(Truth::Unknown) if plan.settings.interrupt.is_raised() => self.cut = true,
                 Some(Truth::Fault | Truth::Unknown) => {
                     self.unknown.extend(plan.terminal);
@@ -450,7 +449,7 @@ impl Shard {
         }
     }
 
-    /// Adds states that have come in, or settles those that are pending.
+    /// Adds incoming states, or settles pending ones.
     fn take_in(&mut self, explorer: &mut Explorer, plan: &Plan, states: &mut Vec<u64>, settles: bool) {
         let Shard { store, levels, found, unknown, lineage, cut, .. } = self;
         if !plan.assumed.is_empty() {

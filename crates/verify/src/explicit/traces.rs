@@ -1,9 +1,9 @@
-//! How a search came to a state: the steps of a shortest way, told one by one.
+//! Makes shortest runs to the findings of a search.
 //!
-//! In: what a search has found. Out: a [`Trace`] for each. No way is kept while searching; it is found again backwards,
-//! level by level: of the states of the level before that lead to the state, the least in canonical order is taken, and of
-//! its steps the first. So a trace does not depend on the number of workers, and a state costs no link to its parent. Where
-//! states were not kept, ways are found by searching again ([`crate::explicit::ancestors`]).
+//! In: the findings of a search. Out: a [`Trace`] for each. The search stores no parent pointers; a run is rebuilt
+//! backwards, level by level: of the states on the previous level that lead to the state, the least in canonical order
+//! is taken, and of its steps the first. So a trace does not depend on the number of workers, and a state needs no link
+//! to its parent. If states were not stored, the search is repeated ([`crate::explicit::ancestors`]).
 
 use crate::explicit::search::Search;
 use crate::explicit::ways::ways;
@@ -14,9 +14,9 @@ use crate::target::Found;
 use crate::trace::{Trace, tell};
 
 impl Search {
-    /// A shortest run to each state found, in the order of `found`. Where files cannot be read, nothing was found.
+    /// A shortest run to each finding, in the order of `found`. If files cannot be read, there are no findings.
     pub(crate) fn traces(&mut self, heed: &mut Heed<'_>) -> Vec<Trace> {
-        // What was found is to be told, however long that takes.
+        // Findings are reported however long that takes.
         self.explorer.ignore_interrupts();
         let told = |found: &Found| heed.told.get(&found.target).filter(|(depth, _)| *depth == found.depth);
         let known: Vec<Option<Trace>> = self.found.iter().map(|found| Some(told(found)?.1.clone())).collect();
@@ -43,9 +43,9 @@ impl Search {
         known.into_iter().map(|known| known.unwrap_or_else(|| traces.next().expect("a way to each"))).collect()
     }
 
-    /// A run that has these representatives: each state is one that the state before leads to. From the representative before
-    /// lead steps to a state that the next one represents; the permutation that leads from there to the run's own state leads
-    /// to the run's next state, too.
+    /// Turns a chain of representatives into a real run. From each representative, steps lead to a state that the next
+    /// one represents. The permutation that maps the representative to the run's own state also maps that state to the
+    /// run's next state.
     fn concrete(&mut self, chain: Vec<Box<[u64]>>) -> Vec<Box<[u64]>> {
         let Some(orbits) = self.orbits.clone() else { return chain };
         let explorer = &mut self.explorer;

@@ -1,4 +1,4 @@
-//! Shortest ways to states that were found, in the states that were kept: see [`crate::explicit::traces`].
+//! Finds shortest runs to states among the stored states: see [`crate::explicit::traces`].
 
 use explore::{Explorer, Orbits};
 
@@ -6,10 +6,10 @@ use crate::explicit::shard::Shard;
 use crate::storage::disk::Lost;
 use crate::target::Found;
 
-/// So many states of a level are read at a time.
+/// How many states of a level are read at a time.
 const LOADED: usize = 1 << 12;
 
-/// The states on the way to each state found, of which all that is before it was looked at.
+/// The states on the way to each found state; all levels before it must be explored.
 pub(crate) fn ways(
     explorer: &mut Explorer,
     shards: &mut [Shard],
@@ -31,7 +31,7 @@ pub(crate) fn ways(
     Ok(chains)
 }
 
-/// For each state that is wanted the least state of a level that leads to it.
+/// For each wanted state, the least state of a level that leads to it.
 fn parents(
     explorer: &mut Explorer,
     shards: &mut [Shard],

@@ -1,9 +1,9 @@
-//! What a part of the main rule may ever look at and write, from the text of its rules.
+//! Computes what a part of the main rule may ever read and write, from the text of its rules.
 //!
-//! In: a program whose main rule is one `choose` with guards that ask for nothing, over domains that do not change; which
-//! location each field holds. Out: a [`Footprint`] for each binding, and one of the conditions that are asked for. A walk over
-//! rules and terms with the values of those variables that are known; a branch whose guard is known not to be taken is left
-//! out, an argument that is not known may be any. INVARIANT: what a step looks at and writes is in the footprint of its part.
+//! In: a program whose main rule is one `choose` over constant domains, with guards that read nothing; the location of
+//! each field. Out: a [`Footprint`] for each binding, and one for the checked conditions. The rules and terms are
+//! traversed with the known values of variables: branches with guards known to be false are skipped, and unknown
+//! arguments may have any value. INVARIANT: the footprint of a part contains what its steps read and write.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -15,27 +15,27 @@ use program::{
     TermList,
 };
 
-/// LIMIT: so many rules and terms are walked for one part.
+/// LIMIT: the most rules and terms that are traversed for one part.
 const WALKED: usize = 1 << 20;
 
-/// By field: whether it may be looked at, or written.
+/// For each field, whether it may be read or written.
 #[derive(Debug, Clone)]
 pub struct Footprint {
     pub looks: Vec<bool>,
     pub writes: Vec<bool>,
 }
 
-/// Of all parts, by their number, and of the conditions.
+/// The footprints of all parts, by number, and of the conditions.
 pub struct Footprints {
     pub parts: Vec<Footprint>,
     pub visible: Footprint,
 }
 
-/// The variables of a frame, as far as their values are known.
+/// The known values of a frame's variables.
 #[derive(Debug, Clone)]
 struct Frame(Vec<Option<Value>>);
 
-/// Whether it is a procedure, its number, what is known of its arguments, who runs.
+/// Whether it is a procedure, its number, the known arguments, the agent.
 type Entered = (bool, u32, Vec<Option<Value>>, Option<Value>);
 
 struct Walk<'p> {
@@ -43,17 +43,17 @@ struct Walk<'p> {
     machine: Machine,
     fields: BTreeMap<FunctionId, Vec<(usize, &'p [Value])>>,
     found: Footprint,
-    /// What was walked: a procedure or a definition, its known arguments, and who runs.
+    /// What was traversed: a procedure or a definition, its known arguments, and the agent.
     entered: BTreeSet<Entered>,
-    /// The agent that runs, where it is known.
+    /// The agent that runs, if known.
     agent: Option<Value>,
     walked: usize,
 }
 
-/// See the module; none where the main rule is not of that form.
+/// The footprints of a program; `None` if the main rule does not have that form.
 pub fn footprints(program: &Arc<Program>, settings: &Settings, locations: &[Option<Location>]) -> Option<Footprints> {
     let mut machine = Machine::new(Arc::clone(program), settings.limits.clone());
-    // What is asked of it does not depend on the state, so a start that asks for inputs does as well.
+    // The machine only evaluates what does not depend on the state, so a failed start does not matter.
     let _ = machine.start(&mut Closed);
     let mut fields: BTreeMap<FunctionId, Vec<(usize, &[Value])>> = BTreeMap::new();
     for (field, location) in locations.iter().enumerate() {
@@ -108,13 +108,13 @@ impl Frame {
 }
 
 impl Walk<'_> {
-    /// A term neither asks for anything nor depends on who runs.
+    /// Checks that a term neither reads inputs nor depends on the agent.
     fn asks_nothing(&self, term: TermId) -> Option<Vec<FunctionId>> {
         let (parameters, names) = (Vec::new(), Vec::new());
         self.program.reads(&Expression { parameters, frame: 0, names, body: term })
     }
 
-    /// The bindings of a choice, in their order: the leftmost is the slowest.
+    /// The bindings of a choice, in order: the leftmost varies slowest.
     fn bindings(&mut self, binders: &[Binder]) -> Option<Vec<Vec<Value>>> {
         let mut all = vec![Vec::new()];
         for binder in binders {
@@ -138,7 +138,7 @@ impl Walk<'_> {
         Some(all)
     }
 
-    /// Anything may happen.
+    /// Anything may be read and written.
     fn give_up(&mut self) {
         self.found.looks.fill(true);
         self.found.writes.fill(true);
@@ -152,7 +152,7 @@ impl Walk<'_> {
         self.walked >= WALKED
     }
 
-    /// The value of a term, where that depends on nothing but variables that are known.
+    /// The value of a term that depends only on known variables.
     fn known(&mut self, term: TermId, frame: &Frame) -> Option<Value> {
         match self.program.term(term) {
             Term::Slot(slot) => return frame.get(*slot).cloned(),
@@ -172,7 +172,7 @@ impl Walk<'_> {
         self.machine.evaluate_with(term, frame.0.len() as u32, &bindings, &mut Closed).ok()
     }
 
-    /// The elements of some domain, which may grow, are asked for in a term or a definition that it uses.
+    /// Whether a term, or a definition that it uses, depends on the elements of a domain that may grow.
     fn depends_on_domains(&self, term: TermId) -> bool {
         let (mut open, mut entered) = (vec![term], BTreeSet::new());
         while let Some(id) = open.pop() {
@@ -279,7 +279,7 @@ impl Walk<'_> {
                 frame.set(*slot, value);
                 self.term(*body, frame);
             }
-            // What rule a value is cannot be told, and which agent has which program not here.
+            // Which rule a value is cannot be determined, nor which agent has which program.
             Term::Rule(_) => self.give_up(),
             Term::Builtin { builtin, .. } => match builtin.info().effect {
                 Effect::Pure | Effect::Chooses | Effect::ReadsClock => {

@@ -1,15 +1,16 @@
-//! Which location each field of a packed state holds.
+//! Finds which location each field of a packed state stores.
 //!
-//! In: an explorer. Out: by field, the location whose value changes with it. Found out by trying: a field is given another code,
-//! and the values of the state are looked at. LIMIT: fields that hold numbers of values are not located.
+//! In: an explorer. Out: for each field, the location whose value changes with it. This is found by experiment: a field
+//! gets another code, and the values of the state are compared. LIMIT: fields that contain numbers of values are not
+//! located.
 
 use explore::{Bits, Explorer};
 use machine::{Location, Value};
 
-/// Fields of more bits hold numbers of values.
+/// Fields with more bits contain numbers of values.
 const LISTED: u8 = 16;
 
-/// See the module.
+/// The location of each field.
 pub(crate) fn located(explorer: &mut Explorer) -> Vec<Option<Location>> {
     let fields = explorer.fields();
     let Some(state) = explorer.initial().first().map(|(state, _)| state.clone()) else {

@@ -1,15 +1,15 @@
-//! Partial-order reduction where the main rule chooses who moves: of moves that do not concern each other one order is enough.
+//! Partial-order reduction, if the main rule chooses who moves: independent moves are made in one order only.
 //!
-//! In: a program whose main rule is one `choose` over domains that do not change; each binding is a *part*. Out: for a state
-//! either all its steps or those of one part, an *ample set* (D. Peled, *All from one, one for all*, 1993; E. Clarke, O. Grumberg,
-//! D. Peled, *Model Checking*, 1999, ch. 10). One part will do if what it looks at now no other part ever writes, what it
-//! writes now no other part ever looks at or writes, and no condition that is asked for looks at it: then it can still make the
-//! same steps after any steps of others, which lead to the same as before them. What it looks at and writes now, the machine
-//! tells; what others may ever do, [`footprint`] tells from the text of their rules. INVARIANT: along the steps of ample sets
-//! states grow in the canonical order, so that on every cycle there is a state all of whose steps are made.
+//! In: a program whose main rule is one `choose` over constant domains; each binding is a *part*. Out: for a state,
+//! either all its steps or those of one part, an *ample set* (D. Peled, *All from one, one for all*, 1993; E. Clarke,
+//! O. Grumberg, D. Peled, *Model Checking*, 1999, ch. 10). One part suffices if no other part ever writes what it reads
+//! now, no other part ever reads or writes what it writes now, and no checked condition reads what it writes. Then it
+//! can make the same steps after any steps of the others, with the same result. The machine tells what the part reads
+//! and writes now; [`footprint`] tells from the rules what others may ever do. INVARIANT: along the steps of ample
+//! sets, states grow in the canonical order, so every cycle contains a state all of whose steps are made.
 //!
-//! LIMIT: a tree of steps that is given up knows no parts: all steps are made then, by each worker from when it gave up.
-//! LIMIT: locations whose values are numbered or stand in the rest of the state concern everybody.
+//! LIMIT: a tree of steps that was given up has no parts: then all steps are made, by each worker from when it gave up.
+//! LIMIT: locations whose values are numbered, or that are in the rest of the state, concern all parts.
 
 mod footprint;
 mod located;
@@ -23,41 +23,42 @@ use crate::partial_order::footprint::{Footprint, footprints};
 use crate::partial_order::located::located;
 use crate::plan::Plan;
 
-/// LIMIT: parts.
+/// LIMIT: the most parts.
 const PARTS: usize = 64;
 
 /// Why states cannot be reduced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unreduced {
-    /// The main rule is no choice of who moves, or one among too many.
+    /// The main rule does not choose who moves, or chooses among too many.
     NoChoice,
-    /// An invariant or an assumption reads inputs, which every step may violate.
+    /// An invariant or an assumption reads inputs, so every step may violate it.
     Inputs,
-    /// There is no part that keeps anything to itself.
+    /// No part has locations of its own.
     AllShared,
 }
 
-/// See the module.
+/// A partial-order reduction for one program.
 #[derive(Debug)]
 pub(crate) struct Reduction {
     fields: Vec<Bits>,
-    /// By part: the fields that it may look at, and those that it may write.
+    /// For each part, the fields that it may read, and those that it may write.
     looks: Vec<Vec<bool>>,
     writes: Vec<Vec<bool>>,
-    /// By field: the location that it holds is known.
+    /// For each field, whether its location is known.
     located: Vec<bool>,
-    /// By field: the parts, as bits, that may look at it or write it; those that may write it.
+    /// For each field, the parts (as bits) that may read or write it, and those that may write it.
     touched_by: Vec<u64>,
     written_by: Vec<u64>,
-    /// By field: some condition may look at it.
+    /// For each field, whether a condition may read it.
     visible: Vec<bool>,
-    /// By field: it holds an input that an initial state keeps. Every step takes it away, and nothing puts it back.
+    /// For each field, whether it contains an input that an initial state keeps. Every step removes it, and nothing
+    /// restores it.
     inputs: Vec<bool>,
-    /// The parts whose steps may be enough.
+    /// The parts whose steps may suffice.
     candidates: Vec<usize>,
 }
 
-/// Which steps are enough, if that is wanted, or why it cannot be told.
+/// The reduction, if it is requested, or why it is not possible.
 pub(crate) fn reduction(
     program: &Arc<Program>,
     plan: &Plan,
@@ -71,7 +72,7 @@ pub(crate) fn reduction(
 }
 
 impl Reduction {
-    /// What can be told of a program from its text.
+    /// Analyses a program.
     pub fn new(program: &Arc<Program>, plan: &Plan, explorer: &mut Explorer) -> Result<Reduction, Unreduced> {
         if !plan.settings.step_conditions.is_empty() {
             return Err(Unreduced::Inputs);
@@ -81,7 +82,7 @@ impl Reduction {
         let (parts, visible) = found.map(|found| (found.parts, found.visible)).ok_or(Unreduced::NoChoice)?;
         let initial = explorer.initial().first().map(|(state, _)| state.clone());
         if let Some(state) = initial {
-            // What does not fit is told when the state's steps are made in earnest.
+            // What does not fit is reported when the state's steps are made for the search.
             let _ = explorer.expand(&state, &mut Vec::new());
         }
         if explorer.parts() != parts.len() || parts.len() < 2 {
@@ -107,18 +108,18 @@ impl Reduction {
         if reduction.candidates.is_empty() { Err(Unreduced::AllShared) } else { Ok(reduction) }
     }
 
-    /// A part may write a field, and it concerns nobody else.
+    /// Whether a part may write a field that concerns no other part.
     fn is_own(&self, part: usize, field: usize) -> bool {
         self.located[field] && !self.visible[field] && self.writes[part][field] && self.touched_by[field] == 1 << part
     }
 
-    /// Makes the steps of a state that are needed; see [`Explorer::expand`].
+    /// Makes the necessary steps of a state; see [`Explorer::expand`].
     ///
     /// # Errors
     /// A successor does not fit.
     pub fn expand(&self, explorer: &mut Explorer, state: &[u64], out: &mut Vec<u64>) -> Result<Expansion, Widening> {
         let start = out.len();
-        // Whoever moves first takes the inputs that an initial state keeps from all others.
+        // The first move consumes the inputs that an initial state keeps, so all parts depend on each other.
         if explorer.keeps_inputs(state) {
             return explorer.expand(state, out);
         }
@@ -134,7 +135,7 @@ impl Reduction {
         explorer.expand(state, out)
     }
 
-    /// The steps of a part, where they are enough.
+    /// The steps of a part, if they suffice.
     fn ample(
         &self,
         explorer: &mut Explorer,
@@ -163,7 +164,7 @@ impl Reduction {
         });
         match visited {
             Ok(Some(_)) => {}
-            // Where whoever waits has had enough, so they have with all steps.
+            // If the caller asked to stop, making all steps notices it, too.
             Ok(None) | Err(SetTrouble::Crowded | SetTrouble::Interrupted) => return Ok(None),
             Err(SetTrouble::Narrow(widening)) => return Err(widening),
             Err(SetTrouble::Failed(never)) => match never {},
@@ -201,13 +202,13 @@ impl Reduction {
     }
 }
 
-/// A set of one state or none, which notes what is looked at.
+/// A set of one state or none, which records what is read.
 struct One<'s> {
     state: &'s [u64],
     looked: Vec<Bits>,
 }
 
-/// There is no trouble with it.
+/// Operations on it cannot fail.
 enum Never {}
 
 impl StateSets for One<'_> {

@@ -1,7 +1,7 @@
 //! MP7: controlled locations that no rule updates, and locations that no rule reads.
 //!
-//! Properties do not count as readers: what they alone speak of has no influence on a run. What is written for others to
-//! read (`out`) need not be read. Functions with few locations are told location by location, others as a whole.
+//! Properties do not count as readers: what only they read does not affect runs. Output functions (`out`) need not be
+//! read. Functions with few locations are reported location by location, others as a whole.
 
 use std::collections::BTreeSet;
 
@@ -11,10 +11,10 @@ use program::FunctionId;
 
 use crate::review::{Matter, Meta, Reviewer};
 
-/// LIMIT: a function with more locations is looked at as a whole.
+/// LIMIT: functions with more locations are treated as a whole.
 const LOCATIONS: usize = 1 << 12;
 
-/// What was done with the locations of one function.
+/// How the locations of one function were accessed.
 #[derive(Default)]
 struct Touched {
     any: bool,
@@ -82,12 +82,12 @@ impl Reviewer<'_> {
     }
 }
 
-/// Those that were not touched; none if there is no such. An empty list stands for all.
+/// The locations that were not accessed; `None` if there are none. An empty list stands for all.
 fn never(all: &[Location], touched: &Touched) -> Option<Vec<Location>> {
     if !touched.any {
         return Some(Vec::new());
     }
-    // Locations without a lasting number are not told apart.
+    // Locations without a permanent number are not told apart.
     if touched.locations.is_empty() {
         return None;
     }

@@ -1,8 +1,9 @@
-//! Review: the seven meta-properties that a good model has, whatever it is a model of.
+//! Review: checks seven meta-properties that every good model has.
 //!
-//! P. Arcaini, A. Gargantini, E. Riccobene, *Automatic Review of Abstract State Machines by Meta-Property Verification*,
-//! NFM 2010. In: a model, its program, bounds. Out: a [`Review`]: findings with their places, those that some run shows with
-//! the shortest one. INVARIANT: that something never happens is said only where every state was met; else it is unknown.
+//! P. Arcaini, A. Gargantini, E. Riccobene, *Automatic Review of Abstract State Machines by Meta-Property
+//! Verification*, NFM 2010. In: a model, its program, bounds. Out: a [`Review`]: findings with their places, and a
+//! shortest run for each finding that a run can show. INVARIANT: that something never happens is reported only if every
+//! state was explored; otherwise it is unknown.
 
 mod locations;
 mod rules;
@@ -21,7 +22,7 @@ use crate::report::{NoStart, Reason};
 use crate::survey::{Survey, survey};
 use crate::trace::Trace;
 
-/// A meta-property, by the number that the paper gives it.
+/// A meta-property, with the paper's number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Meta {
     /// MP1: no inconsistent update is ever performed.
@@ -57,16 +58,16 @@ impl Meta {
         self as usize + 1
     }
 
-    /// It is violated by something that happens; the others by something that never does.
+    /// Whether it is violated by something that happens; the others are violated by something that never does.
     fn by_event(self) -> bool {
         matches!(self, Meta::Consistent | Meta::Complete)
     }
 }
 
-/// What is found.
+/// What was found.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Matter {
-    /// Two updates clash; where the other one is.
+    /// Two updates clash; the place of the other one.
     Clash(Span),
     /// No branch of a conditional rule is taken.
     NoBranch,
@@ -74,58 +75,58 @@ pub enum Matter {
     NeverRuns,
     /// A declared rule that nothing calls.
     NeverCalled(String),
-    /// A rule runs in steps alone that cannot be made.
+    /// A rule runs only in steps that fail.
     RunsInFaults,
-    /// All updates of a rule leave the value that is there.
+    /// All updates of a rule write the present value.
     AlwaysTrivial,
     /// Elements of a domain that no location ever has.
     Unused(DomainId, Vec<Value>),
     /// Values of its codomain that a function never takes.
     NeverTaken(FunctionId, Vec<Value>),
-    /// Locations that no rule updates; empty: none of the function's is ever.
+    /// Locations that no rule updates; empty if no location of the function is updated.
     NeverUpdated(FunctionId, Vec<Location>),
-    /// Locations that no rule reads; empty: none of the function's is ever.
+    /// Locations that no rule reads; empty if no location of the function is read.
     NeverRead(FunctionId, Vec<Location>),
 }
 
 /// A finding.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Finding {
-    /// The meta-property that it speaks against.
+    /// The violated meta-property.
     pub meta: Meta,
-    /// What is found.
+    /// What was found.
     pub matter: Matter,
-    /// Where.
+    /// Its place.
     pub span: Span,
-    /// A shortest run that shows it, of what some run shows.
+    /// A shortest run that shows it, if a run can.
     pub witness: Option<Box<Trace>>,
 }
 
-/// What a meta-property comes to.
+/// The outcome of a meta-property.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MetaOutcome {
-    /// Of every rule, element and location.
+    /// It holds for every rule, element and location.
     Holds,
-    /// Of some not.
+    /// It is violated for some.
     Violated,
-    /// Not known: not every state was met.
+    /// It is unknown: not every state was explored.
     Unknown,
 }
 
-/// What a review came to.
+/// The result of a review.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Review {
-    /// By meta-property that was asked for.
+    /// The outcomes of the requested meta-properties.
     pub outcomes: Vec<(Meta, MetaOutcome)>,
-    /// In the order of meta-properties, then of the text. Of a meta-property that is unknown: what has not been seen yet.
+    /// In the order of meta-properties, then of the text. For an unknown meta-property: what has not been seen yet.
     pub findings: Vec<Finding>,
     /// How far the search came.
     pub progress: Progress,
-    /// Why not every state was met; empty where every one was.
+    /// Why not every state was explored; empty if every one was.
     pub reasons: Vec<Reason>,
 }
 
-/// Reviews the parts of a model that stand in files that `own` accepts.
+/// Reviews the parts of a model in files that `own` accepts.
 ///
 /// # Errors
 /// There is no initial state.

@@ -1,7 +1,7 @@
-//! MP1 to MP4: what is to be said of rules.
+//! MP1 to MP4: findings about rules.
 //!
-//! A rule stands in the program once for each way in which it is called; here it is one, by its place in the text. Of rules
-//! inside each other that never run only the outermost is told.
+//! The program contains a rule once for each way of calling it; here its copies count as one, identified by its place
+//! in the text. Of nested rules that never run, only the outermost is reported.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,7 +13,7 @@ use syntax::Span;
 use crate::review::{Matter, Meta, Reviewer};
 use crate::survey::Sighting;
 
-/// How the rule at a place went.
+/// What happened to the rule at a place.
 #[derive(Default)]
 struct Went {
     ran: bool,
@@ -67,7 +67,7 @@ impl Reviewer<'_> {
         went
     }
 
-    /// MP1: each pair of rules whose updates clash, once.
+    /// MP1: reports each pair of rules whose updates clash, once.
     fn clashes(&mut self) {
         let mut met = BTreeSet::new();
         for sighting in self.survey.sightings.clone() {
@@ -83,12 +83,12 @@ impl Reviewer<'_> {
         }
     }
 
-    /// MP2 to MP4 of a rule and those inside it.
+    /// MP2 to MP4 for a rule and those inside it.
     fn rule(&mut self, node: &RuleNode, went: &BTreeMap<Span, Went>) {
-        // What lowering left out has no place in the program; what is inside of it may.
+        // A rule that lowering removed is not in the program, but rules inside it may be.
         if let Some(here) = went.get(&node.span) {
             if !here.ran {
-                // Nothing is to be said of a branch that does nothing.
+                // A branch that does nothing need not run.
                 if !matches!(node.kind, RuleKind::Skip) {
                     let matter = if here.ran_in_faults { Matter::RunsInFaults } else { Matter::NeverRuns };
                     self.find(Meta::Fires, matter, node.span);

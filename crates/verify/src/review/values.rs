@@ -1,8 +1,8 @@
-//! MP5 and MP6: the elements of domains, and the values that functions take.
+//! MP5 and MP6: the elements of domains, and the values of functions.
 //!
-//! In: the values met. An element is used if some location has it as its value or as a part of it: a dynamic location in some
-//! state, an input that some rule reads, a static function without definition. LIMIT: domains of more elements, and
-//! those that grow, are left aside; derived functions are not looked at.
+//! In: the values that occurred. An element is used if it is the value of some location, or a part of one: of a dynamic
+//! location in some state, of an input that a rule reads, of a static function without a definition. LIMIT: domains
+//! with more elements, and growing ones, are skipped; derived functions are not considered.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,7 +12,7 @@ use program::{DomainId, DomainKind, FunctionId, Term};
 
 use crate::review::{Matter, Meta, Reviewer};
 
-/// LIMIT: a domain with more elements is left aside.
+/// LIMIT: domains with more elements are skipped.
 const ELEMENTS: usize = 1 << 12;
 
 impl Reviewer<'_> {
@@ -85,7 +85,7 @@ impl Reviewer<'_> {
         read.collect()
     }
 
-    /// The elements and literals that the definitions of static functions name.
+    /// The elements and literals in the definitions of static functions.
     fn constants_of_statics(&self, used: &mut BTreeSet<Value>) {
         let statics = self.program.functions.iter().filter(|f| f.kind == FunctionKind::Static && !f.library);
         let mut open: Vec<_> =
@@ -113,7 +113,7 @@ impl Reviewer<'_> {
     }
 }
 
-/// A value and all that is in it.
+/// A value and all its parts.
 fn parts(value: &Value, into: &mut BTreeSet<Value>) {
     if !into.insert(value.clone()) {
         return;

@@ -1,11 +1,12 @@
-//! Propositions as terms without free variables: the values of variables bound around them are written in.
+//! Closes propositions: writes the values of bound variables into the term.
 
 use machine::Value;
 use program::{Builtin, DomainKind, Expression, FunctionId, Literal, Program, Term, TermId, TermList};
 
 use crate::temporal::read::Proposition;
 
-/// A proposition as an expression of the program, to which terms are added; none if a value cannot be written down.
+/// A proposition as an expression without free variables; its terms are added to the program. `None` if a value cannot
+/// be written as a term.
 pub fn closed(program: &mut Program, proposition: &Proposition) -> Option<Expression> {
     let mut body = proposition.term;
     for (slot, value) in &proposition.bindings {
@@ -16,7 +17,7 @@ pub fn closed(program: &mut Program, proposition: &Proposition) -> Option<Expres
     Some(Expression { parameters: Vec::new(), frame: proposition.frame, names, body })
 }
 
-/// True, where a proposition stands.
+/// The constant true, at the place of a proposition.
 pub fn truth(program: &mut Program, proposition: &Proposition) -> Expression {
     program.constants.push(Literal::Boolean(true));
     let body = add(program, Term::Constant(program.constants.len() as u32 - 1), proposition.term);
@@ -31,7 +32,7 @@ pub fn negated(program: &mut Program, expression: &Expression) -> Expression {
     Expression { body, ..expression.clone() }
 }
 
-/// Adds a term that stands where another does.
+/// Adds a term with the place of another.
 fn add(program: &mut Program, term: Term, like: TermId) -> TermId {
     program.term_domains.push(program.term_domain(like));
     program.term_spans.push(program.term_span(like));

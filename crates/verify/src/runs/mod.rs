@@ -1,7 +1,7 @@
-//! Properties of runs: the temporal formulas of a program decided on the graph of its states.
+//! Properties of runs: decides the temporal formulas of a program on its state graph.
 //!
-//! In: a program and how its steps are made. Out: an outcome for each CTLSPEC and LTLSPEC, with a run told step by step
-//! where one is violated. INVARIANT: Holds is said only where the graph is complete, every proposition is true or false in
+//! In: a program and how its steps are made. Out: an outcome for each CTLSPEC and LTLSPEC, with a run in steps if one
+//! is violated. INVARIANT: Holds is returned only if the graph is complete, every proposition has a truth value in
 //! every state, and some run is fair.
 
 mod close;
@@ -33,26 +33,26 @@ use states::{Explored, Place, Source, explore, has_letter};
 pub use outcome::{OfRuns, Why};
 pub use scheduler::scheduler;
 
-/// How the runs of a program are gone through.
+/// How the runs of a program are explored.
 #[derive(Debug, Clone, Default)]
 pub struct RunPlan {
-    /// How steps are made: bounds, and the assumptions among the conditions.
+    /// Settings of steps: bounds, and conditions including the assumptions.
     pub settings: Settings,
     /// The conditions on states that are assumptions.
     pub assumed: Vec<usize>,
-    /// How fair the choice of who moves is taken to be.
+    /// The assumed fairness of the choice of who moves.
     pub agents: Option<AgentFairness>,
-    /// Limits, as the search has them.
+    /// The largest number of states.
     pub max_states: u64,
-    /// See there.
+    /// The largest depth.
     pub max_depth: u64,
-    /// See there.
+    /// The largest number of bytes.
     pub max_bytes: u64,
-    /// One violation is enough.
+    /// Whether one violation suffices.
     pub first: bool,
 }
 
-/// Decides all temporal properties of a program, by their indices.
+/// Decides all temporal properties of a program, keyed by index.
 ///
 /// # Errors
 /// There is no initial state.
@@ -162,7 +162,8 @@ fn told(verdict: Option<Result<FormulaVerdict, usize>>, explored: &mut Explored,
     }
 }
 
-/// The properties that speak of nothing that cannot be written down; the others are added to those that are unread.
+/// The properties that can be decided; those with a value that cannot be written as a term are added to the unread
+/// ones.
 fn without(
     mut properties: Properties,
     unwritten: &BTreeSet<u32>,
@@ -192,7 +193,7 @@ fn speaks_of(properties: &Properties, formula: Formula) -> Vec<u32> {
     }
 }
 
-/// The propositions as conditions behind those of the plan; those that cannot be written down stand for nothing.
+/// Adds the propositions to the plan's conditions; those that cannot be written as terms become placeholders.
 fn source(program: &Arc<Program>, plan: &RunPlan, properties: &Properties) -> (Source, BTreeSet<u32>) {
     let mut extended = (**program).clone();
     let mut settings = plan.settings.clone();
@@ -266,7 +267,7 @@ fn propositions_of_ctl(formulas: &CtlFormulas, formula: FormulaId) -> Vec<u32> {
 }
 
 impl Explored {
-    /// A run, told step by step.
+    /// A run in steps.
     fn trace(&mut self, run: &Run) -> Trace {
         let nodes = run.states(&self.graph);
         let first = self.states[self.nodes[nodes[0] as usize].0 as usize].clone();
@@ -278,7 +279,7 @@ impl Explored {
         Trace { start, values, steps, turn: run.turn, branch: false }
     }
 
-    /// The first alternative that an edge of the graph stands for.
+    /// The first alternative that an edge of the graph represents.
     fn step(&mut self, from: u32, to: u32, edge: usize) -> Told {
         let (state, letter) = self.nodes[from as usize];
         let target = self.states[self.nodes[to as usize].0 as usize].clone();
@@ -287,7 +288,7 @@ impl Explored {
         let chosen = self.choices.get(label.0 as usize);
         let (letters, first_step) = (&self.letters, self.first_step);
         let mut picks = None;
-        // A successor that does not fit was met before.
+        // A successor that does not fit would have been reported before.
         let _ = self.explorer.paths_until(&state, &mut |path| {
             let leads = match &path.outcome {
                 Came::Next(next) => label != Label::STUTTER && *next == target,

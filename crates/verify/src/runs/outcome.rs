@@ -1,4 +1,4 @@
-//! What a property of runs comes to, and why that may not be known.
+//! The outcome of a property of runs, and why it may be unknown.
 
 use machine::{Location, Value};
 use syntax::Span;
@@ -6,32 +6,33 @@ use syntax::Span;
 use crate::progress::Stop;
 use crate::trace::Trace;
 
-/// What a property of runs comes to.
+/// The outcome of a property of runs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum OfRuns {
-    /// On all fair runs of a complete graph.
+    /// It holds on all fair runs of a complete graph.
     Holds,
-    /// Not on this run.
+    /// This run violates it.
     Violated(Box<Trace>),
-    /// Not known.
+    /// It is unknown.
     Unknown(Why),
 }
 
-/// Why it is not known whether a property of runs holds.
+/// Why a property of runs is unknown.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Why {
-    /// States were left unexplored, by a limit or because alternatives cannot be gone through.
+    /// States were left unexplored, because of a limit or because alternatives cannot be enumerated.
     Unexplored(Option<Stop>),
-    /// A proposition of it is neither true nor false in some state: where it stands, and the values of that state.
+    /// A proposition has no truth value in some state: its place, and the values of that state.
     NoTruth(Span, Vec<(Location, Value)>),
     /// No run is fair.
     NoFairRun,
-    /// The main rule does not choose who moves, so that no choice of it could be fair.
+    /// The main rule does not choose who moves, so its choice cannot be assumed fair.
     NoScheduler,
-    /// Deciding it took more than a limit allows.
+    /// Deciding it exceeded a limit.
     TooLarge(&'static str, u64),
-    /// Whoever watches has had enough.
+    /// The caller asked to stop.
     Asked,
-    /// The formula, or an assumption about runs, has a fault, or a value in it cannot be written down: what it is.
+    /// The formula, or an assumption about runs, has a fault or contains a value that cannot be written as a term; says
+    /// what it is.
     Unread(String),
 }

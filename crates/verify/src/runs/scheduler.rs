@@ -1,9 +1,10 @@
-//! Which rule of a program chooses who moves.
+//! Finds the rule of a program that chooses who moves.
 
 use program::{Program, Rule, RuleId};
 use syntax::Span;
 
-/// The choose rule that the main rule is, directly or through calls of macro rules; none if it is something else.
+/// The choose rule that is the main rule, directly or through calls of macro rules; `None` if the main rule is
+/// something else.
 pub fn scheduler(program: &Program) -> Option<Span> {
     let mut entered = vec![false; program.procedures.len()];
     let mut procedure = program.main?;

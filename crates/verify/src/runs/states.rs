@@ -1,9 +1,9 @@
-//! The graph of a program's states, for properties of its runs.
+//! Builds the graph of a program's states, for properties of its runs.
 //!
-//! In: a program, propositions, bounds. Out: a [`Graph`] and what its states are. Where propositions read inputs, a state
-//! of the machine comes up once for each set of propositions that its inputs can make true, with the steps that these inputs
-//! allow; all other inputs, and choices, belong to the step. A step that is a fault leads nowhere: the run stays. A state
-//! with alternatives that cannot be gone through counts as unexplored.
+//! In: a program, propositions, bounds. Out: a [`Graph`] and the states of its nodes. If propositions read inputs, a
+//! state of the machine gets one node for each set of propositions that its inputs can make true, with the steps that
+//! these inputs allow; all other inputs, and choices, belong to the step. A step that faults leads nowhere: the run
+//! stays. A state with alternatives that cannot be enumerated counts as unexplored.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -18,63 +18,63 @@ use syntax::Span;
 use crate::graph::{Builder, Graph, Label, StateId};
 use crate::progress::{Progress, Stop};
 
-/// What the graph is made from.
+/// What the graph is built from.
 #[derive(Debug, Clone)]
 pub struct Source {
-    /// The program, and how its steps are made. The conditions of the propositions are the last ones.
+    /// The program. The last conditions of `settings` are the propositions.
     pub program: Arc<Program>,
-    /// See there.
+    /// How steps are made.
     pub settings: Settings,
     /// The conditions on states that are assumptions.
     pub assumed: Vec<usize>,
-    /// By proposition, where its condition stands.
+    /// For each proposition, its condition.
     pub propositions: Vec<Place>,
-    /// The rule that chooses who moves, where edges are to be labelled with the choice.
+    /// The rule that chooses who moves, if edges are labelled with its choice.
     pub scheduler: Option<Span>,
-    /// Limits, as the search has them.
+    /// The largest number of states.
     pub max_states: u64,
-    /// See there.
+    /// The largest depth.
     pub max_depth: u64,
-    /// See there.
+    /// The largest number of bytes.
     pub max_bytes: u64,
 }
 
-/// Where a proposition's condition stands.
+/// The condition of a proposition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
-    /// Among the conditions on states.
+    /// An index into the conditions on states.
     State(usize),
-    /// Among the conditions on steps; its negation stands behind it.
+    /// An index into the conditions on steps; the next one is its negation.
     Step(usize),
 }
 
-/// A graph and what is behind it.
+/// A graph and what its nodes stand for.
 #[derive(Debug)]
 pub struct Explored {
     /// The graph.
     pub graph: Graph,
-    /// Makes steps again, to tell of them.
+    /// Repeats steps, to show them.
     pub explorer: Explorer,
-    /// By node of the graph: the state, and what holds of its inputs.
+    /// For each node of the graph: the state, and the number of its letter.
     pub nodes: Vec<(u32, u32)>,
     /// The states.
     pub states: Vec<Box<[u64]>>,
-    /// By number: for each condition on steps, whether it and its negation fail.
+    /// For each letter: for each condition on steps, whether it and its negation fail.
     pub(super) letters: Vec<Vec<u32>>,
-    /// By label: what was chosen.
+    /// For each label: the choice.
     pub choices: Vec<Vec<Value>>,
-    /// By proposition: a state in which it is neither true nor false, if there is one.
+    /// For each proposition: a state in which it has no truth value, if there is one.
     pub undecided: Vec<Option<u32>>,
-    /// Why it is not complete, if a limit is the reason.
+    /// Why it is not complete, if because of a limit.
     pub stop: Option<Stop>,
-    /// The first of the conditions on steps that are propositions.
+    /// The first condition on steps that is a proposition.
     pub(super) first_step: u32,
 }
 
-/// A step of a state: its letter, where it leads, its label.
+/// A step of a state: its letter, its target, its label.
 type Row = (u32, u32, u32);
 
-/// Explores; `watch` is told how far it is and says whether it goes on.
+/// Explores the states; `watch` receives progress and tells whether to go on.
 ///
 /// # Errors
 /// There is no initial state.
@@ -104,7 +104,7 @@ struct Exploration<'s> {
     known: HashMap<Box<[u64]>, u32, FxBuildHasher>,
     initial: usize,
     rows: Vec<Row>,
-    /// By state explored: where its rows end.
+    /// For each explored state, where its rows end.
     ends: Vec<usize>,
     cut: Vec<bool>,
     letters: Vec<Vec<u32>>,
@@ -164,7 +164,7 @@ impl<'s> Exploration<'s> {
                 break;
             }
             if u64::from(self.depths[next]) >= self.source.max_depth {
-                // States come by distance: all that follow are as deep.
+                // States are ordered by distance, so all further ones are as deep.
                 self.stop = Some(Stop::Depth);
                 break;
             }
@@ -175,7 +175,7 @@ impl<'s> Exploration<'s> {
             }
             next += 1;
         }
-        // What was found is to be told, however long that takes.
+        // Findings are reported however long that takes.
         self.explorer.ignore_interrupts();
         Ok(self.graph())
     }
@@ -196,7 +196,7 @@ impl<'s> Exploration<'s> {
         (self.states.len() * (16 * self.explorer.words() + 48) + self.rows.len() * size_of::<Row>()) as u64
     }
 
-    /// The number of a state; none if an assumption does not hold in it.
+    /// The number of a state; `None` if an assumption is false in it.
     fn state(&mut self, state: &[u64], depth: u32) -> Option<u32> {
         if let Some(known) = self.known.get(state) {
             return Some(*known);
@@ -213,7 +213,7 @@ impl<'s> Exploration<'s> {
         Some(number)
     }
 
-    /// False where whoever waits has had enough before all alternatives were there.
+    /// Returns `false` if the caller asked to stop before all alternatives were found.
     fn expand(&mut self, index: usize) -> Result<bool, Widening> {
         let state = self.states[index].clone();
         let depth = self.depths[index] + 1;
@@ -238,7 +238,7 @@ impl<'s> Exploration<'s> {
             }
             cut = expansion.unbounded > 0;
         } else {
-            // Of alternatives that come to the same one is kept: there may be many.
+            // Of equivalent alternatives only one is kept, since there may be many.
             let (mut paths, mut seen) = (Vec::new(), HashSet::<_, FxBuildHasher>::default());
             let scheduler = self.source.scheduler;
             let whole = self.explorer.paths(&state, &mut |mut path| {
@@ -273,7 +273,7 @@ impl<'s> Exploration<'s> {
         if cut {
             self.rows.truncate(start);
         }
-        // Without a step there are no inputs, so what holds of them is not known.
+        // Without a step there are no inputs, so propositions about them are unknown.
         cut |= self.first_step != u32::MAX && self.rows.len() == start;
         let own = &mut self.rows[start..];
         own.sort_unstable_by_key(|(letter, ..)| *letter);
@@ -282,7 +282,7 @@ impl<'s> Exploration<'s> {
         Ok(true)
     }
 
-    /// What holds of the inputs of a step.
+    /// The letter of a step: which conditions on its inputs hold.
     fn letter_of(&mut self, path: &Path) -> u32 {
         if self.first_step == u32::MAX {
             return 0;
@@ -296,7 +296,7 @@ impl<'s> Exploration<'s> {
             if let Place::Step(condition) = place {
                 let fails = |condition: usize| failed.contains(&(condition as u32));
                 if fails(*condition) == fails(*condition + 1) {
-                    // The state being explored is the next whose rows end.
+                    // The number of the state being explored.
                     self.undecided[proposition].get_or_insert(self.ends.len() as u32);
                 }
             }
@@ -318,7 +318,7 @@ impl<'s> Exploration<'s> {
         })
     }
 
-    /// Puts the graph together: a node for each state and letter.
+    /// Builds the graph: a node for each state and letter.
     fn graph(mut self) -> Explored {
         let explored = self.ends.len();
         let rows_of = |state: usize| if state == 0 { 0 } else { self.ends[state - 1] };
@@ -394,7 +394,7 @@ impl<'s> Exploration<'s> {
     }
 }
 
-/// Whether a step as it was made again is one with this letter.
+/// Whether a repeated step has this letter.
 pub(super) fn has_letter(letters: &[Vec<u32>], first_step: u32, path: &Path, letter: u32) -> bool {
     let own = path.failed.iter().filter(|condition| **condition >= first_step);
     letters.get(letter as usize).is_none_or(|failed| own.eq(failed.iter()))

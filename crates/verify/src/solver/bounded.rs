@@ -1,7 +1,7 @@
-//! Bounded model checking: is there a run of so many steps to what is looked for?
+//! Bounded model checking: searches for runs of limited length to the targets.
 //!
-//! A. Biere, A. Cimatti, E. Clarke, Y. Zhu, *Symbolic model checking without BDDs*, 1999. Time by time, so that the first run
-//! found is a shortest one; one solver is told each step once.
+//! A. Biere, A. Cimatti, E. Clarke, Y. Zhu, *Symbolic model checking without BDDs*, 1999. Lengths are tried in
+//! increasing order, so the first run found is a shortest one; one solver session is told each step once.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -24,14 +24,14 @@ pub(crate) struct Bounded<'r> {
     plan: &'r Plan,
     relation: &'r Relation,
     unrolling: Unrolling<'r>,
-    /// What is still looked for.
+    /// The targets not found yet.
     pub open: Vec<(Target, Node)>,
     pub found: BTreeMap<Target, Trace>,
-    /// What a run of these steps or more may meet that was not told to the solver.
+    /// What runs of this length or more may do that was not encoded.
     pub beyond: Option<Outside>,
-    /// Runs that the machine does not make.
+    /// Targets whose run the machine does not make.
     pub odd: Vec<Target>,
-    /// How many times were looked at.
+    /// How many lengths were tried.
     pub times: usize,
 }
 
@@ -55,7 +55,7 @@ impl<'r> Bounded<'r> {
         }
     }
 
-    /// Looks at one time more; an answer that the solver does not know is told as late.
+    /// Tries the next length; if the solver does not know, that is reported as late.
     pub fn advance(&mut self, patience: &mut Patience<'_>) -> Result<(), Silence> {
         if self.times > 0 {
             self.unrolling.step();

@@ -1,4 +1,4 @@
-//! The engine that asks a solver.
+//! The engine that asks an SMT solver.
 
 use crate::engine::{Ended, Engine, Task};
 use crate::options::EngineKind;
@@ -7,7 +7,7 @@ use crate::report::NoStart;
 use crate::solver::method::Method;
 use crate::solver::{Unsolved, solve};
 
-/// Proves what it can, and looks for runs, by this method.
+/// Proves what it can and searches for runs, by this method.
 pub(crate) struct BySolver(pub Method);
 
 impl Engine for BySolver {

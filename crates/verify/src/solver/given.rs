@@ -1,4 +1,4 @@
-//! What a step was told to take, as the machine's environment.
+//! The recorded inputs and choices of a step, as the machine's environment.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -6,7 +6,7 @@ use explore::{ChoiceTaken, Told};
 use machine::{Choice, Draw, Environment, Location, LocationRef, TimeUnit, Value};
 use program::{DomainId, Program};
 
-/// An environment that gives what was decided.
+/// An environment that gives recorded inputs and choices.
 #[derive(Debug, Default)]
 pub(crate) struct Given {
     pub inputs: BTreeMap<Location, Value>,
@@ -16,7 +16,7 @@ pub(crate) struct Given {
 }
 
 impl Given {
-    /// What a step was told to take.
+    /// The inputs and choices of a step.
     pub fn new(told: &Told) -> Given {
         Given {
             inputs: told.inputs.iter().cloned().collect(),

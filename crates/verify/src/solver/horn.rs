@@ -1,8 +1,8 @@
 //! Property-directed reachability (IC3), by a solver's engine for Horn clauses.
 //!
-//! A. Bradley, *SAT-based model checking without unrolling*, 2011; N. Bjørner, A. Gurfinkel, K. McMillan, A. Rybalchenko, *Horn
-//! clause solvers for program verification*, 2015. A predicate holds of every state that can be reached; the solver finds
-//! one that leaves out what is looked for, or says that there is none.
+//! A. Bradley, *SAT-based model checking without unrolling*, 2011; N. Bjørner, A. Gurfinkel, K. McMillan, A.
+//! Rybalchenko, *Horn clause solvers for program verification*, 2015. A predicate holds for every reachable state. The
+//! solver finds such a predicate that excludes the target, or says that there is none.
 
 use std::fmt::Write;
 
@@ -13,7 +13,7 @@ use solve::shared::{Node, Script, Terms, VariableId};
 use crate::solver::relation::Relation;
 use crate::solver::unrolling::Patience;
 
-/// Whether a state, or a step, can be reached of which a condition is true.
+/// Whether a state or a step that satisfies a condition is reachable.
 pub(crate) fn reachable(
     relation: &mut Relation,
     wanted: Node,
@@ -61,7 +61,7 @@ fn clauses(relation: &mut Relation, wanted: Node) -> String {
     let start: Vec<VariableId> = relation.start.into_iter().collect();
     let at_start = bounded(relation, &start);
     if relation.first == Terms::TRUE {
-        // Initial states are reached.
+        // Initial states are reachable.
         let mut begin = vec![admitted, at_start];
         for (index, later) in cone.iter().zip(&later) {
             begin.push(relation.terms.equal(*later, relation.initial[*index]));
@@ -70,7 +70,7 @@ fn clauses(relation: &mut Relation, wanted: Node) -> String {
         let bound: Vec<VariableId> = later_ids.iter().chain(&start).copied().collect();
         clause(relation, &bound, None, begin, Some(&later), &mut text);
     } else {
-        // The first step has inputs of its own: what it leads to is reached, and what is wanted is not found in it.
+        // The first step has its own inputs: its successors are reachable, and it must not satisfy the condition.
         let mut begin = vec![at_start, relation.first];
         for (index, id) in cone.iter().zip(&state) {
             let now = relation.terms.known(*id);
@@ -84,15 +84,15 @@ fn clauses(relation: &mut Relation, wanted: Node) -> String {
         let bound: Vec<VariableId> = here.iter().chain(&start).copied().collect();
         clause(relation, &bound, None, found, None, &mut text);
     }
-    // What a step leads to is reached.
+    // Successors are reachable.
     clause(relation, &all, Some(&state), step, Some(&later), &mut text);
-    // What is wanted is not.
+    // The condition is not reachable.
     clause(relation, &here, Some(&state), found, None, &mut text);
     text.push_str("(check-sat)\n");
     text
 }
 
-/// The bounds of variables.
+/// The bounds of variables, as a condition.
 fn bounded(relation: &mut Relation, variables: &[VariableId]) -> Node {
     let mut all = Vec::new();
     for id in variables {

@@ -1,8 +1,8 @@
-//! k-induction: what did not happen for k steps does not happen in the next.
+//! k-induction: what does not happen for k steps does not happen in the next.
 //!
-//! M. Sheeran, S. Singh, G. Stålmarck, *Checking safety properties using induction and a SAT-solver*, 2000, with paths on which
-//! no state comes twice. All that is looked for is proved together: what fails is left out and the rest tried again, so
-//! that one may be needed for the other. The beginning is [`super::bounded`]'s.
+//! M. Sheeran, S. Singh, G. Stålmarck, *Checking safety properties using induction and a SAT-solver*, 2000, with paths
+//! on which no state repeats. All targets are proved together, so that one may help to prove another: those that fail
+//! are removed and the rest is tried again. [`super::bounded`] provides the base case.
 
 use std::collections::BTreeMap;
 
@@ -13,20 +13,20 @@ use crate::solver::relation::Relation;
 use crate::solver::unrolling::{Patience, Unrolling};
 use crate::target::Target;
 
-/// LIMIT: times for which states are told to be different.
+/// LIMIT: how many states of a path are required to differ.
 const SIMPLE: usize = 40;
 
-/// The proof so far.
+/// A proof in progress.
 pub(crate) struct Induction<'r> {
     relation: &'r Relation,
     unrolling: Unrolling<'r>,
-    /// What is to be proved; none is that the machine does nothing that was not told.
+    /// What is still to be proved; `None` stands for the claim that the machine does only what was encoded.
     open: BTreeMap<Option<Target>, Node>,
-    /// By what is open or proved, its names at the times.
+    /// For each open or proved claim, its names at the times.
     names: BTreeMap<Option<Target>, Vec<String>>,
-    /// What was proved, with how many steps.
+    /// Proved targets, with the number of steps of the induction.
     pub proved: BTreeMap<Target, usize>,
-    /// It is proved that the machine does nothing that was not told.
+    /// Whether it is proved that the machine does only what was encoded.
     pub told: bool,
 }
 
@@ -45,7 +45,7 @@ impl<'r> Induction<'r> {
         }
     }
 
-    /// Does not try to prove what is violated.
+    /// Stops trying to prove a claim that is violated.
     pub fn give_up(&mut self, target: Option<Target>) {
         self.open.remove(&target);
     }
@@ -55,7 +55,7 @@ impl<'r> Induction<'r> {
         self.open.is_empty()
     }
 
-    /// Tries with one step more than before, at first with none.
+    /// Tries with one more step than before, beginning with none.
     pub fn advance(&mut self, patience: &mut Patience<'_>) -> Result<(), Silence> {
         if !self.names.is_empty() {
             self.unrolling.step();
@@ -113,7 +113,7 @@ impl<'r> Induction<'r> {
         }
     }
 
-    /// What is open or proved.
+    /// All claims that are open or proved.
     fn all(&self) -> Vec<(Option<Target>, Node)> {
         let proved = self.relation.targets.iter().filter(|(target, _)| self.proved.contains_key(target));
         let proved = proved.map(|(target, node)| (Some(*target), *node));

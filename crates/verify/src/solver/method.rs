@@ -1,4 +1,4 @@
-//! How a solver is asked, and what it says of each thing that is looked for.
+//! How a solver is used, and its results for each target.
 
 use std::collections::BTreeMap;
 
@@ -7,14 +7,14 @@ use solve::Outside;
 use crate::target::Target;
 use crate::trace::Trace;
 
-/// How a solver is asked.
+/// How a solver is used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Method {
-    /// Bounded model checking: runs only.
+    /// Bounded model checking: only finds runs.
     Bounded,
     /// Bounded model checking and k-induction.
     Induction,
-    /// Property-directed reachability; runs by bounded model checking.
+    /// Property-directed reachability; bounded model checking finds the runs.
     Reachability,
     /// k-induction for a while, then property-directed reachability.
     Portfolio,
@@ -23,38 +23,38 @@ pub enum Method {
 /// How a property was proved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Proof {
-    /// By induction over so many steps.
+    /// By induction over this many steps.
     Induction(usize),
-    /// By a set of states that leaves out what is looked for.
+    /// By an invariant set of states that excludes the target.
     Reachability,
 }
 
-/// Why a solver left something open.
+/// Why a solver left a target open.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Left {
-    /// So many steps were looked at.
+    /// The limit of steps was reached.
     Depth(usize),
-    /// The solver did not answer in time, or does not know; of runs of so many steps.
+    /// The solver did not answer in time, or does not know, about runs of this many steps.
     Late(usize),
-    /// Whoever waits has had enough.
+    /// The caller asked to stop.
     Stopped,
-    /// The solver has failed: a clause.
+    /// The solver failed; a clause.
     Broken(String),
-    /// The machine may do what the solver was not told.
+    /// The machine may do what was not encoded.
     Beyond(Outside),
-    /// The solver told of a run that the machine does not make.
+    /// The solver found a run that the machine does not make.
     Odd,
-    /// Inputs without number would have to be gone through.
+    /// The inputs of a state cannot be enumerated.
     Untold,
 }
 
-/// What came out.
+/// The result of a solver.
 #[derive(Debug, Default)]
 pub(crate) struct Solved {
     pub found: BTreeMap<Target, Trace>,
     pub proved: BTreeMap<Target, Proof>,
     pub left: BTreeMap<Target, Left>,
-    /// How many steps were looked at.
+    /// The largest number of steps that was tried.
     pub depth: u64,
     /// The solver.
     pub solver: String,

@@ -1,9 +1,8 @@
-//! Verification by an SMT solver: models whose states, inputs and choices cannot be gone through.
+//! Verification by an SMT solver, for models whose states, inputs or choices cannot be enumerated.
 //!
-//! In: a program and what is asked of its states. Out: what was found, with runs that the machine has made again, and what
-//! was proved. [`solve::encode`] puts a step into terms, [`relation`] the whole program; [`bounded`] looks for runs, [`induction`]
-//! and [`horn`] prove that there are none. INVARIANT: nothing is proved unless it is proved, too, that the machine does
-//! nothing that the solver was not told.
+//! In: a program and the targets. Out: findings, with runs that the machine has repeated, and proofs. [`solve::encode`]
+//! encodes a step, [`relation`] the whole program; [`bounded`] searches for runs, [`induction`] and [`horn`] prove that
+//! there are none. INVARIANT: a proof counts only if it is also proved that the machine does only what was encoded.
 
 mod bounded;
 pub(crate) mod engine;
@@ -33,14 +32,14 @@ pub use method::{Left, Method, Proof};
 use relation::{Relation, Unrelated};
 use unrolling::Patience;
 
-/// Why nothing came out.
+/// Why there is no result.
 #[derive(Debug)]
 pub(crate) enum Unsolved {
-    /// The program has a part that solvers have no place for.
+    /// A part of the program cannot be encoded.
     Outside(Outside),
     /// There is no initial state.
     Trouble(Trouble),
-    /// There is no solver: why, as a clause.
+    /// There is no solver; a clause says why.
     NoSolver(String),
 }
 
@@ -62,14 +61,14 @@ impl From<Silence> for Unsolved {
     }
 }
 
-/// LIMIT: steps that are looked at where nobody says how many; in a portfolio.
+/// LIMIT: the most steps if the user sets no limit; `SHORT` in a portfolio.
 const DEPTH: u64 = 100;
 const SHORT: u64 = 12;
-/// LIMIT: seconds for one question, in a portfolio; for property-directed reachability there.
+/// LIMIT: seconds for one question in a portfolio; `LONG` for property-directed reachability.
 const SECONDS: u32 = 10;
 const LONG: u32 = 30;
 
-/// Checks a program by a solver.
+/// Verifies a program by a solver.
 pub(crate) fn solve(
     program: &Arc<Program>,
     plan: &Plan,
@@ -78,7 +77,8 @@ pub(crate) fn solve(
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Solved, Unsolved> {
     let exact = Relation::of(program, plan, true)?;
-    // Reals are rounded by the machine: a proof is about all that rounding can do, a run about exact numbers at first.
+    // The machine rounds reals: a proof must cover all effects of rounding, whereas runs are first searched with exact
+    // numbers.
     let mut provable = Relation::of(program, plan, !exact.inexact)?;
     let solver = solvers.name().map_err(Unsolved::NoSolver)?;
     if method == Method::Reachability && !solver.starts_with("z3") {
@@ -100,7 +100,7 @@ pub(crate) fn solve(
     let (mut told, mut late) = (false, None);
     let mut proves = BTreeMap::new();
     if method == Method::Reachability {
-        // Runs are looked for only of what is known to be reached.
+        // Runs are searched only for targets that are known to be reachable.
         let reached =
             by_reachability(&mut provable, &BTreeMap::new(), false, solvers, &mut patience, &mut proves, &mut told)?;
         match reached {
@@ -141,7 +141,7 @@ pub(crate) fn solve(
             advanced = proof.advance(&mut patience);
         }
         if let Err(silence) = advanced {
-            // It may still be that runs are found.
+            // Runs may still be found.
             late = Some(left_by(silence, bounded.times));
             proves.extend(proof.proved.iter().map(|(target, steps)| (*target, Proof::Induction(*steps))));
             told |= proof.told;
@@ -202,14 +202,14 @@ fn left_by(silence: Silence, times: usize) -> Left {
     }
 }
 
-/// What property-directed reachability says of what was asked.
+/// The result of property-directed reachability.
 enum Reached {
-    /// These are reached; the others were proved not to be.
+    /// These targets are reachable; the others were proved unreachable.
     Told(Vec<Target>),
     Silent(Left),
 }
 
-/// Proves all that is not `known`; at first at once, then one by one.
+/// Proves all targets that are not `known`: first together, then one by one.
 fn by_reachability(
     relation: &mut Relation,
     known: &BTreeMap<Target, ()>,
@@ -250,7 +250,7 @@ fn by_reachability(
         }
     }
     match silent {
-        // What was not told may be reached: runs are looked for all the same.
+        // Undecided targets may be reachable, so runs are searched anyway.
         Some(left) if reached.is_empty() => Ok(Reached::Silent(left)),
         _ => Ok(Reached::Told(reached)),
     }

@@ -1,7 +1,7 @@
-//! The transition relation of a program: its state as variables, what a step does to them, and what is looked for.
+//! The transition relation of a program: its state as variables, the effect of a step on them, and the targets.
 //!
-//! In: a program and what is asked of its states, as for [`crate::search`]. Out: a [`Relation`], or what has no place in one.
-//! Which locations may be undef is found by trying: at first none but those without an initial value.
+//! In: a program and its targets, as for [`crate::explicit`]. Out: a [`Relation`], or what cannot be encoded. Which
+//! locations may be undef is found by trying: at first only those without an initial value.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -21,11 +21,11 @@ use crate::target::Target;
 use solve::encode::{Choice, Encoder, Input, InputKind, Place};
 use solve::symbol::{Codes, Open, Shape, Symbol, constant};
 
-/// LIMIT: initial states.
+/// LIMIT: the most initial states.
 const STARTS: usize = 256;
-/// LIMIT: values of an input that are gone through to tell whether a state rests.
+/// LIMIT: the most values of an input that are enumerated to decide whether a state is a deadlock.
 const VALUES: i128 = 64;
-/// LIMIT: shared terms, for the same.
+/// LIMIT: the most shared terms, for the same purpose.
 const TERMS: usize = 1_500_000;
 
 /// An initial state.
@@ -34,37 +34,37 @@ pub(crate) struct Start {
     pub values: Vec<(Location, Value)>,
 }
 
-/// See the module.
+/// A transition relation.
 pub(crate) struct Relation {
     pub terms: Terms,
     pub codes: Codes,
     pub places: Vec<Place>,
     /// The variables of the state.
     pub state: Vec<VariableId>,
-    /// Their values in an initial state, which is the one that `start` says.
+    /// Their values in the initial state that `start` selects.
     pub initial: Vec<Node>,
     pub start: Option<VariableId>,
     pub starts: Vec<Start>,
-    /// What is known of the inputs of the first step: those that the initial state has asked for are kept.
+    /// Facts about the inputs of the first step: it keeps those that the initial state has read.
     pub first: Node,
     /// Their values after a step.
     pub next: Vec<Node>,
     pub inputs: Vec<Input>,
     pub choices: Vec<Choice>,
-    /// What is known of a state by its domains; which states are admitted; what is known of inputs; that there is a step.
+    /// Facts about a state and its step: the domains, the assumptions, the inputs, that there is a step.
     pub typed: Node,
     pub admitted: Node,
     pub given: Node,
     pub goes: Node,
-    /// What is looked for, and where it is found: in a state, with inputs.
+    /// The targets, each with the condition on state and inputs under which it is found.
     pub targets: Vec<(Target, Node)>,
-    /// Targets of which it cannot be told where they are.
+    /// Targets whose condition cannot be encoded.
     pub untold: Vec<Target>,
-    /// Where the machine may do what is not told here.
+    /// Conditions under which the machine may do what is not encoded.
     pub beyond: Vec<(Node, Outside)>,
-    /// That it does.
+    /// Any of these conditions.
     pub strays: Node,
-    /// Reals are computed.
+    /// Whether reals are computed.
     pub inexact: bool,
 }
 
@@ -81,7 +81,7 @@ impl From<Outside> for Unrelated {
 }
 
 impl Relation {
-    /// The relation of a program; with `exact` reals are computed without rounding.
+    /// The relation of a program; with `exact`, reals are computed without rounding.
     ///
     /// # Errors
     /// See [`Unrelated`].
@@ -238,7 +238,7 @@ impl Relation {
         Ok(Built { next, initial, relation })
     }
 
-    /// Which variables of the state matter to what is looked for, directly or through others; as places in `state`.
+    /// The variables of the state that affect the targets, directly or through others; as indices into `state`.
     pub fn cone(&self) -> Vec<usize> {
         let place: FxHashMap<VariableId, usize> = self.state.iter().copied().zip(0..).collect();
         let wanted = self.targets.iter().map(|one| one.1).chain(self.beyond.iter().map(|one| one.0));
@@ -255,7 +255,7 @@ impl Relation {
         within.into_iter().collect()
     }
 
-    /// The variables of inputs.
+    /// The variables of the inputs.
     pub fn input_variables(&self) -> Vec<VariableId> {
         let variable = |input: &Input| match self.terms.op(input.variable) {
             Op::Variable(id) => Some(*id),
@@ -266,7 +266,7 @@ impl Relation {
 }
 
 struct Built {
-    /// By place: value, and whether it is defined.
+    /// For each place its value, and whether it is defined.
     next: Vec<(Node, Node)>,
     initial: Vec<(Node, Node)>,
     relation: Relation,
@@ -274,7 +274,7 @@ struct Built {
 
 fn starts(program: &Arc<Program>, plan: &Plan) -> Result<Vec<Start>, Unrelated> {
     let nowhere = Span { file: syntax::FileId(0), start: 0, end: 0 };
-    // Conditions, too, read inputs that the initial state keeps.
+    // Conditions also read inputs that the initial state keeps.
     let settings = Settings { observed: false, unordered: Arc::default(), ..plan.settings.clone() };
     let explore = |widening: &_| Explorer::new(program, settings.clone(), widening, &Arc::new(Interner::default()));
     let explorer = match widened(explore) {
@@ -296,7 +296,7 @@ fn starts(program: &Arc<Program>, plan: &Plan) -> Result<Vec<Start>, Unrelated> 
         let what = "assumptions that leave no initial state".to_string();
         return Err(Unrelated::Outside(Outside { what, span: nowhere }));
     }
-    // A packed state leaves out values that are still the initial ones.
+    // A packed state omits values that are still the initial ones.
     let mut machine = Machine::new(Arc::clone(program), plan.settings.limits.clone());
     let mut starts = Vec::new();
     for start in distinct {
@@ -327,7 +327,7 @@ fn lowered(encoder: &mut Encoder, symbol: &Symbol, place: &Place) -> Result<(Nod
 
 type Values = Vec<(Node, Node)>;
 
-/// By place, its value in an initial state; and the variable that says which.
+/// For each place its value in an initial state; and the variable that selects the initial state.
 fn initial(encoder: &mut Encoder, starts: &[Start]) -> Result<(Values, Option<Node>), Outside> {
     let several = starts.len() > 1;
     let bounds = (Some(0), Some(starts.len() as i128 - 1));
@@ -351,7 +351,7 @@ fn initial(encoder: &mut Encoder, starts: &[Start]) -> Result<(Values, Option<No
                 return Err(Outside { what: "an initial value outside of its domain".to_string(), span });
             }
             let one = match value {
-                // Any value will do that is one of its domain's.
+                // Any value of its domain will do.
                 Value::Undef => (least(encoder, &place), Terms::FALSE),
                 value => lowered(encoder, &Symbol::Known(value), &place)?,
             };
@@ -369,7 +369,7 @@ fn initial(encoder: &mut Encoder, starts: &[Start]) -> Result<(Values, Option<No
     Ok((initial, node))
 }
 
-/// By initial state, that the inputs of the first step are those which it has asked for.
+/// For each initial state, that the inputs of the first step equal those that it has read.
 fn first(encoder: &mut Encoder, starts: &[Start], start: Option<Node>) -> Node {
     let mut all = Vec::new();
     for input in encoder.inputs.clone() {
@@ -403,7 +403,7 @@ fn least(encoder: &mut Encoder, place: &Place) -> Node {
     }
 }
 
-/// Whether a condition holds with some inputs; none where they cannot be gone through.
+/// Whether a condition holds for some inputs; `None` if these cannot be enumerated.
 fn possible(encoder: &mut Encoder, condition: Node) -> Option<Node> {
     let mut result = condition;
     let variable = |input: &Input| match encoder.terms.op(input.variable) {
@@ -411,7 +411,7 @@ fn possible(encoder: &mut Encoder, condition: Node) -> Option<Node> {
         _ => None,
     };
     let inputs: BTreeSet<VariableId> = encoder.inputs.iter().filter_map(variable).collect();
-    // Those asked for last may depend on those before.
+    // Later inputs may depend on earlier ones.
     for id in inputs.iter().rev() {
         if encoder.terms.variables_of([result]).binary_search(id).is_err() {
             continue;

@@ -1,7 +1,7 @@
-//! A run that a solver found, made again by the machine: only then it is told.
+//! Repeats a run that a solver found; only a run that the machine makes is reported.
 //!
-//! In: values of the inputs of each step. Out: the run as a trace, if the machine goes the same way and comes to what was
-//! looked for. The machine's semantics judges the solver, and our translation.
+//! In: values of the inputs of each step. Out: the run as a trace, if the machine makes it and reaches the target. So
+//! the machine's semantics checks the solver, and our encoding.
 
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ use crate::trace::Trace;
 use solve::encode::InputKind;
 use solve::symbol::{Symbol, value_of};
 
-/// The run as the machine makes it; none where it goes another way.
+/// The run as the machine makes it; `None` if the machine does something else.
 pub(crate) fn replay(
     program: &Arc<Program>,
     plan: &Plan,
@@ -81,7 +81,7 @@ pub(crate) fn replay(
     Some(trace)
 }
 
-/// What the environment gives in each step.
+/// The inputs and choices of each step.
 fn decided(relation: &Relation, found: &SolverRun) -> Option<Vec<Given>> {
     let inputs = relation.input_variables();
     let place: FxHashMap<VariableId, usize> = inputs.iter().copied().zip(0..).collect();
@@ -120,7 +120,7 @@ fn decided(relation: &Relation, found: &SolverRun) -> Option<Vec<Given>> {
     Some(all)
 }
 
-/// The value of a symbol.
+/// The value of a symbol, given the solver's values.
 fn shown(relation: &Relation, values: &[Option<Constant>], symbol: &Symbol) -> Option<Value> {
     match symbol {
         Symbol::Known(value) => Some(value.clone()),

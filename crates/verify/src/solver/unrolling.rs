@@ -1,7 +1,8 @@
-//! Steps of a relation one after the other, told to a solver that keeps them.
+//! Unrolls a relation: successive steps, told to a solver that keeps them.
 //!
-//! In: a relation. The states of time 0, 1, 2 … with their inputs, and questions about them. INVARIANT: what is asserted of a
-//! time is true of every run (or, without a beginning, of every piece of a run) with so many steps.
+//! In: a relation. The states at times 0, 1, 2 … with their inputs, and questions about them. INVARIANT: what is
+//! asserted about a time is true of every run (or, without an initial state, of every segment of a run) with that many
+//! steps.
 
 use std::fmt::Write;
 
@@ -10,39 +11,39 @@ use solve::shared::{Kind, Node, Script, Terms, VariableId};
 
 use crate::solver::relation::Relation;
 
-/// What a solver says of a run.
+/// A run as a solver describes it.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct SolverRun {
-    /// Which initial state.
+    /// The index of the initial state.
     pub start: usize,
-    /// By step, the values of inputs, in the order of the relation's.
+    /// For each step the values of inputs, in the relation's order.
     pub steps: Vec<Vec<Option<Constant>>>,
 }
 
-/// How long a solver may think about one question, and who says that it is enough.
+/// The time limit for a question, and the caller's wish to stop.
 pub(crate) struct Patience<'w> {
     pub seconds: u32,
     pub go_on: &'w mut dyn FnMut(u64) -> bool,
-    /// The time that is being looked at.
+    /// The present time.
     pub depth: u64,
 }
 
-/// See the module.
+/// An unrolled relation in a solver session.
 pub(crate) struct Unrolling<'r> {
     relation: &'r Relation,
     session: Box<dyn Session>,
-    /// By time, what has been written of it.
+    /// For each time, what has been written.
     scripts: Vec<Script>,
-    /// Variables of the state that matter.
+    /// The variables of the state that matter.
     cone: Vec<usize>,
     inputs: Vec<VariableId>,
-    /// Commands that the solver was not told yet.
+    /// Commands that were not sent yet.
     text: String,
     named: usize,
 }
 
 impl<'r> Unrolling<'r> {
-    /// Begins at time 0: in an initial state, or in any.
+    /// Begins at time 0, in an initial state or in any state.
     pub fn new(relation: &'r Relation, session: Box<dyn Session>, at_start: bool) -> Unrolling<'r> {
         let mut unrolling = Unrolling {
             relation,
@@ -92,7 +93,7 @@ impl<'r> Unrolling<'r> {
         let _ = writeln!(self.text, "(assert (= {name} {text}))");
     }
 
-    /// A term is true at a time.
+    /// Asserts a term at a time.
     pub fn assert(&mut self, node: Node, time: usize) {
         if node != Terms::TRUE {
             let text = self.written(node, time);
@@ -100,7 +101,7 @@ impl<'r> Unrolling<'r> {
         }
     }
 
-    /// One step more.
+    /// Adds a step.
     pub fn step(&mut self) {
         let (relation, time) = (self.relation, self.time());
         self.assert(relation.goes, time);
@@ -110,7 +111,7 @@ impl<'r> Unrolling<'r> {
         }
     }
 
-    /// The state of the last time is none of those before.
+    /// Asserts that the last state differs from all earlier ones.
     pub fn be_new(&mut self) {
         let time = self.time();
         for former in 0..time {
@@ -134,7 +135,7 @@ impl<'r> Unrolling<'r> {
         name
     }
 
-    /// A name for one of several being true.
+    /// A name for the disjunction of several names.
     pub fn any(&mut self, names: &[String]) -> String {
         self.named += 1;
         let name = format!("h{}", self.named);
@@ -142,12 +143,12 @@ impl<'r> Unrolling<'r> {
         name
     }
 
-    /// Asserts a text for ever.
+    /// Asserts a text permanently.
     pub fn assert_text(&mut self, text: &str) {
         let _ = writeln!(self.text, "(assert {text})");
     }
 
-    /// Whether all this can be, with some names and opposites of names assumed.
+    /// Whether the assertions are satisfiable with some names (or their negations) assumed.
     pub fn possible(&mut self, assumed: &[String], patience: &mut Patience<'_>) -> Result<Verdict, Silence> {
         let _ = writeln!(self.text, "(check-sat-assuming ({}))", assumed.join(" "));
         let answer = self.ask(patience)?;
@@ -161,7 +162,7 @@ impl<'r> Unrolling<'r> {
         self.session.ask(&text, patience.seconds, &mut || go_on(depth))
     }
 
-    /// Which of some names are true in the state that was found possible.
+    /// Which of some names are true in the solution found.
     pub fn true_among(&mut self, names: &[String], patience: &mut Patience<'_>) -> Result<Vec<bool>, Silence> {
         let _ = writeln!(self.text, "(get-value ({}))", names.join(" "));
         let answer = self.ask(patience)?;
@@ -169,7 +170,7 @@ impl<'r> Unrolling<'r> {
         Ok(values.into_iter().map(|value| value == Some(Constant::Boolean(true))).collect())
     }
 
-    /// The run that was found possible.
+    /// The run in the solution found.
     pub fn run(&mut self, patience: &mut Patience<'_>) -> Result<SolverRun, Silence> {
         let terms = &self.relation.terms;
         let mut names = Vec::new();

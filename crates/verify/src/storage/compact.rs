@@ -1,11 +1,11 @@
-//! States of which less is kept than the state: hashes, or bits of an array.
+//! Lossy storage of states: as hashes, or as bits of an array.
 //!
-//! In: packed states, level by level. Out: whether one is new, as far as that is still known, and the states of the last two
-//! levels. *Hash compaction* (P. Wolper, D. Leroy, *Reliable hashing without collision detection*, 1993; U. Stern, D. Dill,
-//! *Improved probabilistic verification by hash compaction*, 1995) keeps a hash: with n states and hashes modulo p some state
-//! is left out with a probability of at most n(n − 1)/2p. *Bit-state hashing* (G. Holzmann, *An analysis of bitstate hashing*,
-//! 1998) sets k bits of an array for each: where a share f of the bits is set, a new state is taken for one that was met with
-//! a probability of fᵏ. INVARIANT: a state that was met is known again.
+//! In: packed states, level by level. Out: whether one is new, as far as can be known, and the states of the last two
+//! levels. *Hash compaction* (P. Wolper, D. Leroy, *Reliable hashing without collision detection*, 1993; U. Stern, D.
+//! Dill, *Improved probabilistic verification by hash compaction*, 1995) stores a hash: with n states and hashes modulo
+//! p, some state is omitted with a probability of at most n(n − 1)/2p. *Bit-state hashing* (G. Holzmann, *An analysis
+//! of bitstate hashing*, 1998) sets k bits of an array for each state: if a share f of the bits is set, a new state is
+//! mistaken for a known one with a probability of fᵏ. INVARIANT: a known state is always recognised.
 
 use std::collections::VecDeque;
 
@@ -13,45 +13,45 @@ use crate::storage::fingerprint::{Fingerprint, PRIME};
 
 /// States in a chunk.
 const CHUNK: usize = 1 << 12;
-/// How many lookups are begun before the first is ended.
+/// How many lookups are in progress at a time.
 const AHEAD: usize = 16;
-/// The table of hashes is at most seven eighths full.
+/// The largest load of the hash table.
 const FULL: (usize, usize) = (7, 8);
-/// Bits that a state sets.
+/// The bits set for each state.
 const BITS: u64 = 3;
 
-/// See the module.
+/// A lossy set of states.
 #[derive(Debug)]
 pub(crate) struct Compact {
     words: usize,
-    /// Words that go with each state beside its own.
+    /// Additional words carried by each state.
     more: usize,
     seen: Seen,
     /// The states that are still needed.
     window: VecDeque<Vec<u64>>,
-    /// How many chunks were before those.
+    /// How many chunks were dropped before these.
     forgotten: usize,
     len: usize,
 }
 
-/// What is left of the states met.
+/// What is stored of all states.
 #[derive(Debug)]
 enum Seen {
-    /// Hashes, open-addressed, each plus one; 0 is an empty slot.
+    /// Hashes in an open-addressed table, each plus one; 0 marks an empty slot.
     Hashes { hash: Fingerprint, slots: Vec<u64> },
-    /// Bits of an array, so many of which are set; two hashes make all of a state's places (A. Kirsch, M. Mitzenmacher, *Less
-    /// hashing, same performance*, 2006).
+    /// Bits of an array, and how many are set; two hashes determine all bits of a state (A. Kirsch, M. Mitzenmacher,
+    /// *Less hashing, same performance*, 2006).
     Bits { hashes: [Fingerprint; 2], array: Vec<u64>, set: u64, omitted: f64 },
 }
 
 impl Compact {
-    /// No states of so many words, of which hashes are kept.
+    /// An empty set that stores hashes of states with this many words.
     pub fn hashes(words: usize, seed: u64) -> Compact {
         let seen = Seen::Hashes { hash: Fingerprint::new(words, seed), slots: vec![0; 1 << 10] };
         Compact { words, more: 0, seen, window: VecDeque::new(), forgotten: 0, len: 0 }
     }
 
-    /// No states of so many words, which set bits of an array of so many bytes.
+    /// An empty set that stores bits in an array of this many bytes, for states with this many words.
     pub fn bits(words: usize, seed: u64, bytes: u64) -> Compact {
         let hashes = [Fingerprint::new(words, seed), Fingerprint::new(words, !seed)];
         let array = vec![0; (bytes / 8).max(1) as usize];
@@ -59,7 +59,7 @@ impl Compact {
         Compact { words, more: 0, seen, window: VecDeque::new(), forgotten: 0, len: 0 }
     }
 
-    /// From now on so many words go with each state.
+    /// The same set, in which each state carries additional words.
     pub fn with_more(mut self, more: usize) -> Compact {
         self.more = more;
         self
@@ -84,25 +84,25 @@ impl Compact {
         &self.window[index / CHUNK - self.forgotten][start..start + stride]
     }
 
-    /// A state by its place.
+    /// The state at an index.
     #[inline]
     pub fn state(&self, index: usize) -> &[u64] {
         &self.item(index)[..self.words]
     }
 
-    /// What goes with it.
+    /// The additional words of a state.
     pub fn more(&self, index: usize) -> &[u64] {
         &self.item(index)[self.words..]
     }
 
-    /// Forgets the states before a place.
+    /// Forgets the states before an index.
     pub fn forget_before(&mut self, index: usize) {
         while self.forgotten < index / CHUNK && self.window.pop_front().is_some() {
             self.forgotten += 1;
         }
     }
 
-    /// Adds states, one after the other, each with what goes with it; calls `new` with each that is.
+    /// Adds states one after another, each with its additional words; calls `new` with each new one.
     pub fn insert_all(&mut self, items: &[u64], new: &mut impl FnMut(&[u64])) {
         let (words, stride) = (self.words, self.words + self.more);
         let mut hashes = [(0, 0); AHEAD];
@@ -127,7 +127,7 @@ impl Compact {
     fn keep(&mut self, item: &[u64]) {
         let chunk = self.len / CHUNK - self.forgotten;
         if chunk == self.window.len() {
-            // The first states of a search are few.
+            // A search begins with few states.
             let room = if self.len == 0 { 16 } else { CHUNK };
             self.window.push_back(Vec::with_capacity(room * item.len()));
         }
@@ -145,7 +145,7 @@ impl Compact {
 }
 
 impl Seen {
-    /// The hashes of a state; memory that is needed for it is fetched.
+    /// The hashes of a state; also prefetches the memory it needs.
     #[inline]
     fn begin(&self, state: &[u64]) -> (u64, u64) {
         match self {
@@ -164,7 +164,7 @@ impl Seen {
         }
     }
 
-    /// Whether a state of these hashes is new; it is not from now on.
+    /// Adds a state with these hashes; returns whether it is new.
     #[inline]
     fn insert(&mut self, hashes: (u64, u64)) -> bool {
         match self {
@@ -182,7 +182,7 @@ impl Seen {
                     }
                 }
                 if new {
-                    // So many were left out for each that was not.
+                    // For each new state, the expected number of omitted ones.
                     let mistaken = share.powi(BITS as i32);
                     *omitted += mistaken / (1.0 - mistaken);
                 }
@@ -192,8 +192,8 @@ impl Seen {
     }
 }
 
-/// Hashes of states in a row stand in a row, too, and would fill an array more evenly than chance does, on which the estimate
-/// of what is left out rests.
+/// Scatters hashes. Similar states have consecutive hashes, which would fill the array more evenly than random ones;
+/// the estimate of omissions assumes random ones.
 #[inline]
 fn scattered(hash: u64) -> u64 {
     let mixed = (hash ^ hash >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -201,20 +201,20 @@ fn scattered(hash: u64) -> u64 {
     (mixed ^ mixed >> 31) & PRIME
 }
 
-/// The place of a hash among so many.
+/// The slot of a hash in a table of this size.
 #[inline]
 fn place(hash: u64, of: u64) -> u64 {
     ((u128::from(hash) * u128::from(of)) >> 61) as u64
 }
 
-/// One of a state's bits in an array of so many words.
+/// One of a state's bits in an array of this many words.
 #[inline]
 fn bit(hashes: (u64, u64), index: u64, words: usize) -> u64 {
     let mixed = hashes.0.wrapping_add(hashes.1.wrapping_mul(index)) & PRIME;
     place(mixed, words as u64 * 64)
 }
 
-/// Puts an entry into its slot; false where it is there.
+/// Puts an entry into its slot; `false` if it is there already.
 #[inline]
 fn put(slots: &mut [u64], entry: u64) -> bool {
     let mut slot = place(entry - 1, slots.len() as u64) as usize;
@@ -243,7 +243,7 @@ mod tests {
 
     const STATES: u64 = 20_000;
 
-    /// How many of different states are taken to be new.
+    /// How many of different states count as new.
     fn check(mut compact: Compact) -> (usize, f64) {
         let states: Vec<u64> = (0..STATES).flat_map(|state| [state, state * 3, 1]).collect();
         let (mut new, mut again) = (0, 0);
@@ -267,7 +267,7 @@ mod tests {
         assert!(new > STATES as usize - 20 && omission < 10.0, "{new} {omission}");
     }
 
-    /// The number that is expected to be left out is near the number that is.
+    /// The expected number of omissions is close to the actual one.
     #[test]
     fn a_small_array_omits_many_and_says_so() {
         for (bytes, seed) in [(1 << 13, 0), (1 << 14, 1), (1 << 15, 2)] {

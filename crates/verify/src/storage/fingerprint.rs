@@ -1,21 +1,21 @@
-//! A hash of a state that comes from a universal family, so that how likely two states have the same is known.
+//! A state's hash from a universal family, so that the probability of collisions is known.
 //!
-//! In: a seed, by which a member of the family is drawn; packed states. Out: 61 bits. The states' halves of words, each times
-//! a key, added up modulo the prime 2⁶¹ − 1 (L. Carter, M. Wegman, *Universal classes of hash functions*, 1979): of two
-//! different states the hashes are equal for one in 2⁶¹ − 1 of all keys, whatever the states are.
+//! In: a seed, which selects a member of the family; packed states. Out: 61 bits. The half-words of a state, each
+//! multiplied by a key, are added modulo the prime 2⁶¹ − 1 (L. Carter, M. Wegman, *Universal classes of hash
+//! functions*, 1979). Any two different states have equal hashes for one in 2⁶¹ − 1 of all keys.
 
 /// The prime.
 pub const PRIME: u64 = (1 << 61) - 1;
 
-/// See the module.
+/// A hash function for states.
 #[derive(Debug)]
 pub struct Fingerprint {
-    /// Two a word.
+    /// Two per word.
     keys: Vec<u64>,
 }
 
 impl Fingerprint {
-    /// The hash of states of so many words that a seed draws.
+    /// The hash function for states with this many words that a seed selects.
     pub fn new(words: usize, seed: u64) -> Fingerprint {
         // The generator is SplitMix64 (G. Steele, D. Lea, C. Flood, 2014).
         let mut state = seed;
@@ -40,7 +40,7 @@ impl Fingerprint {
             sum +=
                 u128::from(*word & 0xffff_ffff) * u128::from(keys[0]) + u128::from(*word >> 32) * u128::from(keys[1]);
         }
-        // Each product has at most 93 bits, so that two folds leave less than twice the prime.
+        // Each product has at most 93 bits, so two folds leave less than twice the prime.
         let folded = (sum & u128::from(PRIME)) + (sum >> 61);
         let folded = (folded as u64 & PRIME) + (folded >> 61) as u64;
         if folded >= PRIME { folded - PRIME } else { folded }
@@ -69,7 +69,7 @@ mod tests {
         (0..200).for_each(|shift| check(&[1 << (shift % 64), 1 << (shift * 7 % 64), shift]));
     }
 
-    /// Such states have the same hash in many a table, whatever else they hold.
+    /// Such states collide in many hash functions, whatever else they contain.
     #[test]
     fn bits_that_cancel_in_a_multiplication_do_not_here() {
         let hash = Fingerprint::new(2, 0);

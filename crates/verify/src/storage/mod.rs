@@ -1,9 +1,9 @@
-//! What a search keeps of the states it has met.
+//! Stores the states that a search has discovered.
 //!
-//! In: [`Storage`], as it is asked for. Out: a [`Store`], which says whether a state is new. All of a state ([`crate::table`]),
-//! in files where memory ends ([`spilled`]); or only a hash or a few bits of it ([`compact`]), where states are too many to be
-//! kept. INVARIANT: a store that keeps less
-//! than the state says how likely it is that it has taken a state for another.
+//! In: the chosen [`Storage`]. Out: a [`Store`], which tells whether a state is new. It stores states in full
+//! ([`crate::table`]), on the disk when memory is full ([`spilled`]); or only a hash or a few bits of each
+//! ([`compact`]), if there are too many states. INVARIANT: a lossy store tells how likely it is to have mistaken a
+//! state for another.
 
 pub(crate) mod compact;
 pub(crate) mod disk;
@@ -19,19 +19,19 @@ use crate::storage::disk::Disk;
 use crate::storage::spilled::Spilled;
 use crate::table::Table;
 
-/// What is kept of each state.
+/// How states are stored.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Storage {
-    /// All of it.
+    /// In full.
     #[default]
     Exact,
-    /// A hash of 61 bits.
+    /// As hashes of 61 bits.
     Compact,
-    /// A few bits of an array of so many bytes.
+    /// As a few bits in an array of this many bytes.
     BitState(u64),
 }
 
-/// The states met, by their order of arrival.
+/// The discovered states, in the order of arrival.
 #[derive(Debug)]
 pub(crate) enum Store {
     Exact(Table),
@@ -40,7 +40,7 @@ pub(crate) enum Store {
 }
 
 impl Store {
-    /// One of so many that share the work; `seed` draws the hash.
+    /// One of several stores that share the work; `seed` selects the hash.
     pub fn new(words: usize, storage: Storage, seed: u64, workers: usize) -> Store {
         match storage {
             Storage::Exact => Store::Exact(Table::new(words)),
@@ -51,12 +51,12 @@ impl Store {
         }
     }
 
-    /// One that keeps all of the states, in files where there is no room for them in so many bytes.
+    /// A store of complete states that uses files when they exceed this many bytes of memory.
     pub fn with_disk(words: usize, disk: &Arc<dyn Disk>, room: u64) -> Store {
         Store::Spilled(Box::new(Spilled::new(words, disk, room)))
     }
 
-    /// The same, in which so many words go with each state.
+    /// The same store, in which each state carries additional words.
     pub fn with_more(self, more: usize) -> Store {
         match self {
             Store::Exact(_) | Store::Spilled(_) => {
@@ -83,7 +83,7 @@ impl Store {
         }
     }
 
-    /// How many states have come in of which it is not known yet whether they are new.
+    /// How many states have arrived of which it is unknown whether they are new.
     pub fn pending(&self) -> usize {
         match self {
             Store::Spilled(spilled) => spilled.pending(),
@@ -91,12 +91,12 @@ impl Store {
         }
     }
 
-    /// Files have met trouble, so that not all states are known.
+    /// Whether a file failed, so that not all states are known.
     pub fn is_lost(&self) -> bool {
         matches!(self, Store::Spilled(spilled) if spilled.is_lost())
     }
 
-    /// How many bytes of files it takes.
+    /// The number of bytes in files.
     pub fn spilled(&self) -> usize {
         match self {
             Store::Spilled(spilled) => spilled.spilled(),
@@ -104,7 +104,7 @@ impl Store {
         }
     }
 
-    /// How many bytes it takes.
+    /// The number of bytes in memory.
     pub fn bytes(&self) -> usize {
         match self {
             Store::Exact(table) => table.bytes(),
@@ -113,7 +113,7 @@ impl Store {
         }
     }
 
-    /// A state by its place, one that was not forgotten, and that was loaded.
+    /// The state at an index; it must be loaded and not forgotten.
     #[inline]
     pub fn state(&self, index: usize) -> &[u64] {
         match self {
@@ -123,7 +123,7 @@ impl Store {
         }
     }
 
-    /// Makes the states of these places ready to be read, and no others; false where they cannot be read.
+    /// Loads the states at these indices, and no others; `false` if they cannot be read.
     pub fn load(&mut self, places: Range<usize>) -> bool {
         match self {
             Store::Spilled(spilled) => spilled.load(places),
@@ -131,7 +131,7 @@ impl Store {
         }
     }
 
-    /// Adds states, one after the other; calls `new` with each that is known to be.
+    /// Adds states one after another; calls `new` with each that is known to be new.
     pub fn insert_all(&mut self, states: &[u64], new: &mut impl FnMut(&[u64])) {
         match self {
             Store::Exact(table) => table.insert_all(states, new),
@@ -140,21 +140,21 @@ impl Store {
         }
     }
 
-    /// Finds out which of the pending states are new; calls `new` with them.
+    /// Determines which of the pending states are new; calls `new` with them.
     pub fn settle(&mut self, new: &mut impl FnMut(&[u64])) {
         if let Store::Spilled(spilled) = self {
             spilled.settle(new);
         }
     }
 
-    /// States before this place need not be read again.
+    /// Allows to forget the states before this index.
     pub fn forget_before(&mut self, index: usize) {
         if let Store::Compact(compact) = self {
             compact.forget_before(index);
         }
     }
 
-    /// How many states are to be expected to have been taken for others, and so left out: no less than the probability
+    /// The expected number of states that were mistaken for others and omitted. It is an upper bound of the probability
     /// that any was.
     pub fn omission(&self) -> f64 {
         match self {

@@ -1,18 +1,18 @@
 //! A sorted set of states in a file.
 //!
-//! In: states in the order of their words, each once. Out: a [`SortedRun`] that takes out of other states those it holds, and
-//! merges with another. The first state of each block stays in memory, so that blocks in which nothing is looked for are
-//! not read. INVARIANT: the states of a run never change.
+//! In: states in ascending order, without duplicates. Out: a [`SortedRun`], which removes its states from others and
+//! merges with another run. The first state of each block stays in memory, so blocks without relevant states are not
+//! read. INVARIANT: the states of a run never change.
 
 use std::cmp::Ordering;
 use std::sync::Arc;
 
 use crate::storage::disk::{Disk, Lost, Tape};
 
-/// Words of a block, if a state has no more.
+/// Words in a block, unless a state has more.
 const BLOCK: usize = 1 << 12;
 
-/// See the module.
+/// A sorted run.
 #[derive(Debug)]
 pub(crate) struct SortedRun {
     words: usize,
@@ -85,7 +85,7 @@ impl Reader<'_> {
         Reader { run, next: 0, states: Vec::new(), at: 0 }
     }
 
-    /// The state that is due; none after the last.
+    /// The next state; `None` after the last.
     #[inline]
     fn peek(&mut self) -> Result<Option<&[u64]>, Lost> {
         if self.at == self.states.len() {
@@ -100,7 +100,7 @@ impl Reader<'_> {
 }
 
 impl SortedRun {
-    /// The run of sorted states of so many words.
+    /// The run of sorted states with this many words.
     pub fn new(words: usize, sorted: &[u64], disk: &Arc<dyn Disk>) -> Result<SortedRun, Lost> {
         let mut writer = Writer::new(words, disk)?;
         sorted.chunks_exact(words).try_for_each(|state| writer.put(state))?;
@@ -132,10 +132,10 @@ impl SortedRun {
         if self.tape.read((first * self.words) as u64, states) { Ok(()) } else { Err(Lost) }
     }
 
-    /// The last of the blocks from one on that does not begin after a state.
+    /// The last block, from a given one on, that does not begin after a state.
     fn block_of(&self, from: usize, state: &[u64]) -> usize {
         let (mut low, mut step) = (from, 1);
-        // It is mostly near.
+        // It is usually close.
         while low + step < self.blocks() && order(self.fence(low + step), state).is_le() {
             low += step;
             step *= 2;
@@ -152,7 +152,7 @@ impl SortedRun {
         low
     }
 
-    /// Takes the states that it holds out of sorted ones.
+    /// Removes its states from sorted ones.
     pub fn take_out(&mut self, sorted: &mut Vec<u64>) -> Result<(), Lost> {
         let words = self.words;
         let (mut kept, mut states, mut loaded, mut at) = (0, Vec::new(), usize::MAX, 0);
@@ -175,7 +175,7 @@ impl SortedRun {
         Ok(())
     }
 
-    /// The run of the states of two.
+    /// The union of two runs.
     pub fn merged(mut self, mut other: SortedRun, disk: &Arc<dyn Disk>) -> Result<SortedRun, Lost> {
         let words = self.words;
         let mut writer = Writer::new(words, disk)?;

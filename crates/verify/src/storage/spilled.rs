@@ -1,11 +1,11 @@
-//! The states met, in files once there are more than memory has room for.
+//! Stores discovered states in files once they exceed memory.
 //!
-//! In: packed states, level by level. Out: whether they are new. While there is room they are in a [`Table`]. Then all of
-//! them go to a file in the order of their arrival, and once more to a sorted one; the table is empty again and takes in
-//! what comes, new or not. When it is full, and at the end of each level, its states are sorted and held against the
-//! sorted files, which are read from their first block to their last (*delayed duplicate detection*: A. W. Roscoe,
-//! *Model-checking CSP*, 1994; U. Stern, D. Dill, *Using magnetic disk instead of main memory in the Murφ verifier*, 1998).
-//! What is left is new. INVARIANT: two sorted files are of different size by a factor of two, so that there are few.
+//! In: packed states, level by level. Out: whether they are new. At first they are in a [`Table`]. When memory is full,
+//! all of them are written to a file in the order of arrival, and also to a sorted one; the table is emptied and takes
+//! in what arrives, new or not. When it is full, and at the end of each level, its states are sorted and compared with
+//! the sorted files, which are read sequentially (*delayed duplicate detection*: A. W. Roscoe, *Model-checking CSP*,
+//! 1994; U. Stern, D. Dill, *Using magnetic disk instead of main memory in the Murφ verifier*, 1998). What remains is
+//! new. INVARIANT: the sizes of any two sorted files differ by a factor of at least two, so there are few.
 
 use std::sync::Arc;
 
@@ -13,71 +13,71 @@ use crate::storage::disk::{Disk, Lost, Tape};
 use crate::storage::run::SortedRun;
 use crate::table::Table;
 
-/// So many states are taken in at a time.
+/// How many states are added at a time.
 const STRETCH: usize = 1 << 12;
 
-/// See the module.
+/// States in memory, then in files.
 #[derive(Debug)]
 pub(crate) struct Spilled {
     words: usize,
     disk: Arc<dyn Disk>,
-    /// How many bytes of memory there are.
+    /// The available bytes of memory.
     room: usize,
-    /// All states while there is room; then those of which it is not known whether they are new.
+    /// At first all states; later those of which it is unknown whether they are new.
     table: Table,
     out: Option<Out>,
     lost: bool,
 }
 
-/// What is in files.
+/// The states in files.
 #[derive(Debug)]
 struct Out {
-    /// All states, as they came.
+    /// All states in the order of arrival.
     arrived: Box<dyn Tape>,
     /// How many.
     len: usize,
-    /// All of them, each in one.
+    /// Sorted files; each state is in one of them.
     runs: Vec<SortedRun>,
-    /// Some of them, for who reads them.
+    /// The loaded states.
     window: Vec<u64>,
     first: usize,
 }
 
 impl Spilled {
-    /// No states of so many words, and room for so many bytes.
+    /// An empty set of states with this many words, with this many bytes of memory.
     pub fn new(words: usize, disk: &Arc<dyn Disk>, room: u64) -> Spilled {
         let room = usize::try_from(room).unwrap_or(usize::MAX);
         Spilled { words, disk: Arc::clone(disk), room, table: Table::new(words), out: None, lost: false }
     }
 
-    /// How many states are known to be there.
+    /// How many states are known to be new.
     pub fn len(&self) -> usize {
         self.out.as_ref().map_or(self.table.len(), |out| out.len)
     }
 
-    /// How many states have come in of which it is not known whether they are new.
+    /// How many states have arrived of which it is unknown whether they are new.
     pub fn pending(&self) -> usize {
         self.out.as_ref().map_or(0, |_| self.table.len())
     }
 
-    /// Files have met trouble: what is known of the states is not all there was.
+    /// Whether a file failed, so that states may be missing.
     pub fn is_lost(&self) -> bool {
         self.lost
     }
 
-    /// How many bytes of memory it takes.
+    /// The number of bytes in memory.
     pub fn bytes(&self) -> usize {
         let out = |out: &Out| 8 * out.window.capacity() + out.runs.iter().map(SortedRun::bytes).sum::<usize>();
         self.table.bytes() + self.out.as_ref().map_or(0, out)
     }
 
-    /// How many bytes of files.
+    /// The number of bytes in files.
     pub fn spilled(&self) -> usize {
         let states = |out: &Out| out.len + out.runs.iter().map(SortedRun::len).sum::<usize>();
         8 * self.words * self.out.as_ref().map_or(0, states)
     }
 
-    /// A state by its place, one that was loaded.
+    /// The loaded state at an index.
     #[inline]
     pub fn state(&self, index: usize) -> &[u64] {
         match &self.out {
@@ -89,7 +89,7 @@ impl Spilled {
         }
     }
 
-    /// Makes the states of these places ready to be read; false where that cannot be done.
+    /// Loads the states at these indices; `false` if that is impossible.
     pub fn load(&mut self, places: std::ops::Range<usize>) -> bool {
         if let Some(out) = &mut self.out {
             out.first = places.start;
@@ -99,10 +99,10 @@ impl Spilled {
         !self.lost
     }
 
-    /// Adds states; calls `new` with each that is known to be.
+    /// Adds states; calls `new` with each that is known to be new.
     pub fn insert_all(&mut self, states: &[u64], new: &mut impl FnMut(&[u64])) {
         for stretch in states.chunks(STRETCH * self.words) {
-            // To sort the states takes as much again as they do.
+            // Sorting takes as much memory again as the states.
             let count = self.table.len() + stretch.len() / self.words;
             let needed = self.table.bytes_of(count) + 8 * self.words * count + self.bytes() - self.table.bytes();
             if self.table.len() > 0 && (needed > self.room || count > Table::MOST) {
@@ -115,7 +115,7 @@ impl Spilled {
         }
     }
 
-    /// Finds out which of the pending states are new, and calls `new` with them.
+    /// Determines which of the pending states are new; calls `new` with them.
     pub fn settle(&mut self, new: &mut impl FnMut(&[u64])) {
         if !self.lost {
             self.lost = self.try_settle(new).is_err();

@@ -1,9 +1,9 @@
-//! Whether each condition of a guard decides it by itself: modified condition/decision coverage.
+//! Decides for each condition of a guard whether it decides the guard by itself: modified condition/decision coverage.
 //!
-//! In: the truths with which a guard was decided. Out: by condition two of them that show it. A condition is shown to decide
-//! by two decisions with different outcomes in which it differs, and in which no other condition differs that was evaluated
-//! in both (J. Chilenski, S. Miller, *Applicability of modified condition/decision coverage to software testing*, 1994, for
-//! connectives that do not evaluate all of their operands).
+//! In: the truth values with which a guard was evaluated. Out: for each condition, two evaluations that show it. They
+//! have different outcomes and differ in that condition, but in no other condition that was evaluated in both (J.
+//! Chilenski, S. Miller, *Applicability of modified condition/decision coverage to software testing*, 1994, for
+//! connectives that do not evaluate all operands).
 
 use std::collections::BTreeMap;
 
@@ -13,19 +13,19 @@ use syntax::Span;
 
 use crate::survey::surveyor::Sighting;
 
-/// A guard of several conditions.
+/// A guard with several conditions.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Guard {
     /// Where it stands.
     pub span: Span,
-    /// By condition: where it stands, and two sightings that show that it decides, if there are any.
+    /// For each condition, its place and two sightings that show that it decides, if there are any.
     pub conditions: Vec<(Span, Option<[Sighting; 2]>)>,
 }
 
-/// A guard and how it was decided.
+/// A guard and its evaluations.
 type Decided<'s> = (TermId, Vec<(Truths, &'s Sighting)>);
 
-/// The guards that were decided in some step, in the order of the text.
+/// The guards that were evaluated in some step, in the order of the text.
 pub fn guards(program: &Program, sightings: &[Sighting]) -> Vec<Guard> {
     let mut decided: BTreeMap<Span, Decided<'_>> = BTreeMap::new();
     for sighting in sightings.iter().filter(|sighting| sighting.made) {
@@ -42,7 +42,7 @@ pub fn guards(program: &Program, sightings: &[Sighting]) -> Vec<Guard> {
     decided.into_iter().map(guard).collect()
 }
 
-/// The first two decisions that show that a condition decides.
+/// The first two evaluations that show that a condition decides.
 fn pair(truths: &[(Truths, &Sighting)], condition: usize) -> Option<[Sighting; 2]> {
     let bit = 1 << condition;
     for (later, (one, second)) in truths.iter().enumerate() {

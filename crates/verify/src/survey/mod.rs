@@ -1,7 +1,7 @@
-//! What happens within the steps of a model, for the first time and where: of all states, or along walks at random.
+//! Surveys what happens within a model's steps, and where first: over all states, or on random walks.
 //!
-//! [`surveyor`] meets all states; [`walk`] goes where there are too many; [`guards`] tells what is known of each guard. It must not
-//! know what is wanted of a model: review and test generation ask.
+//! [`surveyor`] explores all states; [`walk`] makes walks where there are too many; [`guards`] evaluates what is known
+//! of guards. It must not know goals: review and test generation do.
 
 mod guards;
 mod surveyor;

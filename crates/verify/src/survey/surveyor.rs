@@ -1,8 +1,8 @@
-//! The survey: all states met one after the other, with what happens in their steps for the first time, and where.
+//! The survey: explores all states one after another and records what happens in their steps, and where first.
 //!
-//! In: a program and bounds. Out: a [`Survey`]: sightings, each with a shortest run to it; the values that locations have;
-//! how far it came. Review and test generation read it. INVARIANT: there is one worker, so that what comes first is the
-//! same each time; steps are those of the explorer that verification uses.
+//! In: a program and bounds. Out: a [`Survey`]: sightings, each with a shortest run to it; the values of locations; the
+//! extent of the search. Review and test generation read it. INVARIANT: there is one worker, so the first sighting is
+//! always the same; the explorer makes the same steps as in verification.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -19,17 +19,17 @@ use crate::question::Question;
 use crate::report::{NoStart, Reason};
 use crate::table::Table;
 
-/// How many states are expanded before whoever watches is asked.
+/// How many states are expanded before the caller is asked whether to go on.
 const ROUND: usize = 1 << 6;
 /// Stands for the parent of an initial state.
 const NONE: u32 = u32::MAX;
 
-/// Something that happens in some step, and where it did first.
+/// An event in some step, and where it happened first.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sighting {
-    /// What happens.
+    /// The event.
     pub observation: Observation,
-    /// The step can be made; it is no fault.
+    /// Whether the step succeeds.
     pub made: bool,
     /// The distance of its state from an initial one.
     pub depth: u32,
@@ -38,12 +38,12 @@ pub struct Sighting {
 }
 
 impl Sighting {
-    /// Something that a walk at random has met; where it was first is not known.
+    /// An event on a random walk; its first place is unknown.
     pub fn at_random(observation: Observation) -> Sighting {
         Sighting { observation, made: true, depth: 0, state: NONE, picks: Vec::new() }
     }
 
-    /// Whether both are of one step of one state.
+    /// Whether both are in the same step.
     pub fn same_step(&self, other: &Sighting) -> bool {
         self.state == other.state && self.picks == other.picks
     }
@@ -55,20 +55,20 @@ pub struct Survey {
     pub(super) explorer: Explorer,
     pub(super) table: Table,
     parents: Vec<u32>,
-    /// In the order in which they came, the nearest first.
+    /// In the order of discovery, the nearest first.
     pub sightings: Vec<Sighting>,
     met: Met,
-    /// By state: the step that it was met by, once that was told, and what happens in it.
+    /// For each state, the step by which it was discovered, once computed, and the events in it.
     pub(super) told: BTreeMap<u32, (Told, Vec<Observation>)>,
-    /// Why it ended early; none where all states were met.
+    /// Why it ended early; `None` if all states were explored.
     pub stop: Option<Stop>,
     /// How far it came.
     pub progress: Progress,
-    /// Why something that was not seen may still be.
+    /// Why an event that was not seen may still happen.
     pub reasons: Vec<Reason>,
 }
 
-/// Surveys the states of a program. With `lawful` states and steps in which an invariant does not hold are left out.
+/// Surveys the states of a program. With `lawful`, states and steps that violate an invariant are skipped.
 ///
 /// # Errors
 /// There is no initial state.
@@ -85,7 +85,7 @@ pub fn survey(
     reasons.extend(survey.explorer.unbounded().iter().copied().map(Reason::Unbounded));
     reasons.extend(options.bounds.keys().copied().map(Reason::Bounded));
     survey.reasons = reasons.into_iter().collect();
-    // What was seen is to be told, however long that takes.
+    // Findings are reported however long that takes.
     survey.explorer.ignore_interrupts();
     Ok(survey)
 }
@@ -105,7 +105,7 @@ struct Surveyor<'p> {
     survey: Survey,
     depth: u32,
     transitions: u64,
-    /// The truth of an assumption is not known in some state.
+    /// Whether the truth of an assumption is unknown in some state.
     unclear: bool,
 }
 
@@ -199,7 +199,7 @@ impl<'p> Surveyor<'p> {
         }
     }
 
-    /// Adds states that no assumption leaves out.
+    /// Adds states that satisfy the assumptions.
     fn take_in(&mut self, parent: u32, states: &[u64]) {
         let Survey { explorer, table, parents, met, .. } = &mut self.survey;
         let mut admitted = Vec::with_capacity(states.len());
@@ -224,12 +224,12 @@ impl Survey {
         self.reasons.is_empty()
     }
 
-    /// What could not be gone through.
+    /// What could not be enumerated.
     pub fn unbounded(&self) -> &BTreeSet<Unbounded> {
         self.explorer.unbounded()
     }
 
-    /// The states of a shortest run to one, by their places.
+    /// The states of a shortest run to a state, by index.
     pub(super) fn places(&self, state: u32) -> Vec<u32> {
         let parent = |place: &u32| Some(self.parents[*place as usize]).filter(|parent| *parent != NONE);
         let mut places: Vec<u32> = std::iter::successors(Some(state), parent).collect();
@@ -237,17 +237,17 @@ impl Survey {
         places
     }
 
-    /// The location of a number that an observation names.
+    /// The location with a number, as observations name it.
     pub fn location(&self, index: u32) -> Location {
         self.explorer.location(index)
     }
 
-    /// The elements of a domain that are the same in all states, if they are no more than `most`.
+    /// The elements of a domain that are the same in all states, if there are at most `most`.
     pub fn elements(&mut self, domain: DomainId, most: usize) -> Option<Vec<Value>> {
         self.explorer.elements(domain, most)
     }
 
-    /// The values that locations have in the states met.
+    /// The values of locations in all discovered states.
     pub fn values(&mut self) -> BTreeMap<Location, BTreeSet<Value>> {
         self.explorer.values_met(&self.met)
     }

@@ -1,7 +1,7 @@
-//! Walks: runs with all that happens in each of their steps.
+//! Walks: runs with all events in each of their steps.
 //!
-//! In: a sighting of a survey, or a source of random numbers. Out: a [`Walk`]. One to a sighting is a shortest run; one at
-//! random takes any alternative that can be made. What a walk is good for is decided elsewhere.
+//! In: a sighting of a survey, or a source of random numbers. Out: a [`Walk`]. The walk to a sighting is a shortest
+//! run; a random walk takes any alternative that succeeds. The caller decides what a walk is used for.
 
 use std::sync::Arc;
 
@@ -16,12 +16,12 @@ use crate::report::NoStart;
 use crate::survey::surveyor::{Sighting, Survey, plan_for};
 use crate::trace::{Trace, picks_between, tell_way};
 
-/// A run and what happens in it.
+/// A run and its events.
 #[derive(Debug, Clone, Default)]
 pub struct Walk {
     /// The run.
     pub trace: Trace,
-    /// By step, all that happens in it.
+    /// All events of each step.
     pub happens: Vec<Vec<Observation>>,
 }
 
@@ -33,14 +33,14 @@ impl Walk {
 }
 
 impl Survey {
-    /// A shortest run whose last step is the one of a sighting.
+    /// A shortest run whose last step contains a sighting.
     pub fn walk(&mut self, sighting: &Sighting) -> Walk {
         let places = self.places(sighting.state);
         let state = |survey: &Survey, place: u32| -> Box<[u64]> { survey.table.state(place as usize).into() };
         let first = state(self, places[0]);
         let mut walk = Walk { trace: tell_way(&mut self.explorer, &[first]), happens: Vec::new() };
         for pair in places.windows(2) {
-            // Each state has one step that it was met by; many walks share it.
+            // Each state was discovered by one step, which many walks share.
             if !self.told.contains_key(&pair[1]) {
                 let (from, to) = (state(self, pair[0]), state(self, pair[1]));
                 let picks = picks_between(&mut self.explorer, &from, &to);
@@ -57,7 +57,7 @@ impl Survey {
     }
 }
 
-/// Walks at random.
+/// Makes random walks.
 #[derive(Debug)]
 pub struct Wanderer {
     program: Arc<Program>,
@@ -67,8 +67,8 @@ pub struct Wanderer {
 }
 
 impl Wanderer {
-    /// Walks through the states of a program. With `lawful` states and steps in which an invariant does not hold are left
-    /// out.
+    /// Makes walks through the states of a program. With `lawful`, states and steps that violate an invariant are
+    /// skipped.
     ///
     /// # Errors
     /// There is no initial state.
@@ -80,13 +80,13 @@ impl Wanderer {
             Explorer::new(program, plan.settings.clone(), widening, &Arc::new(Interner::default()))
         })?;
         let mut plan = plan;
-        // Whoever waits is asked between walks; where states turn out not to fit, initial states are made again.
+        // The caller is asked between walks instead. If states do not fit, initial states are made again.
         plan.settings.interrupt = Interrupt::default();
         Ok(Wanderer { program: Arc::clone(program), plan, widening: used, explorer })
     }
 
-    /// A walk of at most so many steps; `draw` gives a number below the one it is given. It ends early where no step can be
-    /// made.
+    /// A walk with at most this many steps; `draw` returns a number below its argument. The walk ends early if no step
+    /// succeeds.
     pub fn walk(&mut self, steps: usize, draw: &mut dyn FnMut(usize) -> usize) -> Walk {
         loop {
             match self.attempt(steps, draw) {

@@ -1,4 +1,4 @@
-//! The engine that searches by sets, in a thread of its own.
+//! Runs the symbolic engine in a thread of its own.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -16,7 +16,7 @@ use crate::progress::{Progress, Stop};
 use crate::report::NoStart;
 use crate::symbolic::reach::Reach;
 
-/// All states at once, as sets.
+/// The symbolic engine: explores all states at once, as sets.
 pub(crate) struct Symbolic;
 
 impl Engine for Symbolic {
@@ -27,12 +27,12 @@ impl Engine for Symbolic {
     }
 }
 
-/// Searches by sets in a thread of its own: no operation on sets can be ended before it is done. LIMIT: where whoever waits has had
-/// enough the thread is left to itself after a moment, and what it would have found is not known.
+/// Runs the symbolic search in its own thread, because an operation on sets cannot be interrupted. LIMIT: if the caller
+/// asks to stop, the thread is abandoned after a moment, and its findings are lost.
 ///
-/// INVARIANT: no thread ever has two managers of diagrams, and all that belongs to one is dropped where it was made. The library
-/// keeps, for each thread, the places of new nodes that the thread has taken from a manager, and knows the manager by its
-/// address alone: a thread that went on to another manager at the address of one that is gone would put nodes where others are.
+/// INVARIANT: no thread ever has two managers of diagrams, and everything that belongs to a manager is dropped in its
+/// thread. For each thread, the library keeps places for new nodes that it has taken from a manager, and identifies the
+/// manager only by its address. A thread that moved on to another manager at the same address would overwrite nodes.
 fn apart(
     program: &Arc<Program>,
     plan: &Plan,
@@ -45,7 +45,7 @@ fn apart(
     let (program, thread_plan, asked) = (Arc::clone(program), plan.clone(), Arc::clone(&goes_on));
     let body = move || {
         let mut told = |progress: &Progress| {
-            // Whoever waits may be gone.
+            // The caller may be gone.
             let _ = sender.send(News::Progress(*progress));
             asked.load(Ordering::Relaxed)
         };
@@ -76,17 +76,17 @@ fn apart(
     }
 }
 
-/// What the thread that searches tells.
+/// A message of the search thread.
 enum News {
     Progress(Progress),
     Ended(Box<Result<Ended, Trouble>>),
 }
 
-/// How often it is looked at whether whoever waits has had enough.
+/// How often the caller's wish to stop is checked.
 const BETWEEN: Duration = Duration::from_millis(50);
-/// LIMIT: so often until an operation on sets is waited for no longer.
+/// LIMIT: after this many checks, the operation on sets is abandoned.
 const GRACE: u32 = 20;
-/// Operations on sets go as deep as there are variables, and are asked for along trees of steps.
+/// Operations on sets recurse as deeply as there are variables, along trees of steps.
 const STACK: usize = 256 << 20;
 
 fn by_sets(

@@ -1,8 +1,8 @@
 //! Sets of packed states as binary decision diagrams (R. Bryant, *Graph-based algorithms for Boolean function
-//! manipulation*, 1986), by the crate oxidd: a variable a bit.
+//! manipulation*, 1986), by the crate oxidd, with one variable per bit.
 //!
-//! In: the fields of a packed state in the order that their variables are to have. INVARIANT: each set is over the bits of
-//! the fields alone, so its satisfying assignments are its states.
+//! In: the fields of a packed state in the order of their variables. INVARIANT: each set depends only on the bits of
+//! the fields, so its satisfying assignments are its states.
 
 use std::hash::BuildHasherDefault;
 
@@ -25,19 +25,19 @@ impl From<OutOfMemory> for Full {
     }
 }
 
-/// LIMIT: entries of the cache of operations, for so many nodes one.
+/// LIMIT: one entry of the operation cache per this many nodes.
 const NODES_AN_ENTRY: usize = 2;
 
-/// See the module.
+/// A manager of sets.
 pub(crate) struct Diagrams {
     manager: BCDDManagerRef,
     /// How many words a state has.
     words: usize,
-    /// By variable, the bit it stands for.
+    /// For each variable, its bit.
     places: Vec<(u32, u8)>,
-    /// By bit: the states in which it is one, and those in which it is not.
+    /// For each bit: the states in which it is set, and those in which it is clear.
     literals: FxHashMap<(u32, u8), (Set, Set)>,
-    /// By overwrite: the variables that it sets, as a cube, and what they become.
+    /// For each overwrite: the variables that it sets, as a cube, and their new values.
     writes: FxHashMap<Vec<Overwrite>, (Set, Set)>,
     empty: Set,
     all: Set,
@@ -45,10 +45,10 @@ pub(crate) struct Diagrams {
 }
 
 impl Diagrams {
-    /// No set yet, and room for so many nodes.
+    /// An empty manager with room for this many nodes.
     pub fn new(order: &[Bits], words: usize, nodes: usize) -> Result<Diagrams, Full> {
         let manager = oxidd::bcdd::new_manager(nodes, nodes / NODES_AN_ENTRY, 1);
-        // The highest bit of a field decides most and comes first.
+        // The highest bit of a field is the most decisive and comes first.
         let places: Vec<(u32, u8)> = order
             .iter()
             .flat_map(|field| (0..field.bits).rev().map(move |bit| (field.word, field.shift + bit)))
@@ -56,7 +56,7 @@ impl Diagrams {
         let mut literals = FxHashMap::default();
         let variables = manager.with_manager_exclusive(|manager| manager.add_vars(places.len() as u32));
         for (variable, place) in variables.zip(&places) {
-            // Operations lock the manager themselves: none is made while it is locked here.
+            // Operations lock the manager themselves, so none may be called while it is locked here.
             let one = manager.with_manager_shared(|manager| BCDDFunction::var(manager, variable))?;
             let zero = one.not()?;
             literals.insert(*place, (one, zero));
@@ -66,7 +66,7 @@ impl Diagrams {
         Ok(Diagrams { manager, words, places, literals, writes, empty, all, counts })
     }
 
-    /// The set without states.
+    /// The empty set.
     pub fn empty(&self) -> Set {
         self.empty.clone()
     }
@@ -74,7 +74,7 @@ impl Diagrams {
     /// The set of one state.
     pub fn state(&self, words: &[u64]) -> Result<Set, Full> {
         let mut set = self.all.clone();
-        // From the last variable up, so that each conjunction adds one node.
+        // From the last variable up, each conjunction adds one node.
         for place in self.places.iter().rev() {
             set = set.and(self.literal(*place, words[place.0 as usize] >> place.1 & 1 == 1))?;
         }
@@ -86,24 +86,24 @@ impl Diagrams {
         if one { positive } else { negative }
     }
 
-    /// The states of both.
+    /// The intersection.
     pub fn and(&self, a: &Set, b: &Set) -> Result<Set, Full> {
         Ok(a.and(b)?)
     }
 
-    /// What the states of a set become by a step that writes so.
+    /// The successors of a set by a step with these overwrites.
     pub fn image(&mut self, set: &Set, overwrites: &[Overwrite]) -> Result<Set, Full> {
         let (variables, values) = self.write(overwrites)?;
         Ok(set.exists(&variables)?.and(&values)?)
     }
 
-    /// The states in which everything already stands as a step would write it.
+    /// The states that these overwrites do not change.
     pub fn unmoved(&mut self, set: &Set, overwrites: &[Overwrite]) -> Result<Set, Full> {
         let (_, values) = self.write(overwrites)?;
         Ok(set.and(&values)?)
     }
 
-    /// The states of a set that a step which writes so brings to one state.
+    /// The states of a set that these overwrites turn into a given state.
     pub fn preimage(&mut self, set: &Set, overwrites: &[Overwrite], of: &[u64]) -> Result<Set, Full> {
         if overwrites.iter().any(|write| of[write.word as usize] & write.clear != write.set) {
             return Ok(self.empty());
@@ -128,12 +128,12 @@ impl Diagrams {
         Ok((variables, values))
     }
 
-    /// How many states a set has; exact below 2⁵³.
+    /// The number of states in a set; exact below 2⁵³.
     pub fn count(&mut self, set: &Set) -> f64 {
         set.sat_count(self.places.len() as u32, &mut self.counts).0
     }
 
-    /// How many nodes there are.
+    /// The number of nodes.
     pub fn nodes(&self) -> usize {
         self.manager.with_manager_shared(|manager| manager.num_inner_nodes())
     }

@@ -1,7 +1,7 @@
-//! Verification by sets of states: binary decision diagrams instead of one state after the other.
+//! Verification with sets of states: binary decision diagrams instead of single states.
 //!
-//! Where a model has many states for few reasons (philosophers who do not know of each other), a set of them is small even
-//! if it has 10¹¹ members. The verdicts are those of [`crate::verify`], on the same machine.
+//! If a model's many states arise from independent parts (such as philosophers who do not know of each other), a set of
+//! them is small even if it has 10¹¹ members. The verdicts are those of [`crate::verify`], on the same machine.
 
 pub(crate) mod apart;
 mod bdd;

@@ -1,13 +1,13 @@
-//! The order of variables, from the structure of the model: FORCE (F. Aloul, I. Markov, K. Sakallah, *FORCE: a fast and
+//! Orders variables by the structure of the model: FORCE (F. Aloul, I. Markov, K. Sakallah, *FORCE: a fast and
 //! easy-to-implement variable-ordering heuristic*, GLSVLSI 2003).
 //!
-//! In: how many fields there are, and which of them matter to each other. Out: an order in which those that do stand near
-//! each other. INVARIANT: deterministic.
+//! In: the number of fields, and which of them are related. Out: an order in which related fields are close together.
+//! INVARIANT: deterministic.
 
-/// LIMIT: rounds.
+/// LIMIT: the most rounds.
 const ROUNDS: usize = 200;
 
-/// An order of `count` fields; each edge lists fields that matter to each other.
+/// An order of `count` fields; each edge lists related fields.
 pub(crate) fn force(count: usize, edges: &[Vec<usize>]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..count).collect();
     let mut best = (span(&order, edges), order.clone());
@@ -28,7 +28,7 @@ pub(crate) fn force(count: usize, edges: &[Vec<usize>]) -> Vec<usize> {
     best.1
 }
 
-/// Moves each field to the middle of the middles of its edges.
+/// Moves each field to the mean of its edges' centres.
 fn round(order: &[usize], edges: &[Vec<usize>]) -> Vec<usize> {
     let place = places(order);
     let mut sums = vec![(0.0, 0.0); order.len()];
@@ -50,7 +50,7 @@ fn round(order: &[usize], edges: &[Vec<usize>]) -> Vec<usize> {
     moved.into_iter().map(|(_, field)| field).collect()
 }
 
-/// How far the edges reach, all together.
+/// The sum of the edges' spans.
 fn span(order: &[usize], edges: &[Vec<usize>]) -> usize {
     let place = places(order);
     let reach = |edge: &Vec<usize>| {
@@ -74,7 +74,7 @@ mod tests {
 
     #[test]
     fn what_matters_to_each_other_comes_together() {
-        // Fields i and i + 8 belong together, as the two functions of eight philosophers do.
+        // Fields i and i + 8 are related, like the two functions of each of eight philosophers.
         let edges: Vec<Vec<usize>> = (0..8).map(|i| vec![i, i + 8]).collect();
         let order = force(16, &edges);
         assert_eq!(span(&order, &edges), 8, "{order:?}");

@@ -1,10 +1,10 @@
-//! Reachability by sets: all states that can be reached, as one binary decision diagram.
+//! Symbolic reachability: all reachable states as one binary decision diagram.
 //!
-//! In: a program and what is asked of its states, as for [`crate::explicit`]. Out: a [`Reach`] with what was found. The steps
-//! of a set are the machine's own, learned as far as they are reached ([`explore::StateSets`]). The closure takes
-//! one part of the step after the other (chaining: O. Roig, J. Cortadella, E. Pastor, *Verification of asynchronous circuits
-//! by BDD-based model checking of Petri nets*, 1995), which needs fewer rounds than level by level; only where something is
-//! found are the levels gone through, for a shortest run to it.
+//! In: a program and the targets, as for [`crate::explicit`]. Out: a [`Reach`] with its findings. The steps of a set
+//! are the machine's own, learned as they are reached ([`explore::StateSets`]). The closure applies one part of the
+//! step after another (chaining: O. Roig, J. Cortadella, E. Pastor, *Verification of asynchronous circuits by BDD-based
+//! model checking of Petri nets*, 1995), which needs fewer rounds than going level by level. Levels are computed only
+//! after a finding, for a shortest run to it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -23,32 +23,32 @@ use crate::symbolic::order::force;
 use crate::target::{Found, Target};
 use crate::trace::{Trace, tell};
 
-/// LIMIT: so many states are gone through one by one first, to see what steps look at.
+/// LIMIT: how many states are first explored one by one, to see what steps read.
 const SAMPLE: usize = 2000;
-/// Bytes that a node takes, with its share of the tables.
+/// Bytes per node, with its share of the tables.
 const NODE: u64 = 40;
-/// LIMIT: nodes.
+/// LIMIT: the most nodes.
 const NODES: u64 = 1 << 24;
 
 /// A symbolic search that has ended.
 pub(crate) struct Reach {
     explorer: Explorer,
     diagrams: Diagrams,
-    /// The states by their distance, as far as that was looked at.
+    /// The states by distance, as far as computed.
     rings: Vec<Set>,
-    /// What was found, each target at most once.
+    /// The findings, at most one per target.
     pub found: Vec<Found>,
-    /// Why it ended early; none where all states were met.
+    /// Why it ended early; `None` if all states were explored.
     pub stop: Option<Stop>,
     /// How far it came.
     pub progress: Progress,
-    /// What could not be gone through.
+    /// What could not be enumerated.
     pub unbounded: BTreeSet<Unbounded>,
-    /// Conditions whose truth is not known in some state.
+    /// Conditions whose truth is unknown in some state.
     pub unknown: BTreeSet<usize>,
 }
 
-/// Why the search goes no further.
+/// Why the search ends.
 enum Halt {
     Narrow(Widening),
     Stopped(Stop),
@@ -65,26 +65,26 @@ impl From<SetTrouble<Full>> for Halt {
         match trouble {
             SetTrouble::Narrow(widening) => Halt::Narrow(widening),
             SetTrouble::Crowded | SetTrouble::Failed(Full) => Halt::Stopped(Stop::Memory),
-            // Unless it was asked for, which is still to be seen.
+            // The caller may have asked to stop instead; that is checked later.
             SetTrouble::Interrupted => Halt::Stopped(Stop::Memory),
         }
     }
 }
 
-/// What the alternatives of a set of states come to.
+/// The steps of a set of states.
 struct Steps {
     next: Set,
-    /// States with an alternative that changes them, one that does not, one that is a fault …
+    /// The states with an alternative that changes them, with one that does not, with one that faults …
     moved: Set,
     stayed: Set,
     faults: [Set; 3],
     unbounded: Set,
-    /// By condition on the step: the states in which it does not hold of some alternative.
+    /// For each condition on steps, the states with an alternative that violates it.
     failing: BTreeMap<usize, Set>,
 }
 
 impl Reach {
-    /// Searches all states of a program; in a thread that has had no other diagrams ([`super::apart`]).
+    /// Explores all states of a program. The thread must never have had other diagrams ([`super::apart`]).
     ///
     /// # Errors
     /// There is no initial state, or the states do not fit.
@@ -145,7 +145,7 @@ impl Reach {
         self.admit(plan, set)
     }
 
-    /// Leaves out states in which an assumption does not hold.
+    /// Removes states that violate an assumption.
     fn admit(&mut self, plan: &Plan, set: Set) -> Result<Set, Halt> {
         let mut admitted = set.clone();
         for condition in &plan.assumed {
@@ -159,7 +159,7 @@ impl Reach {
         Ok(admitted)
     }
 
-    /// All states that can be reached.
+    /// All reachable states.
     fn close(&mut self, plan: &Plan, initial: &Set, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<Set, Halt> {
         let mut reached = initial.clone();
         let mut frontier = initial.clone();
@@ -177,7 +177,7 @@ impl Reach {
                     open = self.diagrams.union(&open, &new)?;
                 }
             }
-            // Where no part is alive something else may come.
+            // If no single part adds states, all parts together still may.
             let steps = self.expand(&reached, None)?;
             let new = self.diagrams.minus(&steps.next, &reached)?;
             frontier = self.admit(plan, new)?;
@@ -213,7 +213,7 @@ impl Reach {
         self.go_on(plan, watch)
     }
 
-    /// The steps of a set: of one part, or all of them.
+    /// The steps of a set: of one part, or of all.
     fn expand(&mut self, set: &Set, part: Option<usize>) -> Result<Steps, Halt> {
         let empty = || self.diagrams.empty();
         let mut steps = Steps {
@@ -265,7 +265,7 @@ impl Reach {
         Ok(steps)
     }
 
-    /// What is found in a set of states, and in which of them.
+    /// The targets found in a set of states, and the states with each.
     fn targets(&mut self, plan: &Plan, set: &Set) -> Result<BTreeMap<Target, Set>, Halt> {
         let mut targets = BTreeMap::new();
         let steps = self.expand(set, None)?;
@@ -307,7 +307,7 @@ impl Reach {
         Ok(targets)
     }
 
-    /// Goes through the levels until each target was met.
+    /// Computes the levels until each target is found.
     fn locate(
         &mut self,
         plan: &Plan,
@@ -344,9 +344,9 @@ impl Reach {
         Ok(())
     }
 
-    /// A shortest run to each state found, in the order of `found`. What there is no room to find the way to was not found.
+    /// A shortest run to each finding, in the order of `found`. A finding whose run needs too much memory is dropped.
     pub fn traces(&mut self) -> Vec<Trace> {
-        // What was found is to be told, however long that takes.
+        // Findings are reported however long that takes.
         self.explorer.ignore_interrupts();
         let mut traces = Vec::new();
         for found in std::mem::take(&mut self.found) {
@@ -362,7 +362,7 @@ impl Reach {
         traces
     }
 
-    /// The states on the way to one.
+    /// The states on the way to a finding.
     fn chain(&mut self, found: &Found) -> Result<Vec<Box<[u64]>>, Halt> {
         let mut chain = vec![found.state.clone()];
         for level in (0..found.depth).rev() {
@@ -394,7 +394,7 @@ impl Reach {
         Ok(self.diagrams.member(&parents))
     }
 
-    /// By rule, whether some step ran it.
+    /// For each rule, whether some step ran it.
     pub fn executed(&self) -> Vec<bool> {
         self.explorer.executed()
     }
@@ -405,7 +405,7 @@ impl Reach {
     }
 }
 
-/// Expands some states one by one, so that it is seen what steps look at.
+/// Expands some states one by one, to see what steps read.
 fn sample(explorer: &mut Explorer) -> Result<(), Widening> {
     let words = explorer.words();
     let mut states: Vec<Box<[u64]>> = explorer.initial().iter().map(|(state, _)| state.clone()).collect();

@@ -1,4 +1,4 @@
-//! Elements that may be interchangeable, and why those of a domain are not.
+//! Elements that may be interchangeable, and why a domain's elements are not.
 
 use machine::Value;
 use program::{DomainId, DomainKind, FunctionId, Program};
@@ -7,33 +7,33 @@ use syntax::Span;
 /// Why the elements of a domain are not interchangeable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Distinct {
-    /// An element is named here.
+    /// The model names an element here.
     Named(Span),
-    /// An operation here tells elements apart, or shows an order of them.
+    /// An operation here distinguishes elements, or reveals an order of them.
     Told(Span),
-    /// An input is tried with some of them.
+    /// Only some of them are tried for an input.
     Bounded(FunctionId),
-    /// Elements of some domain are made here, in an order.
+    /// Elements of a domain are created here, in an order.
     Extended(Span),
-    /// A fault was met among them here, which may depend on their order.
+    /// A fault occurred here, and which one may depend on the order of elements.
     Ordered(Span),
-    /// Each is in other subsets of the domain.
+    /// They belong to different subsets of the domain.
     Subsets,
-    /// There are too many, or states are packed so that they cannot be permuted.
+    /// There are too many, or packed states do not allow to permute them.
     Packed,
 }
 
-/// How many elements a domain may have that nothing tells apart.
+/// How many elements of a domain may be interchangeable.
 pub fn count(program: &Program, domain: DomainId) -> usize {
     match &program.domain(domain).kind {
-        // If it grows it is found to be extended.
+        // If the domain grows, it is reported as extended.
         DomainKind::Abstract { elements, .. } => elements.len(),
         DomainKind::Enum { literals } => literals.len(),
         _ => 0,
     }
 }
 
-/// One of them.
+/// An element, by index.
 pub fn element(program: &Program, domain: DomainId, index: u32) -> Value {
     match program.domain(domain).kind {
         DomainKind::Enum { .. } => Value::Enum(domain, index),

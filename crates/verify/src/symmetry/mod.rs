@@ -1,10 +1,11 @@
-//! Elements that nothing tells apart: states that differ by a permutation of them are one.
+//! Symmetry reduction: states that differ only by a permutation of interchangeable elements count as one.
 //!
-//! In: a program and what is asked of its states. Out: classes of interchangeable elements, and for each domain without one, why
-//! (C. Ip, D. Dill, *Better verification through symmetry*, 1996). [`telling`] tells from the text which elements are named and
-//! where an order shows. What cannot be told from the text (a fault below a quantifier or a `forall` comes before or after the
-//! element that decides) is watched while searching: where it happens the search begins anew without. INVARIANT: a permutation
-//! of a class takes steps to steps, and changes the truth of no condition.
+//! In: a program and the targets. Out: classes of interchangeable elements, and for each domain without one, why (C.
+//! Ip, D. Dill, *Better verification through symmetry*, 1996). [`telling`] finds from the text which elements are named
+//! and where an order is visible. What the text does not show is watched during the search: below a quantifier or a
+//! `forall`, a fault may come before or after the element that decides. If that happens, the search starts again
+//! without these classes. INVARIANT: a permutation of a class maps steps to steps, and preserves the truth of every
+//! condition.
 
 mod element;
 mod telling;
@@ -22,23 +23,23 @@ pub use crate::symmetry::element::Distinct;
 use crate::symmetry::element::{count, element};
 use crate::symmetry::telling::Telling;
 
-/// LIMIT: elements of a class.
+/// LIMIT: the most elements in a class.
 const ELEMENTS: usize = 64;
 
-/// What was found about elements of domains.
+/// The interchangeable elements of domains.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Symmetry {
     /// The elements that are interchangeable with each other.
     pub classes: Vec<(DomainId, Vec<Value>)>,
-    /// The domains in which none are, and why.
+    /// The domains without interchangeable elements, and why.
     pub distinct: Vec<(DomainId, Distinct)>,
 }
 
-/// What a search needs to know.
+/// What a search needs for symmetry reduction.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Interchange {
     pub symmetry: Symmetry,
-    /// By term, whether it is a range over such elements.
+    /// For each term, whether it is a range over such elements.
     pub unordered: Arc<[bool]>,
     /// The elements that initial values name, by function.
     initial: BTreeMap<FunctionId, BTreeMap<Value, Span>>,
@@ -51,7 +52,7 @@ fn candidates(program: &Program) -> Vec<DomainId> {
 }
 
 impl Interchange {
-    /// What can be told from the text.
+    /// The result of analysing the text.
     pub fn new(program: &Arc<Program>, plan: &Plan) -> Interchange {
         let candidates = candidates(program);
         let mut telling = Telling::of(program, &plan.settings, &candidates);
@@ -59,7 +60,7 @@ impl Interchange {
             telling.bound(*function, values);
         }
         let mut machine = Machine::new(Arc::clone(program), plan.settings.limits.clone());
-        // The contents of domains do not depend on the state, so a start that asks for inputs does as well.
+        // The contents of domains do not depend on the state, so a failed start does not matter.
         let _ = machine.start(&mut Closed);
         let mut symmetry = Symmetry::default();
         for domain in candidates {
@@ -83,13 +84,13 @@ impl Interchange {
         Interchange { symmetry, unordered: unordered.into(), initial: telling.initial }
     }
 
-    /// The orbits of an explorer's states; none where there are no interchangeable elements, which is then told.
+    /// The orbits of an explorer's states; `None` if no elements are interchangeable, which is then recorded.
     pub fn orbits(&mut self, program: &Program, explorer: &Explorer) -> Option<Arc<Orbits>> {
         if self.symmetry.classes.is_empty() {
             return None;
         }
-        // An initial value that is no part of the state from the beginning comes up later, the same in all states; so does one
-        // of a location outside of the declared domains.
+        // An initial value that does not belong to the state from the beginning appears later, the same in all states;
+        // so does one of a location outside of the declared domains.
         let is_late = |function: FunctionId| {
             let mut parameters = program.function(function).parameters.iter();
             let may_be_outside =
@@ -118,7 +119,7 @@ impl Interchange {
         orbits.map(Arc::new)
     }
 
-    /// The elements are not interchangeable after all.
+    /// Records that the elements are not interchangeable after all.
     pub fn refuse(&mut self, why: Distinct) {
         for (domain, _) in std::mem::take(&mut self.symmetry.classes) {
             if self.symmetry.distinct.last() != Some(&(domain, why)) {

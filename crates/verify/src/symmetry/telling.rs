@@ -1,9 +1,9 @@
-//! What a program's text tells apart: elements that are named, and operations that show an order.
+//! Finds what a program's text distinguishes: named elements, and operations that reveal an order.
 //!
-//! In: a program, the conditions that are asked for, the domains in question. Out: a [`Telling`]. Walked are the main rule, the
-//! programs of agents, the conditions, rules that are values, and whatever these call; initial values by themselves, as most of them are evaluated before
-//! the first step. INVARIANT: what is walked and not told apart means the same for all elements but the order in which a
-//! quantifier, a comprehension or a `forall` goes through them.
+//! In: a program, the checked conditions, the domains in question. Out: a [`Telling`]. The main rule, the programs of
+//! agents, the conditions, rules that are values, and everything that these call are traversed. Initial values are
+//! traversed separately, as most are evaluated before the first step. INVARIANT: what is traversed and not reported
+//! means the same for all elements, except for the order in which quantifiers, comprehensions and `forall` visit them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -17,18 +17,18 @@ use syntax::Span;
 
 use crate::symmetry::element::{Distinct, count, element};
 
-/// See the module.
+/// What the text distinguishes.
 #[derive(Debug, Default)]
 pub struct Telling {
-    /// Elements that are named, and where first.
+    /// Named elements, each with the first place.
     pub named: BTreeMap<Value, Distinct>,
-    /// Domains whose elements are told apart, and where first.
+    /// Domains whose elements are distinguished, each with the first place.
     pub told: BTreeMap<DomainId, Span>,
-    /// Where elements are made.
+    /// Where elements are created.
     pub extended: Option<Span>,
-    /// The ranges of what goes through elements.
+    /// The ranges of what iterates over elements.
     pub ranges: BTreeSet<TermId>,
-    /// By function: the elements that its initial value names.
+    /// By function, the elements that its initial value names.
     pub initial: BTreeMap<FunctionId, BTreeMap<Value, Span>>,
 }
 
@@ -39,7 +39,7 @@ struct Walk<'p> {
     terms: BTreeSet<TermId>,
     rules: BTreeSet<RuleId>,
     open: Vec<Next>,
-    /// In an initial value: the rules that it may be, which are run later.
+    /// While in an initial value: the rules that it may be, which run later.
     values: Option<Vec<ProcedureId>>,
 }
 
@@ -49,7 +49,7 @@ enum Next {
     Procedure(ProcedureId),
 }
 
-/// Whether values of a domain may be, or have inside, elements of another.
+/// Whether values of a domain may be, or contain, elements of another.
 pub fn mentions(program: &Program, domain: DomainId, of: DomainId) -> bool {
     match &program.domain(domain).kind {
         _ if domain == of => true,
@@ -67,14 +67,14 @@ pub fn mentions(program: &Program, domain: DomainId, of: DomainId) -> bool {
 }
 
 impl Telling {
-    /// What a program tells apart of the elements of these domains.
+    /// What a program distinguishes among the elements of these domains.
     pub fn of(program: &Program, settings: &Settings, domains: &[DomainId]) -> Telling {
         let (terms, rules) = (BTreeSet::new(), BTreeSet::new());
         let found = Telling::default();
         let mut walk = Walk { program, domains, found, terms, rules, open: Vec::new(), values: Some(Vec::new()) };
         let (mut ranges, mut initials) = (BTreeSet::new(), BTreeMap::new());
         for initial in &program.initials {
-            // What is looked at in the end is what each names by itself.
+            // Each initial value is traversed on its own, including terms that others have visited.
             walk.terms.clear();
             walk.open.push(Next::Term(initial.value.body));
             walk.all();
@@ -85,7 +85,7 @@ impl Telling {
                     of_initial.insert(element, span);
                 }
             }
-            // An order that shows is as good as all elements' names.
+            // A visible order is treated as if all elements were named.
             for (domain, span) in told {
                 let count = count(program, domain) as u32;
                 of_initial.extend((0..count).map(|index| (element(program, domain, index), span)));
@@ -105,7 +105,7 @@ impl Telling {
         found
     }
 
-    /// An input is tried with some values.
+    /// Only some values of an input are tried.
     pub fn bound(&mut self, function: FunctionId, values: &[Value]) {
         let mut open: Vec<Value> = values.to_vec();
         while let Some(value) = open.pop() {
@@ -139,7 +139,7 @@ impl Walk<'_> {
         self.found.named.entry(element).or_insert(Distinct::Named(span));
     }
 
-    /// Elements in the values of a domain are told apart.
+    /// Records that elements in the values of a domain are distinguished.
     fn tell(&mut self, domain: DomainId, span: Span) {
         let program = self.program;
         for told in self.domains.iter().filter(|of| mentions(program, domain, **of)) {
@@ -176,7 +176,7 @@ impl Walk<'_> {
             Term::Comprehension { kind, binders, .. } => {
                 for binder in program.binder_list(*binders) {
                     self.found.ranges.insert(binder.range);
-                    // A sequence has their order; of equal keys of a map the last counts.
+                    // A sequence reveals their order; in a map, the last of equal keys counts.
                     if matches!(kind, CollectionKind::Seq | CollectionKind::Map) {
                         self.tell(program.term_domain(binder.range), span);
                     }

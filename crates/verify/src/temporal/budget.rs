@@ -1,27 +1,27 @@
-//! How much may be spent on deciding a formula, and what ended it early.
+//! Limits the effort of deciding a formula, and records what ended it early.
 
 /// What ended a decision early.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Spent {
-    /// The caller said to stop.
+    /// The caller asked to stop.
     Stopped,
     /// A limit was reached.
     Limit {
-        /// Of what, e.g. `states of the product`.
+        /// The limited quantity, e.g. `states of the product`.
         of: &'static str,
-        /// Its value.
+        /// The limit's value.
         value: u64,
     },
 }
 
-/// Allowance of a decision; the defaults keep it within a few gigabytes.
+/// Limits of a decision; the defaults keep it within a few gigabytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Allowance {
     /// States of the product of graph and automaton.
     pub product_states: u64,
     /// States of the automaton.
     pub automaton_states: u64,
-    /// Ways to satisfy the obligations of one state of the automaton.
+    /// The ways to satisfy the obligations of one state of the automaton.
     pub covers: u64,
 }
 
@@ -31,7 +31,7 @@ impl Default for Allowance {
     }
 }
 
-/// A running account: limits, and whether to stop.
+/// The effort so far: limits, and whether to stop.
 pub struct Budget<'a> {
     /// The limits.
     pub limits: Allowance,
@@ -39,11 +39,11 @@ pub struct Budget<'a> {
     work: u32,
 }
 
-/// LIMIT: pieces of work between two questions whether to stop.
+/// LIMIT: pieces of work between two checks whether to stop.
 const PIECES: u32 = 1 << 14;
 
 impl<'a> Budget<'a> {
-    /// A fresh account; `stop` is asked now and then.
+    /// A new budget; `stop` is asked from time to time.
     pub fn new(limits: Allowance, stop: &'a mut dyn FnMut() -> bool) -> Budget<'a> {
         Budget { limits, stop, work: 0 }
     }
@@ -62,7 +62,7 @@ impl<'a> Budget<'a> {
         if (self.stop)() { Err(Spent::Stopped) } else { Ok(()) }
     }
 
-    /// Holds a number against its limit.
+    /// Compares a number with its limit.
     ///
     /// # Errors
     /// [`Spent::Limit`].

@@ -1,4 +1,4 @@
-//! A graph under fairness: what every formula on it needs, computed once.
+//! Prepares a graph with fairness: computes once what every formula needs.
 
 use std::ops::ControlFlow;
 use std::rc::Rc;
@@ -9,19 +9,19 @@ use crate::temporal::component::{Acceptance, Marks, accepting_components};
 use crate::temporal::fairness::{EdgeMarks, Fairness};
 use crate::temporal::search::Marked;
 
-/// The number of the first mark that stands for fairness; the marks before are a formula's own.
+/// The first mark used for fairness; lower marks belong to a formula.
 const FIRST_MARK: usize = 64;
 
-/// Where something holds, and where it may hold.
+/// Lower and upper bound of the states in which something holds.
 #[derive(Debug, Clone)]
 pub struct Bracket {
-    /// It holds whatever the unexplored states lead to.
+    /// It holds, whatever the unexplored states lead to.
     pub must: Rc<StateSet>,
-    /// It holds for some continuation of the unexplored states. On a complete graph the same set.
+    /// It holds for some continuation of the unexplored states. On a complete graph, the same set.
     pub may: Rc<StateSet>,
 }
 
-/// Which of the two sets is computed.
+/// Which of the two sets to compute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Side {
     Must,
@@ -29,7 +29,7 @@ pub(crate) enum Side {
 }
 
 impl Bracket {
-    /// The same set for both.
+    /// A known set, as both bounds.
     pub(crate) fn known(set: StateSet) -> Bracket {
         let set = Rc::new(set);
         Bracket { must: Rc::clone(&set), may: set }
@@ -43,7 +43,7 @@ impl Bracket {
     }
 }
 
-/// A graph, and the runs of it that count.
+/// A graph and its fair runs.
 #[derive(Debug)]
 pub struct Checker<'g> {
     graph: &'g Graph,
@@ -57,7 +57,7 @@ impl<'g> Checker<'g> {
     /// Prepares a graph.
     ///
     /// # Errors
-    /// Told to stop, or too many constraints.
+    /// The caller asked to stop, or there are too many constraints.
     pub fn new(graph: &'g Graph, fairness: &Fairness, budget: &mut Budget<'_>) -> Result<Checker<'g>, Spent> {
         let most = 128 - FIRST_MARK;
         budget.within(fairness.marks(), most as u64, "fairness constraints, a compassion counting twice")?;
@@ -80,17 +80,17 @@ impl<'g> Checker<'g> {
         self.graph
     }
 
-    /// The states that a fair run starts in.
+    /// The states in which a fair run starts.
     pub fn fair(&self) -> &Bracket {
         &self.fair
     }
 
-    /// What a fair run meets.
+    /// The acceptance condition of fair runs.
     pub fn acceptance(&self) -> &Acceptance {
         &self.acceptance
     }
 
-    /// The marks of the graph's edges, which fairness speaks of.
+    /// The marks of the graph's edges for fairness.
     pub fn marks(&self) -> &EdgeMarks {
         &self.marks
     }
@@ -105,7 +105,7 @@ impl<'g> Checker<'g> {
         Marked { graph: self.graph, marks: |edge| self.marks.of(edge) }
     }
 
-    /// Computes both sets; on a complete graph one stands for both.
+    /// Computes both sets; on a complete graph one serves as both.
     pub(crate) fn both(&self, mut compute: impl FnMut(Side) -> Result<StateSet, Spent>) -> Result<Bracket, Spent> {
         let must = compute(Side::Must)?;
         if self.graph.is_complete() {
@@ -114,12 +114,12 @@ impl<'g> Checker<'g> {
         Ok(Bracket { must: Rc::new(must), may: Rc::new(compute(Side::May)?) })
     }
 
-    /// The unexplored states, for the side on which anything may lie behind them.
+    /// The unexplored states, for the side on which anything may follow them.
     pub(crate) fn open(&self, side: Side) -> Option<&StateSet> {
         (side == Side::May && !self.graph.is_complete()).then(|| self.graph.unexplored())
     }
 
-    /// The states from which a fair run stays within a set for ever.
+    /// The states from which a fair run stays within a set forever.
     pub(crate) fn staying(&self, always: &StateSet, side: Side, budget: &mut Budget<'_>) -> Result<StateSet, Spent> {
         let mut found = StateSet::none(self.graph.states());
         if let Some(open) = self.open(side) {
@@ -136,7 +136,7 @@ impl<'g> Checker<'g> {
         Ok(found)
     }
 
-    /// Adds every state of `through` from which a path in it leads to the set.
+    /// Adds every state of `through` from which a path within it leads to the set.
     pub(crate) fn backward(
         &self,
         set: &mut StateSet,

@@ -1,9 +1,9 @@
-//! Strongly connected parts of a graph in which a run can stay for ever and be accepted.
+//! Strongly connected components in which a run can stay forever and be accepted.
 //!
-//! In: edges with marks, and an [`Acceptance`]: marks that must come up again and again (generalised Büchi), and pairs of
-//! which the second must if the first does (Streett). Out: [`Component`]s. A component that has the first of a pair but not
-//! the second is searched again without the edges that have the first (Emerson, Lei, *Modalities for model checking*, 1987;
-//! Baier, Katoen, section 6.6). Components are found by Tarjan's algorithm, without recursion.
+//! In: edges with marks, and an [`Acceptance`]: marks that must occur infinitely often (generalised Büchi), and pairs
+//! whose second mark must if the first does (Streett). Out: [`Component`]s. A component with the first mark of a pair
+//! but not the second is searched again without the edges that have the first (Emerson, Lei, *Modalities for model
+//! checking*, 1987; Baier, Katoen, section 6.6). Components are found by Tarjan's algorithm, without recursion.
 
 use std::ops::{BitAnd, BitOr, BitOrAssign, ControlFlow, Range};
 
@@ -23,17 +23,17 @@ impl Marks {
         Marks(1 << number)
     }
 
-    /// The marks below a number.
+    /// The marks with smaller numbers.
     pub fn below(number: usize) -> Marks {
         if number >= 128 { Marks(u128::MAX) } else { Marks((1 << number) - 1) }
     }
 
-    /// All of these are in it.
+    /// Whether it contains all of these.
     pub fn has(self, all: Marks) -> bool {
         self.0 & all.0 == all.0
     }
 
-    /// One of these is in it.
+    /// Whether it contains any of these.
     pub fn meets(self, some: Marks) -> bool {
         self.0 & some.0 != 0
     }
@@ -64,30 +64,30 @@ impl BitOrAssign for Marks {
     }
 }
 
-/// What an infinite run must meet to be accepted.
+/// The condition for an infinite run to be accepted.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Acceptance {
-    /// Each of these again and again.
+    /// Each of these occurs infinitely often.
     pub again: Marks,
-    /// If the first again and again, then the second too.
+    /// If the first occurs infinitely often, so does the second.
     pub pairs: Vec<(Marks, Marks)>,
 }
 
 impl Acceptance {
-    /// What both ask for.
+    /// The conjunction of two conditions.
     pub fn with(mut self, other: Acceptance) -> Acceptance {
         self.again |= other.again;
         self.pairs.extend(other.pairs);
         self
     }
 
-    /// The first marks of pairs that these marks leave open.
+    /// The first marks of pairs that these marks do not satisfy.
     pub fn open_pairs(&self, marks: Marks) -> Marks {
         let open = self.pairs.iter().filter(|(first, second)| marks.meets(*first) && !marks.meets(*second));
         open.fold(Marks::NONE, |all, (first, _)| all | *first)
     }
 
-    /// Whether a run that meets exactly these again and again is accepted.
+    /// Whether a run with exactly these marks infinitely often is accepted.
     pub fn accepts(&self, marks: Marks) -> bool {
         marks.has(self.again) && self.open_pairs(marks) == Marks::NONE
     }
@@ -95,17 +95,17 @@ impl Acceptance {
 
 /// A graph with marks on its edges.
 pub trait Edges {
-    /// How many nodes there are.
+    /// The number of nodes.
     fn nodes(&self) -> usize;
     /// The numbers of a node's edges.
     fn edges_of(&self, node: u32) -> Range<usize>;
-    /// Where an edge leads.
+    /// The node that an edge leads to.
     fn target(&self, edge: usize) -> u32;
-    /// What an edge is marked with.
+    /// The marks of an edge.
     fn marks(&self, edge: usize) -> Marks;
 }
 
-/// A set of nodes in which a run can stay for ever so that it is accepted.
+/// A set of nodes in which a run can stay forever and be accepted.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Component {
     /// The nodes, ascending.
@@ -114,11 +114,11 @@ pub struct Component {
     pub avoided: Marks,
 }
 
-/// Calls `found` for each accepting component among the nodes given; together they hold every node that is on an
-/// accepted run which stays within and comes back to it.
+/// Calls `found` for each accepting component among the given nodes. Together the components contain every node that
+/// occurs infinitely often on an accepted run within these nodes.
 ///
 /// # Errors
-/// Told to stop.
+/// The caller asked to stop.
 pub fn accepting_components(
     edges: &impl Edges,
     within: &StateSet,
@@ -152,18 +152,18 @@ pub fn accepting_components(
 
 struct Problem {
     nodes: Vec<u32>,
-    /// Its nodes are those of this region.
+    /// Its nodes have this region.
     region: u32,
     avoided: Marks,
 }
 
 struct Search {
-    /// By node: the part that is being searched.
+    /// For each node, the part that is being searched.
     region: Vec<u32>,
     regions: u32,
-    /// By node: the order of visit in the part, 0 for not yet.
+    /// For each node, the order of visit in the part; 0 if not visited.
     order: Vec<u32>,
-    /// By node: the first one still open that can be reached; the maximum once its component is closed.
+    /// For each node, the first open node that it can reach; the maximum once its component is closed.
     low: Vec<u32>,
 }
 
@@ -179,7 +179,7 @@ impl Search {
         self.regions
     }
 
-    /// What the edges within a region are marked with; none if there is no edge.
+    /// The marks of the edges within a region; `None` if there are no edges.
     fn marks_within(&self, edges: &impl Edges, nodes: &[u32], region: u32, avoided: Marks) -> Option<Marks> {
         let mut all = None;
         for edge in nodes.iter().flat_map(|node| edges.edges_of(*node)) {
@@ -306,7 +306,7 @@ mod tests {
 
     #[test]
     fn what_is_avoided_counts_no_more() {
-        // Two ways round: one has the mark 1 that must come up, and the mark 2 that asks for 4; the other has neither.
+        // Two cycles: one has the required mark 1, and the mark 2, which requires 4; the other has neither.
         let rows = || vec![vec![(1, 1 | 2), (1, 0)], vec![(0, 0)]];
         check(rows(), 0, &[(2, 4)], &[&[0, 1]]);
         check(rows(), 1, &[], &[&[0, 1]]);

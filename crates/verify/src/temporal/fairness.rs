@@ -1,30 +1,29 @@
 //! Fairness: which infinite runs count.
 //!
-//! Justice (weak fairness): something comes up again and again. Compassion (strong fairness): if one thing comes up again
-//! and again, so does another (Manna, Pnueli, *The Temporal Logic of Reactive and Concurrent Systems*, 1992). All are sets
-//! of edges; a set of states is the set of edges that leave them. A run that has an edge in a set infinitely often meets
-//! it again and again.
+//! Justice (weak fairness): something occurs infinitely often. Compassion (strong fairness): if one thing occurs
+//! infinitely often, so does another (Manna, Pnueli, *The Temporal Logic of Reactive and Concurrent Systems*, 1992).
+//! Constraints are sets of edges; a set of states stands for the edges that leave them.
 
 use crate::graph::{Graph, StateId, StateSet};
 use crate::temporal::component::{Acceptance, Marks};
 
-/// The constraints; a run is fair if it keeps all.
+/// Fairness constraints; a run is fair if it satisfies all of them.
 #[derive(Debug, Clone, Default)]
 pub struct Fairness {
     justice: Vec<StateSet>,
     compassion: Vec<(StateSet, StateSet)>,
 }
 
-/// How fair the scheduling of agents is taken to be.
+/// The assumed fairness of scheduling agents.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AgentFairness {
-    /// An agent that stays able to move from some time on moves again and again.
+    /// An agent that is always able to move from some time on moves infinitely often.
     Weak,
-    /// An agent that is able to move again and again moves again and again.
+    /// An agent that is infinitely often able to move moves infinitely often.
     Strong,
 }
 
-/// LIMIT: constraints of one property, a compassion counting twice.
+/// LIMIT: the constraints of one property; a compassion counts twice.
 pub const MOST_MARKS: usize = 64;
 
 impl Fairness {
@@ -38,24 +37,24 @@ impl Fairness {
         self.justice.is_empty() && self.compassion.is_empty()
     }
 
-    /// How many marks it takes to tell the constraints apart.
+    /// The number of marks that the constraints need.
     pub fn marks(&self) -> usize {
         self.justice.len() + 2 * self.compassion.len()
     }
 
-    /// One of these states comes up again and again.
+    /// Requires that these states occur infinitely often.
     pub fn add_justice(&mut self, graph: &Graph, states: &StateSet) {
         self.justice.push(leaving(graph, states));
     }
 
-    /// If one of the first states comes up again and again, so does one of the second.
+    /// Requires that if the first states occur infinitely often, so do the second.
     pub fn add_compassion(&mut self, graph: &Graph, premise: &StateSet, conclusion: &StateSet) {
         self.compassion.push((leaving(graph, premise), leaving(graph, conclusion)));
     }
 
-    /// An agent moves again and again if it can: `moves` says of a state and an edge of it whether that is a step of the
-    /// agent which changes something.
-    /// In a state without such an edge it cannot move.
+    /// Requires that an agent moves infinitely often if it can. `moves` tells, for a state and one of its edges,
+    /// whether that is a step of the agent which changes something. Without such an edge the agent cannot move in that
+    /// state.
     pub fn add_agent(&mut self, graph: &Graph, fairness: AgentFairness, moves: impl Fn(StateId, usize) -> bool) {
         let mut taken = StateSet::none(graph.edges());
         let mut enabled = StateSet::none(graph.states());
@@ -76,7 +75,7 @@ impl Fairness {
         }
     }
 
-    /// What an infinite run must do with the marks that [`Fairness::marks_of_edges`] gives, the first being `from`.
+    /// The acceptance condition for the marks of [`Fairness::marks_of_edges`], numbered from `from`.
     pub fn acceptance(&self, from: usize) -> Acceptance {
         let mut acceptance = Acceptance::default();
         for index in 0..self.justice.len() {
@@ -89,7 +88,7 @@ impl Fairness {
         acceptance
     }
 
-    /// The marks of each edge, the first constraint's being number `from`.
+    /// The marks of each edge, numbered from `from`.
     pub fn marks_of_edges(&self, graph: &Graph, from: usize) -> EdgeMarks {
         if self.is_empty() {
             return EdgeMarks::default();
@@ -126,10 +125,10 @@ fn leaving(graph: &Graph, states: &StateSet) -> StateSet {
     edges
 }
 
-/// The marks of a graph's edges; edges with the same marks are of one class.
+/// The marks of a graph's edges; edges with the same marks form a class.
 #[derive(Debug, Clone, Default)]
 pub struct EdgeMarks {
-    /// By edge; empty where no edge is marked.
+    /// For each edge; empty if no edge is marked.
     classes: Vec<u32>,
     marks: Vec<Marks>,
 }

@@ -1,7 +1,8 @@
-//! A short accepted lasso: a stem from a start, and a turn that goes on for ever.
+//! Finds a short accepted lasso: a stem from a start, and a cycle that repeats forever.
 //!
-//! In: edges, where a run may go, what it must meet. Out: edges of stem and turn. The stem to each node is shortest; the
-//! nearest nodes of each accepting component are tried as the place where the turn begins, and the shortest lasso wins.
+//! In: edges, the allowed nodes, the acceptance condition. Out: the edges of stem and cycle. The stem to each node is
+//! shortest; the nearest nodes of each accepting component are tried as the beginning of the cycle, and the shortest
+//! lasso wins.
 
 use std::ops::ControlFlow;
 
@@ -19,16 +20,16 @@ const EFFORT: u64 = 4_000_000;
 pub struct Lasso {
     /// The node it starts with.
     pub start: u32,
-    /// From there to the turn.
+    /// From the start to the cycle.
     pub stem: Vec<usize>,
-    /// At least one edge.
+    /// The cycle: at least one edge.
     pub turn: Vec<usize>,
 }
 
-/// A short accepted lasso that starts in one of the nodes and stays within a set; none if there is no accepted one.
+/// A short accepted lasso that starts in one of the nodes and stays within a set; `None` if there is no accepted one.
 ///
 /// # Errors
-/// Told to stop.
+/// The caller asked to stop.
 pub fn accepted_lasso(
     edges: &impl Edges,
     starts: &[u32],
@@ -85,7 +86,7 @@ fn shortest<E: Edges>(
 
 struct Reached {
     set: StateSet,
-    /// By node; meaningless for one that was not reached.
+    /// For each node; meaningless if it was not reached.
     distance: Vec<u32>,
 }
 

@@ -1,7 +1,7 @@
 //! Temporal properties over an explored graph: CTL and LTL with past, under fairness.
 //!
-//! In: a [`crate::graph::Graph`], formulas over its propositions, fairness. Out: a [`FormulaVerdict`]. It knows neither how the
-//! graph came about nor what the propositions say. INVARIANT: Holds is said only of a complete graph.
+//! In: a [`crate::graph::Graph`], formulas over its propositions, fairness. Out: a [`FormulaVerdict`]. It knows neither
+//! how the graph was made nor what the propositions mean. INVARIANT: Holds is returned only for a complete graph.
 
 pub mod budget;
 pub mod checker;

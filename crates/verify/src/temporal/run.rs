@@ -1,27 +1,27 @@
-//! Runs of a graph as evidence: a path, or a lasso that goes round for ever.
+//! Runs of a graph as evidence: a path, or a lasso that repeats forever.
 
 use crate::graph::{Graph, StateId};
 
-/// A run from a state on. INVARIANT: each edge leaves the state that the one before leads to; with a turn, the last edge
-/// leads back to the state that edge number `turn` leaves.
+/// A run that begins in a state. INVARIANT: each edge leaves the state that the previous one leads to; with a turn, the
+/// last edge leads back to the state that edge number `turn` leaves.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Run {
     /// The first state.
     pub start: StateId,
-    /// The edges taken, by their numbers in the graph.
+    /// The edges taken, by number in the graph.
     pub edges: Vec<usize>,
-    /// The edge that the loop begins with; none for a path.
+    /// The edge at which the loop begins; `None` for a path.
     pub turn: Option<usize>,
 }
 
 impl Run {
-    /// The run that has not gone anywhere.
+    /// The empty run in a state.
     pub fn at(start: StateId) -> Run {
         Run { start, edges: Vec::new(), turn: None }
     }
 
-    /// A lasso, told as shortly as the same infinite run can be: a loop that repeats itself is one turn of it, and what
-    /// the stem ends with is not told again by the loop.
+    /// A lasso in its shortest form: a loop that repeats itself becomes one turn, and an end of the stem that equals
+    /// the end of the loop is removed.
     pub fn lasso(start: StateId, mut stem: Vec<usize>, mut cycle: Vec<usize>) -> Run {
         let turns = |length: &usize| cycle.chunks(*length).all(|part| *part == cycle[..*length]);
         if let Some(length) = (1..cycle.len()).find(turns) {
@@ -38,17 +38,17 @@ impl Run {
         Run { start, edges: stem, turn }
     }
 
-    /// The states it goes through: one more than edges; of a lasso the last is the one it turns to.
+    /// The states of the run: one more than edges; for a lasso, the last is the one it returns to.
     pub fn states(&self, graph: &Graph) -> Vec<StateId> {
         std::iter::once(self.start).chain(self.edges.iter().map(|edge| graph.target(*edge))).collect()
     }
 
-    /// The state it ends in, or turns to.
+    /// The state in which it ends, or to which it returns.
     pub fn last(&self, graph: &Graph) -> StateId {
         self.edges.last().map_or(self.start, |edge| graph.target(*edge))
     }
 
-    /// Goes on with another run, which starts where this path ends.
+    /// Appends a run that starts where this path ends.
     pub fn then(mut self, next: Run) -> Run {
         debug_assert!(self.turn.is_none(), "a lasso has no end");
         self.turn = next.turn.map(|turn| turn + self.edges.len());

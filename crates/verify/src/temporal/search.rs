@@ -1,6 +1,6 @@
-//! Short paths: from a node to the nearest edge of some kind, and round a component so that a run is accepted.
+//! Finds short paths: from a node to the nearest edge of some kind, and around a component so that a run is accepted.
 //!
-//! In: edges with marks. Out: lists of edges. Paths between two nodes are shortest; a turn is put together from shortest
+//! In: edges with marks. Out: lists of edges. Paths between two nodes are shortest; a cycle is composed of shortest
 //! paths and need not be shortest as a whole.
 
 use std::ops::Range;
@@ -8,16 +8,16 @@ use std::ops::Range;
 use crate::temporal::budget::{Budget, Spent};
 use crate::temporal::component::{Acceptance, Component, Edges, Marks};
 
-/// A breadth-first search that can be made again and again on one graph.
+/// A breadth-first search that can be repeated on one graph.
 pub struct Finder<'a, E> {
     edges: &'a E,
-    /// By node: the search that visited it last.
+    /// For each node, the search that visited it last.
     visited: Vec<u32>,
     searches: u32,
-    /// By node: where the search came from.
+    /// For each node, its predecessor in the search.
     from: Vec<u32>,
     by: Vec<u64>,
-    /// Nodes visited by all searches.
+    /// The number of nodes visited by all searches.
     pub work: u64,
 }
 
@@ -28,11 +28,11 @@ impl<'a, E: Edges> Finder<'a, E> {
         Finder { edges, visited: vec![0; nodes], searches: 0, from: vec![0; nodes], by: vec![0; nodes], work: 0 }
     }
 
-    /// The edges of a shortest path from one of the nodes whose last edge is one wanted; only allowed edges are taken.
-    /// Has at least one edge. The first node is told as well.
+    /// The edges of a shortest path, at least one, from one of the nodes to a wanted edge, over allowed edges only.
+    /// Also returns the first node.
     ///
     /// # Errors
-    /// Told to stop.
+    /// The caller asked to stop.
     pub fn path(
         &mut self,
         starts: &[u32],
@@ -76,13 +76,13 @@ impl<'a, E: Edges> Finder<'a, E> {
     }
 }
 
-/// A way round an accepting component, from a node of it back to it, on which everything is met that must be.
+/// A cycle in an accepting component, from one of its nodes back to it, with all marks that must occur.
 ///
 /// # Errors
-/// Told to stop.
+/// The caller asked to stop.
 ///
 /// # Panics
-/// The component is not accepting, or the node is not of it.
+/// The component is not accepting, or does not contain the node.
 pub fn turn<E: Edges>(
     finder: &mut Finder<'_, E>,
     component: &Component,
@@ -124,9 +124,9 @@ pub fn turn<E: Edges>(
     }
 }
 
-/// A graph without marks on its edges beyond those given.
+/// A graph with marks given by a function.
 pub struct Marked<'a, F> {
-    /// The rows.
+    /// The graph.
     pub graph: &'a crate::graph::Graph,
     /// The marks of an edge.
     pub marks: F,

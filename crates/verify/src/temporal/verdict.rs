@@ -6,28 +6,28 @@ use super::formula::{CtlFormulas, FormulaId, LtlFormulas};
 use super::run::Run;
 use super::{ctl, ltl};
 
-/// What was found out about a temporal property.
+/// The verdict on a temporal property.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum FormulaVerdict {
-    /// It holds on every fair run (LTL), in every initial state (CTL).
+    /// It holds: on every fair run (LTL), in every initial state (CTL).
     Holds {
-        /// There is no fair run at all: everything holds of all of them.
+        /// Whether there is no fair run at all, so that every property holds.
         vacuous: bool,
     },
-    /// It does not hold.
+    /// It is violated.
     Violated {
-        /// The run that shows it: a lasso, or a path that violates the property however it goes on.
+        /// The run that shows it: a lasso, or a path that violates the property however it continues.
         run: Run,
-        /// The run shows it by itself; otherwise it is a branch of a tree that no single run can show.
+        /// Whether the run shows it by itself; otherwise it is a branch of a tree that no single run can show.
         whole: bool,
     },
-    /// Not found out: the graph is not complete, and no violation stands in what was explored.
+    /// Undecided: the graph is not complete, and what was explored contains no violation.
     Unexplored,
-    /// Not found out: ended early.
+    /// Undecided: ended early.
     Spent(Spent),
 }
 
-/// Decides a formula of computation tree logic: whether it holds in every initial state.
+/// Decides a CTL formula: whether it holds in every initial state.
 pub fn decide_ctl(
     checker: &Checker<'_>,
     formulas: &CtlFormulas,
@@ -49,7 +49,7 @@ pub fn decide_ctl(
     verdict(checker, decide)
 }
 
-/// Decides a formula of linear temporal logic: whether it holds on every fair run.
+/// Decides an LTL formula: whether it holds on every fair run.
 pub fn decide_ltl(
     checker: &Checker<'_>,
     formulas: &LtlFormulas,

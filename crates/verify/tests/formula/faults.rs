@@ -1,4 +1,4 @@
-//! Each fault of a formula has a page in spec/faults/ whose example yields it.
+//! Each fault of a formula has a page in spec/faults/ whose example shows it.
 
 use expect_test::{Expect, expect};
 use testkit::Page;

@@ -1,4 +1,4 @@
-//! What is read of properties.
+//! The formulas that properties are read as.
 
 use expect_test::{Expect, expect};
 

@@ -1,4 +1,4 @@
-//! Formulas in letters: `G F 0 & !1` over the numbers of propositions, which stand behind.
+//! Formulas as text: `G F 0 & !1` over the numbers of propositions, which are listed after it.
 
 use machine::Show;
 use program::Program;

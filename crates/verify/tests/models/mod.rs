@@ -1,6 +1,6 @@
-//! Models of the repository, and models in a text, lowered: what tests of whole models begin with.
+//! Models of the repository, and models from texts, lowered for tests of whole models.
 //!
-//! In: a file, read from the disk or made of a text. Out: its program; a model with any fault is a failure of the test.
+//! In: a file, read from the disk or made from a text. Out: its program; a model with any fault fails the test.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use syntax::SourceFile;
 
 pub use testkit::Disk;
 
-/// The program of a model in which nothing is to be complained about.
+/// The program of a model without any faults.
 pub fn lowered(file: SourceFile) -> Arc<Program> {
     let checked = model::check(file, &mut Disk);
     assert!(checked.diagnostics.is_empty(), "{:#?}", checked.diagnostics);

@@ -1,4 +1,4 @@
-//! Solvers against the explicit search: what one proves the other does not find, and the runs have the same length.
+//! Solvers agree with the explicit search: what one proves the other does not find, and runs have the same length.
 
 #![allow(clippy::disallowed_methods, reason = "a test reads the environment")]
 
@@ -20,7 +20,7 @@ fn model(text: &str) -> Arc<Program> {
     lowered(SourceFile::new("example.asm", format!("asm example\nimport StandardLibrary\nsignature:\n{text}\n")))
 }
 
-/// What each solver says.
+/// The report of each solver.
 fn ask(program: &Arc<Program>, method: Method, depth: u64) -> Vec<Result<Report, NoStart>> {
     let options = Options { engine: EngineKind::Solver(method), max_depth: depth, ..Options::default() };
     let horn = matches!(method, Method::Reachability | Method::Portfolio);
@@ -86,12 +86,12 @@ fn inputs_without_a_bound() {
     check(&program, Method::Reachability, &[("inv_low", "holds, reachability"), ("inv_high", "violated in 2 steps")]);
 }
 
-/// What is violated, after how many steps; the rest is not.
+/// The violated checks, with the number of steps; other checks are left out.
 fn violated(program: &Program, report: &Report) -> Vec<(String, String)> {
     words(program, report).into_iter().filter(|(_, word)| word.starts_with("violated")).collect()
 }
 
-/// A solver's report fits that of the explicit search, which has met all states.
+/// Checks a solver's report against that of an explicit search that explored all states.
 #[track_caller]
 fn fits(program: &Arc<Program>, explicit: &Report, solved: &Report, depth: usize, text: &str) {
     let near = |trace: &verify::Trace| trace.steps.len() <= depth;
@@ -129,7 +129,7 @@ fn reference_models() {
     }
 }
 
-/// The models of the repository that are small enough to be gone through.
+/// The models of the repository that are small enough to be explored.
 #[test]
 fn examples() {
     let root = repository::root();

@@ -1,4 +1,4 @@
-//! Computation tree logic against fixpoints written down naively, state by state.
+//! CTL agrees with naive fixpoints, state by state.
 
 use verify::graph::Graph;
 use verify::temporal::budget::{Allowance, Budget};
@@ -19,7 +19,7 @@ pub fn decide(graph: &Graph, fairness: &Fairness, formulas: &CtlFormulas, root: 
     decide_ctl(&checker, formulas, root, &mut budget)
 }
 
-/// By formula and state.
+/// For each formula and state.
 pub fn naive(graph: &Graph, constraints: &[Constraint], formulas: &CtlFormulas) -> Vec<Vec<bool>> {
     let states = graph.states();
     let all = vec![true; states];
@@ -95,8 +95,8 @@ fn case(seed: u64, with_fairness: bool) -> bool {
     holds
 }
 
-/// Whether a run alone shows that a formula fails where it starts: what is to be shown of a state that the run goes
-/// through is found on the rest of the run.
+/// Whether a run alone shows that a formula fails where it starts: everything to be shown about its states is found on
+/// the rest of the run.
 fn shows(graph: &Graph, formulas: &CtlFormulas, truths: &[Vec<bool>], root: FormulaId, run: &Run) -> bool {
     let states = run.states(graph);
     let last = states.len() - 1;

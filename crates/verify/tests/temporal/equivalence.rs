@@ -13,7 +13,7 @@ fn op<L: Logic>(table: &mut L, operator: T, parts: &[FormulaId]) -> FormulaId {
     table.operator(operator, parts).expect("an operator of the logic")
 }
 
-/// Left and right are the same on every run: so `left iff right` holds, and so does it after `g`.
+/// Left and right agree on every run: so `left iff right` holds, and so does it after `g`.
 #[test]
 fn linear_equivalences_hold_on_every_graph() {
     let pairs: [(&str, Pair); 14] = [
@@ -90,7 +90,7 @@ fn linear_equivalences_hold_on_every_graph() {
             (t.finally(p), t.finally(first))
         }),
         ("G(p → O q) = q R (p → q) in the first state", |t, p, q| {
-            // For p and q without past. With past inside, both sides still read the same run from its first state on.
+            // For p and q without past. With past, both sides still read the same run from its first state on.
             let (once, now) = (t.once(q), t.implies(p, q));
             let answered = t.implies(p, once);
             (t.globally(answered), t.releases(q, now))

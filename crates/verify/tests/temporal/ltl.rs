@@ -1,4 +1,4 @@
-//! Linear temporal logic: what is found violates, and where nothing is found no short lasso does.
+//! LTL: a run that is found violates the formula, and if none is found, no short lasso does.
 
 use verify::graph::{Builder, Graph, Label};
 use verify::temporal::budget::{Allowance, Budget};
@@ -19,7 +19,7 @@ pub fn decide(graph: &Graph, fairness: &Fairness, formulas: &LtlFormulas, root: 
     decide_ltl(&checker, formulas, root, &mut budget)
 }
 
-/// A random case against all lassos of a length; tells whether the formula holds.
+/// A random case, compared with all lassos up to a length; returns whether the formula holds.
 fn case(seed: u64, operators: Operators, with_fairness: bool) -> bool {
     let random = &mut Random::new(seed);
     let sample = sample(random, 4, 2);

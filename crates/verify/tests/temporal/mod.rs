@@ -1,4 +1,4 @@
-//! Temporal properties against naive references: random graphs, random formulas, random fairness.
+//! Temporal properties agree with naive references, on random graphs, formulas and fairness.
 
 mod ctl;
 mod equivalence;

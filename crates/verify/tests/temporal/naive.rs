@@ -1,4 +1,4 @@
-//! References straight from the definitions, for tiny graphs.
+//! Reference implementations by the definitions, for tiny graphs.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use verify::temporal::formula::{FormulaId, Ltl, LtlFormulas};
 
 use crate::temporal::random::Constraint;
 
-/// Whether a run that takes exactly these edges again and again is fair.
+/// Whether a run with exactly these edges infinitely often is fair.
 pub fn is_fair(graph: &Graph, constraints: &[Constraint], again: &[usize]) -> bool {
     let source = |edge: usize| (0..graph.states() as u32).find(|s| graph.edges_of(*s).contains(&edge)).unwrap();
     let meets = |set: &[bool]| again.iter().any(|edge| set[source(*edge) as usize]);
@@ -43,7 +43,7 @@ impl Word<'_> {
     }
 }
 
-/// Evaluates by looking far enough ahead and all the way back.
+/// Evaluates by looking far enough ahead and back to the beginning.
 pub struct Evaluation<'a> {
     pub formulas: &'a LtlFormulas,
     pub word: Word<'a>,
@@ -67,7 +67,7 @@ impl<'a> Evaluation<'a> {
             Ltl::Next(p) => self.holds(p, at + 1),
             Ltl::Previous(p) => at > 0 && self.holds(p, at - 1),
             Ltl::Until(p, q) => {
-                // Truth of anything is settled after a few turns, and repeats from then on.
+                // Truth values are stable after a few turns, and repeat from then on.
                 let horizon = at.max(8 * self.word.states.len()) + 2 * self.word.states.len();
                 let end = (at..=horizon).find(|later| self.holds(q, *later));
                 end.is_some_and(|end| (at..end).all(|before| self.holds(p, before)))
@@ -82,7 +82,7 @@ impl<'a> Evaluation<'a> {
     }
 }
 
-/// Calls `visit` with the edges and the turn of each lasso with at most so many edges from an initial state.
+/// Calls `visit` with the edges and the turn of each lasso with at most this many edges from an initial state.
 pub fn each_lasso(graph: &Graph, most: usize, visit: &mut dyn FnMut(StateId, &[usize], usize)) {
     fn extend(
         graph: &Graph,
@@ -113,14 +113,14 @@ pub fn each_lasso(graph: &Graph, most: usize, visit: &mut dyn FnMut(StateId, &[u
     }
 }
 
-/// The states that a run which starts with these edges goes through; of a lasso not the one it turns to.
+/// The states of a run with these edges; for a lasso, without the one it returns to.
 pub fn states(graph: &Graph, start: StateId, edges: &[usize]) -> Vec<StateId> {
     let targets = edges.iter().map(|edge| graph.target(*edge));
     std::iter::once(start).chain(targets).take(edges.len()).collect()
 }
 
-/// By state: whether a fair run stays within a set for ever, by trying every set of edges as the ones taken again and
-/// again.
+/// For each state, whether a fair run stays within a set forever; tries every set of edges as those taken infinitely
+/// often.
 pub fn fair_within(graph: &Graph, constraints: &[Constraint], within: &[bool]) -> Vec<bool> {
     let source = |edge: usize| (0..graph.states() as u32).find(|s| graph.edges_of(*s).contains(&edge)).unwrap();
     let inside: Vec<usize> = (0..graph.edges())

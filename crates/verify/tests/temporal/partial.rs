@@ -1,4 +1,4 @@
-//! Graphs that were not explored to their end: a verdict there is that of every graph they are a part of.
+//! On graphs that were not explored completely, a verdict agrees with that of every completion.
 
 use verify::temporal::FormulaVerdict;
 use verify::temporal::formula::{CtlFormulas, LtlFormulas};
@@ -20,7 +20,7 @@ fn a_violation_in_a_part_is_one_of_the_whole_and_a_part_never_holds() {
         let (mut linear, mut branching) = (LtlFormulas::default(), CtlFormulas::default());
         let line = formula(random, &mut linear, Operators::All, 3);
         let tree = formula(random, &mut branching, Operators::Ctl, 3);
-        // An agent's ability to move is not known where its moves were not explored, so these constraints may differ.
+        // Whether an agent can move is unknown where its moves were not explored, so these constraints may differ.
         let told =
             constraints.iter().all(|constraint| !matches!(constraint, crate::temporal::random::Constraint::Agent(..)));
         let verdicts = [

@@ -7,7 +7,7 @@ use verify::temporal::formula::{FormulaId, Logic};
 
 pub const PROPOSITIONS: usize = 2;
 
-/// A small generator of numbers.
+/// A small random number generator.
 pub struct Random(u64);
 
 impl Random {
@@ -36,7 +36,7 @@ pub struct Sample {
     pub holds: Vec<Vec<bool>>,
 }
 
-/// A graph of so many states at most; each has a successor.
+/// A graph with at most this many states; each has a successor.
 pub fn sample(random: &mut Random, most: usize, degree: usize) -> Sample {
     let states = 1 + random.below(most);
     let mut initial: Vec<bool> = (0..states).map(|_| random.chance(4)).collect();
@@ -52,7 +52,7 @@ pub fn sample(random: &mut Random, most: usize, degree: usize) -> Sample {
 }
 
 impl Sample {
-    /// As a graph; the states for which `unexplored` says so have no edges.
+    /// The graph; states marked `unexplored` have no edges.
     pub fn graph(&self, unexplored: &[bool]) -> Graph {
         let mut builder = Builder::new(self.holds.len());
         for state in 0..self.states {
@@ -73,7 +73,7 @@ impl Sample {
     }
 }
 
-/// What a fair run has to do, told by states and agents.
+/// A fairness constraint, in terms of states and agents.
 #[derive(Debug, Clone)]
 pub enum Constraint {
     Justice(Vec<bool>),

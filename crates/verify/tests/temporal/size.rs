@@ -1,4 +1,4 @@
-//! Formulas of unusual size: decided, or ended by a limit that is named.
+//! Formulas of unusual size: decided, or ended by a named limit.
 
 use verify::graph::{Builder, Graph, Label};
 use verify::temporal::FormulaVerdict;
@@ -8,7 +8,7 @@ use verify::temporal::fairness::Fairness;
 use verify::temporal::formula::{CtlFormulas, FormulaId, Logic, LtlFormulas};
 use verify::temporal::{decide_ctl, decide_ltl};
 
-/// A ring: in state i proposition i holds alone.
+/// A ring: in state i only proposition i holds.
 fn ring(states: usize) -> Graph {
     let mut builder = Builder::new(states);
     builder.initial();
@@ -64,7 +64,7 @@ fn twenty_untils_that_happen_in_turn_are_decided() {
     assert!(matches!(linear(&graph, Allowance::default(), &formulas, none), FormulaVerdict::Violated { .. }));
 }
 
-/// A state that goes on in itself; all of so many propositions hold.
+/// A state with an edge to itself, in which all of these propositions hold.
 fn point(propositions: usize) -> Graph {
     let mut builder = Builder::new(propositions);
     builder.initial();
@@ -72,7 +72,7 @@ fn point(propositions: usize) -> Graph {
     builder.finish()
 }
 
-/// Fails where one of twenty untils does: each can be fulfilled now or be put off.
+/// Fails if any of twenty untils fails: each can be fulfilled now or be postponed.
 fn many_obligations(formulas: &mut LtlFormulas) -> FormulaId {
     let mut all = formulas.constant(true);
     for number in 0..20 {

@@ -1,8 +1,8 @@
-//! What shows that a formula of computation tree logic does not hold: one run, as far as one can show it.
+//! Evidence that a CTL formula is violated: one run, as far as a single run can show it.
 //!
-//! The negation of the formula is followed from the state on: a path for E X and E U, a lasso for E G; where the end of a
-//! path has to show something more, it goes on from there. What quantifies over all runs, and what has to hold in several
-//! states at once, no single run shows: then the evidence is a branch of a tree, and says so.
+//! The negated formula is followed from the state on: a path for E X and E U, a lasso for E G; if the end of a path
+//! must show more, the run continues there. A single run cannot show what quantifies over all runs, or what must hold
+//! in several states at once. Then the evidence is a branch of a tree, and says so.
 
 use crate::graph::{StateId, StateSet};
 use crate::temporal::budget::{Budget, Spent};
@@ -12,22 +12,22 @@ use crate::temporal::lasso::accepted_lasso;
 use crate::temporal::run::Run;
 use crate::temporal::search::Finder;
 
-/// A run and what it shows.
+/// A run as evidence.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Evidence {
     /// The run.
     pub run: Run,
-    /// The run shows the violation by itself; otherwise it is one branch of a tree.
+    /// Whether the run shows the violation by itself; otherwise it is one branch of a tree.
     pub whole: bool,
 }
 
-/// The evidence that a formula fails in a state.
+/// The evidence that a formula is false in a state.
 ///
 /// # Errors
-/// Told to stop.
+/// The caller asked to stop.
 ///
 /// # Panics
-/// The formula may hold there.
+/// The formula may be true there.
 pub fn evidence_against(
     checker: &Checker<'_>,
     formulas: &CtlFormulas,
@@ -41,7 +41,7 @@ pub fn evidence_against(
     explanation.follow(formula, state, budget)
 }
 
-/// By formula: it has a temporal operator in it.
+/// For each formula, whether it contains a temporal operator.
 fn temporal(formulas: &CtlFormulas) -> Vec<bool> {
     let mut temporal: Vec<bool> = Vec::with_capacity(formulas.nodes().len());
     for node in formulas.nodes() {
@@ -73,7 +73,7 @@ impl Explanation<'_, '_> {
 
     fn follow(&mut self, formula: FormulaId, state: StateId, budget: &mut Budget<'_>) -> Result<Evidence, Spent> {
         let mut evidence = Evidence { run: Run::at(state), whole: true };
-        // What is to be shown of the state that the run has come to: that the formula holds, or that it fails.
+        // What to show about the last state of the run: that the formula holds, or that it fails.
         let (mut formula, mut holds) = (formula, false);
         loop {
             let state = evidence.run.last(self.checker.graph());

@@ -1,9 +1,10 @@
 //! Computation tree logic over an explored graph, with fairness.
 //!
-//! The states where a formula holds are computed for each part of it, smallest first: E U by going backward, E G by the
-//! components in which a fair run can stay (Clarke, Grumberg, Peled, section 4.1; Baier, Katoen, sections 6.4 and 6.5). Path
-//! quantifiers range over fair runs only. On a graph with unexplored states two sets are kept for each part: where it holds
-//! whatever lies behind them, and where it may hold (Bruns, Godefroid, *Model checking partial state spaces*, 1999).
+//! The states in which a formula holds are computed for each part of it, smallest first: E U by backward search, E G by
+//! the components in which a fair run can stay (Clarke, Grumberg, Peled, section 4.1; Baier, Katoen, sections 6.4 and
+//! 6.5). Path quantifiers range over fair runs only. On a graph with unexplored states, two sets are computed for each
+//! part: where it holds whatever follows them, and where it may hold (Bruns, Godefroid, *Model checking partial state
+//! spaces*, 1999).
 
 mod evidence;
 
@@ -16,10 +17,10 @@ use crate::temporal::formula::{Ctl, CtlFormulas, FormulaId};
 
 pub use evidence::{Evidence, evidence_against};
 
-/// Where each formula of the table holds.
+/// The states in which each formula of the table holds.
 ///
 /// # Errors
-/// Told to stop.
+/// The caller asked to stop.
 pub fn label(checker: &Checker<'_>, formulas: &CtlFormulas, budget: &mut Budget<'_>) -> Result<Vec<Bracket>, Spent> {
     let graph = checker.graph();
     let mut truths: Vec<Bracket> = Vec::with_capacity(formulas.nodes().len());

@@ -1,7 +1,7 @@
-//! Formulas as a table of nodes, equal ones once, children before parents.
+//! Formulas as a table of nodes without duplicates, children before parents.
 //!
-//! In: nodes. Out: their numbers. INVARIANT: a node's children have smaller numbers, so that a pass over the table in
-//! order needs no recursion, however deep the formula.
+//! In: nodes. Out: their numbers. INVARIANT: a node's children have smaller numbers, so a pass over the table in order
+//! needs no recursion, however deep the formula.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 pub struct FormulaId(pub u32);
 
 impl FormulaId {
-    /// As an index into a table by formula.
+    /// The index of the formula in tables.
     pub fn index(self) -> usize {
         self.0 as usize
     }

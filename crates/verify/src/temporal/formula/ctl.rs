@@ -1,7 +1,7 @@
-//! Formulas of computation tree logic: EX, EU, EG, and the others made from them.
+//! Formulas of computation tree logic: EX, EU, EG, and the derived operators.
 //!
-//! The weak operators and the patterns are those that the comments of the public library give, after Dwyer, Avrunin,
-//! Corbett, *Patterns in property specifications*, 1999.
+//! The weak operators and the patterns are those in the comments of the public library, after Dwyer, Avrunin, Corbett,
+//! *Patterns in property specifications*, 1999.
 
 use program::TemporalOperator;
 
@@ -15,15 +15,15 @@ pub enum Ctl {
     Constant(bool),
     /// A proposition.
     Proposition(u32),
-    /// Not.
+    /// Negation.
     Not(FormulaId),
-    /// Both.
+    /// Conjunction.
     And(FormulaId, FormulaId),
-    /// On some path in the next state.
+    /// On some path, in the next state.
     ExistsNext(FormulaId),
-    /// On some path the second some time, the first until then.
+    /// On some path, the second eventually, the first until then.
     ExistsUntil(FormulaId, FormulaId),
-    /// On some path always.
+    /// On some path, always.
     ExistsGlobally(FormulaId),
 }
 
@@ -62,13 +62,13 @@ impl CtlFormulas {
         self.arena.node(id)
     }
 
-    /// All formulas, parts before wholes.
+    /// All formulas, operands first.
     pub fn nodes(&self) -> &[Ctl] {
         self.arena.nodes()
     }
 
-    /// On some path in the next state. A constant is one because every state has a successor; under fairness a state may
-    /// be on no fair path, so even EX true is no constant.
+    /// On some path, in the next state. EX false is false. EX true is no constant: under fairness a state may be on no
+    /// fair path.
     pub fn exists_next(&mut self, formula: FormulaId) -> FormulaId {
         match self.constant_of(formula) {
             Some(false) => formula,
@@ -76,7 +76,7 @@ impl CtlFormulas {
         }
     }
 
-    /// On some path the right some time, the left until then.
+    /// On some path, the right eventually, the left until then.
     pub fn exists_until(&mut self, left: FormulaId, right: FormulaId) -> FormulaId {
         match self.constant_of(right) {
             Some(false) => right,
@@ -84,7 +84,7 @@ impl CtlFormulas {
         }
     }
 
-    /// On some path always.
+    /// On some path, always.
     pub fn exists_globally(&mut self, formula: FormulaId) -> FormulaId {
         match self.constant_of(formula) {
             Some(false) => formula,
@@ -92,34 +92,34 @@ impl CtlFormulas {
         }
     }
 
-    /// On some path some time.
+    /// On some path, eventually.
     pub fn exists_finally(&mut self, formula: FormulaId) -> FormulaId {
         let always = self.constant(true);
         self.exists_until(always, formula)
     }
 
-    /// On all paths in the next state.
+    /// On all paths, in the next state.
     pub fn all_next(&mut self, formula: FormulaId) -> FormulaId {
         let not = self.not(formula);
         let some = self.exists_next(not);
         self.not(some)
     }
 
-    /// On all paths some time.
+    /// On all paths, eventually.
     pub fn all_finally(&mut self, formula: FormulaId) -> FormulaId {
         let not = self.not(formula);
         let never = self.exists_globally(not);
         self.not(never)
     }
 
-    /// On all paths always.
+    /// On all paths, always.
     pub fn all_globally(&mut self, formula: FormulaId) -> FormulaId {
         let not = self.not(formula);
         let some = self.exists_finally(not);
         self.not(some)
     }
 
-    /// On all paths: the left until the right, or the left always: ¬E[¬right U ¬(left ∨ right)].
+    /// On all paths, the left until the right, or the left always: ¬E[¬right U ¬(left ∨ right)].
     pub fn all_weak_until(&mut self, left: FormulaId, right: FormulaId) -> FormulaId {
         let either = self.or(left, right);
         let (neither, open) = (self.not(either), self.not(right));
@@ -127,13 +127,13 @@ impl CtlFormulas {
         self.not(broken)
     }
 
-    /// On all paths the right some time, the left until then.
+    /// On all paths, the right eventually, the left until then.
     pub fn all_until(&mut self, left: FormulaId, right: FormulaId) -> FormulaId {
         let (weak, happens) = (self.all_weak_until(left, right), self.all_finally(right));
         self.and(weak, happens)
     }
 
-    /// On some path: the left until the right, or the left always.
+    /// On some path, the left until the right, or the left always.
     pub fn exists_weak_until(&mut self, left: FormulaId, right: FormulaId) -> FormulaId {
         let (until, always) = (self.exists_until(left, right), self.exists_globally(left));
         self.or(until, always)
@@ -216,7 +216,7 @@ impl Logic for CtlFormulas {
                 let end = self.or(*s, *r);
                 self.all_weak_until(excused, end)
             }
-            // Of the other logic, and those that count steps.
+            // Operators of the other logic, and those that count steps.
             (
                 ExN | AxN | Next | Globally | Finally | Until | Releases | Previous | WeakPrevious | Historically
                 | Once | Since | Triggered,

@@ -1,4 +1,4 @@
-//! Formulas of linear temporal logic with past: X, U, Y, S, and the others made from them.
+//! Formulas of linear temporal logic with past: X, U, Y, S, and the derived operators.
 
 use program::TemporalOperator;
 
@@ -12,22 +12,22 @@ pub enum Ltl {
     Constant(bool),
     /// A proposition.
     Proposition(u32),
-    /// Not.
+    /// Negation.
     Not(FormulaId),
-    /// Both.
+    /// Conjunction.
     And(FormulaId, FormulaId),
     /// In the next state.
     Next(FormulaId),
     /// The second now or later, the first until then.
     Until(FormulaId, FormulaId),
-    /// In the state before; false in the first.
+    /// In the previous state; false in the first.
     Previous(FormulaId),
     /// The second now or before, the first since then.
     Since(FormulaId, FormulaId),
 }
 
 impl Ltl {
-    /// The formulas directly in it.
+    /// The operands.
     pub fn parts(self) -> impl Iterator<Item = FormulaId> {
         let (first, second) = match self {
             Ltl::Constant(_) | Ltl::Proposition(_) => (None, None),
@@ -73,7 +73,7 @@ impl LtlFormulas {
         self.arena.node(id)
     }
 
-    /// All formulas, parts before wholes.
+    /// All formulas, operands first.
     pub fn nodes(&self) -> &[Ltl] {
         self.arena.nodes()
     }
@@ -94,7 +94,7 @@ impl LtlFormulas {
         }
     }
 
-    /// The right until and including when the left holds, or always: ¬(¬left U ¬right).
+    /// The right up to and including the time when the left holds, or always: ¬(¬left U ¬right).
     pub fn releases(&mut self, left: FormulaId, right: FormulaId) -> FormulaId {
         let (left, right) = (self.not(left), self.not(right));
         let until = self.until(left, right);
@@ -107,14 +107,14 @@ impl LtlFormulas {
         self.until(always, formula)
     }
 
-    /// From now on always.
+    /// Always from now on.
     pub fn globally(&mut self, formula: FormulaId) -> FormulaId {
         let not = self.not(formula);
         let some_time = self.finally(not);
         self.not(some_time)
     }
 
-    /// In the state before; false in the first.
+    /// In the previous state; false in the first.
     pub fn previous(&mut self, formula: FormulaId) -> FormulaId {
         match self.constant_of(formula) {
             Some(false) => formula,
@@ -122,7 +122,7 @@ impl LtlFormulas {
         }
     }
 
-    /// In the state before; true in the first.
+    /// In the previous state; true in the first.
     pub fn weak_previous(&mut self, formula: FormulaId) -> FormulaId {
         let not = self.not(formula);
         let before = self.previous(not);
@@ -137,7 +137,7 @@ impl LtlFormulas {
         }
     }
 
-    /// The right since and including when the left held, or always so far: ¬(¬left S ¬right).
+    /// The right since (and including) the time when the left held, or always so far: ¬(¬left S ¬right).
     pub fn triggered(&mut self, left: FormulaId, right: FormulaId) -> FormulaId {
         let (left, right) = (self.not(left), self.not(right));
         let since = self.since(left, right);
@@ -184,7 +184,7 @@ impl Logic for LtlFormulas {
             (Once, [p]) => self.once(*p),
             (Since, [p, q]) => self.since(*p, *q),
             (Triggered, [p, q]) => self.triggered(*p, *q),
-            // Of the other logic.
+            // Operators of the other logic.
             (
                 Eg | Ex | Ef | Ag | Ax | Af | Eu | Au | Ew | Aw | ExN | AxN | AbsenceGlobally | AbsenceBefore
                 | AbsenceAfter | AbsenceBetween | AbsenceAfterUntil | Precedence | PrecedenceBefore,

@@ -1,9 +1,9 @@
 //! Formulas of temporal logic over numbered propositions.
 //!
-//! Each logic has a few operators of its own; the others are built from them as the books define them: Clarke, Grumberg,
-//! Peled, *Model Checking*, chapter 3; Baier, Katoen, *Principles of Model Checking*, chapters 5 and 6; for the past
-//! Lichtenstein, Pnueli, Zuck, *The glory of the past*, 1985. INVARIANT: double negations and constants do not stand in a
-//! formula other than as the whole of it.
+//! Each logic has a few basic operators; the others are derived from them as in the books: Clarke, Grumberg, Peled,
+//! *Model Checking*, chapter 3; Baier, Katoen, *Principles of Model Checking*, chapters 5 and 6; for the past
+//! Lichtenstein, Pnueli, Zuck, *The glory of the past*, 1985. INVARIANT: formulas contain no double negations, and
+//! constants only as the whole formula.
 
 mod arena;
 mod ctl;

@@ -1,12 +1,12 @@
-//! The automaton of a wanted formula: a transition-based generalised Büchi automaton, made as far as it is asked for.
+//! The automaton of a formula: a transition-based generalised Büchi automaton, built on demand.
 //!
-//! A state is what is still wanted, and what is remembered of the past. Reading a letter (which propositions hold), each way
-//! to satisfy what is wanted gives a transition to what is wanted next; it carries the mark of each until that it does not
-//! put off (Couvreur, *On-the-fly verification of linear temporal logic*, 1999, after Gerth, Peled, Vardi, Wolper, 1995). A
-//! run of the automaton is accepting if every mark comes up again and again.
+//! A state is the set of obligations (wanted formulas) and the remembered past. On a letter (the set of propositions
+//! that hold), each way to satisfy the obligations gives a transition to the next obligations. It carries the mark of
+//! each until that it does not postpone (Couvreur, *On-the-fly verification of linear temporal logic*, 1999, after
+//! Gerth, Peled, Vardi, Wolper, 1995). A run of the automaton is accepting if every mark occurs infinitely often.
 //!
-//! Ways that want more and fulfil less than another are dropped: a state simulates every state that wants more. A formula
-//! that another wanted one brings along anyway is not written down.
+//! A way is dropped if it has more obligations and fulfils less than another: a state simulates every state with more
+//! obligations. A formula implied by another obligation is not stored.
 
 use std::rc::Rc;
 
@@ -20,20 +20,20 @@ use crate::temporal::budget::{Budget, Spent};
 use crate::temporal::component::Marks;
 use crate::temporal::formula::FormulaId;
 
-/// LIMIT: untils of one formula.
+/// LIMIT: the untils of one formula.
 pub const MOST_UNTILS: usize = 64;
-/// LIMIT: ways among which those that another makes superfluous are looked for.
+/// LIMIT: the most ways that are compared to drop superfluous ones.
 const COMPARED: usize = 2000;
 
-/// Names a state.
+/// Identifies a state.
 pub type StateNumber = u32;
 
 /// A transition.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Transition {
-    /// Where it leads.
+    /// The target state.
     pub target: StateNumber,
-    /// What is fulfilled, or not put off.
+    /// The untils that are fulfilled, or not postponed.
     pub marks: Marks,
 }
 
@@ -41,19 +41,19 @@ pub struct Transition {
 struct State {
     /// Ascending, none implied by another.
     wanted: Vec<FormulaId>,
-    /// The bits of the facts that what is wanted depends on.
+    /// The bits of the past that the obligations depend on.
     past: u128,
 }
 
-/// The automaton.
+/// An automaton, built on demand.
 #[derive(Debug)]
 pub struct Automaton {
     normal: Normal,
-    /// By formula: the mark it has as an until.
+    /// For each formula, its mark if it is an until.
     until: Vec<Option<Marks>>,
     /// All marks.
     all: Marks,
-    /// By formula: the bits of the past that it depends on, now or later.
+    /// For each formula, the bits of the past that it depends on, now or later.
     depends: Vec<u128>,
     states: Vec<State>,
     truths: Truths,
@@ -62,10 +62,10 @@ pub struct Automaton {
 }
 
 impl Automaton {
-    /// The automaton; its first state has number 0.
+    /// The automaton; its initial state has number 0.
     ///
     /// # Errors
-    /// More untils, past operators or guesses than the limits allow.
+    /// There are more untils, past operators or guesses than the limits allow.
     pub fn new(normal: Normal) -> Result<Automaton, Spent> {
         let limits = [
             (normal.facts.bits(), MOST_BITS, "past operators in a formula"),
@@ -115,20 +115,21 @@ impl Automaton {
         Ok(automaton)
     }
 
-    /// The marks that an accepting run meets again and again.
+    /// The marks that an accepting run has infinitely often.
     pub fn marks(&self) -> Marks {
         self.all
     }
 
-    /// Whether nothing more is wanted: every run from here on is accepted.
+    /// Whether there are no obligations: every run from here on is accepted.
     pub fn wants_nothing(&self, state: StateNumber) -> bool {
         self.states[state as usize].wanted.is_empty()
     }
 
-    /// The transitions of a state that read a letter: propositions hold as told, the same for the same number.
+    /// The transitions of a state on a letter. `holds` tells which propositions hold; the same number stands for the
+    /// same ones.
     ///
     /// # Errors
-    /// Told to stop, or a limit.
+    /// The caller asked to stop, or a limit was reached.
     pub fn transitions(
         &mut self,
         state: StateNumber,
@@ -142,7 +143,7 @@ impl Automaton {
         let State { wanted, past } = self.states[state as usize].clone();
         let mut ways: Vec<(State, Marks)> = Vec::new();
         let mut truths = std::mem::take(&mut self.truths);
-        // Guesses are free where nothing wanted asks for them to come true.
+        // Without obligations, guesses need not come true.
         let guesses = if wanted.is_empty() { 1 } else { 1 << self.normal.facts.guesses() };
         for guess in 0..guesses {
             let facts = self.normal.facts.truths(&holds, past, guess);
@@ -177,7 +178,7 @@ impl Automaton {
         number
     }
 
-    /// Puts a formula on a list of wanted ones; false if it can never hold.
+    /// Adds a formula to a list of obligations; `false` if it can never hold.
     fn want(&self, formula: FormulaId, wanted: &mut Vec<FormulaId>) -> bool {
         let mut open = vec![formula];
         while let Some(formula) = open.pop() {
@@ -194,7 +195,7 @@ impl Automaton {
         true
     }
 
-    /// A state: what is wanted without what follows from the rest of it, and the past that matters for it.
+    /// A state: the obligations without those implied by others, and the past that they depend on.
     fn state(&self, mut wanted: Vec<FormulaId>, past: u128) -> State {
         wanted.sort_unstable();
         wanted.dedup();
@@ -230,7 +231,7 @@ impl Automaton {
         State { wanted, past: past & mask }
     }
 
-    /// The ways to satisfy formulas in a state: what is wanted next, and which untils are put off.
+    /// The ways to satisfy formulas in a state: the next obligations, and which untils are postponed.
     fn covers(
         &self,
         wanted: &[FormulaId],
@@ -254,7 +255,7 @@ impl Automaton {
                     None => way.done.push(formula),
                 }
                 match wants.node(formula) {
-                    // Their truth is known.
+                    // Their truth is already known.
                     Want::Constant(_) | Want::Fact(..) => {}
                     Want::And(p, q) => way.todo.extend([p, q]),
                     Want::Or(p, q) if of(p) == Some(false) => way.todo.push(q),
@@ -313,7 +314,7 @@ impl Automaton {
         Ok(kept)
     }
 
-    /// The first wants no more than the second, puts off no more, and remembers the same of what it needs.
+    /// Whether the first has no more obligations, postpones no more, and remembers the same relevant past.
     fn serves(&self, first: &(State, Marks), second: &(State, Marks)) -> bool {
         let mask = first.0.wanted.iter().fold(0, |mask, formula| mask | self.depends[formula.index()]);
         second.1.has(first.1)
@@ -322,7 +323,7 @@ impl Automaton {
     }
 }
 
-/// A way to satisfy formulas, not yet finished.
+/// An incomplete way to satisfy formulas.
 #[derive(Debug, Clone, Default)]
 struct Way {
     todo: Vec<FormulaId>,

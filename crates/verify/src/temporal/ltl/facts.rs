@@ -1,15 +1,15 @@
-//! Facts of the present and past: what follows from a state, from what was so before, and from guesses.
+//! Facts of the present and past, which follow from a state, from the previous facts, and from guesses.
 //!
-//! Each past operator has a bit: of `y(p)` whether p was true in the state before, of `s(p, q)` whether it was true itself;
-//! before the first state all are false (Lichtenstein, Pnueli, Zuck 1985). So the truth of every fact is found in one pass
-//! over the table. INVARIANT: a fact's parts have smaller numbers.
+//! Each past operator has a bit: for `y(p)` whether p was true in the previous state, for `s(p, q)` whether it was true
+//! itself; before the first state all are false (Lichtenstein, Pnueli, Zuck 1985). So one pass over the table yields
+//! the truth of every fact. INVARIANT: a fact's operands have smaller numbers.
 
 use crate::temporal::formula::{Arena, FormulaId};
 
 /// The number of a fact in its table.
 pub type FactId = FormulaId;
 
-/// LIMIT: past operators of one formula, and formulas of the future that stand under one.
+/// LIMIT: past operators of one formula, and future formulas below a past operator.
 pub const MOST_BITS: usize = 128;
 /// LIMIT: see [`MOST_BITS`].
 pub const MOST_GUESSES: usize = 16;
@@ -21,13 +21,13 @@ pub enum Fact {
     Constant(bool),
     /// A proposition.
     Proposition(u32),
-    /// What is guessed, by its number.
+    /// A guess, by its number.
     Guess(u32),
-    /// Not.
+    /// Negation.
     Not(FactId),
-    /// Both.
+    /// Conjunction.
     And(FactId, FactId),
-    /// It was so in the state before.
+    /// It was true in the previous state.
     Previous(FactId),
     /// The second now or before, the first since then.
     Since(FactId, FactId),
@@ -40,18 +40,18 @@ pub struct Facts {
     /// The past operators, in the order of their bits.
     past: Vec<FactId>,
     guesses: u32,
-    /// By fact: the bits that its truth may depend on, now or later.
+    /// For each fact, the bits that its truth may depend on, now or later.
     depends: Vec<u128>,
 }
 
 impl Facts {
-    /// Adds a fact that is no past operator.
+    /// Adds a fact that is not a past operator.
     pub fn add(&mut self, fact: Fact) -> FactId {
         let id = self.arena.add(fact);
         if id.index() == self.depends.len() {
             let own = if matches!(fact, Fact::Previous(_) | Fact::Since(..)) {
                 self.past.push(id);
-                // Beyond the limit the table is not used.
+                // Beyond the limit, the table is not used.
                 1u128.checked_shl(self.past.len() as u32 - 1).unwrap_or(0)
             } else {
                 0
@@ -90,12 +90,12 @@ impl Facts {
         }
     }
 
-    /// How many past operators there are.
+    /// The number of past operators.
     pub fn bits(&self) -> usize {
         self.past.len()
     }
 
-    /// How many guesses there are.
+    /// The number of guesses.
     pub fn guesses(&self) -> usize {
         self.guesses as usize
     }
@@ -127,7 +127,7 @@ impl Facts {
         truths
     }
 
-    /// The bits after a state with these truths.
+    /// The bits after a state with these truth values.
     pub fn after(&self, truths: &[bool]) -> u128 {
         let mut after = 0;
         for (bit, past) in self.past.iter().enumerate() {

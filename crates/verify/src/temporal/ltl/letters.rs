@@ -1,4 +1,4 @@
-//! Letters: which of a formula's propositions hold in a state, as a number that is the same where the same ones hold.
+//! Letters: sets of a formula's propositions that hold in a state, numbered so that equal sets have equal numbers.
 
 use hashbrown::HashMap;
 use rustc_hash::FxBuildHasher;
@@ -9,19 +9,19 @@ use crate::temporal::budget::{Budget, Spent};
 /// The letter of each state.
 #[derive(Debug)]
 pub struct Letters {
-    /// By state.
+    /// For each state.
     letters: Vec<u32>,
-    /// By letter, one bit a proposition in the order of `propositions`.
+    /// For each letter, one bit per proposition in the order of `propositions`.
     held: Vec<Vec<u64>>,
     /// The propositions of the formula, ascending.
     propositions: Vec<u32>,
 }
 
 impl Letters {
-    /// The letters over these propositions of a graph, ascending.
+    /// The letters of a graph's states over these propositions, which are ascending.
     ///
     /// # Errors
-    /// Told to stop.
+    /// The caller asked to stop.
     pub fn of(graph: &Graph, propositions: Vec<u32>, budget: &mut Budget<'_>) -> Result<Letters, Spent> {
         let columns: Vec<&StateSet> = propositions.iter().map(|number| graph.proposition(*number as usize)).collect();
         let mut known: HashMap<Vec<u64>, u32, FxBuildHasher> = HashMap::default();
@@ -50,10 +50,10 @@ impl Letters {
         self.letters[state as usize]
     }
 
-    /// Whether a proposition holds where a letter stands.
+    /// Whether a letter contains a proposition.
     ///
     /// # Panics
-    /// A proposition that is none of the formula's.
+    /// The formula does not contain the proposition.
     pub fn holds(&self, letter: u32, proposition: u32) -> bool {
         let index = self.propositions.binary_search(&proposition).expect("a proposition of the formula");
         self.held[letter as usize][index / 64] >> (index % 64) & 1 == 1

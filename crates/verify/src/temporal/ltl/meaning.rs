@@ -1,14 +1,14 @@
-//! The truth of a formula on one lasso, straight from the definition.
+//! Evaluates a formula on one lasso, directly by the definition.
 //!
-//! In: a formula, which propositions hold where on the lasso. Out: whether it holds at the beginning. It shares nothing with
-//! the automaton, and is what every counterexample is held against before it is shown. A formula that nests past operators d
-//! deep has settled after d turns (Benedetti, Cimatti, *Bounded model checking for past LTL*, 2003), so the loop is written
-//! out d + 1 times, and the last of them goes round.
+//! In: a formula, and which propositions hold where on the lasso. Out: whether it holds at the beginning. It shares
+//! nothing with the automaton; every counterexample is checked against it before it is shown. A formula with past
+//! operators nested to depth d is stable after d turns (Benedetti, Cimatti, *Bounded model checking for past LTL*,
+//! 2003), so the loop is unrolled d + 1 times, and the last copy is repeated.
 
 use crate::temporal::formula::{FormulaId, Ltl, LtlFormulas};
 
-/// Whether a formula holds at the beginning of a lasso of `length` states whose last one is followed by number `turn`;
-/// `holds` tells of a proposition and a state.
+/// Whether a formula holds at the beginning of a lasso of `length` states, whose last one is followed by state number
+/// `turn`; `holds` evaluates a proposition in a state.
 pub fn holds_on_lasso(
     formulas: &LtlFormulas,
     root: FormulaId,
@@ -55,8 +55,8 @@ pub fn holds_on_lasso(
     truths[root.index()][0]
 }
 
-/// By position: some position from it on has q, and all before that one have p. From any position of the last turn the run
-/// goes round once; what does not come up by then never does.
+/// For each position, whether some later position has q and all before that one have p. From any position of the last
+/// turn, the run goes around once; what does not occur by then never does.
 fn until(p: &[bool], q: &[bool], last_turn: usize) -> Vec<bool> {
     let mut truth = vec![false; p.len()];
     let mut after = false;
@@ -70,7 +70,7 @@ fn until(p: &[bool], q: &[bool], last_turn: usize) -> Vec<bool> {
     truth
 }
 
-/// By formula: how deep past operators nest in it.
+/// For each formula, the nesting depth of past operators.
 fn past_depth(nodes: &[Ltl]) -> Vec<usize> {
     let mut depth: Vec<usize> = Vec::with_capacity(nodes.len());
     for node in nodes {

@@ -1,8 +1,8 @@
 //! Linear temporal logic with past over an explored graph, with fairness.
 //!
-//! The negated formula becomes an automaton ([`automaton`]); its product with the graph is searched for a fair run that the
-//! automaton accepts (Vardi, Wolper, *An automata-theoretic approach to automatic program verification*, 1986). A run found
-//! is held against the definition of the formula ([`meaning`]) before it is given out.
+//! The negated formula becomes an automaton ([`automaton`]). Its product with the graph is searched for a fair run that
+//! the automaton accepts (Vardi, Wolper, *An automata-theoretic approach to automatic program verification*, 1986). The
+//! run is checked against the definition of the formula ([`meaning`]) before it is returned.
 
 mod automaton;
 mod facts;
@@ -29,11 +29,11 @@ use crate::temporal::run::Run;
 
 pub use automaton::MOST_UNTILS;
 
-/// A fair run from an initial state on which the formula does not hold; none if there is none in what was explored. A path
-/// without a turn violates the formula however it goes on.
+/// A fair run from an initial state that violates the formula; `None` if the explored part has none. A path without a
+/// turn violates the formula however it continues.
 ///
 /// # Errors
-/// Told to stop, or a limit.
+/// The caller asked to stop, or a limit was reached.
 pub fn violating_run(
     checker: &Checker<'_>,
     formulas: &LtlFormulas,
@@ -81,7 +81,7 @@ pub fn propositions(formulas: &LtlFormulas, formula: FormulaId) -> Vec<u32> {
     found.into_iter().collect()
 }
 
-/// What is given out is a fair run of the graph on which the formula fails.
+/// Checks that a run is a fair run of the graph that violates the formula.
 fn check(checker: &Checker<'_>, formulas: &LtlFormulas, formula: FormulaId, run: &Run) {
     let graph = checker.graph();
     assert!(run.is_run_of(graph) && graph.initial().contains(&run.start), "a counterexample is a run of the model");

@@ -1,50 +1,50 @@
-//! What a run must do to satisfy a formula: its future part in negation normal form over facts of the present and past.
+//! Normalises a formula: its future part in negation normal form over facts of the present and past.
 //!
-//! In: a formula. Out: [`Wants`], formulas without negation over [`Fact`]s. A fact's truth follows from the state and from
-//! a bit for each past operator, which tells what was true the step before ([`super::facts`]). Where the future stands
-//! under a past operator (`o(g(p))`), its truth is guessed in each state, and the guess is wanted to come true.
+//! In: a formula. Out: [`Wants`], formulas without negation over [`Fact`]s. The truth of a fact follows from the state
+//! and from a bit for each past operator, which records the previous step ([`super::facts`]). If a future operator is
+//! below a past operator (`o(g(p))`), its truth is guessed in each state, and the guess becomes an obligation.
 
 use super::facts::{Fact, FactId, Facts};
 use crate::temporal::formula::{Arena, FormulaId, Ltl, LtlFormulas};
 
-/// A wanted formula over others of the same table.
+/// An obligation over others of the same table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Want {
     /// True or false.
     Constant(bool),
-    /// A fact is so.
+    /// A fact has this truth value.
     Fact(FactId, bool),
-    /// Both.
+    /// Conjunction.
     And(FormulaId, FormulaId),
-    /// At least one.
+    /// Disjunction.
     Or(FormulaId, FormulaId),
     /// In the next state.
     Next(FormulaId),
     /// The second now or later, the first until then.
     Until(FormulaId, FormulaId),
-    /// The second until and including when the first holds, or always.
+    /// The second up to and including the time when the first holds, or always.
     Release(FormulaId, FormulaId),
 }
 
-/// A table of wanted formulas.
+/// A table of obligations.
 #[derive(Debug, Default)]
 pub struct Wants {
     arena: Arena<Want>,
 }
 
-/// A formula made ready: all of `roots` are wanted of a run.
+/// A normalised formula: a run must satisfy all of `roots`.
 #[derive(Debug)]
 pub struct Normal {
     /// The formulas.
     pub wants: Wants,
-    /// The facts they speak of.
+    /// The facts in them.
     pub facts: Facts,
-    /// Wanted from the first state on.
+    /// The obligations in the first state.
     pub roots: Vec<FormulaId>,
 }
 
 impl Normal {
-    /// What is wanted of a run on which a formula has this truth in the first state.
+    /// The obligations of a run on which a formula has this truth value in the first state.
     pub fn of(formulas: &LtlFormulas, root: FormulaId, truth: bool) -> Normal {
         let mut reading = Reading::new(formulas, root);
         for index in 0..=root.index() {
@@ -66,7 +66,7 @@ impl Normal {
     }
 }
 
-/// What it takes for a formula to hold, and to fail.
+/// The obligations for a formula to hold, and to fail.
 #[derive(Debug, Clone, Copy)]
 struct Both {
     holds: FormulaId,
@@ -84,9 +84,9 @@ struct Reading<'f> {
     reachable: Vec<bool>,
     wants: Wants,
     facts: Facts,
-    /// By formula; those read so far.
+    /// For each formula read so far.
     known: Vec<Both>,
-    /// By formula: the fact that it is, if it speaks of present and past only.
+    /// For each formula, its fact, if it is only about present and past.
     fact: Vec<Option<FactId>>,
     guesses: Vec<(FormulaId, FactId)>,
 }
@@ -136,7 +136,7 @@ impl<'f> Reading<'f> {
         };
     }
 
-    /// The fact that a formula is; none if it speaks of the future.
+    /// A formula as a fact; `None` if it is about the future.
     fn fact_of(&mut self, node: Ltl) -> Option<FactId> {
         let of = |formula: FormulaId| self.fact[formula.index()];
         Some(match node {
@@ -162,7 +162,7 @@ impl<'f> Reading<'f> {
         })
     }
 
-    /// The fact that a formula is, or a guess of its truth.
+    /// A formula as a fact, or a guess of its truth.
     fn guessed(&mut self, formula: FormulaId) -> FactId {
         if let Some(fact) = self.fact[formula.index()] {
             return fact;
@@ -182,7 +182,7 @@ impl Wants {
         self.arena.node(id)
     }
 
-    /// All formulas, parts before wholes.
+    /// All formulas, operands first.
     pub fn nodes(&self) -> &[Want] {
         self.arena.nodes()
     }
@@ -218,7 +218,7 @@ impl Wants {
         }
     }
 
-    /// G F p or F G p: its truth is the same in all states of a run.
+    /// Whether this is G F p or F G p, whose truth is the same in all states of a run.
     fn is_of_the_tail(&self, id: FormulaId) -> bool {
         let again = self.globally_of(id).and_then(|inner| self.finally_of(inner));
         let at_last = self.finally_of(id).and_then(|inner| self.globally_of(inner));

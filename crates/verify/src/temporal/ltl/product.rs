@@ -1,8 +1,8 @@
 //! The product of a graph with an automaton: the runs of the graph that the automaton reads.
 //!
-//! A node is a state of the graph that the automaton is about to read in a state of its own. Only states that a fair run
-//! starts in come up. The product is made breadth first and kept in compressed rows; when the automaton comes to want
-//! nothing more, every fair run from there on is read, and the way there is a shortest one.
+//! A node is a state of the graph, which the automaton is about to read, and a state of the automaton. Only states in
+//! which a fair run starts occur. The product is built breadth-first and stored in compressed rows. When the automaton
+//! has no more obligations, every fair run from there on is accepted, and the path there is a shortest one.
 
 use std::ops::Range;
 
@@ -21,32 +21,32 @@ use crate::temporal::run::Run;
 #[derive(Debug, Default)]
 pub struct Product {
     nodes: Vec<(StateId, StateNumber)>,
-    /// How many nodes at the beginning are initial.
+    /// The number of initial nodes, which come first.
     initial: u32,
-    /// By node: the node it was met from; of an initial one itself.
+    /// For each node, its predecessor in the search; an initial node is its own.
     met_from: Vec<u32>,
-    /// By node, and one more: where its edges begin.
+    /// For each node, and one more, where its edges begin.
     first_edge: Vec<u64>,
     targets: Vec<u32>,
-    /// By edge: its marks, as a class.
+    /// For each edge, the class of its marks.
     classes: Vec<u32>,
     marks: Vec<Marks>,
 }
 
-/// How the making of a product ended.
+/// How building a product ended.
 #[derive(Debug)]
 pub enum Made {
-    /// At this node the automaton wants nothing more.
+    /// At this node the automaton has no more obligations.
     Satisfied(u32),
-    /// It is all there.
+    /// The product is complete.
     Whole,
 }
 
 impl Product {
-    /// Makes the product of a graph with the automaton.
+    /// Builds the product of a graph with the automaton.
     ///
     /// # Errors
-    /// Told to stop, or a limit.
+    /// The caller asked to stop, or a limit was reached.
     pub fn make(
         checker: &Checker<'_>,
         automaton: &mut Automaton,
@@ -100,8 +100,8 @@ impl Product {
         self.nodes[node as usize].0
     }
 
-    /// A shortest path after which the automaton wants nothing more, as it does at this node: the state that it has yet
-    /// to read there is left out.
+    /// A shortest path after which the automaton has no more obligations, as at this node. The node's state of the
+    /// graph, which is still to be read, is left out.
     pub fn satisfying_path(&self, checker: &Checker<'_>, node: u32) -> Run {
         let mut node = self.met_from[node as usize];
         let mut states = vec![self.state(node)];
@@ -118,7 +118,7 @@ impl Product {
         Run { start: states[0], edges: edges.collect(), turn: None }
     }
 
-    /// The edges of the graph that edges of the product stand for; the first one leaves `node`.
+    /// The edges of the graph that edges of the product represent; the first one leaves `node`.
     pub fn in_graph(&self, checker: &Checker<'_>, mut node: u32, edges: &[usize]) -> Vec<usize> {
         let graph = checker.graph();
         let mut found = Vec::with_capacity(edges.len());

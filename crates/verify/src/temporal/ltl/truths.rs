@@ -1,19 +1,19 @@
-//! What the facts of one state decide about wanted formulas, asked for one by one.
+//! Evaluates obligations, as far as the facts of one state determine them.
 
 use super::normal::{Want, Wants};
 use crate::temporal::formula::FormulaId;
 
-/// The truths found in one state; room for them is kept from state to state.
+/// The truth values found in one state; the memory is reused for other states.
 #[derive(Debug, Default)]
 pub struct Truths {
-    /// By formula: the state it was asked in last.
+    /// For each formula, the state in which it was asked last.
     asked: Vec<u32>,
     truth: Vec<Option<bool>>,
     state: u32,
 }
 
 impl Truths {
-    /// Forgets everything: another state.
+    /// Begins with another state.
     pub fn begin(&mut self, formulas: usize) {
         if self.state == u32::MAX {
             *self = Truths::default();
@@ -23,7 +23,7 @@ impl Truths {
         self.truth.resize(formulas, None);
     }
 
-    /// The truth of a formula where these facts hold; none if it depends on the states after this one.
+    /// The truth of a formula, given these facts; `None` if it depends on later states.
     pub fn of(&mut self, wants: &Wants, facts: &[bool], formula: FormulaId) -> Option<bool> {
         let mut open = vec![formula];
         while let Some(next) = open.last().copied() {
@@ -56,7 +56,7 @@ impl Truths {
     }
 }
 
-/// The truth of a formula by what is known of its two parts in the same state.
+/// The truth of a formula, given the truth of its operands in the same state.
 fn decided(node: Want, left: Option<bool>, right: Option<bool>) -> Option<bool> {
     match (node, left, right) {
         (Want::And(..), Some(false), _) | (Want::And(..), _, Some(false)) => Some(false),

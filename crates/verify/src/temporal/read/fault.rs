@@ -1,4 +1,4 @@
-//! The faults of temporal formulas: wording only.
+//! The faults of temporal formulas: their wording.
 //!
 //! INVARIANT: every id is in [`IDS`] and has a page `spec/faults/<id>.md`.
 
@@ -11,7 +11,7 @@ pub const IDS: &[&str] = &["formula-too-large", "mixed-logics", "temporal-in-ter
 pub(super) const MOST_FORMULAS: usize = 1_000_000;
 /// LIMIT: see [`MOST_FORMULAS`].
 pub(super) const MOST_PROPOSITIONS: usize = 10_000;
-/// LIMIT: steps that `exN` and `axN` count.
+/// LIMIT: the largest number of steps for `exN` and `axN`.
 pub(super) const MOST_STEPS: i64 = 10_000;
 
 pub(super) fn mixed(span: Span, is_ctl: bool) -> Diagnostic {

@@ -1,9 +1,9 @@
-//! Which terms have the same value in every state.
+//! Finds terms that have the same value in every state.
 
 use machine::{Closed, Machine, Show, Value};
 use program::{DomainId, DomainKind, FunctionKind, Program, Slot, Term, TermId};
 
-/// Whether a term's value depends on the values of its variables alone.
+/// Whether a term's value depends only on the values of its variables.
 pub fn is_fixed(program: &Program, term: TermId) -> bool {
     let mut entered = vec![false; program.functions.len()];
     let mut open = vec![term];
@@ -52,7 +52,7 @@ fn is_fixed_domain(program: &Program, domain: DomainId) -> bool {
             DomainKind::Seq(part) | DomainKind::Powerset(part) | DomainKind::Bag(part) => open.push(*part),
             DomainKind::Map(from, to) => open.extend([*from, *to]),
             DomainKind::Prod(parts) => open.extend(parts),
-            // One that may not grow keeps its elements, whatever is added to the domain that it is a part of.
+            // A domain that may not grow keeps its elements, whatever is added to its base domain.
             DomainKind::Concrete { dynamic: false, .. } => {}
             DomainKind::Error
             | DomainKind::Any
@@ -65,10 +65,10 @@ fn is_fixed_domain(program: &Program, domain: DomainId) -> bool {
     true
 }
 
-/// The elements that a range of a fixed term has, in canonical order.
+/// The elements of a fixed range, in canonical order.
 ///
 /// # Errors
-/// A sentence: it has none that could be gone through.
+/// A sentence: the elements cannot be enumerated.
 pub fn elements(
     machine: &mut Machine,
     range: TermId,

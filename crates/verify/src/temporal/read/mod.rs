@@ -1,9 +1,9 @@
-//! From the temporal properties of a program to formulas over numbered propositions.
+//! Reads the temporal properties of a program as formulas over numbered propositions.
 //!
-//! In: a lowered program. Out: [`Properties`], or faults with their places. An operator of the CTL or LTL library is a
-//! formula's own; so are connectives, conditionals, quantifiers and static functions over formulas, which are written out:
-//! a quantifier for each element of its range, a function with its arguments put in. What speaks of one state only is a
-//! proposition, whole. INVARIANT: a proposition has no temporal operator in it.
+//! In: a lowered program. Out: [`Properties`], or faults with their places. Operators of the CTL and LTL libraries
+//! become operators of formulas. Connectives, conditionals, quantifiers and static functions over formulas are
+//! expanded: a quantifier for each element of its range, a function with its arguments substituted. A term about one
+//! state becomes a proposition as a whole. INVARIANT: a proposition contains no temporal operator.
 
 mod fault;
 mod fixed;
@@ -21,36 +21,36 @@ pub use proposition::Proposition;
 use crate::temporal::formula::{CtlFormulas, FormulaId, LtlFormulas};
 use reader::Reader;
 
-/// The temporal properties of a program, and the assumptions on its runs.
+/// The temporal properties of a program, and its assumptions about runs.
 #[derive(Debug, Clone, Default)]
 pub struct Properties {
-    /// What the formulas speak of.
+    /// The propositions in the formulas.
     pub propositions: Vec<Proposition>,
     /// The formulas of CTL.
     pub ctl: CtlFormulas,
     /// The formulas of LTL.
     pub ltl: LtlFormulas,
-    /// By its index among the program's properties.
+    /// The formulas, by index among the program's properties.
     pub formulas: Vec<(usize, Formula)>,
-    /// Propositions that come up again and again.
+    /// Propositions that hold infinitely often.
     pub justice: Vec<usize>,
-    /// Pairs of which the second comes up again and again if the first does.
+    /// Pairs whose second holds infinitely often if the first does.
     pub compassion: Vec<(usize, usize)>,
 }
 
 /// A formula of one of the logics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Formula {
-    /// Of [`Properties::ctl`].
+    /// In [`Properties::ctl`].
     Ctl(FormulaId),
-    /// Of [`Properties::ltl`].
+    /// In [`Properties::ltl`].
     Ltl(FormulaId),
 }
 
 /// Reads all temporal properties and fairness constraints.
 ///
 /// # Errors
-/// Formulas that have no meaning.
+/// Formulas without a meaning.
 pub fn read(program: &Arc<Program>) -> Result<Properties, Vec<Diagnostic>> {
     let (properties, faults) = read_each(program);
     if !faults.is_empty() {
@@ -59,7 +59,7 @@ pub fn read(program: &Arc<Program>) -> Result<Properties, Vec<Diagnostic>> {
     Ok(properties)
 }
 
-/// The same, where those that have no meaning are left out: their faults, by the indices of their properties.
+/// Like [`read`], but leaves out those without a meaning, and returns their faults by the index of the property.
 pub fn read_each(program: &Arc<Program>) -> (Properties, Vec<(usize, Diagnostic)>) {
     let mut properties = Properties::default();
     let mut reader = Reader::new(program);
@@ -81,7 +81,7 @@ pub fn read_each(program: &Arc<Program>) -> (Properties, Vec<(usize, Diagnostic)
             PropertyKind::Invariant | PropertyKind::Invar => None,
         };
         let found = reader.faults();
-        // A formula one of whose parts has a fault may be read in part.
+        // A formula with a fault in one part may have been read in part.
         properties.formulas.extend(formula.filter(|_| found.is_empty()).map(|formula| (index, formula)));
         faults.extend(found.into_iter().map(|fault| (index, fault)));
     }

@@ -4,29 +4,29 @@ use machine::{Environment, Fault, Machine, Value};
 use program::{Expression, Program, Slot, Term, TermId};
 use syntax::Span;
 
-/// A Boolean term in which variables of the formula around it have fixed values.
+/// A Boolean term, with fixed values for the variables of the enclosing formula.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Proposition {
     /// The term.
     pub term: TermId,
-    /// How many slots its frame has.
+    /// The number of slots in its frame.
     pub frame: u32,
-    /// The values of variables that are bound around it, by slot.
+    /// The values of variables bound outside of it, by slot.
     pub bindings: Vec<(Slot, Value)>,
 }
 
 impl Proposition {
-    /// A formula without variables around it.
+    /// A proposition without enclosing variables.
     pub fn of(expression: &Expression) -> Proposition {
         Proposition { term: expression.body, frame: expression.frame, bindings: Vec::new() }
     }
 
-    /// Where it is written.
+    /// Its place.
     pub fn span(&self, program: &Program) -> Span {
         program.term_span(self.term)
     }
 
-    /// As an expression, for what reads of it only which functions it uses.
+    /// As an expression, for readers that only need the functions in it.
     pub fn expression(&self) -> Expression {
         let (frame, names) = (self.frame, vec![String::new(); self.frame as usize]);
         Expression { parameters: Vec::new(), frame, names, body: self.term }
@@ -41,17 +41,17 @@ impl Proposition {
     }
 }
 
-/// A piece of a term, without its parts: two terms are written alike if their pieces are, in order.
+/// A node of a term without its operands: two terms are written alike if their pieces are equal, in order.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Piece {
-    /// A variable that has this value.
+    /// A variable with this value.
     Value(Value),
-    /// Anything else: in words, the same for the same.
+    /// Anything else, as text; equal nodes have equal texts.
     Other(String),
 }
 
 impl Proposition {
-    /// The pieces of the term, each before its parts.
+    /// The pieces of the term, each before its operands.
     pub fn pieces(&self, program: &Program) -> Vec<Piece> {
         let mut pieces = Vec::new();
         let mut open = vec![self.term];

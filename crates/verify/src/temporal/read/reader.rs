@@ -1,4 +1,4 @@
-//! Reads one formula after the other; what a variable stands for is looked up in the surroundings of its term.
+//! Reads formulas; the scope around a term tells what its variables stand for.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -12,10 +12,10 @@ use super::fixed::{elements, is_fixed};
 use super::proposition::{Piece, Proposition};
 use crate::temporal::formula::{FormulaId, Logic};
 
-/// Stack kept free for one level, and how much is added when it is not.
+/// The stack kept free for one level of recursion, and the size of each extension.
 const RED_ZONE: usize = 64 * 1024;
 const STACK_PIECE: usize = 1024 * 1024;
-/// LIMIT: how deep functions over formulas call each other.
+/// LIMIT: how deeply functions over formulas may call each other.
 const DEPTH: usize = 10_000;
 
 /// What a variable stands for.
@@ -29,20 +29,20 @@ enum Bound {
     Formulas(Vec<FormulaId>),
 }
 
-/// The variables around a term.
+/// The scope of a term.
 #[derive(Debug, Clone, Default)]
 struct Surroundings {
     size: u32,
     bound: BTreeMap<u32, Bound>,
 }
 
-/// See the module.
+/// Reads a program's properties.
 pub struct Reader<'p> {
     program: &'p Program,
     machine: Machine,
     propositions: Vec<Proposition>,
     known: BTreeMap<Vec<Piece>, usize>,
-    /// By function: whether its definition speaks of runs.
+    /// For each function, whether its definition contains temporal operators.
     temporal: BTreeMap<FunctionId, bool>,
     faults: Vec<Diagnostic>,
     depth: usize,
@@ -56,7 +56,7 @@ impl<'p> Reader<'p> {
         Reader { program, machine, propositions, known, temporal, faults: Vec::new(), depth: 0 }
     }
 
-    /// The faults that were met since this was last asked.
+    /// Takes the faults found so far.
     pub fn faults(&mut self) -> Vec<Diagnostic> {
         std::mem::take(&mut self.faults)
     }
@@ -66,7 +66,7 @@ impl<'p> Reader<'p> {
         self.propositions
     }
 
-    /// Reads a property; none where it has a fault.
+    /// Reads a property; `None` if it has a fault.
     pub fn read<L: Logic>(&mut self, table: &mut L, property: &Expression) -> Option<FormulaId> {
         let around = Surroundings { size: property.frame, bound: BTreeMap::new() };
         self.formula(table, property.body, &around)
@@ -104,7 +104,7 @@ impl<'p> Reader<'p> {
         formula
     }
 
-    /// A term that speaks of runs.
+    /// A term about runs.
     fn joined<L: Logic>(&mut self, table: &mut L, term: TermId, around: &Surroundings) -> Option<FormulaId> {
         let program = self.program;
         match program.term(term) {
@@ -175,7 +175,7 @@ impl<'p> Reader<'p> {
     }
 
     fn formulas<L: Logic>(&mut self, table: &mut L, terms: &[TermId], around: &Surroundings) -> Option<Vec<FormulaId>> {
-        // All are read, so that each tells of its fault.
+        // All are read, so that each reports its fault.
         let read: Vec<Option<FormulaId>> = terms.iter().map(|term| self.formula(table, *term, around)).collect();
         read.into_iter().collect()
     }
@@ -205,7 +205,7 @@ impl<'p> Reader<'p> {
         table.operator(operator, &parts)
     }
 
-    /// What a variable stands for when it is given a term.
+    /// The meaning of a variable that is bound to a term.
     fn bound<L: Logic>(&mut self, table: &mut L, term: TermId, around: &Surroundings, what: &str) -> Option<Bound> {
         if let Some(formulas) = self.collection(table, term, around) {
             return formulas.map(Bound::Formulas);
@@ -222,7 +222,7 @@ impl<'p> Reader<'p> {
         }
     }
 
-    /// The formulas of a collection of Booleans that is written down, or handed on.
+    /// The formulas of a Boolean collection that is written out, or passed on.
     fn collection<L: Logic>(
         &mut self,
         table: &mut L,
@@ -243,7 +243,7 @@ impl<'p> Reader<'p> {
         }
     }
 
-    /// The formula of each element that binders range over.
+    /// The formula for each element that binders range over.
     fn each<L: Logic>(
         &mut self,
         table: &mut L,
@@ -293,7 +293,7 @@ impl<'p> Reader<'p> {
         Some(table.proposition(number as u32))
     }
 
-    /// The values of the variables of a term that are bound around it.
+    /// The values of a term's free variables.
     fn bindings(&self, term: TermId, around: &Surroundings) -> Vec<(Slot, Value)> {
         let mut used = BTreeMap::new();
         let mut open = vec![term];
@@ -325,7 +325,7 @@ impl<'p> Reader<'p> {
         }
     }
 
-    /// The first operator, or variable for a formula, that makes a term speak of runs.
+    /// The first operator (or variable for a formula) that makes a term one about runs.
     fn operator_in(&mut self, term: TermId, around: &Surroundings) -> Option<TermId> {
         let program = self.program;
         let mut open = vec![term];
