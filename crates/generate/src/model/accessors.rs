@@ -166,7 +166,7 @@ pub(crate) fn initial_state(generator: &Generator<'_>, text: &mut Text) {
     if kept.is_empty() {
         return;
     }
-    text.line("/// What initial values read that are due late.");
+    text.line("/// What late initial values read.");
     text.open("struct Start {");
     kept.iter().for_each(|(member, copy)| text.line(format!("decltype({member}) {copy}{{}};")));
     text.close("};");

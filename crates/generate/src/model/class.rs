@@ -23,7 +23,7 @@ pub(crate) fn header(bodies: &Bodies<'_>, title: &str) -> Text {
     class(bodies, &mut body);
     let mut text = Text::default();
     text.line(format!(
-        "// The machine {} in C++, made by groundstate from {title}. Made anew with each generation.",
+        "// The machine {} in C++, made by groundstate from {title}. Overwritten by each generation.",
         program.name
     ));
     text.line("//");
@@ -89,7 +89,7 @@ fn types(generator: &Generator<'_>, text: &mut Text) {
 }
 
 fn environment(generator: &Generator<'_>, text: &mut Text) {
-    text.line("/// What the machine asks for. Each location and clock is asked for once a step at most.");
+    text.line("/// What the machine asks for. Each location and clock is asked for at most once per step.");
     text.open("class Environment {");
     text.line("public:");
     if generator.options.bare {
@@ -116,7 +116,7 @@ fn environment(generator: &Generator<'_>, text: &mut Text) {
     text.line("virtual std::int64_t time(gs::TimeUnit) { return 0; }");
     if generator.options.bare {
         text.line("\nprotected:");
-        text.line("/// Nobody deletes an environment by its base.");
+        text.line("/// Environments are never deleted through this base.");
         text.line("~Environment() = default;");
     }
     text.close("};\n");
@@ -140,11 +140,11 @@ fn class(bodies: &Bodies<'_>, text: &mut Text) {
     text.line("explicit Machine(Environment& environment) : environment_{environment} {}");
     text.line("Machine(const Machine&) = delete;");
     text.line("Machine& operator=(const Machine&) = delete;\n");
-    text.line("/// Sets the initial state. Who: the owner, once, before any step. Gives the fault of an initial value, or none.");
+    text.line("/// Sets the initial state. Who: the owner, once, before any step. Returns the fault of an initial value, or none.");
     text.line("[[nodiscard]] gs::Fault start();");
     text.line("/// Makes a step. After a fault, or an exception of the environment, the state is the one before.");
     text.line("[[nodiscard]] gs::Fault step();");
-    text.line("/// Whether the last step had any update.");
+    text.line("/// Whether the last step had any updates.");
     text.line("[[nodiscard]] bool changed() const noexcept { return changed_; }\n");
     for (id, function) in functions(generator, &[Role::State]) {
         let (list, names) = parameters(generator, id);
@@ -168,7 +168,9 @@ fn class(bodies: &Bodies<'_>, text: &mut Text) {
     text.line(
         "/// Calls visit(name, arguments, value) for each location of the state, with undef where it has no value.",
     );
-    text.line("/// Where an argument is undef, an initial value is there once it was read, or where the function has an array.");
+    text.line(
+        "/// With an undef argument, an initial value is included once it was read, or if the function has an array.",
+    );
     text.line("template <class Visit>");
     text.open("void each_location([[maybe_unused]] Visit&& visit) const {");
     for (id, function) in functions(generator, &[Role::State, Role::Shared]) {
@@ -208,7 +210,7 @@ fn class(bodies: &Bodies<'_>, text: &mut Text) {
         text.line("std::array<gs::Answer<std::int64_t>, 3> clock_{};");
     }
     initial_state(generator, text);
-    text.line("\n/// What the running step has updated of functions that no `seq` updates.");
+    text.line("\n/// Updates of the running step, for functions that no `seq` updates.");
     text.open("struct Next {");
     for function in stepped(generator) {
         text.line(format!("decltype({})::Next {};", function.member, function.name));

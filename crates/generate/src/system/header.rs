@@ -26,7 +26,7 @@ pub(super) fn header(system: &System, file: &str, name: &str, form: &Form) -> St
     for component in &system.components {
         hook_class(&mut text, system, component);
     }
-    text.push_str("\n/// The user's code. It lives longer than the system.\nstruct Hooks {\n");
+    text.push_str("\n/// The user's code. It must outlive the system.\nstruct Hooks {\n");
     for component in &system.components {
         let _ = writeln!(text, "    {}& {};", pascal(&component.name), member(&component.name));
     }
@@ -78,7 +78,7 @@ fn hook_class(text: &mut String, system: &System, component: &Component) {
     for phase in component.phases.iter().filter(|phase| matches!(phase.action, Action::Elaborate(_))) {
         let _ = write!(
             text,
-            "    /// False: there is nothing to hand over in this cycle. Within {}.\n    \
+            "    /// Returns false if there is nothing to hand over in this cycle. Should end within {}.\n    \
              virtual bool {}(const Cycle& cycle, const In& in, Out& out) = 0;\n",
             duration(phase.time * system.tick_ns),
             hook(&phase.subject)

@@ -27,11 +27,11 @@ struct Microscope {
         Image& image;
     };
     virtual ~Microscope() = default;
-    /// False: there is nothing to hand over in this cycle. Within 8 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 8 ms.
     virtual bool grab(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -45,11 +45,11 @@ struct Aligner {
         Correction& correction;
     };
     virtual ~Aligner() = default;
-    /// False: there is nothing to hand over in this cycle. Within 9 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 9 ms.
     virtual bool compare(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -61,11 +61,11 @@ struct Force {
         Contact& contact;
     };
     virtual ~Force() = default;
-    /// False: there is nothing to hand over in this cycle. Within 0.2 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 0.2 ms.
     virtual bool feel(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -81,11 +81,11 @@ struct Stage {
         State& state;
     };
     virtual ~Stage() = default;
-    /// False: there is nothing to hand over in this cycle. Within 0.3 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 0.3 ms.
     virtual bool approach(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -97,11 +97,11 @@ struct Piezo {
     struct Out {
     };
     virtual ~Piezo() = default;
-    /// False: there is nothing to hand over in this cycle. Within 0.1 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 0.1 ms.
     virtual bool drive(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -113,11 +113,11 @@ struct ScalesReader {
         Scale& scale;
     };
     virtual ~ScalesReader() = default;
-    /// False: there is nothing to hand over in this cycle. Within 0.1 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 0.1 ms.
     virtual bool acquire(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -130,15 +130,15 @@ struct Supervisor {
         Recipe& recipe;
     };
     virtual ~Supervisor() = default;
-    /// False: there is nothing to hand over in this cycle. Within 5 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 5 ms.
     virtual bool decide(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
-/// The user's code. It lives longer than the system.
+/// The user's code. It must outlive the system.
 struct Hooks {
     Microscope& microscope;
     Aligner& aligner;
@@ -177,7 +177,7 @@ class System final : public groundstate::SystemBase<C> {
     using Observer = groundstate::Observation<C>;
 
   public:
-    /// So many threads live by its clock: the tasks, and whoever runs it.
+    /// The number of threads that use its clock: the tasks, and the one that runs the system.
     static constexpr std::size_t threads = 8;
 
     System(C& clock, const Hooks& hooks, const groundstate::Options& options)

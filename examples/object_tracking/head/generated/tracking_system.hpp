@@ -27,11 +27,11 @@ struct Camera {
         Image& image;
     };
     virtual ~Camera() = default;
-    /// False: there is nothing to hand over in this cycle. Within 4 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 4 ms.
     virtual bool grab(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -46,11 +46,11 @@ struct Tracker {
         Sightings& sightings;
     };
     virtual ~Tracker() = default;
-    /// False: there is nothing to hand over in this cycle. Within 5 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 5 ms.
     virtual bool locate(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -65,11 +65,11 @@ struct Head {
         HeadAngles& head_angles;
     };
     virtual ~Head() = default;
-    /// False: there is nothing to hand over in this cycle. Within 0.5 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 0.5 ms.
     virtual bool follow(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -82,11 +82,11 @@ struct Motor {
     struct Out {
     };
     virtual ~Motor() = default;
-    /// False: there is nothing to hand over in this cycle. Within 0.3 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 0.3 ms.
     virtual bool drive(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -99,11 +99,11 @@ struct Encoder {
         EncoderToMotor& encoder_to_motor;
     };
     virtual ~Encoder() = default;
-    /// False: there is nothing to hand over in this cycle. Within 0.1 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 0.1 ms.
     virtual bool acquire(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -115,15 +115,15 @@ struct Display {
     struct Out {
     };
     virtual ~Display() = default;
-    /// False: there is nothing to hand over in this cycle. Within 5 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 5 ms.
     virtual bool show(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
-/// The user's code. It lives longer than the system.
+/// The user's code. It must outlive the system.
 struct Hooks {
     Camera& camera;
     Tracker& tracker;
@@ -160,7 +160,7 @@ class System final : public groundstate::SystemBase<C> {
     using Observer = groundstate::Observation<C>;
 
   public:
-    /// So many threads live by its clock: the tasks, and whoever runs it.
+    /// The number of threads that use its clock: the tasks, and the one that runs the system.
     static constexpr std::size_t threads = 7;
 
     System(C& clock, const Hooks& hooks, const groundstate::Options& options)

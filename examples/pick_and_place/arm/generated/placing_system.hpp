@@ -29,11 +29,11 @@ struct Camera {
         Image& image;
     };
     virtual ~Camera() = default;
-    /// False: there is nothing to hand over in this cycle. Within 6 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 6 ms.
     virtual bool grab(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -46,11 +46,11 @@ struct Vision {
         Parts& parts;
     };
     virtual ~Vision() = default;
-    /// False: there is nothing to hand over in this cycle. Within 15 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 15 ms.
     virtual bool find(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -64,11 +64,11 @@ struct Planner {
         Moves& moves;
     };
     virtual ~Planner() = default;
-    /// False: there is nothing to hand over in this cycle. Within 10 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 10 ms.
     virtual bool plan(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -85,11 +85,11 @@ struct Robot {
         Progress& progress;
     };
     virtual ~Robot() = default;
-    /// False: there is nothing to hand over in this cycle. Within 1 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 1 ms.
     virtual bool control(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -102,11 +102,11 @@ struct Gripper {
         Grip& grip;
     };
     virtual ~Gripper() = default;
-    /// False: there is nothing to hand over in this cycle. Within 0.5 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 0.5 ms.
     virtual bool close(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -119,11 +119,11 @@ struct Motor {
     struct Out {
     };
     virtual ~Motor() = default;
-    /// False: there is nothing to hand over in this cycle. Within 0.3 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 0.3 ms.
     virtual bool drive(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -136,15 +136,15 @@ struct Encoder {
         EncoderToMotor& encoder_to_motor;
     };
     virtual ~Encoder() = default;
-    /// False: there is nothing to hand over in this cycle. Within 0.1 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 0.1 ms.
     virtual bool acquire(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
-/// The user's code. It lives longer than the system.
+/// The user's code. It must outlive the system.
 struct Hooks {
     Camera& camera;
     Vision& vision;
@@ -183,7 +183,7 @@ class System final : public groundstate::SystemBase<C> {
     using Observer = groundstate::Observation<C>;
 
   public:
-    /// So many threads live by its clock: the tasks, and whoever runs it.
+    /// The number of threads that use its clock: the tasks, and the one that runs the system.
     static constexpr std::size_t threads = 8;
 
     System(C& clock, const Hooks& hooks, const groundstate::Options& options)

@@ -27,11 +27,11 @@ struct Operator {
         Targets& targets;
     };
     virtual ~Operator() = default;
-    /// False: there is nothing to hand over in this cycle. Within 30 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 30 ms.
     virtual bool plan(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -43,11 +43,11 @@ struct Camera {
         CameraToVs& camera_to_vs;
     };
     virtual ~Camera() = default;
-    /// False: there is nothing to hand over in this cycle. Within 6 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 6 ms.
     virtual bool grab(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -62,11 +62,11 @@ struct VisualServoing {
         VsToRobot& vs_to_robot;
     };
     virtual ~VisualServoing() = default;
-    /// False: there is nothing to hand over in this cycle. Within 12 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 12 ms.
     virtual bool set_point(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -81,11 +81,11 @@ struct Robot {
         RobotToVs& robot_to_vs;
     };
     virtual ~Robot() = default;
-    /// False: there is nothing to hand over in this cycle. Within 2 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 2 ms.
     virtual bool control(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -98,11 +98,11 @@ struct Motor {
     struct Out {
     };
     virtual ~Motor() = default;
-    /// False: there is nothing to hand over in this cycle. Within 0.3 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 0.3 ms.
     virtual bool drive(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
@@ -115,15 +115,15 @@ struct Encoder {
         EncoderToMotor& encoder_to_motor;
     };
     virtual ~Encoder() = default;
-    /// False: there is nothing to hand over in this cycle. Within 0.1 ms.
+    /// Returns false if there is nothing to hand over in this cycle. Should end within 0.1 ms.
     virtual bool acquire(const Cycle& cycle, const In& in, Out& out) = 0;
     /// Before the tasks start; may allocate.
     virtual void start() {}
-    /// After all tasks have ended, however they did.
+    /// After all tasks have ended, for whatever reason.
     virtual void safe_stop() noexcept {}
 };
 
-/// The user's code. It lives longer than the system.
+/// The user's code. It must outlive the system.
 struct Hooks {
     Operator& operator_;
     Camera& camera;
@@ -160,7 +160,7 @@ class System final : public groundstate::SystemBase<C> {
     using Observer = groundstate::Observation<C>;
 
   public:
-    /// So many threads live by its clock: the tasks, and whoever runs it.
+    /// The number of threads that use its clock: the tasks, and the one that runs the system.
     static constexpr std::size_t threads = 7;
 
     System(C& clock, const Hooks& hooks, const groundstate::Options& options)
