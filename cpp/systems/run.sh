@@ -83,7 +83,7 @@ said "conforms tick by tick"
 mkdir -p "$out/contention"
 cp contention/data.hpp contention/main.cpp "$out/contention"
 expect 0 "$groundstate" generate cpp Contention.chart -o "$out/contention"
-said "yours, left as they are: main.cpp, data.hpp"
+said "your files, left as they are: main.cpp, data.hpp"
 echo '// mine' >>"$out/contention/fast.hpp"
 expect 0 "$groundstate" generate cpp Contention.chart -o "$out/contention"
 tail -1 "$out/contention/fast.hpp" | grep -qx '// mine' || fail "a file of the user's was overwritten"
@@ -109,7 +109,7 @@ model=$(realpath Contention.asm)
 machine=$(realpath "$out/both/machine")
 rm "$machine"/*.*
 (cd / && "$groundstate" generate cpp "$model" -o "$machine" >"$machine/said")
-grep -q '^called otherwise in C++: ' "$machine/said" && fail "names of the model differ in C++"
+grep -q '^renamed in C++: ' "$machine/said" && fail "names of the model differ in C++"
 rm "$machine/said"
 diff -r "$out/elsewhere" "$machine" || fail "the same model gives other code when made from another folder"
 cp -r contention "$out/both/program"

@@ -35,7 +35,7 @@ while IFS=';' read -r model options expected; do
 		# A violation that is told while the search goes on is named again at the end.
 		[ "$(grep '^\(violated\|unknown\)' "$output" | grep -cv ', as shown above$')" -eq $# ] ||
 			complain "not everything else holds"
-		grep -q "^$states states (all that can be reached)" "$output" ||
+		grep -q "^$states states (all reachable)" "$output" ||
 			complain "$(grep -o '^[0-9]* states ([^)]*)' "$output") instead of $states"
 	else
 		[ $code -eq 1 ] || complain "exit code $code instead of 1"

@@ -155,7 +155,7 @@ impl<F: Files> Workspace<F> {
             Some(Kind::Report | Kind::Verification) => specification(&root, loader),
             None => {
                 let ending = path.rsplit('.').next().unwrap_or_default();
-                Findings::not_checked(format!("what ends in .{ending} is not known"))
+                Findings::not_checked(format!("the ending .{ending} is unknown"))
             }
         })
     }
@@ -245,7 +245,7 @@ pub fn imported(files: &mut impl Files, importer: &SourceFile, path: &str) -> Re
     patterns::pattern(&importer.name, &written).ok_or_else(|| {
         let missing = format!("there is no file {beside}");
         match patterns::meant(&written) {
-            Some(import) => format!("{missing}; `import {import}` takes the library that is built in"),
+            Some(import) => format!("{missing}; `import {import}` takes the built-in library"),
             None => missing,
         }
     })

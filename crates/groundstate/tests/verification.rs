@@ -101,7 +101,7 @@ fn the_pages_of_faults_show_them() {
     let [Reason::Unbounded(unbounded)] = &reasons[..] else { panic!("{reasons:?}") };
     let loaded = groundstate::load(SourceFile::new(file(text), text), &mut one_model(text)).expect("it has no faults");
     let fault = groundstate::diagnose_unbounded(unbounded, &program, &loaded.sources);
-    let message = "the values of inflow cannot be gone through (example.asm:4:15)";
+    let message = "the values of inflow cannot be enumerated (example.asm:4:15)";
     assert_eq!((fault.id, fault.message.as_str()), ("no-bound", message));
     let outside = Page::fault("outside-solver");
     let text = outside.example("asmetal solver");

@@ -74,7 +74,7 @@ impl fmt::Display for Conflict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Conflict::Engine(part, engine) => write!(f, "{part:?} does not work with the engine {engine:?}"),
-            Conflict::Parts(one, other) => write!(f, "{one:?} and {other:?} do not go together"),
+            Conflict::Parts(one, other) => write!(f, "{one:?} and {other:?} cannot be combined"),
         }
     }
 }
@@ -211,11 +211,11 @@ pub struct NoSolvers;
 
 impl Solvers for NoSolvers {
     fn name(&self) -> Result<String, String> {
-        Err("no solver is to be asked".to_string())
+        Err("no solver may be asked".to_string())
     }
 
     fn start(&mut self) -> Result<Box<dyn Session>, Silence> {
-        Err(Silence::Broken("no solver is to be asked".to_string()))
+        Err(Silence::Broken("no solver may be asked".to_string()))
     }
 }
 

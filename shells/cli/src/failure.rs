@@ -105,7 +105,7 @@ impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Failure::Missing(path) => write!(f, "there is no file {}", path.display()),
-            Failure::Folder(path) => write!(f, "{} is a folder, a file is needed", path.display()),
+            Failure::Folder(path) => write!(f, "{} is a folder; a file is needed", path.display()),
             Failure::NotUtf8 { path, offset } => {
                 write!(f, "{} is not UTF-8 text: byte {offset} does not belong to a character", path.display())
             }

@@ -62,8 +62,8 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     }
     if shell.talks() && !arguments.check {
         let Counts { faulty, kept, changed, .. } = counts;
-        let faulty = if faulty == 0 { String::new() } else { format!(", {faulty} with faults of syntax not touched") };
-        writeln!(shell.out(), "{} formatted, {kept} in good layout{faulty}", plural(changed, "file"))?;
+        let faulty = if faulty == 0 { String::new() } else { format!(", {faulty} with syntax faults left unchanged") };
+        writeln!(shell.out(), "{} formatted, {kept} already formatted{faulty}", plural(changed, "file"))?;
     }
     if counts.refused > 0 {
         return Ok(Exit::World);
@@ -145,7 +145,7 @@ fn layout(shell: &mut Shell, source: SourceFile) -> Result<Layout, Failure> {
     if !syntax::differ_in_layout_only(&parse, &grammar(file, &formatted)) {
         let name = sources.file(file).name.clone();
         let message =
-            format!("{name} stays as it is: its layout would change its meaning, which is a fault of groundstate");
+            format!("{name} stays as it is: formatting would change its meaning, which is a bug of groundstate");
         shell.report_failure(&Failure::usage(message));
         return Ok(Layout::Refused);
     }

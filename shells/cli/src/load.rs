@@ -26,7 +26,7 @@ pub fn load(shell: &mut Shell, path: &Path) -> Result<Result<Loaded, Exit>, Fail
         Err(faulty) => {
             shell.diagnostics(&faulty.sources, &faulty.diagnostics)?;
             if shell.talks() {
-                shell.note(&format!("{} has faults; it was not run", path.display()))?;
+                shell.note(&format!("{} has faults and was not run", path.display()))?;
             }
             Ok(Err(Exit::Model))
         }

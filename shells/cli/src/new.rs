@@ -55,8 +55,8 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     match std::fs::read_dir(folder) {
         Ok(mut entries) => {
             if entries.next().is_some() {
-                let message = format!("{} is there already, and not empty", folder.display());
-                return Err(Failure::usage_with_help(message, "nothing was written; take another name"));
+                let message = format!("{} already exists and is not empty", folder.display());
+                return Err(Failure::usage_with_help(message, "nothing was written; choose another name"));
             }
         }
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {}
@@ -82,14 +82,14 @@ fn name(folder: &Path) -> Result<&str, Failure> {
         Failure::usage_with_help(message, "a letter first, then letters, digits and _: MyRobot")
     };
     if !name.starts_with(|c: char| c.is_ascii_alphabetic()) || !name.chars().all(fits) {
-        return Err(said("its last part is to have letters, digits and _ only"));
+        return Err(said("its last part may contain only letters, digits and _"));
     }
     if name.len() > 64 {
-        return Err(said("it has more than 64 letters"));
+        return Err(said("it has more than 64 characters"));
     }
     // Imports of such names find the built-in libraries, whatever lies beside the model.
     if name.to_ascii_lowercase().ends_with("library") {
-        return Err(said("the built-in libraries are called so"));
+        return Err(said("names ending in Library belong to the built-in libraries"));
     }
     Ok(name)
 }

@@ -27,7 +27,7 @@ pub fn refuse(path: &Path) -> Result<(), Failure> {
         return Ok(());
     }
     Err(Failure::usage_with_help(
-        format!("{} is what this command reads; it is not written over", path.display()),
+        format!("{} is read by this command, so it is not overwritten", path.display()),
         "name another file to write",
     ))
 }

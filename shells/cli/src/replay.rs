@@ -78,11 +78,20 @@ fn follow(
     while let Some(line) = lines.next()? {
         let expected = match line {
             Line::Other => continue,
-            Line::Back { .. } => return Err(lines.wrong("it holds a step taken back; `run --trace` leaves those out")),
+            Line::Back { .. } => {
+                return Err(lines.wrong("it contains a step that was taken back; `run --trace` leaves those out"));
+            }
             line => match reader.record(&line) {
                 Ok(record) => record,
-                // The names in it are no longer those of the model.
-                Err(message) => return told_apart(shell, recorded.run().steps() + 1, "a name of then", &message),
+                // The trace contains names that the model no longer has.
+                Err(message) => {
+                    return told_apart(
+                        shell,
+                        recorded.run().steps() + 1,
+                        "a name that the model no longer has",
+                        &message,
+                    );
+                }
             },
         };
         match recorded.follow(&expected) {
@@ -109,8 +118,9 @@ fn told_apart(shell: &mut Shell, step: u64, trace: &str, now: &str) -> Result<Ex
         let object = Answer::Parted { step, trace, now };
         shell.object(&object)?;
     } else {
-        shell
-            .note(&format!("error: the model parts from the trace at step {step}\n  trace: {trace}\n  now:   {now}"))?;
+        shell.note(&format!(
+            "error: the model differs from the trace at step {step}\n  trace: {trace}\n  now:   {now}"
+        ))?;
     }
     Ok(Exit::Model)
 }

@@ -42,7 +42,7 @@ impl Process {
 
     fn program(&self) -> Result<&Path, String> {
         self.program.as_deref().ok_or_else(|| match self.named {
-            true => "no solver is to be asked".to_string(),
+            true => "no solver may be asked".to_string(),
             false => "no SMT solver (z3 or cvc5) is on the PATH".to_string(),
         })
     }

@@ -163,7 +163,7 @@ fn traces_that_are_none() {
     write(folder.path(), "newer", trace.replace("\"version\":1", "\"version\":99"));
     check(folder.path(), &["replay", "newer"], 2, "version 99");
     write(folder.path(), "other", trace.replace("\"to\":\"2\"", "\"to\":\"7\""));
-    check(folder.path(), &["replay", "other"], 1, "parts from the trace at step 2");
+    check(folder.path(), &["replay", "other"], 1, "differs from the trace at step 2");
     write(folder.path(), "Count.asm", model("Count", "x := x + 2"));
     check(folder.path(), &["replay", "t"], 1, "the model has changed");
 }
@@ -289,7 +289,7 @@ fn what_is_read_is_not_written_over() {
     let model = model("Count", "x := x + 1");
     write(folder.path(), "Count.asm", &model);
     write(folder.path(), "Lamp.chart", LAMP);
-    let says = "it is not written over";
+    let says = "it is not overwritten";
     check(folder.path(), &["run", "Count.asm", "--trace", "Count.asm", "-n", "1"], 2, says);
     check(folder.path(), &["run", "./Count.asm", "--trace", "../x/../Count.asm", "-n", "1"], 2, "");
     check(folder.path(), &["chart", "build", "Lamp.chart", "-o", "Lamp.chart"], 2, says);
@@ -337,7 +337,7 @@ fn a_model_with_faults_is_not_built() {
         LAMP.replace("chart Lamp", "chart Old").replace("guard pressed", "guard pressed {x}"),
     );
     let before = fs::read_to_string(folder.path().join("Old.asm")).expect("it is there");
-    check(folder.path(), &["chart", "build", "Old.chart"], 1, "it is not built");
+    check(folder.path(), &["chart", "build", "Old.chart"], 1, "was not built");
     assert_eq!(fs::read_to_string(folder.path().join("Old.asm")).expect("it is there"), before);
 }
 

@@ -115,7 +115,7 @@ fn the_patterns_are_built_in() {
     )
     .expect("a model");
     let said = check(folder.path(), &["check", "Far.asm"], 1);
-    assert!(said.contains("`import patterns/SharedValue` takes the library that is built in"), "{said}");
+    assert!(said.contains("`import patterns/SharedValue` takes the built-in library"), "{said}");
     // A file beside the model wins.
     fs::create_dir(folder.path().join("patterns")).expect("a folder");
     fs::write(

@@ -36,5 +36,5 @@ fn a_violation_is_told_at_once_and_signals_that_come_together_are_one() {
     assert_eq!(child.wait().expect("it ends").code(), Some(1), "{rest}");
     assert_eq!(rest.matches("violated  inv_small, after 5 steps, as shown above").count(), 1, "{rest}");
     assert_eq!(rest.matches("interrupted").count(), 4, "{rest}");
-    assert!(rest.contains("(not all that can be reached)"), "{rest}");
+    assert!(rest.contains("(not all reachable)"), "{rest}");
 }

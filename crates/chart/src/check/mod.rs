@@ -180,7 +180,11 @@ fn one(chart: &Chart, machine: &Machine, probe: &str, model: &Model, faults: &mu
         let domain = model.domains.display(declared.variables[id.0 as usize].domain);
         if domain != parameter.domain {
             let message = format!("the parameter `{}` of `{name}` is in {domain}", parameter.variable);
-            faults.push(fault::broken_link(place, &message, Some("let the machine's parameter be in the same domain")));
+            faults.push(fault::broken_link(
+                place,
+                &message,
+                Some("declare the machine's parameter in the same domain"),
+            ));
             return;
         }
     }

@@ -96,7 +96,7 @@ impl Comparison<'_> {
             let Some((_, first)) = all.first().cloned() else { continue };
             let names: Vec<String> = all.iter().map(|(name, _)| format!("`{name}`")).collect();
             let (what, place) = (bare(domain), self.system.span);
-            let message = format!("the model has the {what} {}, the chart has not", names.join(", "));
+            let message = format!("the model has the {what} {}, the chart does not", names.join(", "));
             self.tell(place, message, Some((first, "the model's")));
         }
     }
@@ -150,7 +150,7 @@ impl Comparison<'_> {
                 }
             }
             (_, Some(written), Some(_)) if !written.is_table || written.domains.len() != 1 => {
-                let place = (written.span, "this is no table of values");
+                let place = (written.span, "this is not a table of values");
                 let message = format!("the model gives `{function}` in a form that cannot be compared");
                 self.tell(span, message, Some(place));
             }
@@ -267,7 +267,10 @@ impl Comparison<'_> {
                 None => found.push((format!("the model has no `{name}`"), self.nowhere())),
                 Some((other, _)) if other == text => {}
                 Some((_, span)) => {
-                    found.push((format!("`{name}` is not what the chart is built to"), Some((*span, "the model's"))));
+                    found.push((
+                        format!("`{name}` differs from what the chart is built to"),
+                        Some((*span, "the model's")),
+                    ));
                 }
             }
         }
@@ -276,7 +279,7 @@ impl Comparison<'_> {
         };
         for name in agents(&self.model).difference(&agents(&self.built)) {
             let span = self.model.texts[name].1;
-            found.push((format!("the model has `{name}`, the chart has not"), Some((span, "the model's"))));
+            found.push((format!("the model has `{name}`, the chart does not"), Some((span, "the model's"))));
         }
         for (message, model) in found {
             self.tell(self.system.span, message, model);
@@ -302,7 +305,7 @@ impl Comparison<'_> {
             return match component.phases.iter().find(|phase| phase.name == element) {
                 Some(phase) => (format!("the phase `{element}` of the component `{}`", component.name), phase.span),
                 None if element.ends_with("_wait") && component.name != element => {
-                    (format!("the waiting of the component `{}`", component.name), component.span)
+                    (format!("the waiting phase of the component `{}`", component.name), component.span)
                 }
                 None => (format!("the component `{}`", component.name), component.span),
             };
@@ -361,7 +364,7 @@ fn what(function: &str) -> String {
         "task_timeForElaboration" => "the time of a cycle without waiting",
         "task_periodStart" => "the beginning of its first period",
         "time" => "its time",
-        "nextPhase" => "the phase behind it",
+        "nextPhase" => "the next phase",
         "action" => "what it does",
         "sharedMemory" | "messageQueue" | "sharedValue" => "its channel",
         "elaborationRule" => "its rule",

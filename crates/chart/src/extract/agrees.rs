@@ -38,7 +38,7 @@ impl<'m> Judge<'m> {
         let text = crate::write::write(&chart);
         let (back, faults) = crate::read::read(FileId(u32::MAX), &syntax::parse_chart(FileId(u32::MAX), &text));
         if let Some(fault) = faults.iter().find(|fault| fault.severity == Severity::Error) {
-            return Some(format!("its chart would be at fault: {}", fault.message));
+            return Some(format!("its chart would have a fault: {}", fault.message));
         }
         let [drawn] = &back.machines[..] else {
             return Some("its chart, as it is written, does not hold it alone".to_string());
@@ -57,7 +57,7 @@ impl<'m> Judge<'m> {
             };
             match (done(&self.probed, probe), done(self.model, rule)) {
                 (Ok(drawn), Ok(written)) if same(&drawn, &written, location, &origin) => {}
-                (Ok(_), Ok(_)) => return Some("a chart of it would not do the same".to_string()),
+                (Ok(_), Ok(_)) => return Some("its chart would not do the same".to_string()),
                 (_, Err(reason)) | (Err(reason), _) => return Some(super::told(reason)),
             }
         }

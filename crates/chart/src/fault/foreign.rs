@@ -6,22 +6,22 @@ const ID: &str = "foreign-notation";
 
 /// The text is not a document of this kind.
 pub(crate) fn malformed(span: Span, message: &str) -> Diagnostic {
-    Diagnostic::error(ID, span, format!("this is no SCXML: {message}"))
-        .here("here reading ends")
+    Diagnostic::error(ID, span, format!("this is not SCXML: {message}"))
+        .here("reading ends here")
         .with_help("a document of State Chart XML has the element `scxml` around its states")
 }
 
 /// Charts cannot express this, and it cannot be left out.
 pub(crate) fn no_counterpart(span: Span, what: &str, help: &str) -> Diagnostic {
-    Diagnostic::error(ID, span, format!("charts have nothing for {what}"))
-        .here("left out, the chart would mean something else")
+    Diagnostic::error(ID, span, format!("charts cannot express {what}"))
+        .here("without it, the chart would mean something else")
         .with_help(help.to_string())
 }
 
 /// Something that is left out.
 pub(crate) fn left_out(span: Span, what: &str, help: &str) -> Diagnostic {
-    Diagnostic::warning(ID, span, format!("{what} is not taken over"))
-        .here("charts have nothing for it")
+    Diagnostic::warning(ID, span, format!("{what} is not imported"))
+        .here("charts cannot express it")
         .with_help(help.to_string())
 }
 
@@ -50,6 +50,6 @@ pub(crate) fn unknown_target(span: Span, id: &str) -> Diagnostic {
 /// A state whose initial state does not lie within it.
 pub(crate) fn begins_outside(span: Span, id: &str) -> Diagnostic {
     Diagnostic::error(ID, span, format!("`{id}`, where this state begins, does not lie within it"))
-        .here("to enter the state would never end, or lead elsewhere")
+        .here("entering the state would never end, or lead elsewhere")
         .with_help("name a state within it")
 }

@@ -101,7 +101,7 @@ pub(crate) fn bare_guard(span: Span, name: &str) -> Diagnostic {
 
 /// `yes` or `no` after something that is not a guard.
 pub(crate) fn needless_exit(span: Span, name: &str) -> Diagnostic {
-    Diagnostic::error("guard-exit", span, format!("`{name}` is no guard"))
+    Diagnostic::error("guard-exit", span, format!("`{name}` is not a guard"))
         .here("only guards have the exits yes and no")
         .with_help("remove `yes` or `no`, or declare the shape as a guard")
 }
@@ -158,22 +158,22 @@ pub(crate) fn unknown(span: Span, what: &str, name: &str, known: &[&str]) -> Dia
         None => format!("declare it, or use one of: {}", known.join(", ")),
     };
     Diagnostic::error("unknown-shape", span, format!("there is no {what} `{name}`"))
-        .here("nothing of this name is declared here")
+        .here("nothing with this name is declared here")
         .with_help(help)
 }
 
 /// A shape to which no path leads.
 pub(crate) fn unreachable(span: Span, kind: &str, name: &str) -> Diagnostic {
     Diagnostic::warning("unreachable-shape", span, format!("no path leads to the {kind} `{name}`"))
-        .here("nothing ever comes here")
+        .here("nothing ever leads here")
         .with_help("lead a path to it, or remove it")
 }
 
 /// A link that leads nowhere, or to something of the wrong kind.
 pub(crate) fn broken_link(span: Span, message: &str, help: Option<&str>) -> Diagnostic {
     let fault = Diagnostic::error("broken-link", span, format!("a link is broken: {message}"))
-        .here("the specification is asked for this");
-    fault.with_help(help.unwrap_or("correct the link, or write what it names"))
+        .here("the specification must contain this");
+    fault.with_help(help.unwrap_or("correct the link, or add what it names to the specification"))
 }
 
 /// The places of both sides of a difference.
@@ -235,25 +235,25 @@ pub(crate) fn no_patterns(span: Span, missing: &str) -> Diagnostic {
     Diagnostic::error(
         "chart-import",
         span,
-        format!("no import of the chart brings the patterns: `{missing}` is declared nowhere"),
+        format!("no import of the chart provides the patterns: `{missing}` is declared nowhere"),
     )
-    .here("a system is built of the library of patterns")
+    .here("a system is built from the pattern library")
     .with_help("import it: `import …/library/patterns/ControlTask`, as a path from the chart's folder")
 }
 
 /// Two parts of a chart that would create the same name.
 pub(crate) fn made_twice(span: Span, what: &str, name: &str, first: Span) -> Diagnostic {
     Diagnostic::error("made-name", span, format!("a second {what} `{name}` would be made"))
-        .here("of this name")
-        .with_label(first, "the first one is made of this")
+        .here("from this name")
+        .with_label(first, "the first one is made from this")
         .with_help(format!("rename one of them, or link it to what it stands for: `{{…}}` instead of `{name}`"))
 }
 
 /// A cycle that takes too long, with its parts.
 pub(crate) fn long_cycle(span: Span, name: &str, sum: &str, until: &str) -> Diagnostic {
     Diagnostic::warning("long-cycle", span, format!("every cycle of `{name}` misses {until}: it takes {sum}"))
-        .here("the phases take longer than there is time")
-        .with_help("shorten its phases, or let it have more time")
+        .here("the phases take longer than the available time")
+        .with_help("shorten its phases, or give it more time")
 }
 
 /// A rule that cannot be compared.
@@ -264,7 +264,7 @@ pub(crate) fn not_control_state(span: Span, name: &str, place: Option<Span>) -> 
         Some(place) => fault.with_label(place, "here it is set in another way"),
         None => fault,
     };
-    fault.with_help("write it so, or draw what it does as one action of another machine")
+    fault.with_help("rewrite it in this form, or draw what it does as one action of another machine")
 }
 
 /// Something that is to be refined.
@@ -283,23 +283,23 @@ pub(crate) fn channel_ends(span: Span, name: &str, reason: &str) -> Diagnostic {
 
 /// A buffer whose master cannot be determined.
 pub(crate) fn channel_master(span: Span, name: &str) -> Diagnostic {
-    Diagnostic::error("channel-master", span, format!("the master of the buffer `{name}` must be said"))
+    Diagnostic::error("channel-master", span, format!("the master of the buffer `{name}` must be named"))
         .here("it is the slower of two synchronous components, or the asynchronous one of a mixed pair")
-        .with_help("write `master NAME` behind the number of arrays, with one of its two ends")
+        .with_help("write `master NAME` after the number of arrays; NAME is one of its two ends")
 }
 
 /// An unknown unit of time.
 pub(crate) fn unknown_unit(span: Span, unit: &str) -> Diagnostic {
-    Diagnostic::error("time-unit", span, format!("`{unit}` is no unit of time"))
-        .here("a length of time has a unit")
+    Diagnostic::error("time-unit", span, format!("`{unit}` is not a unit of time"))
+        .here("a time needs a unit")
         .with_help("write `ns`, `us`, `ms` or `s`")
 }
 
 /// A time that is no whole number of ticks.
 pub(crate) fn no_whole_ticks(span: Span) -> Diagnostic {
-    Diagnostic::error("time-unit", span, "this is no whole number of ticks")
-        .here("the model goes on by one tick a step")
-        .with_help("write another length, or a shorter `tick`")
+    Diagnostic::error("time-unit", span, "this is not a whole number of ticks")
+        .here("the model advances by one tick per step")
+        .with_help("write another time, or a shorter `tick`")
 }
 
 /// A part of a system that cannot be built.
@@ -313,7 +313,7 @@ pub(crate) fn not_built(span: Span, what: &str) -> Diagnostic {
 pub(crate) fn made_name(span: Span, name: &str) -> Diagnostic {
     Diagnostic::error("made-name", span, format!("`{name}` cannot be the name of a function"))
         .here("a function of this name is made in the specification")
-        .with_help("choose a name that starts with a small letter and is no keyword, or link it")
+        .with_help("choose a name that starts with a lower-case letter and is not a keyword, or link it")
 }
 
 /// A control variable to be created that an import already declares.

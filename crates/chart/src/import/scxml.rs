@@ -268,7 +268,7 @@ impl<'d, 'f> Reader<'d, 'f> {
         let said = node.attribute("initial").or_else(|| transition?.attribute("target"));
         if let Some(content) = transition.filter(|transition| transition.children().any(|child| child.is_element())) {
             let help = "do it on a path to the state";
-            self.faults.push(fault::left_out(place(self.file, content), "what is done by `initial`", help));
+            self.faults.push(fault::left_out(place(self.file, content), "the content of `initial`", help));
         }
         let first = match said {
             Some(ids) => {
@@ -308,8 +308,8 @@ impl<'d, 'f> Reader<'d, 'f> {
             for entry in self.states.around(index) {
                 let content = self.states.all[entry].node.children().find(|child| is(*child, "onentry"));
                 if let Some(content) = content.filter(|content| content.children().any(|child| child.is_element())) {
-                    let what = "what is done on entering the first state, at the start,";
-                    let help = "write it in the initial state of the specification; on later entries it is done";
+                    let what = "the entry action of the first state, at the start,";
+                    let help = "write it in the initial state of the specification; later entries execute it";
                     self.faults.push(fault::left_out(place(self.file, content), what, help));
                 }
             }

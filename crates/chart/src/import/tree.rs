@@ -109,7 +109,7 @@ impl<'d> States<'d> {
                 _ => continue,
             }
             if depth > MAX_DEPTH {
-                faults.push(fault::no_counterpart(place(file, child), "so deep a state", "flatten it"));
+                faults.push(fault::no_counterpart(place(file, child), "a state nested so deeply", "flatten it"));
                 return;
             }
             let id = child.attribute("id").map_or_else(|| format!("{name}{}", self.all.len() + 1), str::to_string);

@@ -157,7 +157,7 @@ impl Reader {
             _ => {}
         }
         if source == End::Exit {
-            self.faults.push(fault::misplaced_exit(start, "exit", "nothing comes behind the exit"));
+            self.faults.push(fault::misplaced_exit(start, "exit", "nothing comes after the exit"));
         } else if target == Some(End::Enter) {
             self.faults.push(fault::misplaced_exit(end, "enter", "a pattern is entered from outside"));
         } else if let Some(target) = target {

@@ -17,7 +17,7 @@ pub fn diagnose_finding(finding: &Finding, review: &Review, program: &Program) -
     let span = finding.span;
     let seen = match (review.reasons.is_empty(), review.progress.states) {
         (true, _) => "no reachable state".to_string(),
-        (false, states) => format!("none of the {states} states met so far"),
+        (false, states) => format!("none of the {states} states explored so far"),
     };
     let warning = |id, message: String| Diagnostic::warning(id, span, message);
     let never = |what: &str| format!("{seen} {what}");
@@ -25,12 +25,12 @@ pub fn diagnose_finding(finding: &Finding, review: &Review, program: &Program) -
         Matter::Clash(other) => {
             let diagnostic = Diagnostic::error("inconsistent-update", span, "two updates of one step clash");
             let diagnostic = diagnostic.here("one of the two").with_label(*other, "the other one");
-            diagnostic.with_help("let one rule alone write the location in a step, or put the two in a `seq`")
+            diagnostic.with_help("let only one rule write the location in a step, or put the two in a `seq`")
         }
         Matter::NoBranch => {
             warning("incomplete-conditional", "no branch of this rule is taken in some state".to_string())
-                .here("runs, and none of its guards holds")
-                .with_help("if nothing is to happen then, `else skip` says so; else a case is missing")
+                .here("runs while none of its guards holds")
+                .with_help("if nothing should happen then, add `else skip`; otherwise a case is missing")
         }
         Matter::NeverRuns => warning("unreachable-rule", never("runs this rule"))
             .here("never runs")
@@ -39,17 +39,17 @@ pub fn diagnose_finding(finding: &Finding, review: &Review, program: &Program) -
             .here("never runs")
             .with_help("call it, or remove it"),
         Matter::RunsInFaults => {
-            warning("unreachable-rule", "this rule runs in steps alone that cannot be made".to_string())
-                .here("whatever runs it ends in a fault")
+            warning("unreachable-rule", "this rule runs only in steps that cannot be made".to_string())
+                .here("every step that runs it faults")
                 .with_help("`groundstate verify` shows the fault")
         }
         Matter::AlwaysTrivial => warning("trivial-update", never("is changed by this update"))
-            .here("always writes the value that is there")
+            .here("always writes the present value")
             .with_help("remove it, or see whether it should write something else"),
         Matter::Unused(domain, values) => {
             let name = &program.domain(*domain).name;
             warning("unused-element", never(&format!("has a location with {} of {name}", named(values, program))))
-                .here("has elements that nothing ever is")
+                .here("has elements that never occur")
                 .with_help("remove them, or see why nothing becomes one of them")
         }
         Matter::NeverTaken(function, values) => {

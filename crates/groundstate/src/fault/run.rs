@@ -65,7 +65,7 @@ fn reason(kind: &FaultKind) -> &'static str {
 fn help(kind: &FaultKind) -> Option<&'static str> {
     Some(match kind {
         FaultKind::InconsistentUpdate { .. } => {
-            "let one rule alone write the location in a step, or put the two in a `seq` if the later one is to win"
+            "let only one rule write the location in a step, or put the two in a `seq` if the later one is to win"
         }
         FaultKind::UndefinedGuard => "give the locations it reads an initial value, or test them with `isDef` first",
         FaultKind::UndefinedOperand { .. } => "give the location an initial value, or test it with `isDef` first",

@@ -11,8 +11,8 @@ use verify::solver::Outside;
 
 /// A part of the model that solvers do not support.
 pub fn diagnose_outside(outside: &Outside) -> Diagnostic {
-    Diagnostic::error("outside-solver", outside.span, format!("{} has no place in what solvers are told", outside.what))
-        .here("not told to solvers")
+    Diagnostic::error("outside-solver", outside.span, format!("{} cannot be translated for solvers", outside.what))
+        .here("not translated")
         .with_help("let the states be explored: `--engine explicit`, or `bdd`")
 }
 
@@ -44,7 +44,7 @@ pub fn diagnose_unbounded(unbounded: &Unbounded, program: &Program, sources: &So
         UnboundedKind::Input(function) => {
             let declared = program.function(function);
             let domain = &program.domain(declared.codomain).name;
-            let message = format!("the values of {} cannot be gone through ({place})", declared.name);
+            let message = format!("the values of {} cannot be enumerated ({place})", declared.name);
             no_bound(unbounded.span, message)
                 .here(format!("{domain} is infinite, or its elements are not known"))
                 .with_help(format!("bound it: `--bound {}=0..10`, or an INVAR in the model", declared.name))

@@ -44,13 +44,13 @@ fn faults_stand_where_they_are() {
          LTLSPEC (forall $n in Integer with g(level != $n))
          LTLSPEC let ($n = level) in x(level > $n) endlet",
         expect![[r#"
-            mixed-logics: an operator of the LTL library stands in a formula of CTL at `f(ready)`
-            mixed-logics: an operator of the CTL library stands in a formula of LTL at `ef(ready)`
+            mixed-logics: an operator of the LTL library is used in a formula of CTL at `f(ready)`
+            mixed-logics: an operator of the CTL library is used in a formula of LTL at `ef(ready)`
             temporal-in-term: a formula about runs stands where a value is needed at `size({g(ready), ready}) = 1`
               this speaks of runs at `g(ready)`
             temporal-over-changing: an argument of a formula about runs changes from state to state at `level`
             temporal-over-changing: the range of a formula about runs changes from state to state at `Job`
-            temporal-over-changing: what this ranges over cannot be gone through at `Integer`
+            temporal-over-changing: what this ranges over cannot be enumerated at `Integer`
             temporal-over-changing: a variable of a formula about runs changes from state to state at `level`
         "#]],
     );

@@ -40,7 +40,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     }
     let Some(built) = built else {
         if shell.talks() {
-            shell.note(&format!("{} has faults; it is not built", arguments.file.display()))?;
+            shell.note(&format!("{} has faults and was not built", arguments.file.display()))?;
         }
         return Ok(Exit::Model);
     };

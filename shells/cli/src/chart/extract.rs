@@ -42,7 +42,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let imports = arguments.model.file_name().map(|name| name.to_string_lossy().into_owned());
     found.chart.imports.extend(imports);
     for (rule, reason) in &found.others {
-        shell.note(&format!("{rule} is no machine: {reason}"))?;
+        shell.note(&format!("{rule} is not a machine: {reason}"))?;
     }
     for (rule, location) in &found.further {
         shell.note(&format!("{rule} is drawn over another location; `--control` draws it over {location}"))?;

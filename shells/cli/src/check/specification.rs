@@ -25,7 +25,7 @@ pub fn look(path: &Path, root: &SourceFile, disk: &mut Disk) -> Result<Seen, Fai
 /// The name of a YAML file is not that of a specification.
 pub fn unnamed(path: &Path) -> Failure {
     Failure::usage_with_help(
-        format!("{} is no specification by its name", path.display()),
-        "what a report shows is called MODEL.report.yaml, what is verified MODEL.verify.yaml, beside MODEL.asm",
+        format!("{} does not have the name of a specification", path.display()),
+        "specifications are called MODEL.report.yaml and MODEL.verify.yaml, beside MODEL.asm",
     )
 }

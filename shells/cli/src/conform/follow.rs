@@ -92,8 +92,8 @@ impl Tail {
         };
         if file.metadata().map_err(wrong)?.len() < self.read {
             return Err(Failure::usage_with_help(
-                format!("{} was begun anew while it was followed", path.display()),
-                "let each run of the program write a file of its own",
+                format!("{} was restarted while it was being followed", path.display()),
+                "let each run of the program write its own file",
             ));
         }
         let mut bytes = Vec::new();

@@ -40,7 +40,7 @@ pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
         writeln!(shell.out(), "{}", folder.join(&decided[0].0).display())?;
         if !renamed.is_empty() {
             let names: Vec<String> = renamed.iter().map(|(model, cpp)| format!("{model} is {cpp}")).collect();
-            writeln!(shell.out(), "called otherwise in C++: {}", names.join(", "))?;
+            writeln!(shell.out(), "renamed in C++: {}", names.join(", "))?;
         }
     }
     Ok(Exit::Good)

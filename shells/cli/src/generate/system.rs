@@ -46,7 +46,7 @@ pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
     if shell.talks() {
         writeln!(shell.out(), "{}", arguments.output.join(&decided[0].0).display())?;
         if !kept.is_empty() {
-            writeln!(shell.out(), "yours, left as they are: {}", kept.join(", "))?;
+            writeln!(shell.out(), "your files, left as they are: {}", kept.join(", "))?;
         }
     }
     Ok(Exit::Good)

@@ -121,7 +121,7 @@ struct SystemClock;
 impl Clock for SystemClock {
     fn now(&mut self, unit: TimeUnit) -> Result<i64, String> {
         let since = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
-        let since = since.map_err(|_| "the system's clock stands before 1970".to_string())?;
+        let since = since.map_err(|_| "the system's clock is before 1970".to_string())?;
         let now = match unit {
             TimeUnit::Nanoseconds => since.as_nanos(),
             TimeUnit::Milliseconds => since.as_millis(),
@@ -193,7 +193,7 @@ pub fn assemble(
 
 /// What to do if inputs are missing.
 pub const HELP: &str =
-    "pass --random for random ones, --input FILE or --env FILE to read them, or --set LOCATION=VALUE for a fixed one";
+    "pass --random for random values, --input FILE or --env FILE to read them, or --set LOCATION=VALUE for a fixed one";
 
 fn named(
     shell: &Shell,

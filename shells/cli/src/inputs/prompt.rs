@@ -45,7 +45,7 @@ pub struct Question {
 const HELP: &str = "  :help     this text              :state  the state before this step
   :back     take a step back       :updates  what the last step changed
   :quit     end the run            Tab completes, arrow up recalls";
-const FIRST: &str = "  :help tells what else can be typed; Tab completes, arrow up recalls";
+const FIRST: &str = "  :help lists the commands; Tab completes, arrow up recalls";
 const COMMANDS: [&str; 5] = [":help", ":state", ":updates", ":back", ":quit"];
 
 /// Writes to the terminal; if it is gone, the next question reports that.
@@ -100,7 +100,7 @@ impl Prompt {
                         ":quit" | ":q" => return Ok(Command::Stop),
                         command if self.look(command) => continue,
                         command if command.starts_with(':') => {
-                            say(&format!("  {command} is no command here\n{HELP}"));
+                            say(&format!("  {command} is not a command\n{HELP}"));
                             continue;
                         }
                         _ => {}

@@ -53,7 +53,7 @@ impl Bounded {
     /// Says that a default limit was reached.
     pub fn at_end(shell: &mut Shell) -> Result<(), Failure> {
         shell.note(&format!(
-            "where no limit is given {STATES} states or {SECONDS} seconds are: --max-states, --depth or --time give others"
+            "without a limit, the search stops at {STATES} states or {SECONDS} seconds; --max-states, --depth or --time set another"
         ))
     }
 

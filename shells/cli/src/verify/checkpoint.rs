@@ -58,13 +58,13 @@ impl Checkpoint {
         }
         let path = self.path.display();
         let what = match refusal {
-            Refusal::Foreign => format!("{path} is no checkpoint"),
+            Refusal::Foreign => format!("{path} is not a checkpoint"),
             Refusal::Version => format!("{path} is a checkpoint of another version of groundstate"),
             Refusal::Model => format!("{path} is a checkpoint of another model, or of one that has changed since"),
             Refusal::Question => format!("{path} is a checkpoint of a search with other properties, bounds or limits"),
-            Refusal::Damaged => format!("{path} is damaged: it is not as it was written"),
+            Refusal::Damaged => format!("{path} is damaged: it differs from what was written"),
         };
-        Failure::usage_with_help(what, "remove it to begin anew, or name another file")
+        Failure::usage_with_help(what, "remove it to start over, or name another file")
     }
 
     /// Ends the checkpoint; returns the first trouble with the file.

@@ -30,7 +30,7 @@ pub fn conflict(conflict: Conflict) -> Failure {
             format!("leave out --engine, or {}", option(part)),
         ),
         Conflict::Parts(one, other) => (
-            format!("{} and {} do not go together", option(one), option(other)),
+            format!("{} and {} cannot be combined", option(one), option(other)),
             format!("leave out {} or {}", option(one), option(other)),
         ),
     };

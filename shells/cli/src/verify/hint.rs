@@ -8,10 +8,10 @@ use program::Program;
 /// The advice.
 pub(super) fn hint(program: &Program, subject: Subject, trace: &Trace) -> Option<&'static str> {
     if subject == Subject::NoDeadlock {
-        return Some("if runs may end there, say in which states: `--terminal CONDITION`");
+        return Some("if runs may end there, name the final states: `--terminal CONDITION`");
     }
     let alone = matches!(subject, Subject::Property(_)) && always_the_same(program, trace);
-    alone.then_some("from there on the same one is chosen for ever; if others get their turn: `--fair weak`")
+    alone.then_some("from there on the same agent is always chosen; if the others get their turn, add `--fair weak`")
 }
 
 /// Whether the main rule chooses who moves, and chooses the same one throughout the repeating part of the run.

@@ -193,7 +193,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let fingerprint = groundstate::fingerprint(&loaded.sources);
     let bounded = &arguments.bounded;
     if arguments.counterexample.is_some() && arguments.model.as_os_str() == "-" {
-        return Err(Failure::usage("no scenario can load standard input: write the model to a file"));
+        return Err(Failure::usage("a scenario cannot load standard input: write the model to a file"));
     }
     let Some(beside) = bounded.beside(shell, &mut loaded.sources.clone(), &arguments.model)? else {
         return Ok(Exit::World);
@@ -323,7 +323,7 @@ pub fn no_start(shell: &mut Shell, teller: &Teller<'_>, trouble: NoStart) -> Res
         }
         NoStart::Stopped(stop) => {
             shell.note(&format!(
-                "not known: {} before all initial states were there",
+                "not known: {} before all initial states were found",
                 teller.reason(&Reason::Stopped(stop))
             ))?;
             Ok(Exit::Unknown)
@@ -337,7 +337,7 @@ pub fn no_start(shell: &mut Shell, teller: &Teller<'_>, trouble: NoStart) -> Res
             Ok(Exit::Unknown)
         }
         NoStart::NoSolver(reason) => {
-            let help = "install z3 or cvc5, or name one by --solver";
+            let help = "install z3 or cvc5, or name one with --solver";
             Err(Failure::usage_with_help(format!("--engine needs a solver, and {reason}"), help))
         }
     }

@@ -56,11 +56,11 @@ impl Teller<'_> {
             Distinct::Named(_) => format!("an element is named{place}"),
             Distinct::Told(_) => format!("an operation tells elements apart or shows their order{place}"),
             Distinct::Bounded(function) => {
-                format!("{} is tried with some of them only", self.program.function(function).name)
+                format!("{} is tried with only some of them", self.program.function(function).name)
             }
-            Distinct::Extended(_) => format!("elements are made one after the other{place}"),
+            Distinct::Extended(_) => format!("elements are created one after another{place}"),
             Distinct::Ordered(_) => format!("which fault is met first may depend on their order{place}"),
-            Distinct::Subsets => "each belongs to other subsets".to_string(),
+            Distinct::Subsets => "they belong to different subsets".to_string(),
             Distinct::Packed => "there are too many, or they stand where they cannot be permuted".to_string(),
         }
     }

@@ -72,12 +72,12 @@ impl Teller<'_> {
             if shell.talks() {
                 let solver = report.solver.as_deref().unwrap_or("a solver");
                 let steps = plural(report.progress.depth as usize, "step");
-                writeln!(shell.out(), "decided by {solver}, runs of at most {steps} looked at")?;
+                writeln!(shell.out(), "decided by {solver}, for runs of at most {steps}")?;
             }
             return Ok(());
         }
         if let (Some(Err(unreduced)), false, true) = (report.reduced, shell.json(), shell.talks()) {
-            writeln!(shell.out(), "all steps were made: {}", why_unreduced(unreduced))?;
+            writeln!(shell.out(), "not reduced: {}", why_unreduced(unreduced))?;
         }
         if let (Some(symmetry), false, true) = (&report.symmetry, shell.json(), shell.talks()) {
             self.symmetry(shell, symmetry)?;
@@ -104,10 +104,10 @@ impl Teller<'_> {
         if shell.talks() {
             let up_to = more.symmetry.iter().flatten().any(|line| line.is_class());
             let whole = match (complete, more.partial_order) {
-                (true, Some("reduced")) => "all that can be reached, but for the order of moves",
-                (true, _) if up_to => "all that can be reached, up to interchangeable elements",
-                (true, _) => "all that can be reached",
-                (false, _) => "not all that can be reached",
+                (true, Some("reduced")) => "all reachable, up to the order of moves",
+                (true, _) if up_to => "all reachable, up to interchangeable elements",
+                (true, _) => "all reachable",
+                (false, _) => "not all reachable",
             };
             let states = plural(progress.states as usize, "state");
             let transitions = match more.sets {
@@ -297,7 +297,7 @@ impl Teller<'_> {
     fn why(&self, why: &Why) -> String {
         match why {
             Why::Unexplored(Some(stop)) => self.reason(&Reason::Stopped(*stop)),
-            Why::Unexplored(None) => "some alternatives cannot be gone through".to_string(),
+            Why::Unexplored(None) => "some alternatives cannot be enumerated".to_string(),
             Why::NoTruth(span, values) => {
                 let values: Vec<String> = values.iter().map(|(location, value)| self.value(location, value)).collect();
                 let text: Vec<&str> = self.sources.text(*span).split_whitespace().collect();
@@ -331,15 +331,15 @@ impl Teller<'_> {
             Left::Broken(reason) => reason.clone(),
             Left::Beyond(outside) => {
                 format!(
-                    "a run meets {}, which is outside of what solvers are told ({})",
+                    "a run meets {}, which is not translated for solvers ({})",
                     outside.what,
                     self.place(outside.span)
                 )
             }
-            Left::Odd => "the solver found a run that the machine does not make, which is a fault of this program or, \
+            Left::Odd => "the solver found a run that the machine does not make, which is a bug of this program or, \
                           where reals are computed, of rounding"
                 .to_string(),
-            Left::Untold => "a solver would have to go through all values of an input".to_string(),
+            Left::Untold => "a solver would have to enumerate all values of an input".to_string(),
         }
     }
 
@@ -353,19 +353,19 @@ impl Teller<'_> {
             Reason::Stopped(Stop::Found) => "the search ended at the first violation (--first)".to_string(),
             Reason::Stopped(Stop::Asked) if self.timed_out => "the time is up".to_string(),
             Reason::Stopped(Stop::Asked) => "interrupted".to_string(),
-            Reason::Compacted => "states are told apart by less than themselves".to_string(),
+            Reason::Compacted => "states are told apart only by hashes".to_string(),
             Reason::Unbounded(unbounded) => self.unbounded(unbounded).message,
             Reason::Bounded(function) => {
-                format!("{} is tried with some of its values only", self.program.function(*function).name)
+                format!("{} is tried with only some of its values", self.program.function(*function).name)
             }
             Reason::Assumption(property) => {
                 format!("the assumption {} has no value in some state", self.program.properties[*property].name)
             }
             Reason::Undecided => "it has no value in some state".to_string(),
-            Reason::Temporal => "temporal formulas are not decided".to_string(),
+            Reason::Temporal => "this engine does not decide temporal formulas".to_string(),
             Reason::Left => "the solver left it open".to_string(),
             Reason::Odd => {
-                "the search found a run that the machine does not make, which is a fault of this program: please \
+                "the search found a run that the machine does not make, which is a bug of this program: please \
                             report it"
                     .to_string()
             }
@@ -401,9 +401,9 @@ impl Teller<'_> {
 /// Why partial-order reduction was not possible.
 fn why_unreduced(unreduced: Unreduced) -> &'static str {
     match unreduced {
-        Unreduced::NoChoice => "the main rule is no choice of who moves",
+        Unreduced::NoChoice => "the main rule does not choose who moves",
         Unreduced::Inputs => "an invariant or an assumption reads inputs",
-        Unreduced::AllShared => "nobody who moves keeps anything to himself",
+        Unreduced::AllShared => "no agent has locations of its own",
     }
 }
 
@@ -411,7 +411,7 @@ fn why_unreduced(unreduced: Unreduced) -> &'static str {
 fn omission(report: &Report) -> String {
     let expected = report.omission.map_or(0.0, |expected| expected.0);
     if expected >= 1.0 {
-        return format!("about {expected:.0} states were taken for others and left out");
+        return format!("about {expected:.0} states were mistaken for others and omitted");
     }
     let most = match report.storage {
         Storage::BitState(_) => "about",
@@ -420,7 +420,7 @@ fn omission(report: &Report) -> String {
     // Two digits, rounded up.
     let unit = 10f64.powf(expected.max(f64::MIN_POSITIVE).log10().floor() - 1.0);
     let probability = (expected / unit).ceil() * unit;
-    format!("with a probability of {most} {probability:.1e} a state was taken for another and left out")
+    format!("with a probability of {most} {probability:.1e} a state was mistaken for another and omitted")
 }
 
 /// The name of a check that every model has.

@@ -22,9 +22,9 @@ pub(super) fn mixed(span: Span, is_ctl: bool) -> Diagnostic {
     Diagnostic::error(
         "mixed-logics",
         span,
-        format!("an operator of the {operator} library stands in a formula of {formula}"),
+        format!("an operator of the {operator} library is used in a formula of {formula}"),
     )
-    .here("this is of the other logic")
+    .here("this belongs to the other logic")
     .with_help(help)
 }
 
@@ -45,7 +45,7 @@ pub(super) fn changing(span: Span, what: &str) -> Diagnostic {
 }
 
 pub(super) fn not_enumerable(span: Span, reason: &str) -> Diagnostic {
-    Diagnostic::error("temporal-over-changing", span, "what this ranges over cannot be gone through")
+    Diagnostic::error("temporal-over-changing", span, "what this ranges over cannot be enumerated")
         .here(reason.to_string())
         .with_help("range over a finite fixed domain")
 }
