@@ -204,8 +204,8 @@ fn called(model: &Model, name: &str) -> BTreeSet<String> {
 
 fn told(reason: Reason) -> String {
     match reason {
-        Reason::Hidden(_) => "it sets the control location behind `seq`, `forall`, `choose` or the like".to_string(),
-        Reason::Computed(_) => "it sets the control location to a value that is computed".to_string(),
+        Reason::Hidden(_) => "it sets the control location inside `seq`, `forall`, `choose` or the like".to_string(),
+        Reason::Computed(_) => "it sets the control location to a computed value".to_string(),
         Reason::Large => "it is too large".to_string(),
     }
 }

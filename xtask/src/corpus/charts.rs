@@ -54,13 +54,13 @@ pub fn page(checkout: &Path) -> Result<String, Failure> {
     }
     let none: usize = reasons.values().sum();
     let mut out = format!(
-        "# Charts found in the public corpus\n\nWritten by `make corpus CORPUS=path`. `groundstate chart extract` is asked for \
-         the charts of each of the {} models, without being told a control location.\n\n| | models |\n| --- | --- |\n\
+        "# Charts found in the public corpus\n\nWritten by `make corpus CORPUS=path`. `groundstate chart extract` was \
+         run on each of the {} models, without naming a control location.\n\n| | models |\n| --- | --- |\n\
          | with errors | {faulty} |\n| no rule sets a location over an enum to a literal or undef | {without} |\n\
-         | a chart is found | {with}, with {machines} machines |\n| none is found | {none} |\n",
+         | a chart is found | {with}, with {machines} machines |\n| no chart is found | {none} |\n",
         files.len()
     );
-    out.push_str("\n## Where none is found\n\nThe reason for the first rule of each model:\n\n| reason | models |\n| --- | --- |\n");
+    out.push_str("\n## Where no chart is found\n\nThe reason for the first rule of each model:\n\n| reason | models |\n| --- | --- |\n");
     for (reason, count) in &reasons {
         let _ = writeln!(out, "| {reason} | {count} |");
     }

@@ -74,7 +74,7 @@ impl Difference {
             What::Fault { text, theirs, .. } => {
                 format!("step {step}: here {}; there {}", short(text), end(theirs.as_ref()))
             }
-            What::GoesOn { theirs } => format!("step {step}: here it goes on; there {}", end(Some(theirs))),
+            What::GoesOn { theirs } => format!("step {step}: here it continues; there {}", end(Some(theirs))),
             What::Violation { name, theirs } => {
                 format!("step {step}: here `{name}` is violated; there {}", end(theirs.as_ref()))
             }
@@ -86,7 +86,7 @@ impl Difference {
 fn end(end: Option<&End>) -> String {
     match end {
         Some(end) => short(&format!("{} {} {}", end.status, end.class, end.message)),
-        None => "it goes on".to_string(),
+        None => "it continues".to_string(),
     }
 }
 

@@ -188,7 +188,7 @@ impl<'a> Report<'a> {
     }
 
     fn notes(&self, page: &mut String) {
-        page.push_str("\n## Agreements worth a word\n\n");
+        page.push_str("\n## Noteworthy agreements\n\n");
         let mut any = false;
         for (job, answer) in self.results.iter().filter(|(job, _)| job.section() != EXPLORE) {
             let what = match answer {
@@ -214,7 +214,7 @@ impl<'a> Report<'a> {
                 Answer::Explored { outcome, detail } => (outcome.as_str(), detail.as_str()),
                 Answer::Panic { .. } => ("panic", ""),
                 Answer::Timeout => ("timeout", ""),
-                Answer::Different { .. } => ("engines that part", ""),
+                Answer::Different { .. } => ("engines that differ", ""),
                 Answer::Same { .. } | Answer::Void { .. } => ("not read", ""),
             };
             let outcomes = if path.ends_with(".avalla") { &mut scenarios } else { &mut models };
@@ -248,36 +248,36 @@ type Outcomes<'a> = BTreeMap<&'a str, (usize, usize)>;
 const HEAD: &str = "\
 # Conformance with the public corpus
 
-Written by `make corpus CORPUS=path`; not by hand. The models are those of the public repository asmeta/asmeta; they are
-not part of this project, and paths below are relative to their checkout. The peer is ASMETA 26.07.
+Written by `make corpus CORPUS=path`; do not edit it by hand. The models are those of the public repository asmeta/asmeta.
+They are not part of this project; paths below are relative to their checkout. The peer is ASMETA 26.07.
 
-Compared are: whether a model is accepted; recorded runs, state by state, on every location that the record lists, with
-the recorded inputs and with choices that lead to the recorded states; the ends of runs; verdicts of scenarios. A
-difference is explained only by a reason that a test on the difference finds: a run with the peer's defect put in, which then
-agrees to its end or to another difference; or what came there and what came here. By the latter are told: late initial values (as far as no
-run tells them), library functions that the peer lacks, constructs that it does not run, scenarios that it cannot translate,
-and all reasons that are no defects.
+These are compared: whether a model is accepted; recorded runs, state by state, on every location in the record, with
+the recorded inputs and with choices that lead to the recorded states; the ends of runs; verdicts of scenarios. A reason
+explains a difference only if a test on the difference confirms it. Either a run with the peer's defect put in agrees to
+its end or to another difference, or the outcomes on both sides show the reason. The latter applies to late initial
+values (where no run shows them), library functions that the peer lacks, constructs that it does not run, scenarios that
+it cannot translate, and all reasons that are not defects.
 
-The recorded results are not part of this project either: tables `parse.csv` (path, OK or FAIL, message) and `avalla.csv`
-(path, verdict, message), and traces `traces/{det,mon,choose}/*`, whose form `xtask/src/corpus/trace.rs` reads. Whoever
-has the peer makes them by running its parser, simulator and validator over the checkout; `cargo xtask corpus CHECKOUT
---recorded FOLDER` names their folder. Besides, every model and scenario of the checkout is run in every engine, whether
-there is a recorded result for it or not.
+The recorded results are not part of this project either. They are the tables `parse.csv` (path, OK or FAIL, message)
+and `avalla.csv` (path, verdict, message), and traces `traces/{det,mon,choose}/*` in the form that
+`xtask/src/corpus/trace.rs` reads. To make them, run the peer's parser, simulator and validator over the checkout;
+`cargo xtask corpus CHECKOUT --recorded FOLDER` names their folder. In addition, every model and scenario of the
+checkout is run in every engine, with or without a recorded result.
 
 ";
 
 const LEGEND: &str = "
-A result with several reasons counts for the worst of them, which stands furthest to the right. `same %` leaves nothing out. The
-last column leaves out the peer's defects: each names the sections of the language page that tell of it, or argues why it is
-one. A model or scenario that one of the two refuses to read agrees as a stated superset or with a better fault. Nothing else
-is left out or counts as agreement.
+A result with several reasons counts for the worst one, whose column is furthest to the right. `same %` leaves nothing
+out. The last column leaves out the peer's defects; each names the sections of the language page that describe it, or
+argues why it is a defect. If one of the two refuses to read a model or scenario, that agrees as a stated superset or
+with a better fault. Nothing else is left out or counts as agreement.
 ";
 
 const EXPLORED: &str = "
 ## Everything run
 
-Models: twice 25 steps in each of the two engines, with random inputs, taking first candidates and random ones; the
-engines must give the same records. Scenarios: once, taking first candidates.
+Models run twice for 25 steps in each of the two engines, with random inputs: once taking first candidates, once random
+ones. The engines must give the same records. Scenarios run once, taking first candidates.
 
 | outcome | all | without a recorded result |
 | --- | --: | --: |

@@ -44,7 +44,7 @@ pub fn compare(checkout: &Checkout, path: &str, status: &str, message: &str, che
         return Answer::Void { why: "the checkout does not have it".to_string() };
     };
     if status == "TIMEOUT" {
-        return Answer::Void { why: "the peer came to no end".to_string() };
+        return Answer::Void { why: "the peer did not finish".to_string() };
     }
     let ours = verdict(checkout, &source, &mut FirstCandidate);
     // The peer fails at a pick that cannot be made, or refuses to translate it.

@@ -48,9 +48,10 @@ pub fn compare(checkout: &Checkout, path: &str, file: &str, scripts: Option<&str
         return Answer::Panic { detail: why };
     }
     match judge(&program, &checked.sources, &trace, replayed) {
-        Answer::Same { .. } if lists_own => {
-            Answer::different(Some(reason::OWN_LIBRARY), "agrees but for the elements that this explains".to_string())
-        }
+        Answer::Same { .. } if lists_own => Answer::different(
+            Some(reason::OWN_LIBRARY),
+            "agrees except for the elements that this explains".to_string(),
+        ),
         Answer::Different { mut reasons, detail } if lists_own && !reasons.is_empty() => {
             reasons.push(reason::OWN_LIBRARY.to_string());
             Answer::Different { reasons, detail }
@@ -86,7 +87,7 @@ fn judge(program: &Arc<Program>, sources: &Sources, trace: &Trace, replayed: Rep
         reasons: reasons.iter().map(ToString::to_string).collect(),
         detail,
     };
-    let agrees = || "agrees but for the values that this explains".to_string();
+    let agrees = || "agrees except for the values that this explains".to_string();
     let line = |difference: Option<Difference>| difference.map_or_else(agrees, |difference| difference.line());
     let Some(difference) = &replayed.difference else { return different(reasons, line(first)) };
     let found = Excuses::new(program, trace).parting(&difference.what, difference.step);
@@ -112,7 +113,7 @@ fn note(replayed: &Replayed) -> Option<String> {
         notes.push(format!("asks for {} as well", list(&replayed.beyond)));
     }
     if replayed.renamed {
-        notes.push("new elements are numbered otherwise".to_string());
+        notes.push("new elements are numbered differently".to_string());
     }
     (!notes.is_empty()).then(|| notes.join("; "))
 }
