@@ -45,6 +45,11 @@ pub fn pattern(importer: &str, path: &str) -> Option<SourceFile> {
     Some(SourceFile::new(format!("{HOME}{name}"), *text))
 }
 
+/// The modules of the library, as imports name them.
+pub fn modules() -> impl Iterator<Item = String> {
+    FILES.iter().filter_map(|(name, _)| Some(format!("{FOLDER}{}", name.strip_suffix(".asm")?)))
+}
+
 /// The built-in module that a failed import may have meant.
 pub fn meant(path: &str) -> Option<String> {
     let at = path.rfind(FOLDER)?;

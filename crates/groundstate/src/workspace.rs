@@ -10,7 +10,7 @@ use std::fmt::Display;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-use model::Loader;
+use model::{Checked, Loader};
 use syntax::{Diagnostic, FileId, Parse, SourceFile};
 
 use crate::{
@@ -52,8 +52,11 @@ pub struct Outdated {
     pub present: i64,
 }
 
-/// LIMIT: keeps at most this many parsed texts; when full, all are dropped.
-const PARSED: usize = 512;
+/// LIMIT: so many bytes of texts are kept parsed, and the text parsed last in any case.
+const PARSED_BYTES: usize = 2 << 20;
+
+/// What was read: each path that was asked for, with the text that was there, or none.
+pub type Reads = BTreeMap<String, Option<Arc<str>>>;
 
 /// Edited texts over files.
 #[derive(Debug)]
@@ -62,6 +65,8 @@ pub struct Workspace<F> {
     /// Texts that are being edited, by their path.
     open: BTreeMap<String, (i64, SourceFile)>,
     parsed: Parsed,
+    /// What is read, if anybody wants to know.
+    reads: Option<Reads>,
 }
 
 /// The result of checking a path.
@@ -79,6 +84,11 @@ impl Findings {
         Findings { faults: Vec::new(), open: Some(format!("not checked: {reason}")) }
     }
 
+    /// The faults of a model.
+    pub fn of(checked: Checked) -> Findings {
+        Findings { faults: vec![(checked.sources, checked.diagnostics)], open: None }
+    }
+
     /// All faults.
     pub fn diagnostics(&self) -> impl Iterator<Item = &Diagnostic> {
         self.faults.iter().flat_map(|(_, faults)| faults)
@@ -93,7 +103,7 @@ impl Findings {
 impl<F: Files> Workspace<F> {
     /// A workspace in which nothing is being edited.
     pub fn new(files: F) -> Workspace<F> {
-        Workspace { files, open: BTreeMap::new(), parsed: Parsed::default() }
+        Workspace { files, open: BTreeMap::new(), parsed: Parsed::default(), reads: None }
     }
 
     /// Replaces the text at a path until it is closed, whatever the disk has.
@@ -114,6 +124,36 @@ impl<F: Files> Workspace<F> {
     /// Reads the text at a path from the disk again.
     pub fn close(&mut self, path: &str) {
         self.open.remove(&tidy(path));
+    }
+
+    /// The files that are not being edited.
+    pub fn files(&mut self) -> &mut F {
+        &mut self.files
+    }
+
+    /// The paths of texts that are being edited, in order.
+    pub fn open(&self) -> impl Iterator<Item = &str> {
+        self.open.keys().map(String::as_str)
+    }
+
+    /// Does some work, and tells which texts it read: as long as these are what they were, it would come to the same.
+    pub fn reading<T>(&mut self, work: impl FnOnce(&mut Self) -> T) -> (T, Reads) {
+        let outer = self.reads.replace(Reads::new());
+        let result = work(self);
+        let reads = std::mem::replace(&mut self.reads, outer).unwrap_or_default();
+        if let Some(outer) = &mut self.reads {
+            outer.extend(reads.iter().map(|(path, text)| (path.clone(), text.clone())));
+        }
+        (result, reads)
+    }
+
+    /// Whether texts are still what they were.
+    pub fn are_unchanged(&mut self, reads: &Reads) -> bool {
+        reads.iter().all(|(path, former)| match (self.text(path), former) {
+            (Ok(present), Some(former)) => Arc::ptr_eq(&present.text, former) || present.text == *former,
+            (Err(_), None) => true,
+            (Ok(_), None) | (Err(_), Some(_)) => false,
+        })
     }
 
     /// The text at a path, as it is being edited or as it is on the disk.
@@ -148,16 +188,22 @@ impl<F: Files> Workspace<F> {
                 let BuiltChart { faults, .. } = build_chart(root, &model, present.as_deref(), loader);
                 Findings { faults, open: None }
             }
-            Some(Kind::Model) => {
-                let checked = check(root, loader);
-                Findings { faults: vec![(checked.sources, checked.diagnostics)], open: None }
-            }
+            Some(Kind::Model) => Findings::of(check(root, loader)),
             Some(Kind::Report | Kind::Verification) => specification(&root, loader),
             None => {
                 let ending = path.rsplit('.').next().unwrap_or_default();
                 Findings::not_checked(format!("the ending .{ending} is unknown"))
             }
         })
+    }
+
+    /// The model at a path, whatever is wrong with it: what could be understood, and all faults.
+    ///
+    /// # Errors
+    /// There is no such file.
+    pub fn checked(&mut self, path: &str) -> Result<Checked, Absent> {
+        let root = self.text(path)?;
+        Ok(check(root, &mut self.texts()))
     }
 
     /// The model at a path, ready to run.
@@ -171,7 +217,7 @@ impl<F: Files> Workspace<F> {
 
     /// Reads texts and what they import. The workspace cannot be edited meanwhile.
     pub fn texts(&mut self) -> Texts<'_, F> {
-        Texts { files: &mut self.files, open: &self.open, parsed: &mut self.parsed }
+        Texts { files: &mut self.files, open: &self.open, parsed: &mut self.parsed, reads: &mut self.reads }
     }
 }
 
@@ -200,14 +246,19 @@ pub struct Texts<'w, F> {
     files: &'w mut F,
     open: &'w BTreeMap<String, (i64, SourceFile)>,
     parsed: &'w mut Parsed,
+    reads: &'w mut Option<Reads>,
 }
 
 impl<F: Files> Files for Texts<'_, F> {
     fn read(&mut self, path: &str) -> Result<SourceFile, Absent> {
-        match self.open.get(&tidy(path)) {
+        let found = match self.open.get(&tidy(path)) {
             Some((_, source)) => Ok(source.clone()),
             None => self.files.read(path),
+        };
+        if let Some(reads) = self.reads {
+            reads.insert(path.to_string(), found.as_ref().ok().map(|source| Arc::clone(&source.text)));
         }
+        found
     }
 }
 
@@ -268,18 +319,29 @@ pub fn tidy(path: &str) -> String {
 
 /// Parsed texts, by their content.
 #[derive(Debug, Default)]
-struct Parsed(BTreeMap<Arc<str>, Parse>);
+struct Parsed {
+    /// Each with when it was last asked for.
+    trees: BTreeMap<Arc<str>, (u64, Parse)>,
+    bytes: usize,
+    now: u64,
+}
 
 impl Parsed {
     fn of(&mut self, file: FileId, text: &Arc<str>) -> Parse {
-        if let Some(parse) = self.0.get(text) {
+        self.now += 1;
+        if let Some((used, parse)) = self.trees.get_mut(text) {
+            *used = self.now;
             return parse.clone().in_file(file);
         }
-        if self.0.len() >= PARSED {
-            self.0.clear();
-        }
         let parse = syntax::parse_asmetal(file, text);
-        self.0.insert(Arc::clone(text), parse.clone());
+        self.bytes += text.len();
+        while self.bytes > PARSED_BYTES {
+            let oldest = self.trees.iter().min_by_key(|(_, (used, _))| *used).map(|(text, _)| Arc::clone(text));
+            let Some(oldest) = oldest else { break };
+            self.trees.remove(&oldest);
+            self.bytes -= oldest.len();
+        }
+        self.trees.insert(Arc::clone(text), (self.now, parse.clone()));
         parse
     }
 }

@@ -19,6 +19,7 @@ use crate::model::Model;
 use crate::names::Names;
 use crate::rule::{RuleKind, RuleNode};
 use crate::site::{Site, predefined};
+use crate::uses::Referent;
 
 /// Declares what a unit declares; gives its names and its rules in the order of the text, the main rule last.
 pub(crate) fn declare(
@@ -109,6 +110,9 @@ impl Declare<'_> {
     }
 
     fn define(&mut self, name: String, id: DomainId, span: Span) -> Option<DomainId> {
+        if id != Domains::ERROR {
+            self.model.uses.declare(span, Referent::Domain(id));
+        }
         match self.names.domains.get(&name) {
             // A type variable of an imported library is not an obstacle to a domain of that name.
             Some(first) if *first != Domains::ANY && !matches!(self.model.domains.kind(*first), DomainKind::Any) => {
@@ -148,6 +152,7 @@ impl Declare<'_> {
                 literals.push(name.clone());
                 let place = literals.len() as u32 - 1;
                 self.names.literals.insert(name.clone(), (id, place));
+                self.model.uses.declare(span, Referent::Literal(id, place));
                 self.literals.insert(name, span);
             }
         }
@@ -199,6 +204,7 @@ impl Declare<'_> {
             return;
         }
         let id = self.model.add_function(function);
+        self.model.uses.declare(span, Referent::Function(id));
         self.names.functions.entry(token.text().to_string()).or_default().push(id);
     }
 
@@ -221,6 +227,7 @@ impl Declare<'_> {
             body: RuleNode { kind: RuleKind::Error, span },
             span,
         });
+        self.model.uses.declare(span, Referent::Rule(id));
         self.own_rule(&token, id, span);
         Some(id)
     }
@@ -256,6 +263,7 @@ pub(crate) fn parameters(site: &mut Site<'_>, list: &ast::ParameterList) -> Vec<
         if let Some(first) = variables.iter().find(|variable| variable.name == token.text()) {
             site.faults.push(fault::name::duplicate_parameter(span, first.span, token.text()));
         }
+        site.model.uses.declare(span, Referent::Variable(span, domain));
         variables.push(Variable { name: token.text().to_string(), domain, span });
     }
     variables

@@ -21,10 +21,15 @@ const LIBRARIES: [(&str, &str); 5] = [
 ];
 
 /// The library that an import path names, as a source file.
-pub(crate) fn find(path: &str) -> Option<SourceFile> {
+pub fn find(path: &str) -> Option<SourceFile> {
     let stem = stem(path);
     let (name, text) = LIBRARIES.iter().find(|(name, _)| name.eq_ignore_ascii_case(stem))?;
     Some(SourceFile::new(format!("<std>/{name}.asm"), *text))
+}
+
+/// The names of all libraries.
+pub fn libraries() -> impl Iterator<Item = &'static str> {
+    LIBRARIES.iter().map(|(name, _)| *name)
 }
 
 /// A file of that name is one of the built-in libraries, or takes its place.

@@ -10,6 +10,7 @@ use crate::domain::Domains;
 use crate::id::{DomainId, FunctionId, RuleId};
 use crate::names::Names;
 use crate::term::Term;
+use crate::uses::Uses;
 
 /// Finds the texts of imported files; the shells implement it over a disk, tests over a map.
 pub trait Loader {
@@ -61,6 +62,8 @@ pub struct Model {
     /// What the names of the root file mean, so that terms and rules from elsewhere (a scenario, a command line)
     /// can be read as if they stood in it.
     pub names: Names,
+    /// What each name of the texts means, those of fragments included.
+    pub uses: Uses,
 }
 
 impl Model {
@@ -78,6 +81,7 @@ impl Model {
             inits: Vec::new(),
             default_init: None,
             names: Names::default(),
+            uses: Uses::default(),
         }
     }
 

@@ -60,6 +60,31 @@ impl Names {
         self.rules.get(name).map_or(&[], Vec::as_slice)
     }
 
+    /// All domains by name.
+    pub fn all_domains(&self) -> impl Iterator<Item = (&str, DomainId)> {
+        self.domains.iter().map(|(name, id)| (name.as_str(), *id))
+    }
+
+    /// All enum literals by name.
+    pub fn all_literals(&self) -> impl Iterator<Item = (&str, DomainId)> {
+        self.literals.iter().map(|(name, (id, _))| (name.as_str(), *id))
+    }
+
+    /// All functions by name, the overloads of one after the other.
+    pub fn all_functions(&self) -> impl Iterator<Item = (&str, FunctionId)> {
+        self.functions.iter().flat_map(|(name, ids)| ids.iter().map(move |id| (name.as_str(), *id)))
+    }
+
+    /// All rules by name, the overloads of one after the other.
+    pub fn all_rules(&self) -> impl Iterator<Item = (&str, RuleId)> {
+        self.rules.iter().flat_map(|(name, ids)| ids.iter().map(move |id| (name.as_str(), *id)))
+    }
+
+    /// A reported fault may have hidden names, so a name that is not here may be there all the same.
+    pub fn is_incomplete(&self) -> bool {
+        self.incomplete
+    }
+
     /// Something has that name.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.domains.contains_key(name) || self.functions.contains_key(name) || self.rules.contains_key(name)

@@ -15,6 +15,7 @@ use crate::library;
 use crate::model::Model;
 use crate::names::Names;
 use crate::suggest::{did_you_mean, nearest};
+use crate::uses::Referent;
 
 /// A file being declared or checked.
 pub(crate) struct Site<'a> {
@@ -37,6 +38,11 @@ impl Site<'_> {
     /// The place of a token.
     pub(crate) fn token_span(&self, token: &SyntaxToken) -> Span {
         Span::new(self.file, token.text_range())
+    }
+
+    /// Notes what a name at a place means.
+    pub(crate) fn note(&mut self, span: Span, referent: Referent) {
+        self.model.uses.add(span, referent);
     }
 
     /// The domain as written in a model.
@@ -118,10 +124,14 @@ impl Site<'_> {
     /// The domain of that name.
     pub(crate) fn resolve_domain_name(&mut self, token: &SyntaxToken) -> DomainId {
         let (name, span) = (token.text(), self.token_span(token));
-        match self.names.domain(name) {
+        let domain = match self.names.domain(name) {
             Some(domain) => domain,
             None => self.unknown_domain(name, span),
+        };
+        if domain != Domains::ERROR {
+            self.model.uses.add(span, Referent::Domain(domain));
         }
+        domain
     }
 
     fn unknown_domain(&mut self, name: &str, span: Span) -> DomainId {
@@ -251,7 +261,7 @@ pub(crate) fn predefined(name: &str) -> Option<DomainId> {
 }
 
 /// The word for a kind of function.
-pub(crate) fn kind_word(kind: FunctionKind) -> &'static str {
+pub fn kind_word(kind: FunctionKind) -> &'static str {
     match kind {
         FunctionKind::Static => "static",
         FunctionKind::Derived => "derived",

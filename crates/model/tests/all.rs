@@ -8,3 +8,4 @@ mod imports;
 mod library;
 mod robust;
 mod support;
+mod uses;

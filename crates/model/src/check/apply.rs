@@ -13,6 +13,7 @@ use crate::id::DomainId;
 use crate::id::FunctionId;
 use crate::overload::{self, Choice, Shape};
 use crate::term::{Term, TermKind};
+use crate::uses::Referent;
 
 const PROJECTIONS: [&str; 9] = ["first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth"];
 
@@ -68,6 +69,10 @@ impl Body<'_> {
             self.site.unknown_function(written.name, written.shown, written.name_span, &visible);
             return error_term(written.span);
         }
+        // Arguments that do not fit leave no doubt about the function if there is only one.
+        if let [only] = candidates {
+            self.site.note(written.name_span, Referent::Function(*only));
+        }
         if arguments.iter().any(|argument| argument.domain == Domains::ERROR) {
             return self.guess(candidates, arguments, written.span);
         }
@@ -99,6 +104,7 @@ impl Body<'_> {
     fn apply(&mut self, choice: Choice<FunctionId>, mut arguments: Vec<Term>, written: &Written<'_>) -> Term {
         let Choice { id, bindings, shape } = choice;
         let span = written.span;
+        self.site.note(written.name_span, Referent::Function(id));
         if let Some(projection) = self.projection(id, &mut arguments, span) {
             return projection;
         }

@@ -15,6 +15,7 @@ use crate::id::{FunctionId, VariableId};
 use crate::site::Site;
 use crate::suggest::did_you_mean;
 use crate::term::{Term, TermKind};
+use crate::uses::Referent;
 
 /// What binds a variable. This decides whether it may be updated, and how that is explained.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -107,6 +108,7 @@ impl<'a> Body<'a> {
     /// Binds a variable from here on.
     pub(crate) fn bind(&mut self, token: &SyntaxToken, domain: DomainId, bound: Bound) -> VariableId {
         let span = self.site.token_span(token);
+        self.site.model.uses.declare(span, Referent::Variable(span, domain));
         let id = self.add_variable(token.text().to_string(), domain, span, bound);
         self.scope.push((token.text().to_string(), Meaning::Variable(id)));
         id
@@ -123,6 +125,7 @@ impl<'a> Body<'a> {
             library: false,
             span,
         });
+        self.site.model.uses.declare(span, Referent::Variable(span, codomain));
         self.local_variables.push((id, bound));
         self.scope.push((name, Meaning::Local(id)));
         id
@@ -170,9 +173,16 @@ impl<'a> Body<'a> {
         let span = self.site.token_span(token);
         let name = token.text();
         match self.lookup(name) {
-            Some(Meaning::Variable(id)) => return self.variable_term(id, span),
+            Some(Meaning::Variable(id)) => {
+                let variable = self.variable(id);
+                let referent = Referent::Variable(variable.span, variable.domain);
+                self.site.note(span, referent);
+                return self.variable_term(id, span);
+            }
             Some(Meaning::Local(function)) => {
-                let domain = self.site.model.function(function).codomain;
+                let local = self.site.model.function(function);
+                let (domain, bound) = (local.codomain, local.span);
+                self.site.note(span, Referent::Variable(bound, domain));
                 return Term { kind: TermKind::Apply { function, arguments: Vec::new() }, domain, span };
             }
             None => {}

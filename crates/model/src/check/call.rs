@@ -15,6 +15,7 @@ use crate::id::RuleId;
 use crate::overload;
 use crate::rule::Call;
 use crate::term::Term;
+use crate::uses::Referent;
 
 impl Body<'_> {
     /// A call of a macro or turbo rule.
@@ -41,6 +42,10 @@ impl Body<'_> {
             self.site.faults.push(fault::rule::call_brackets(place, token.text(), !turbo, declared));
             return None;
         }
+        let place = self.site.token_span(&token);
+        if let [only] = candidates.as_slice() {
+            self.site.note(place, Referent::Rule(*only));
+        }
         if arguments.iter().any(|argument| argument.domain == Domains::ERROR) && candidates.len() > 1 {
             return None;
         }
@@ -48,6 +53,7 @@ impl Body<'_> {
             self.report_call(&token, &candidates, &arguments, span);
             return None;
         };
+        self.site.note(place, Referent::Rule(rule));
         let formals = self.formals(rule);
         let arguments =
             arguments.into_iter().zip(formals).map(|(argument, formal)| self.coerce(argument, formal)).collect();
@@ -103,6 +109,12 @@ impl Body<'_> {
     /// The rule of that name with exactly these parameter domains, otherwise one whose parameters take them; without
     /// domains, the only one of that name.
     pub(crate) fn rule_by_domains(&mut self, token: &SyntaxToken, domains: &[DomainId], span: Span) -> Option<RuleId> {
+        let found = self.find_by_domains(token, domains, span)?;
+        self.site.note(self.site.token_span(token), Referent::Rule(found));
+        Some(found)
+    }
+
+    fn find_by_domains(&mut self, token: &SyntaxToken, domains: &[DomainId], span: Span) -> Option<RuleId> {
         let candidates = self.site.names.rules(token.text());
         if candidates.is_empty() {
             self.site.unknown_rule(token);

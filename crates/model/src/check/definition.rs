@@ -18,6 +18,7 @@ use crate::id::DomainId;
 use crate::id::{FunctionId, VariableId};
 use crate::site::{Site, kind_word};
 use crate::term::{Term, TermKind};
+use crate::uses::Referent;
 
 /// Where each function and domain of the model is defined.
 #[derive(Default)]
@@ -136,6 +137,7 @@ fn find(site: &mut Site<'_>, def: &ast::FunctionDef, parameters: &[Variable]) ->
         _ => domains.clone(),
     };
     if let Some(id) = exact(&domains).or_else(|| exact(&product)) {
+        site.note(span, Referent::Function(id));
         return Some(id);
     }
     let unclear = |id: &FunctionId| site.model.function(*id).parameters.contains(&Domains::ERROR);

@@ -199,6 +199,9 @@ impl Checker<'_> {
                 self.faults.push(fault::import::not_exported(span, name, &path, suggestion));
             }
             selected.insert(name.to_string());
+            if let Some(exported) = &self.exported[target] {
+                self.model.uses.add_all(Span::new(unit.file, token.text_range()), name, exported);
+            }
         }
         Selection::Only(selected)
     }
@@ -220,6 +223,7 @@ impl Checker<'_> {
                 self.faults.push(fault::import::unknown_name(span, name, help));
             }
             selected.insert(name.to_string());
+            self.model.uses.add_all(Span::new(unit.file, token.text_range()), name, names);
         }
         Some(names.select(&Selection::Only(selected)))
     }

@@ -77,6 +77,8 @@ fn report_over(site: &mut Site<'_>, invariant: &ast::Invariant) {
     for token in items.filter_map(|item| item.name()) {
         let names = site.names;
         let name = token.text();
+        let span = site.token_span(&token);
+        site.model.uses.add_all(span, name, names);
         let known = match token.kind() {
             SyntaxKind::FUNCTION_ID => names.functions.contains_key(name),
             SyntaxKind::RULE_ID => names.rules.contains_key(name),
@@ -90,7 +92,6 @@ fn report_over(site: &mut Site<'_>, invariant: &ast::Invariant) {
         }
         let all = names.functions.keys().chain(names.domains.keys()).chain(names.rules.keys());
         let help = did_you_mean(name, all.map(String::as_str), || "remove it from the list behind `over`".to_string());
-        let span = site.token_span(&token);
         site.faults.push(fault::property::over_unknown(span, name, help));
     }
 }

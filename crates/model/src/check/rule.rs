@@ -16,6 +16,7 @@ use crate::id::DomainId;
 use crate::id::VariableId;
 use crate::rule::{RuleKind, RuleNode};
 use crate::term::{Binder, Term, TermKind};
+use crate::uses::Referent;
 
 impl Body<'_> {
     /// A rule that may be missing after a syntax fault at `place`.
@@ -244,6 +245,7 @@ impl Body<'_> {
                 span: place,
             };
             let id = self.site.model.add_function(function);
+            self.site.model.uses.declare(place, Referent::Function(id));
             self.locals.push((name, id));
             let place = self.site.span(&decl);
             locals.push((id, self.optional_rule(decl.initialisation(), place)));

@@ -13,6 +13,7 @@ use crate::fault;
 use crate::id::DomainId;
 use crate::id::VariableId;
 use crate::term::{Literal, Quantifier, Term, TermKind};
+use crate::uses::Referent;
 
 impl Body<'_> {
     /// A term that may be missing after a syntax fault at `place`.
@@ -62,9 +63,11 @@ impl Body<'_> {
         let Some(token) = literal.token() else { return error_term(span) };
         let name = token.text();
         if let Some((domain, place)) = self.site.names.literal(name) {
+            self.site.note(span, Referent::Literal(domain, place));
             return Term { kind: TermKind::Literal(Literal::Enum(domain, place)), domain, span };
         }
         if let Some(domain) = self.site.names.domain(name) {
+            self.site.note(span, Referent::Domain(domain));
             return self.domain_as_set(domain, span);
         }
         self.site.unknown_literal(name, span);
@@ -79,6 +82,7 @@ impl Body<'_> {
             && let Some((domain, place)) = self.site.names.literal(name.text())
         {
             // A literal of the wrong shape; that was reported at its declaration.
+            self.site.note(span, Referent::Literal(domain, place));
             return Term { kind: TermKind::Literal(Literal::Enum(domain, place)), domain, span };
         }
         let domain = self.site.resolve_domain(&domain);

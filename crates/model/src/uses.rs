@@ -1,0 +1,74 @@
+//! What each name of the texts means, as the checker found it: the table from a place to what it refers to.
+//!
+//! In: every name that the checker resolves, when it does. Out: [`Uses`], for whoever goes from a text to what stands in it
+//! (an editor); nothing that runs a model reads it. INVARIANT: a name is in the table only if the checker took it for what the
+//! table says, or if there is nothing else of that name; one that might mean several things is not in it.
+
+use syntax::{FileId, Span};
+
+use crate::id::{DomainId, FunctionId, RuleId};
+use crate::names::Names;
+
+/// What a name refers to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Referent {
+    /// A domain.
+    Domain(DomainId),
+    /// An enum literal: its domain and its place in it.
+    Literal(DomainId, u32),
+    /// A function; an operator refers to its library function.
+    Function(FunctionId),
+    /// A rule.
+    Rule(RuleId),
+    /// A logical variable: where it is bound, and the domain of its values.
+    Variable(Span, DomainId),
+}
+
+/// A name at a place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Use {
+    /// Where the name stands.
+    pub span: Span,
+    /// What it refers to.
+    pub referent: Referent,
+    /// It is declared, or bound, here.
+    pub declares: bool,
+}
+
+/// All names of the texts. A name in a list of imports or exports refers to all overloads that it lets through.
+#[derive(Debug, Clone, Default)]
+pub struct Uses(Vec<Use>);
+
+impl Uses {
+    pub(crate) fn add(&mut self, span: Span, referent: Referent) {
+        self.0.push(Use { span, referent, declares: false });
+    }
+
+    pub(crate) fn declare(&mut self, span: Span, referent: Referent) {
+        self.0.push(Use { span, referent, declares: true });
+    }
+
+    /// Adds all that a name of a list means.
+    pub(crate) fn add_all(&mut self, span: Span, name: &str, names: &Names) {
+        let domain = names.domain(name).map(Referent::Domain);
+        let literal = names.literal(name).map(|(domain, place)| Referent::Literal(domain, place));
+        let functions = names.functions(name).iter().copied().map(Referent::Function);
+        let rules = names.rules(name).iter().copied().map(Referent::Rule);
+        for referent in domain.into_iter().chain(literal).chain(functions).chain(rules) {
+            self.add(span, referent);
+        }
+    }
+
+    /// Those that stand in a file, in the order of their places, each once.
+    pub fn in_file(&self, file: FileId) -> Vec<Use> {
+        let mut found: Vec<Use> = self.0.iter().filter(|name| name.span.file == file).copied().collect();
+        found.sort_by_key(|name| (name.span, name.referent, !name.declares));
+        found.dedup_by_key(|name| (name.span, name.referent));
+        found
+    }
+
+    /// All of them, in the order in which they were resolved.
+    pub fn iter(&self) -> impl Iterator<Item = &Use> {
+        self.0.iter()
+    }
+}
