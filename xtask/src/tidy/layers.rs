@@ -14,13 +14,14 @@ const LAYERS: &[&[&str]] = &[
     &["machine"],
     &["explore", "solve"],
     &["recording", "testkit"],
-    &["simulate", "scenario", "verify", "refine", "chart", "conform", "ide"],
+    &["simulate", "scenario", "verify", "refine", "chart", "conform"],
     &["draw", "generate"],
     &["inputs"],
     &["report"],
     &["groundstate"],
-    &["properties", "wire"],
-    &["cli", "studio", "lsp", "python", "xtask"],
+    &["ide", "properties", "wire"],
+    &["lsp", "studio", "python"],
+    &["cli", "xtask"],
 ];
 
 /// Crates that only tests may use.

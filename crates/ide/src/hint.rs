@@ -1,0 +1,139 @@
+//! What an editor writes between the lines: domains of variables, how often something is named, what can be done with a model.
+//!
+//! In: a project and a file. Out: [`Hint`]s and [`Lens`]es at their places.
+
+use std::path::Path;
+
+use groundstate::Kind;
+use groundstate::workspace::Files;
+use model::{Domains, Referent, RuleNode, Term, TermKind};
+use syntax::{FileId, SyntaxKind};
+
+use crate::analysis::{Analysis, Place};
+use crate::navigate::references;
+use crate::project::Project;
+
+/// A text that is shown and not there.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Hint {
+    /// Before which byte.
+    pub at: u32,
+    /// What is shown.
+    pub text: String,
+}
+
+/// What can be done with a line.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Action {
+    /// `groundstate run`
+    Run,
+    /// `groundstate verify`
+    Verify,
+    /// `groundstate test`
+    Test,
+    /// `groundstate chart draw`
+    Draw,
+    /// Show these places.
+    References(Vec<Place>),
+}
+
+/// A line above a declaration.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Lens {
+    /// The name that is declared.
+    pub range: (u32, u32),
+    /// What is shown.
+    pub title: String,
+    /// What it does.
+    pub action: Action,
+}
+
+/// Domains of variables that are not written, and where a number is taken to another domain; in the order of their places.
+pub fn hints<F: Files>(project: &mut Project<F>, path: &str) -> Vec<Hint> {
+    let Ok(analysis) = project.analysis(path) else { return Vec::new() };
+    let mut found = Vec::new();
+    for name in analysis.names.iter().filter(|name| name.declares) {
+        let Referent::Variable(_, domain) = name.referent else { continue };
+        let Some(token) = analysis.token_at(name.span.start) else { continue };
+        let unwritten = match token.parent().map(|parent| parent.kind()) {
+            Some(SyntaxKind::BINDING) => true,
+            // A domain says what its elements are; of a term it is not seen.
+            Some(SyntaxKind::BINDER) => {
+                let range = token.parent().and_then(|binder| binder.children().next());
+                range.is_some_and(|range| !matches!(range.kind(), SyntaxKind::DOMAIN_TERM | SyntaxKind::ENUM_TERM))
+            }
+            _ => false,
+        };
+        if unwritten && domain != Domains::ERROR {
+            found.push(Hint { at: name.span.end, text: format!(": {}", analysis.model.domains.display(domain)) });
+        }
+    }
+    coercions(&analysis, &mut found);
+    found.sort();
+    found.dedup();
+    found
+}
+
+fn coercions(analysis: &Analysis, found: &mut Vec<Hint>) {
+    let model = &analysis.model;
+    let mut look = |term: &Term| {
+        if let TermKind::Coerce(inner) = &term.kind
+            && inner.span.file == analysis.file
+        {
+            found.push(Hint { at: inner.span.end, text: format!(" → {}", model.domains.display(term.domain)) });
+        }
+    };
+    let in_file = |file: FileId| file == analysis.file;
+    for rule in model.rules.iter().filter(|rule| in_file(rule.span.file)) {
+        rule.body.walk(&mut |node: &RuleNode| node.terms(&mut |term| term.walk(&mut look)));
+    }
+    for function in model.functions.iter().filter(|function| in_file(function.span.file)) {
+        if let Some(definition) = &function.definition {
+            definition.body.walk(&mut look);
+        }
+    }
+    for property in model.properties.iter().filter(|property| in_file(property.span.file)) {
+        property.formula.walk(&mut look);
+    }
+}
+
+/// What can be done with a file and its declarations.
+pub fn lenses<F: Files>(project: &mut Project<F>, path: &str) -> Vec<Lens> {
+    let Ok(analysis) = project.analysis(path) else { return Vec::new() };
+    let Some(tree) = analysis.tree() else { return Vec::new() };
+    let mut found = Vec::new();
+    let head = tree.descendants_with_tokens().filter_map(|element| element.into_token());
+    let head = head.into_iter().find(|token| token.kind() == SyntaxKind::GENERIC_ID);
+    if let Some(head) = head {
+        let range = (head.text_range().start().into(), head.text_range().end().into());
+        let actions: &[(&str, Action)] = match Kind::of(Path::new(path)) {
+            Some(Kind::Model) if analysis.machine().is_some_and(|machine| machine.main_rule().is_some()) => {
+                &[("Run", Action::Run), ("Verify", Action::Verify)]
+            }
+            Some(Kind::Scenario) => &[("Test", Action::Test)],
+            Some(Kind::Chart) => &[("Draw", Action::Draw)],
+            Some(Kind::Model | Kind::Report | Kind::Verification) | None => &[],
+        };
+        found.extend(actions.iter().map(|(title, action)| Lens {
+            range,
+            title: title.to_string(),
+            action: action.clone(),
+        }));
+    }
+    let Some(machine) = analysis.machine() else { return found };
+    let rules = machine.definitions().into_iter().flat_map(|definitions| definitions.rules().collect::<Vec<_>>());
+    for name in rules.filter_map(|rule| rule.name()) {
+        let range: (u32, u32) = (name.text_range().start().into(), name.text_range().end().into());
+        let places: Vec<Place> = references(project, path, range.0)
+            .into_iter()
+            .filter(|reference| reference.role != crate::analysis::Role::Declaration)
+            .map(|reference| reference.place)
+            .collect();
+        let title = match places.len() {
+            1 => "1 use".to_string(),
+            count => format!("{count} uses"),
+        };
+        found.push(Lens { range, title, action: Action::References(places) });
+    }
+    found
+}

@@ -1,0 +1,154 @@
+//! From a name to what it means, and back to all places that name it.
+//!
+//! In: a project, a file and an offset. Out: places. Each file is asked about itself alone, so a place is found once. Only files
+//! in which the name is written are looked at.
+
+use groundstate::workspace::Files;
+use model::{Referent, Use};
+use syntax::ast::{self, AstNode};
+use syntax::{Span, SyntaxKind, SyntaxToken};
+
+use crate::analysis::{Analysis, Place, Role, Symbol};
+use crate::project::Project;
+
+/// A place that names something, and what is done there.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Reference {
+    /// Where.
+    pub place: Place,
+    /// What is done.
+    pub role: Role,
+}
+
+/// Where what is named at an offset is declared; for a path in an import, the beginning of the file.
+pub fn definition<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -> Vec<Place> {
+    let Ok(analysis) = project.analysis(path) else { return Vec::new() };
+    if let Some((_, target)) = path_at(project, &analysis, offset) {
+        return vec![Place { path: target, range: (0, 0) }];
+    }
+    if let Some(place) = block_at(project, &analysis, offset) {
+        return vec![place];
+    }
+    let names = analysis.names_at(offset).iter();
+    names.filter_map(|name| analysis.declaration(name.referent)).map(|span| analysis.place(span)).collect()
+}
+
+/// Where what is named at an offset gets its meaning: the definition of a function, the body of a rule, the initial value.
+pub fn implementations<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -> Vec<Place> {
+    let found = references(project, path, offset);
+    let defines = found.iter().filter(|reference| reference.role == Role::Definition);
+    let defined: Vec<Place> = defines.map(|reference| reference.place.clone()).collect();
+    if defined.is_empty() { definition(project, path, offset) } else { defined }
+}
+
+/// All places that name what is named at an offset, in order.
+pub fn references<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -> Vec<Reference> {
+    let Ok(analysis) = project.analysis(path) else { return Vec::new() };
+    let Some(first) = analysis.names_at(offset).first().copied() else { return Vec::new() };
+    let written = analysis.text()[first.span.range()].to_string();
+    let symbols = symbols(&analysis, analysis.names_at(offset));
+    let mut found = Vec::new();
+    for file in places_to_look(project, &analysis, first.referent) {
+        found.extend(references_in(project, &file, &symbols, &written));
+    }
+    found.sort();
+    found.dedup();
+    found
+}
+
+/// The places of one file that name one of the symbols.
+pub(crate) fn references_in<F: Files>(
+    project: &mut Project<F>,
+    file: &str,
+    symbols: &[Symbol],
+    written: &str,
+) -> Vec<Reference> {
+    let Ok(source) = project.text(file) else { return Vec::new() };
+    if !source.text.contains(written) {
+        return Vec::new();
+    }
+    let Ok(analysis) = project.analysis(file) else { return Vec::new() };
+    // An operator is no place that names its function.
+    let is_written = |name: &&Use| analysis.text()[name.span.range()] == *written;
+    let named = analysis.names.iter().filter(is_written);
+    let meant = named.filter(|name| symbols.contains(&analysis.symbol(name.referent)));
+    meant.map(|name| Reference { place: analysis.place(name.span), role: analysis.role(name) }).collect()
+}
+
+/// What names mean, each once.
+pub(crate) fn symbols(analysis: &Analysis, names: &[Use]) -> Vec<Symbol> {
+    let mut symbols: Vec<Symbol> = names.iter().map(|name| analysis.symbol(name.referent)).collect();
+    symbols.sort();
+    symbols.dedup();
+    symbols
+}
+
+/// The files that can name something: for a variable its own and those that pick it, else all of the project.
+pub(crate) fn places_to_look<F: Files>(
+    project: &mut Project<F>,
+    analysis: &Analysis,
+    referent: Referent,
+) -> Vec<String> {
+    let mut files = project.all_files();
+    files.extend([analysis.source().name.clone()]);
+    if let Some(span) = analysis.declaration(referent) {
+        files.push(analysis.sources.file(span.file).name.clone());
+    }
+    files.sort();
+    files.dedup();
+    files
+}
+
+/// The places of the file itself that name what is named at an offset.
+pub fn highlights<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -> Vec<Reference> {
+    let Ok(analysis) = project.analysis(path) else { return Vec::new() };
+    let Some(first) = analysis.names_at(offset).first() else { return Vec::new() };
+    let written = analysis.text()[first.span.range()].to_string();
+    let symbols = symbols(&analysis, analysis.names_at(offset));
+    references_in(project, path, &symbols, &written)
+}
+
+/// A path that is written in a file, and the file that it leads to.
+pub fn links<F: Files>(project: &mut Project<F>, path: &str) -> Vec<(Place, String)> {
+    let Ok(analysis) = project.analysis(path) else { return Vec::new() };
+    let mut found = Vec::new();
+    for token in paths(&analysis) {
+        let written = token.text().trim_matches('"').to_string();
+        if let Some(target) = project.target(analysis.source(), &written) {
+            found.push((analysis.place(Span::new(analysis.file, token.text_range())), target));
+        }
+    }
+    found
+}
+
+fn paths(analysis: &Analysis) -> Vec<SyntaxToken> {
+    let Some(tree) = analysis.tree() else { return Vec::new() };
+    let scenario = ast::ScenarioFile::cast(tree.clone()).and_then(|file| file.model_token());
+    let imports = tree.children().filter_map(ast::Import::cast).filter_map(|import| import.path_token());
+    scenario.into_iter().chain(imports).collect()
+}
+
+fn path_at<F: Files>(project: &mut Project<F>, analysis: &Analysis, offset: u32) -> Option<(SyntaxToken, String)> {
+    let covers = |token: &SyntaxToken| {
+        let range = token.text_range();
+        u32::from(range.start()) <= offset && offset <= u32::from(range.end())
+    };
+    let token = paths(analysis).into_iter().find(covers)?;
+    let target = project.target(analysis.source(), token.text().trim_matches('"'))?;
+    Some((token, target))
+}
+
+/// The block of a scenario that is called at an offset.
+fn block_at<F: Files>(project: &mut Project<F>, analysis: &Analysis, offset: u32) -> Option<Place> {
+    let token = analysis.token_at(offset).filter(|token| token.kind() == SyntaxKind::GENERIC_ID)?;
+    let call = token.parent().and_then(ast::ExecBlockCommand::cast)?;
+    let name = call.block()?;
+    let file = match call.file() {
+        Some(file) => project.target(analysis.source(), &format!("{}.avalla", file.text()))?,
+        None => analysis.source().name.clone(),
+    };
+    let other = project.analysis(&file).ok()?;
+    let blocks = other.tree()?.descendants().filter_map(ast::Block::cast).collect::<Vec<_>>();
+    let found = blocks.iter().filter_map(|block| block.name()).find(|found| found.text() == name.text())?;
+    Some(other.place(Span::new(other.file, found.text_range())))
+}

@@ -1,0 +1,234 @@
+//! A project as an editor sees it: texts that change, and what is known of each of them.
+//!
+//! In: texts and the names of the project's files. Out: an [`Analysis`] for a file, made when it is asked for and kept as long
+//! as every text that it was made of is what it was. INVARIANT: an answer depends on the texts alone, not on the edits that led
+//! to them or on what was asked before.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::sync::Arc;
+
+use groundstate::workspace::{Absent, Files, Findings, Outdated, Reads, imported, tidy};
+use groundstate::{Kind, Workspace, patterns};
+use model::{Checked, Loader, Model};
+use syntax::ast::{AstNode, ScenarioFile};
+use syntax::{FileId, SourceFile, Sources};
+
+use crate::analysis::{Analysis, Base};
+
+/// LIMIT: so many files that are not being edited are kept analysed.
+const KEPT: usize = 64;
+
+/// See the module.
+#[derive(Debug)]
+pub struct Project<F> {
+    workspace: Workspace<F>,
+    /// The files of the project, by their tidied paths.
+    files: BTreeSet<String>,
+    analyses: BTreeMap<String, Kept<Analysis>>,
+    findings: BTreeMap<String, Kept<Findings>>,
+    /// Grows whenever a text may have changed.
+    revision: u64,
+}
+
+/// Something made of texts.
+#[derive(Debug)]
+struct Kept<T> {
+    made: Arc<T>,
+    of: Reads,
+    /// When it was last seen that it still holds.
+    seen: u64,
+}
+
+impl<F: Files> Project<F> {
+    /// A project in which nothing is being edited and no file is known.
+    pub fn new(files: F) -> Project<F> {
+        Project {
+            workspace: Workspace::new(files),
+            files: BTreeSet::new(),
+            analyses: BTreeMap::new(),
+            findings: BTreeMap::new(),
+            revision: 0,
+        }
+    }
+
+    /// From now on this is the text at a path, whatever the disk has.
+    ///
+    /// # Errors
+    /// A text of a later version is there.
+    pub fn set_text(&mut self, path: &str, version: i64, text: impl Into<Arc<str>>) -> Result<(), Outdated> {
+        self.revision += 1;
+        self.workspace.set_text(path, version, text)
+    }
+
+    /// From now on the text at a path is that of the disk again.
+    pub fn close(&mut self, path: &str) {
+        self.revision += 1;
+        self.workspace.close(path);
+        self.analyses.remove(&tidy(path));
+        self.findings.remove(&tidy(path));
+    }
+
+    /// Files on the disk may have changed.
+    pub fn changed(&mut self) {
+        self.revision += 1;
+    }
+
+    /// From now on these are the files of the project.
+    pub fn set_files(&mut self, files: impl IntoIterator<Item = String>) {
+        self.revision += 1;
+        self.files = files.into_iter().map(|path| tidy(&path)).collect();
+    }
+
+    /// The files of the project and those that are being edited, in order.
+    pub fn all_files(&self) -> Vec<String> {
+        self.files.iter().cloned().chain(self.open()).collect::<BTreeSet<_>>().into_iter().collect()
+    }
+
+    /// The files that are being edited, in order.
+    pub fn open(&self) -> Vec<String> {
+        self.workspace.open().map(str::to_string).collect()
+    }
+
+    /// The disk.
+    pub fn disk(&mut self) -> &mut F {
+        self.workspace.files()
+    }
+
+    /// The text at a path; that of a library for a name that faults and places give one.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn text(&mut self, path: &str) -> Result<SourceFile, Absent> {
+        match library_text(path) {
+            Some(source) => Ok(source),
+            None => self.workspace.text(path),
+        }
+    }
+
+    /// What is wrong with a file.
+    ///
+    /// # Errors
+    /// There is no such file.
+    pub fn findings(&mut self, path: &str) -> Result<Arc<Findings>, Absent> {
+        let path = tidy(path);
+        if let Some(Kind::Model) = Kind::of(Path::new(&path)) {
+            return self.analysis(&path).map(|analysis| Arc::clone(&analysis.findings));
+        }
+        if let Some(kept) = self.findings.get_mut(&path)
+            && still_holds(kept, self.revision, &mut self.workspace)
+        {
+            return Ok(Arc::clone(&kept.made));
+        }
+        let (made, of) = self.workspace.reading(|workspace| workspace.check(&path));
+        let made = Arc::new(made?);
+        self.findings.insert(path, Kept { made: Arc::clone(&made), of, seen: self.revision });
+        Ok(made)
+    }
+
+    /// What is known of a file.
+    ///
+    /// # Errors
+    /// There is no such file.
+    pub fn analysis(&mut self, path: &str) -> Result<Arc<Analysis>, Absent> {
+        let path = tidy(path);
+        if let Some(kept) = self.analyses.get_mut(&path)
+            && still_holds(kept, self.revision, &mut self.workspace)
+        {
+            return Ok(Arc::clone(&kept.made));
+        }
+        self.forget();
+        let source = self.text(&path)?;
+        let kind = Kind::of(Path::new(&path));
+        let (made, of) = match kind {
+            Some(Kind::Scenario) => {
+                let tree = ScenarioFile::cast(syntax::parse_avalla(FileId(0), &source.text).syntax());
+                self.over_model(source, tree.and_then(|tree| tree.model_path()))
+            }
+            Some(Kind::Chart) => {
+                let model = Path::new(&source.name).with_extension("asm");
+                self.over_model(source, model.file_name().map(|name| name.to_string_lossy().into_owned()))
+            }
+            Some(Kind::Model) => self.workspace.reading(|workspace| {
+                let checked = match library_text(&path) {
+                    Some(library) => groundstate::check(library, &mut workspace.texts()),
+                    None => workspace.checked(&path).unwrap_or_else(|_| nothing(source.clone())),
+                };
+                let parse = workspace.texts().parse(FileId(0), &source);
+                Analysis::of_model(checked, Some(parse))
+            }),
+            Some(Kind::Report | Kind::Verification) | None => {
+                self.workspace.reading(|workspace| {
+                    // The text is what the answers depend on.
+                    _ = workspace.text(&path);
+                    Analysis::of_text(source)
+                })
+            }
+        };
+        let made = Arc::new(made);
+        self.analyses.insert(path, Kept { made: Arc::clone(&made), of, seen: self.revision });
+        Ok(made)
+    }
+
+    /// A scenario or a chart: its names are those of a model.
+    fn over_model(&mut self, source: SourceFile, model: Option<String>) -> (Analysis, Reads) {
+        let (root, mut reads) = self.workspace.reading(|workspace| {
+            let texts = &mut workspace.texts();
+            // The file itself is read so that a change of it is seen.
+            _ = texts.read(&source.name);
+            model.and_then(|path| imported(texts, &source, &path).ok())
+        });
+        let base = root.and_then(|root| {
+            let analysis = self.analysis(&root.name).ok()?;
+            if let Some(kept) = self.analyses.get(&tidy(&root.name)) {
+                reads.extend(kept.of.iter().map(|(path, text)| (path.clone(), text.clone())));
+            }
+            Some(Base { sources: analysis.sources.clone(), model: Model::clone(&analysis.model) })
+        });
+        let base = base.unwrap_or_else(|| {
+            let Checked { sources, model, .. } = nothing(SourceFile::new("", ""));
+            Base { sources, model }
+        });
+        (Analysis::over(source, base), reads)
+    }
+
+    /// Drops what is not being edited where there is much of it.
+    fn forget(&mut self) {
+        if self.analyses.len() > KEPT {
+            let open: BTreeSet<String> = self.open().into_iter().collect();
+            self.analyses.retain(|path, _| open.contains(path));
+            self.findings.retain(|path, _| open.contains(path));
+        }
+    }
+
+    /// The file that a path in an import, a `load` or an `include` of a file leads to.
+    pub fn target(&mut self, importer: &SourceFile, path: &str) -> Option<String> {
+        if let Some(library) = model::library(path) {
+            return Some(library.name);
+        }
+        imported(&mut self.workspace.texts(), importer, path).ok().map(|source| source.name)
+    }
+}
+
+fn still_holds<T, F: Files>(kept: &mut Kept<T>, revision: u64, workspace: &mut Workspace<F>) -> bool {
+    if kept.seen != revision && !workspace.are_unchanged(&kept.of) {
+        return false;
+    }
+    kept.seen = revision;
+    true
+}
+
+/// What checking gives of a text that is not there.
+fn nothing(source: SourceFile) -> Checked {
+    let mut sources = Sources::default();
+    let root = sources.add(source);
+    Checked { sources, model: Model::empty(root), diagnostics: Vec::new() }
+}
+
+/// The text of a library that is built in, by the name that it has among the texts of a model.
+pub fn library_text(name: &str) -> Option<SourceFile> {
+    if let Some(path) = name.strip_prefix("<std>/") {
+        return model::library(path).filter(|found| found.name == name);
+    }
+    patterns::is_pattern(name).then(|| patterns::pattern(name, name.rsplit('/').next()?)).flatten()
+}

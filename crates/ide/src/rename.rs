@@ -1,0 +1,239 @@
+//! A name replaced by another wherever it means the same thing.
+//!
+//! In: a project, a file, an offset and the new name. Out: edits of all files that name it, or why not. INVARIANT: after the edits
+//! every name of every file that was looked at means what it meant before: the edits are made to a copy of the project, and all
+//! names are looked up again. A file that writes the name and cannot be understood there refuses the whole.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use groundstate::Kind;
+use groundstate::workspace::{Absent, Files};
+use model::Referent;
+use syntax::{FileId, Severity, SourceFile, SyntaxKind};
+
+use crate::analysis::{Analysis, Place, Symbol, is_word};
+use crate::navigate::{places_to_look, symbols};
+use crate::position::{Edit, edited};
+use crate::project::{Project, library_text};
+
+/// Edits by the file's path.
+pub type Edits = BTreeMap<String, Vec<Edit>>;
+
+/// What can be renamed at an offset: the place of the name.
+///
+/// # Errors
+/// Why nothing can, as a sentence.
+pub fn prepare<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -> Result<Place, String> {
+    let (analysis, first, _) = target(project, path, offset)?;
+    Ok(analysis.place(first.span))
+}
+
+/// Renames what is named at an offset.
+///
+/// # Errors
+/// Why it cannot be done, as a sentence.
+pub fn rename<F: Files>(project: &mut Project<F>, path: &str, offset: u32, to: &str) -> Result<Edits, String> {
+    let (analysis, first, symbol) = target(project, path, offset)?;
+    let from = analysis.text()[first.span.range()].to_string();
+    has_the_shape(first.referent, &from, to)?;
+    if from == to {
+        return Ok(Edits::new());
+    }
+    let mut edits = Edits::new();
+    let mut looked_at = Vec::new();
+    for file in places_to_look(project, &analysis, first.referent) {
+        let Ok(source) = project.text(&file) else { continue };
+        if !names_word(&source.text, &from) {
+            // It may still see the new name, and then mean something else by it.
+            if names_word(&source.text, to) && Kind::of(Path::new(&file)).is_some() {
+                looked_at.push(file);
+            }
+            continue;
+        }
+        match Kind::of(Path::new(&file)) {
+            None => continue,
+            Some(Kind::Report | Kind::Verification) => {
+                return Err(format!(
+                    "{file} writes `{from}`, and names in such files are not looked up: rename by hand"
+                ));
+            }
+            Some(Kind::Model | Kind::Scenario | Kind::Chart) => {}
+        }
+        let found = in_file(project, &file, &from, to, &symbol)?;
+        if !found.is_empty() {
+            edits.insert(file.clone(), found);
+        }
+        looked_at.push(file);
+    }
+    proved(project, &looked_at, &edits, &from, to)?;
+    Ok(edits)
+}
+
+/// The name at an offset, and the one thing that it means.
+fn target<F: Files>(
+    project: &mut Project<F>,
+    path: &str,
+    offset: u32,
+) -> Result<(std::sync::Arc<Analysis>, model::Use, Symbol), String> {
+    let analysis = project.analysis(path).map_err(|absent| absent.told(path))?;
+    let names = analysis.names_at(offset);
+    let Some(first) = names.first().copied() else { return Err("there is no name that is known here".to_string()) };
+    let [symbol] = symbols(&analysis, names).try_into().map_err(|_| {
+        "this name stands for several functions or rules: rename one where it is declared or used".to_string()
+    })?;
+    match &symbol {
+        Symbol::BuiltIn(_) => return Err("what is built in has one name for all".to_string()),
+        Symbol::At(file, _) if library_text(file).is_some() => {
+            return Err(format!("it is declared in {file}, which is built in"));
+        }
+        Symbol::At(..) => {}
+    }
+    if !analysis.text()[first.span.range()].starts_with(|c: char| c.is_ascii_alphabetic() || c == '$') {
+        return Err("an operator has one name for all".to_string());
+    }
+    Ok((analysis, first, symbol))
+}
+
+/// A name says by its shape what it names.
+fn has_the_shape(referent: Referent, from: &str, to: &str) -> Result<(), String> {
+    let kind_of = |text: &str| {
+        let tree = syntax::parse_term(FileId(0), text).syntax();
+        let mut tokens = tree.descendants_with_tokens().filter_map(|element| element.into_token());
+        tokens.next().filter(|token| token.text() == text).map(|token| token.kind())
+    };
+    let (old, new) = (kind_of(from), kind_of(to));
+    let same = match referent {
+        Referent::Domain(_) => new == Some(SyntaxKind::DOMAIN_ID),
+        _ => new.is_some() && old == new,
+    };
+    if same {
+        return Ok(());
+    }
+    let shape = match referent {
+        Referent::Variable(..) => "a variable is `$` and then a letter or `_`, letters, digits and `_`",
+        Referent::Rule(_) => "a rule's name begins with `r_`",
+        Referent::Literal(..) => "an enum literal begins with two capitals and has only capitals, digits and `_`",
+        Referent::Domain(_) => "a domain's name begins with a capital and has a small letter",
+        Referent::Function(_) => "a function's name begins with a small letter, and is no keyword",
+    };
+    Err(format!("`{to}` cannot take the place of `{from}`: {shape}"))
+}
+
+/// Whether a text has a word in it.
+fn names_word(text: &str, word: &str) -> bool {
+    let part_of_word = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || c == '_');
+    text.match_indices(word).any(|(at, _)| {
+        let before = text[..at].chars().next_back();
+        let after = text[at + word.len()..].chars().next();
+        let begins = word.starts_with('$') || !(part_of_word(before) || before == Some('$'));
+        begins && !part_of_word(after)
+    })
+}
+
+/// The edits of one file.
+fn in_file<F: Files>(
+    project: &mut Project<F>,
+    file: &str,
+    from: &str,
+    to: &str,
+    symbol: &Symbol,
+) -> Result<Vec<Edit>, String> {
+    let analysis = project.analysis(file).map_err(|absent| absent.told(file))?;
+    let Some(tree) = analysis.tree() else { return Ok(Vec::new()) };
+    let broken = analysis.parse().is_some_and(|parse| parse.diagnostics.iter().any(|f| f.severity == Severity::Error));
+    if broken {
+        return Err(format!("{file} writes `{from}`, and it cannot be read as it is: mend it first"));
+    }
+    let mut edits = Vec::new();
+    let tokens = tree.descendants_with_tokens().filter_map(|element| element.into_token());
+    for token in tokens.filter(|token| token.text() == from && is_word(token)) {
+        if is_label(token.kind()) {
+            continue;
+        }
+        let at = u32::from(token.text_range().start());
+        let meant = symbols(&analysis, analysis.names_at(at));
+        match meant.as_slice() {
+            [] => {
+                let line = analysis.source().line_column(at).line;
+                return Err(format!("{file}:{line} writes `{from}`, and what it means there is not known"));
+            }
+            [one] if one == symbol => edits.push(Edit::new(at..at + from.len() as u32, to)),
+            several if several.contains(symbol) => {
+                let line = analysis.source().line_column(at).line;
+                return Err(format!("{file}:{line} names several things by `{from}` at once"));
+            }
+            _ => {}
+        }
+    }
+    Ok(edits)
+}
+
+/// Names of other kinds: of files, machines, shapes, blocks.
+fn is_label(kind: SyntaxKind) -> bool {
+    matches!(kind, SyntaxKind::GENERIC_ID | SyntaxKind::MODULE_REF | SyntaxKind::STRING)
+}
+
+/// A project as it would be after edits.
+struct After<'p, F> {
+    project: &'p mut Project<F>,
+}
+
+impl<F: Files> Files for After<'_, F> {
+    fn read(&mut self, path: &str) -> Result<SourceFile, Absent> {
+        self.project.text(path)
+    }
+}
+
+/// Makes the edits to a copy, and finds that every name means what it meant.
+fn proved<F: Files>(
+    project: &mut Project<F>,
+    files: &[String],
+    edits: &Edits,
+    from: &str,
+    to: &str,
+) -> Result<(), String> {
+    let mut before = BTreeMap::new();
+    for file in files {
+        let analysis = project.analysis(file).map_err(|absent| absent.told(file))?;
+        before.insert(file.clone(), meanings(&analysis, edits));
+    }
+    let mut texts = BTreeMap::new();
+    for (file, edits) in edits {
+        let source = project.text(file).map_err(|absent| absent.told(file))?;
+        texts.insert(file.clone(), edited(&source.text, edits));
+    }
+    let mut after = Project::new(After { project });
+    for (file, text) in texts {
+        _ = after.set_text(&file, 0, text);
+    }
+    for (file, before) in before {
+        let analysis = after.analysis(&file).map_err(|absent| absent.told(&file))?;
+        if meanings(&analysis, &Edits::new()) != before {
+            return Err(format!("`{to}` has a meaning already that `{from}` would clash with in {file}"));
+        }
+    }
+    Ok(())
+}
+
+/// Where the names of a file stand, and what they mean, as they would after edits; and how many faults there are.
+fn meanings(analysis: &Analysis, edits: &Edits) -> (Vec<(u32, Symbol)>, usize) {
+    let shifted = |file: &str, at: u32| {
+        let before = edits.get(file).into_iter().flatten().filter(|edit| edit.range.0 < at);
+        before.fold(i64::from(at), |at, edit| at + edit.text.len() as i64 - i64::from(edit.range.1 - edit.range.0))
+            as u32
+    };
+    let own = analysis.source().name.as_str();
+    let meaning = |name: &model::Use| {
+        let symbol = match analysis.symbol(name.referent) {
+            Symbol::At(file, at) => {
+                let at = shifted(&file, at);
+                Symbol::At(file, at)
+            }
+            built_in => built_in,
+        };
+        (shifted(own, name.span.start), symbol)
+    };
+    let faults = analysis.findings.diagnostics().filter(|fault| fault.severity == Severity::Error).count();
+    (analysis.names.iter().map(meaning).collect(), faults)
+}

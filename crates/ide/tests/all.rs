@@ -1,0 +1,6 @@
+//! The tests of `ide` as one program: the pages of `spec/ide`, and what must hold whatever the text.
+#![allow(clippy::disallowed_methods, reason = "tests rewrite the pages on request")]
+
+mod edits;
+mod pages;
+mod support;

@@ -1,0 +1,131 @@
+//! What must hold whatever the text: no question panics, and an edited project answers as a fresh one does.
+//!
+//! A sample of edits by default; with `GROUNDSTATE_FULL` set, many more.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use groundstate::Kind;
+use ide::{Project, Report};
+use testkit::repository;
+
+use crate::support::{Texts, project};
+
+/// Numbers that look random and are the same every time.
+struct Dice(u64);
+
+impl Dice {
+    fn below(&mut self, count: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((self.0 >> 33) as usize) % count.max(1)
+    }
+}
+
+fn rounds(sample: usize, full: usize) -> usize {
+    if std::env::var_os("GROUNDSTATE_FULL").is_some() { full } else { sample }
+}
+
+/// The files of some examples, with what they import.
+fn examples() -> BTreeMap<String, String> {
+    let folders = ["examples/coffee_machine", "examples/visual_servoing", "library/patterns", "examples/hanoi"];
+    let root = repository::root();
+    let mut files = BTreeMap::new();
+    for folder in folders {
+        for path in repository::files(folder, &["asm", "avalla", "chart", "yaml"]) {
+            let name = path.strip_prefix(&root).unwrap_or(&path).to_string_lossy().into_owned();
+            if Kind::of(Path::new(&name)).is_some() {
+                files.insert(name, std::fs::read_to_string(&path).expect("an example"));
+            }
+        }
+    }
+    assert!(files.len() > 20, "the examples are there");
+    files
+}
+
+/// One edit as people make them: letters typed, a word or a line gone, a line doubled.
+fn edit(text: &str, dice: &mut Dice) -> String {
+    const TYPED: [&str; 14] =
+        ["x", ")", "(", "😀", " := ", "\r\n", "$x", "endpar", "r_", "/*", "\"", "if a then", " = ", "forall $x in "];
+    let mut at = dice.below(text.len() + 1);
+    while !text.is_char_boundary(at) {
+        at -= 1;
+    }
+    let line_start = text[..at].rfind('\n').map_or(0, |end| end + 1);
+    let line_end = text[at..].find('\n').map_or(text.len(), |end| at + end + 1);
+    let mut edited = text.to_string();
+    match dice.below(4) {
+        0 | 1 => edited.insert_str(at, TYPED[dice.below(TYPED.len())]),
+        2 => edited.replace_range(line_start..line_end, ""),
+        _ => edited.insert_str(line_start, &text[line_start..line_end]),
+    }
+    edited
+}
+
+/// All that can be asked of a place.
+fn ask(project: &mut Project<Texts>, path: &str, at: u32) -> String {
+    let faults: Vec<Report> = ide::reports(project, path).unwrap_or_default();
+    let mut told = format!("{faults:?}");
+    told += &format!("{:?}", ide::hover(project, path, at));
+    told += &format!("{:?}", ide::definition(project, path, at));
+    told += &format!("{:?}", ide::highlights(project, path, at));
+    told += &format!("{:?}", ide::completion(project, path, at));
+    told += &format!("{:?}", ide::signatures(project, path, at));
+    told += &format!("{:?}", ide::outline(project, path));
+    told += &format!("{:?}", ide::folding(project, path));
+    told += &format!("{:?}", ide::selections(project, path, at));
+    told += &format!("{:?}", ide::tokens(project, path).len());
+    told += &format!("{:?}", ide::hints(project, path));
+    told += &format!("{:?}", ide::links(project, path));
+    told += &format!("{:?}", ide::formatted(project, path));
+    told += &format!("{:?}", ide::fixes(project, path, (at, at + 20)));
+    told += &format!("{:?}", ide::prepare(project, path, at));
+    told
+}
+
+#[test]
+fn an_edited_project_answers_as_a_fresh_one() {
+    let files = examples();
+    let names: Vec<&String> = files.keys().collect();
+    let mut dice = Dice(7);
+    let mut texts = files.clone();
+    let mut edited = project(&files);
+    for round in 0..rounds(40, 1_000) {
+        let name = names[dice.below(names.len())].clone();
+        let text = edit(&texts[&name], &mut dice);
+        edited.set_text(&name, round as i64, text.as_str()).expect("a later version");
+        texts.insert(name.clone(), text);
+        if dice.below(6) == 0 {
+            // The text of the disk is back.
+            edited.close(&name);
+            texts.insert(name.clone(), files[&name].clone());
+        }
+        // Another file is asked, too: it may import the one that changed.
+        for path in [&name, names[dice.below(names.len())]] {
+            let at = dice.below(texts[path].len() + 1) as u32;
+            let mut fresh = project(&texts);
+            assert_eq!(ask(&mut edited, path, at), ask(&mut fresh, path, at), "{path} at {at}, round {round}");
+        }
+    }
+}
+
+#[test]
+fn no_question_panics_on_a_mutant() {
+    let files = examples();
+    let mut dice = Dice(11);
+    for (name, text) in &files {
+        for _ in 0..rounds(1, 40) {
+            let mut mutant = text.clone();
+            for _ in 0..=dice.below(4) {
+                mutant = edit(&mutant, &mut dice);
+            }
+            let mut project = project(&files);
+            project.set_text(name, 1, mutant.as_str()).expect("the first version");
+            for _ in 0..4 {
+                let at = dice.below(mutant.len() + 2) as u32;
+                _ = ask(&mut project, name, at);
+                _ = ide::rename(&mut project, name, at, "renamed");
+                _ = ide::references(&mut project, name, at);
+            }
+        }
+    }
+}
