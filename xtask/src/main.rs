@@ -1,4 +1,4 @@
-//! Developer commands: `cargo xtask corpus | bench | fuzz | letters | mutate-log | mutate-text | tidy`.
+//! Developer commands: `cargo xtask corpus | bench | fuzz | keystrokes | letters | mutate-log | mutate-text | tidy`.
 //!
 //! In: the command line, from anywhere inside the repository. Out: what the command prints, and exit code 0 (good),
 //! 1 (something is at fault) or 2 (usage, or the world). This is a shell: files, clocks and processes are its trade,
@@ -9,6 +9,7 @@ mod arguments;
 mod bench;
 mod corpus;
 mod fuzz;
+mod keystrokes;
 mod letters;
 mod mutate_log;
 mod mutate_text;
@@ -37,6 +38,7 @@ usage: cargo xtask COMMAND
                                                steps per second, start-up time, memory
   fuzz [--seconds N] [--only WORD] [--reproduce FILE]
                                                fuzz targets, each for some seconds
+  keystrokes [--binary FILE]                   from a letter typed to its faults, over the language server
   mutate-text [--count N] [--seed N] [--only ENDING] [--binary FILE]
                                                mutants of the repository's texts through every command
   letters                                      write the letter cases of the C++ runtime anew, as Rust has them
@@ -55,6 +57,7 @@ fn main() -> ExitCode {
         "corpus" => corpus::run(&words),
         "bench" => bench::run(&words),
         "fuzz" => fuzz::run(&words),
+        "keystrokes" => keystrokes::run(&words),
         "mutate-text" => mutate_text::run(&words),
         "letters" => letters::run(&words),
         "mutate-log" => mutate_log::run(&words),

@@ -19,6 +19,9 @@ use crate::analysis::{Analysis, Base};
 /// LIMIT: so many files that are not being edited are kept analysed.
 const KEPT: usize = 64;
 
+/// LIMIT: so many analyses that do not hold any more wait to be taken out of memory.
+const RETIRED: usize = 8;
+
 /// See the module.
 #[derive(Debug)]
 pub struct Project<F> {
@@ -29,6 +32,8 @@ pub struct Project<F> {
     findings: BTreeMap<String, Kept<Findings>>,
     /// Grows whenever a text may have changed.
     revision: u64,
+    /// What does not hold any more; see [`Project::rest`].
+    retired: Vec<Arc<Analysis>>,
 }
 
 /// Something made of texts.
@@ -49,6 +54,7 @@ impl<F: Files> Project<F> {
             analyses: BTreeMap::new(),
             findings: BTreeMap::new(),
             revision: 0,
+            retired: Vec::new(),
         }
     }
 
@@ -65,8 +71,13 @@ impl<F: Files> Project<F> {
     pub fn close(&mut self, path: &str) {
         self.revision += 1;
         self.workspace.close(path);
-        self.analyses.remove(&tidy(path));
+        self.retired.extend(self.analyses.remove(&tidy(path)).map(|kept| kept.made));
         self.findings.remove(&tidy(path));
+    }
+
+    /// Nothing is to be answered now: takes what does not hold any more out of memory, which takes a while for a long text.
+    pub fn rest(&mut self) {
+        self.retired.clear();
     }
 
     /// Files on the disk may have changed.
@@ -166,7 +177,8 @@ impl<F: Files> Project<F> {
             }
         };
         let made = Arc::new(made);
-        self.analyses.insert(path, Kept { made: Arc::clone(&made), of, seen: self.revision });
+        let kept = Kept { made: Arc::clone(&made), of, seen: self.revision };
+        self.retired.extend(self.analyses.insert(path, kept).map(|former| former.made));
         Ok(made)
     }
 
@@ -194,6 +206,9 @@ impl<F: Files> Project<F> {
 
     /// Drops what is not being edited where there is much of it.
     fn forget(&mut self) {
+        if self.retired.len() > RETIRED {
+            self.retired.clear();
+        }
         if self.analyses.len() > KEPT {
             let open: BTreeSet<String> = self.open().into_iter().collect();
             self.analyses.retain(|path, _| open.contains(path));

@@ -3,6 +3,8 @@
 //! In: a project and a file. Out: [`Report`]s, one for each file that has faults; that of the file itself comes first, empty if
 //! nothing is wrong with it.
 
+use std::collections::BTreeMap;
+
 use groundstate::workspace::{Absent, Files, Findings};
 use model::{FunctionKind, Referent};
 use syntax::ast::AstNode;
@@ -10,6 +12,9 @@ use syntax::{Diagnostic, Severity, Sources, Span};
 
 use crate::analysis::{Analysis, Place};
 use crate::project::{Project, library_text};
+
+/// LIMIT: so many names that nothing names are told.
+const UNUSED: usize = 200;
 
 /// How bad a fault is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -117,14 +122,18 @@ fn unused(analysis: &Analysis) -> Vec<Fault> {
         return Vec::new();
     }
     let main = main.range();
+    let mut places: BTreeMap<Referent, Vec<Span>> = BTreeMap::new();
+    for name in &analysis.names {
+        places.entry(name.referent).or_default().push(name.span);
+    }
     let mut found = Vec::new();
     for name in analysis.names.iter().filter(|name| name.declares) {
-        let used = analysis.names.iter().any(|other| other.referent == name.referent && other.span != name.span);
+        if found.len() == UNUSED {
+            break;
+        }
         let what = match name.referent {
             Referent::Function(id) if analysis.model.function(id).kind != FunctionKind::Local => "function",
-            Referent::Rule(_)
-                if !main.contains_range(analysis.token_at(name.span.start).map_or(main, |t| t.text_range())) =>
-            {
+            Referent::Rule(_) if name.span.start < main.start().into() || name.span.start >= main.end().into() => {
                 "rule"
             }
             Referent::Function(_)
@@ -133,7 +142,7 @@ fn unused(analysis: &Analysis) -> Vec<Fault> {
             | Referent::Literal(..)
             | Referent::Variable(..) => continue,
         };
-        if used {
+        if places[&name.referent].iter().any(|span| *span != name.span) {
             continue;
         }
         let written = &analysis.text()[name.span.range()];

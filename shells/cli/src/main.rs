@@ -29,6 +29,7 @@ mod inputs;
 mod interrupt;
 mod limits;
 mod load;
+mod lsp;
 mod man;
 mod new;
 mod overwrite;
@@ -98,6 +99,8 @@ enum Command {
     Explain(explain::Arguments),
     /// Format models, scenarios and charts
     Fmt(fmt::Arguments),
+    /// Serve an editor: the language server, over stdin and stdout
+    Lsp(lsp::Arguments),
     /// Measure steps per second and memory
     Bench(bench::Arguments),
     /// Write a shell's completion script for this command
@@ -148,6 +151,7 @@ fn work(arguments: Arguments) -> Exit {
         Command::Dump(arguments) => dump::run(&mut shell, &arguments),
         Command::Explain(arguments) => explain::run(&mut shell, &arguments),
         Command::Fmt(arguments) => fmt::run(&mut shell, &arguments),
+        Command::Lsp(arguments) => lsp::run(&mut shell, &arguments),
         Command::Bench(arguments) => bench::run(&mut shell, &arguments),
         Command::New(arguments) => new::run(&mut shell, &arguments),
         Command::Completions(arguments) => completions::run(&mut shell, &arguments, Arguments::command()),

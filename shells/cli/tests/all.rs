@@ -8,6 +8,7 @@ mod first_steps;
 mod fmt;
 mod input_pages;
 mod interrupts;
+mod lsp;
 mod schema;
 mod start;
 mod transcripts;

@@ -1,0 +1,343 @@
+//! The language server as an editor meets it: a process, messages over its stdin and stdout.
+
+#![allow(clippy::disallowed_methods, reason = "tests write files")]
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+
+use serde_json::{Value, json};
+
+const LAMP: &str = "asm Lamp
+import StandardLibrary
+signature:
+	enum domain Light = {ON | OFF}
+	controlled light: Light
+	monitored pressed: Boolean
+definitions:
+	// Turns the lamp to the other state.
+	rule r_Toggle = if light = ON then light := OFF else light := ON endif
+	main rule r_Main = if pressed then r_Toggle[] endif
+default init s0:
+	function light = OFF
+";
+
+/// An editor with its server.
+struct Editor {
+    server: Child,
+    input: ChildStdin,
+    output: BufReader<ChildStdout>,
+    folder: PathBuf,
+    /// Messages that came while another was waited for.
+    kept: Vec<Value>,
+    next: i64,
+}
+
+impl Editor {
+    /// Starts a server for a folder of its own with these files.
+    fn start(name: &str, files: &[(&str, &str)], client: Value, options: Value) -> Editor {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("lsp-{name}"));
+        _ = std::fs::remove_dir_all(&folder);
+        std::fs::create_dir_all(&folder).expect("a folder");
+        for (file, text) in files {
+            let path = folder.join(file);
+            std::fs::create_dir_all(path.parent().expect("a parent")).expect("a folder");
+            std::fs::write(path, text).expect("a file");
+        }
+        let mut server = Command::new(env!("CARGO_BIN_EXE_groundstate"))
+            .arg("lsp")
+            .env("XDG_CACHE_HOME", folder.join(".cache"))
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the server starts");
+        let input = server.stdin.take().expect("stdin");
+        let output = BufReader::new(server.stdout.take().expect("stdout"));
+        let mut editor = Editor { server, input, output, folder, kept: Vec::new(), next: 0 };
+        let root = editor.uri("");
+        let answer = editor.ask(
+            "initialize",
+            json!({
+                "processId": null, "capabilities": client, "initializationOptions": options,
+                "workspaceFolders": [{ "uri": root.trim_end_matches('/'), "name": "test" }],
+            }),
+        );
+        assert_eq!(answer["result"]["serverInfo"]["name"], "groundstate");
+        editor.tell("initialized", json!({}));
+        editor
+    }
+
+    fn plain(name: &str, files: &[(&str, &str)]) -> Editor {
+        Editor::start(name, files, json!({}), json!({}))
+    }
+
+    fn uri(&self, file: &str) -> String {
+        format!("file://{}/{file}", self.folder.display())
+    }
+
+    fn send(&mut self, message: &Value) {
+        let text = message.to_string();
+        write!(self.input, "Content-Length: {}\r\n\r\n{text}", text.len()).expect("the server reads");
+        self.input.flush().expect("the server reads");
+    }
+
+    fn tell(&mut self, method: &str, params: Value) {
+        self.send(&json!({ "jsonrpc": "2.0", "method": method, "params": params }));
+    }
+
+    /// Sends a request and does not wait for its answer.
+    fn request(&mut self, method: &str, params: Value) -> i64 {
+        self.next += 1;
+        let id = self.next;
+        self.send(&json!({ "jsonrpc": "2.0", "id": id, "method": method, "params": params }));
+        id
+    }
+
+    fn receive(&mut self) -> Value {
+        let mut length = 0;
+        loop {
+            let mut line = String::new();
+            assert!(self.output.read_line(&mut line).expect("the server writes") > 0, "the server ended");
+            match line.trim().strip_prefix("Content-Length: ") {
+                Some(number) => length = number.parse().expect("a length"),
+                None if line.trim().is_empty() => break,
+                None => {}
+            }
+        }
+        let mut text = vec![0; length];
+        self.output.read_exact(&mut text).expect("a message");
+        serde_json::from_slice(&text).expect("JSON")
+    }
+
+    fn wait(&mut self, wanted: impl Fn(&Value) -> bool) -> Value {
+        if let Some(at) = self.kept.iter().position(&wanted) {
+            return self.kept.remove(at);
+        }
+        loop {
+            let message = self.receive();
+            if wanted(&message) {
+                return message;
+            }
+            self.kept.push(message);
+        }
+    }
+
+    fn answer(&mut self, id: i64) -> Value {
+        self.wait(|message| message["id"] == id && message.get("method").is_none())
+    }
+
+    fn ask(&mut self, method: &str, params: Value) -> Value {
+        let id = self.request(method, params);
+        self.answer(id)
+    }
+
+    /// The messages of the faults of a version of a file, once they are told.
+    fn faults(&mut self, file: &str, version: i64) -> Vec<String> {
+        let uri = self.uri(file);
+        let told = self.wait(|message| {
+            message["method"] == "textDocument/publishDiagnostics"
+                && message["params"]["uri"] == uri.as_str()
+                && message["params"]["version"] == version
+        });
+        let faults = told["params"]["diagnostics"].as_array().expect("a list").clone();
+        faults.iter().map(|fault| fault["code"].as_str().unwrap_or_default().to_string()).collect()
+    }
+
+    fn open(&mut self, file: &str, text: &str) {
+        let uri = self.uri(file);
+        let document = json!({ "uri": uri, "languageId": "asmetal", "version": 1, "text": text });
+        self.tell("textDocument/didOpen", json!({ "textDocument": document }));
+    }
+
+    fn change(&mut self, file: &str, version: i64, change: Value) {
+        let uri = self.uri(file);
+        let document = json!({ "uri": uri, "version": version });
+        self.tell("textDocument/didChange", json!({ "textDocument": document, "contentChanges": [change] }));
+    }
+
+    fn at(&self, file: &str, line: u32, character: u32) -> Value {
+        json!({ "textDocument": { "uri": self.uri(file) }, "position": { "line": line, "character": character } })
+    }
+
+    /// Ends the session as it should end.
+    fn end(mut self) {
+        let answer = self.ask("shutdown", Value::Null);
+        assert_eq!(answer["result"], Value::Null);
+        let late = self.ask("textDocument/hover", json!({}));
+        assert_eq!(late["error"]["code"], -32600, "{late}");
+        self.tell("exit", Value::Null);
+        assert!(self.server.wait().expect("it ends").success());
+    }
+}
+
+fn range(line: u32, start: u32, end: u32) -> Value {
+    json!({ "start": { "line": line, "character": start }, "end": { "line": line, "character": end } })
+}
+
+#[test]
+fn a_session_from_open_to_exit() {
+    let mut editor = Editor::plain(
+        "session",
+        &[("Lamp.asm", LAMP), ("Press.avalla", "scenario press\nload Lamp.asm\nset pressed := true;\nstep\n")],
+    );
+    editor.open("Lamp.asm", LAMP);
+    assert_eq!(editor.faults("Lamp.asm", 1), [""; 0]);
+
+    // `light` is made `lihgt`, and the fault is told for that version.
+    editor.change("Lamp.asm", 2, json!({ "range": range(8, 36, 41), "text": "lihgt" }));
+    assert_eq!(editor.faults("Lamp.asm", 2), ["unknown-function"]);
+    let uri = editor.uri("Lamp.asm");
+    let fixes = editor.ask(
+        "textDocument/codeAction",
+        json!({ "textDocument": { "uri": uri }, "range": range(8, 36, 36), "context": { "diagnostics": [] } }),
+    );
+    let fix = &fixes["result"][0];
+    assert_eq!(fix["title"], "Change to `light`");
+    assert_eq!(fix["edit"]["changes"][uri.as_str()][0]["newText"], "light");
+    editor.change("Lamp.asm", 3, json!({ "range": range(8, 36, 41), "text": "light" }));
+    assert_eq!(editor.faults("Lamp.asm", 3), [""; 0]);
+
+    let position = editor.at("Lamp.asm", 9, 38);
+    let hover = editor.ask("textDocument/hover", position.clone());
+    let text = hover["result"]["contents"]["value"].as_str().expect("a text");
+    assert!(text.contains("rule r_Toggle") && text.contains("Turns the lamp"), "{text}");
+    let definition = editor.ask("textDocument/definition", position);
+    assert_eq!(definition["result"][0]["range"]["start"], json!({ "line": 8, "character": 6 }));
+
+    editor.change("Lamp.asm", 4, json!({ "range": range(8, 45, 48), "text": "" }));
+    let completion = editor.at("Lamp.asm", 8, 45);
+    let items = editor.ask("textDocument/completion", completion);
+    let labels: Vec<&str> =
+        items["result"].as_array().expect("a list").iter().take(2).filter_map(|item| item["label"].as_str()).collect();
+    assert_eq!(labels, ["OFF", "ON"]);
+    editor.change("Lamp.asm", 5, json!({ "range": range(8, 45, 45), "text": "OFF" }));
+
+    let mut renaming = editor.at("Lamp.asm", 5, 12);
+    renaming["newName"] = json!("touched");
+    let renamed = editor.ask("textDocument/rename", renaming.clone());
+    let changes = renamed["result"]["changes"].as_object().expect("edits by file");
+    assert_eq!(changes.len(), 2, "{changes:?}");
+    assert_eq!(changes[&editor.uri("Press.avalla")][0]["range"], range(2, 4, 11));
+    renaming["newName"] = json!("light");
+    let refused = editor.ask("textDocument/rename", renaming);
+    assert_eq!(refused["error"]["code"], -32803);
+
+    let formatted = editor.ask("textDocument/formatting", json!({ "textDocument": { "uri": editor.uri("Lamp.asm") }, "options": { "tabSize": 4, "insertSpaces": false } }));
+    assert!(formatted["result"][0]["newText"].is_string(), "{formatted}");
+    for method in ["documentSymbol", "foldingRange", "semanticTokens/full", "codeLens", "documentLink"] {
+        let params = json!({ "textDocument": { "uri": editor.uri("Lamp.asm") } });
+        let answer = editor.ask(&format!("textDocument/{method}"), params);
+        assert!(answer.get("error").is_none() && !answer["result"].is_null(), "{method}: {answer}");
+    }
+    editor.end();
+}
+
+#[test]
+fn what_is_not_known_or_wrong_is_an_error_of_that_request() {
+    let mut editor = Editor::start("unknown", &[("Lamp.asm", LAMP)], json!({}), json!({ "mayPanic": true }));
+    let answer = editor.ask("textDocument/dance", json!({}));
+    assert_eq!(answer["error"]["code"], -32601);
+    let answer = editor.ask("textDocument/hover", json!({ "position": 3 }));
+    assert_eq!(answer["error"]["code"], -32602);
+    editor.tell("$/unheardOf", json!({}));
+    // A panic is an error of the request alone, and what is open is known as before.
+    editor.open("Lamp.asm", &LAMP.replace("light := ON", "light := NO"));
+    let answer = editor.ask("groundstate/panic", json!({}));
+    assert_eq!(answer["error"]["code"], -32603, "{answer}");
+    let position = editor.at("Lamp.asm", 9, 38);
+    let hover = editor.ask("textDocument/hover", position);
+    assert!(hover["result"]["contents"]["value"].as_str().expect("a text").contains("r_Toggle"));
+    assert_eq!(editor.faults("Lamp.asm", 1), ["unknown-enum-literal"]);
+    editor.end();
+}
+
+#[test]
+fn a_cancelled_request_is_answered_so_and_an_outdated_one_too() {
+    let mut editor = Editor::plain("cancelled", &[("Lamp.asm", LAMP)]);
+    let long: String =
+        (0..2_000).map(|n| format!("\trule r_{n} = light := if pressed then ON else OFF endif\n")).collect();
+    let long = LAMP.replace("definitions:\n", &format!("definitions:\n{long}"));
+    editor.open("Lamp.asm", &long);
+    // The first question takes long enough for what comes after it to be read.
+    let uri = editor.uri("Lamp.asm");
+    let tokens = json!({ "textDocument": { "uri": uri } });
+    let slow = editor.request("textDocument/semanticTokens/full", tokens.clone());
+    let position = editor.at("Lamp.asm", 5, 12);
+    let cancelled = editor.request("textDocument/hover", position.clone());
+    editor.tell("$/cancelRequest", json!({ "id": cancelled }));
+    let outdated = editor.request("textDocument/hover", position.clone());
+    editor.change("Lamp.asm", 2, json!({ "range": range(0, 0, 0), "text": "// a line\n" }));
+    let present = editor.request("textDocument/hover", editor.at("Lamp.asm", 6, 12));
+    assert_eq!(editor.answer(cancelled)["error"]["code"], -32800);
+    assert_eq!(editor.answer(outdated)["error"]["code"], -32801);
+    assert_eq!(editor.answer(slow)["error"]["code"], -32801);
+    let hover = editor.answer(present);
+    assert_eq!(hover["result"]["range"], range(6, 11, 18), "{hover}");
+    // An older version than the one that is there is not taken.
+    editor.change("Lamp.asm", 1, json!({ "text": "" }));
+    let hover = editor.ask("textDocument/hover", editor.at("Lamp.asm", 6, 12));
+    assert_eq!(hover["result"]["range"], range(6, 11, 18), "{hover}");
+    editor.end();
+}
+
+#[test]
+fn letters_beyond_the_plane_and_line_ends_of_windows() {
+    let text = LAMP
+        .replace("// Turns", "/* 😀 */ // Turns")
+        .replace("	rule r_Toggle", "	/* 😀 */ rule r_Toggle")
+        .replace('\n', "\r\n");
+    let mut editor = Editor::plain("letters", &[]);
+    editor.open("Lamp.asm", &text);
+    assert_eq!(editor.faults("Lamp.asm", 1), [""; 0]);
+    // In UTF-16 the letter is two units: tab, `/* 😀 */ ` is nine, `rule ` five.
+    let hover = editor.ask("textDocument/hover", editor.at("Lamp.asm", 8, 16));
+    assert_eq!(hover["result"]["range"], range(8, 15, 23), "{hover}");
+    editor.change("Lamp.asm", 2, json!({ "range": range(8, 15, 23), "text": "r_😀" }));
+    assert!(!editor.faults("Lamp.asm", 2).is_empty());
+    editor.change("Lamp.asm", 3, json!({ "range": range(8, 15, 19), "text": "r_Toggle" }));
+    assert_eq!(editor.faults("Lamp.asm", 3), [""; 0]);
+    editor.end();
+
+    let client = json!({ "general": { "positionEncodings": ["utf-8", "utf-16"] } });
+    let mut editor = Editor::start("bytes", &[], client, json!({}));
+    editor.open("Lamp.asm", &text);
+    let hover = editor.ask("textDocument/hover", editor.at("Lamp.asm", 8, 18));
+    assert_eq!(hover["result"]["range"], range(8, 17, 25), "{hover}");
+    editor.end();
+}
+
+#[test]
+fn the_disk_changes_under_an_open_text() {
+    let part = "module Part\nimport StandardLibrary\nexport *\nsignature:\n\tcontrolled n: Integer\ndefinitions:\n";
+    let main = "asm Main\nimport StandardLibrary\nimport Part\nsignature:\ndefinitions:\n\tmain rule r_Main = n := 1\n";
+    // Two folders have files of the same names.
+    let other = part.replace("n: Integer", "m: Integer");
+    let mut editor = Editor::plain(
+        "disk",
+        &[("a/Part.asm", part), ("a/Main.asm", main), ("b/Part.asm", &other), ("b/Main.asm", main)],
+    );
+    editor.open("a/Main.asm", main);
+    assert_eq!(editor.faults("a/Main.asm", 1), [""; 0]);
+    editor.open("b/Main.asm", main);
+    assert_eq!(editor.faults("b/Main.asm", 1), ["unknown-function"]);
+    // Bytes that are no text, then none at all, then what it was.
+    let path = editor.folder.join("a/Part.asm");
+    for (version, bytes) in [(2, Some(&b"module\0\xff\xfe"[..])), (3, None), (4, Some(part.as_bytes()))] {
+        match bytes {
+            Some(bytes) => std::fs::write(&path, bytes).expect("it is written"),
+            None => std::fs::remove_file(&path).expect("it is gone"),
+        }
+        editor.change("a/Main.asm", version, json!({ "text": main }));
+        let told = editor.faults("a/Main.asm", version);
+        assert_eq!(told.contains(&"import-not-found".to_string()), version < 4, "{version}: {told:?}");
+    }
+    editor.end();
+}
+
+#[test]
+fn an_editor_that_goes_away_ends_the_server() {
+    let Editor { mut server, input, .. } = Editor::plain("away", &[]);
+    drop(input);
+    assert_eq!(server.wait().expect("it ends").code(), Some(2));
+}
