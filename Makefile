@@ -12,7 +12,7 @@ TIMED := sh xtask/timed.sh
 PARTS := lint unit scenarios cpp systems robot
 
 .PHONY: help demo test full quick times lint unit scenarios verify cpp cpp-full systems robot robot-full mutants fuzz bench \
-    bench-cpp corpus update clean
+    bench-cpp corpus update vscode clean
 
 help: ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*##/\t/' | expand -t 12
@@ -33,6 +33,9 @@ test: ## everything that must hold before a change lands: a quarter of an hour o
 
 timed-%:
 	@$(TIMED) $* $(MAKE) --no-print-directory $*
+
+vscode: ## the extension for VS Code, checked and packed: editors/vscode/groundstate.vsix
+	cd editors/vscode && npm ci --no-audit --no-fund && npm test && npm run package
 
 full: ## what is slow and rarely breaks, beside `make test`: larger samples, sanitizers, all robots, proofs, mutants
 	@$(TIMED) --begin
