@@ -10,7 +10,7 @@ use std::path::Path;
 use groundstate::Kind;
 use groundstate::workspace::{Absent, Files};
 use model::Referent;
-use syntax::{FileId, Severity, SourceFile, SyntaxKind};
+use syntax::{FileId, Severity, SourceFile, SyntaxKind, SyntaxNode};
 
 use crate::analysis::{Analysis, Place, Symbol, is_word};
 use crate::navigate::{places_to_look, symbols};
@@ -44,6 +44,9 @@ pub fn rename<F: Files>(project: &mut Project<F>, path: &str, offset: u32, to: &
     let mut looked_at = Vec::new();
     for file in places_to_look(project, &analysis, first.referent) {
         let Ok(source) = project.text(&file) else { continue };
+        if Kind::of(Path::new(&file)) == Some(Kind::Chart) {
+            no_shape_stands_for(project, &file, &from, &symbol)?;
+        }
         if !names_word(&source.text, &from) {
             // It may still see the new name, and then mean something else by it.
             if names_word(&source.text, to) && Kind::of(Path::new(&file)).is_some() {
@@ -169,6 +172,37 @@ fn in_file<F: Files>(
     Ok(edits)
 }
 
+/// A shape of a chart that has no link stands for the part of the model that has its name, in the spelling of that part: the
+/// action `count` for the rule `r_count`, the state `off` for the literal `OFF`. That name is no word of the chart.
+fn no_shape_stands_for<F: Files>(
+    project: &mut Project<F>,
+    file: &str,
+    from: &str,
+    symbol: &Symbol,
+) -> Result<(), String> {
+    let analysis = project.analysis(file).map_err(|absent| absent.told(file))?;
+    let Symbol::At(declared, _) = symbol else { return Ok(()) };
+    if !analysis.sources.iter().any(|(_, source)| source.name == *declared) {
+        return Ok(());
+    }
+    let spelled = |name: &str| name.strip_prefix("r_").unwrap_or(name).replace('_', "").to_lowercase();
+    let Some(tree) = analysis.tree() else { return Ok(()) };
+    let tokens = tree.descendants_with_tokens().filter_map(|element| element.into_token());
+    for token in tokens.filter(|token| token.kind() == SyntaxKind::GENERIC_ID && spelled(token.text()) == spelled(from))
+    {
+        let linked = |node: SyntaxNode| node.children().any(|child| child.kind() == SyntaxKind::LINK);
+        let in_path = |node: &SyntaxNode| matches!(node.kind(), SyntaxKind::PATH_STOP | SyntaxKind::PLACEMENT);
+        if token.parent().is_some_and(|node| !in_path(&node) && !linked(node)) {
+            let line = analysis.source().line_column(token.text_range().start().into()).line;
+            let shape = token.text();
+            return Err(format!(
+                "{file}:{line}: `{shape}` has no link, and may stand for `{from}` by its name: give it one first"
+            ));
+        }
+    }
+    Ok(())
+}
+
 /// Names of other kinds: of files, machines, shapes, blocks.
 fn is_label(kind: SyntaxKind) -> bool {
     matches!(kind, SyntaxKind::GENERIC_ID | SyntaxKind::MODULE_REF | SyntaxKind::STRING)
@@ -193,6 +227,12 @@ fn proved<F: Files>(
     from: &str,
     to: &str,
 ) -> Result<(), String> {
+    let charts = charts_over(project, edits);
+    let mut faults = BTreeMap::new();
+    for chart in charts {
+        let count = project.findings(&chart).map_err(|absent| absent.told(&chart))?.diagnostics().count();
+        faults.insert(chart, count);
+    }
     let mut before = BTreeMap::new();
     for file in files {
         let analysis = project.analysis(file).map_err(|absent| absent.told(file))?;
@@ -207,6 +247,12 @@ fn proved<F: Files>(
     for (file, text) in texts {
         _ = after.set_text(&file, 0, text);
     }
+    for (chart, before) in faults {
+        let count = after.findings(&chart).map_err(|absent| absent.told(&chart))?.diagnostics().count();
+        if count > before {
+            return Err(format!("{chart} relies on the name `{from}`: what is built of it would have faults"));
+        }
+    }
     for (file, before) in before {
         let analysis = after.analysis(&file).map_err(|absent| absent.told(&file))?;
         if meanings(&analysis, &Edits::new()) != before {
@@ -214,6 +260,18 @@ fn proved<F: Files>(
         }
     }
     Ok(())
+}
+
+/// The charts whose models read a file that is edited. What is built of a chart names what its imports declare, so a chart may
+/// rely on a name that it does not write.
+fn charts_over<F: Files>(project: &mut Project<F>, edits: &Edits) -> Vec<String> {
+    let mut charts = project.all_files();
+    charts.retain(|file| Kind::of(Path::new(file)) == Some(Kind::Chart));
+    charts.retain(|chart| {
+        let sources = project.analysis(chart).map(|analysis| analysis.sources.clone()).unwrap_or_default();
+        sources.iter().any(|(_, source)| edits.contains_key(&source.name))
+    });
+    charts
 }
 
 /// Where the names of a file stand, and what they mean, as they would after edits; and how many faults there are.

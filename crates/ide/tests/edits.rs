@@ -129,3 +129,39 @@ fn no_question_panics_on_a_mutant() {
         }
     }
 }
+
+#[test]
+fn a_renamed_project_has_the_faults_that_it_had() {
+    let files = examples();
+    let mut dice = Dice(13);
+    let faults = |files: &BTreeMap<String, String>| -> Vec<usize> {
+        let mut project = project(files);
+        let count =
+            |path: &String| ide::reports(&mut project, path).map_or(0, |r| r.iter().map(|r| r.faults.len()).sum());
+        files.keys().map(count).collect()
+    };
+    let before = faults(&files);
+    let (mut renamed, mut refused) = (0, Vec::new());
+    for (name, text) in files.iter().filter(|(name, _)| name.ends_with(".asm")) {
+        for _ in 0..rounds(1, 12) {
+            let mut project = project(&files);
+            let at = dice.below(text.len()) as u32;
+            let Ok(place) = ide::prepare(&mut project, name, at) else { continue };
+            let old = &text[place.range.0 as usize..place.range.1 as usize];
+            let new = if old.chars().all(|c| !c.is_lowercase()) { format!("{old}_NEW") } else { format!("{old}New") };
+            match ide::rename(&mut project, name, at, &new) {
+                Err(reason) => refused.push(reason),
+                Ok(edits) => {
+                    let mut after = files.clone();
+                    for (file, edits) in edits {
+                        let text = ide::edited(&after[&file], &edits);
+                        after.insert(file, text);
+                    }
+                    assert_eq!(faults(&after), before, "{old} of {name} as {new}");
+                    renamed += 1;
+                }
+            }
+        }
+    }
+    assert!(renamed > 5, "{renamed} renamed; {refused:?}");
+}

@@ -25,7 +25,7 @@ use crate::settings::Settings;
 use crate::worker::{Job, Out, Worker, respond, told};
 
 /// The stack of threads that read trees.
-const STACK_BYTES: usize = 64 << 20;
+const STACK_BYTES: usize = 256 << 20;
 
 /// How a session ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
