@@ -2,6 +2,7 @@
 //!
 //! In: a project and a file. Out: [`Hint`]s and [`Lens`]es at their places.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use groundstate::Kind;
@@ -10,7 +11,6 @@ use model::{Domains, Referent, RuleNode, Term, TermKind};
 use syntax::{FileId, SyntaxKind};
 
 use crate::analysis::{Analysis, Place};
-use crate::navigate::references;
 use crate::project::Project;
 
 /// A text that is shown and not there.
@@ -120,20 +120,18 @@ pub fn lenses<F: Files>(project: &mut Project<F>, path: &str) -> Vec<Lens> {
             action: action.clone(),
         }));
     }
-    let Some(machine) = analysis.machine() else { return found };
-    let rules = machine.definitions().into_iter().flat_map(|definitions| definitions.rules().collect::<Vec<_>>());
-    for name in rules.filter_map(|rule| rule.name()) {
-        let range: (u32, u32) = (name.text_range().start().into(), name.text_range().end().into());
-        let places: Vec<Place> = references(project, path, range.0)
-            .into_iter()
-            .filter(|reference| reference.role != crate::analysis::Role::Declaration)
-            .map(|reference| reference.place)
-            .collect();
+    // Uses in the file itself: those of others would have every file of the project looked at for each letter that is typed.
+    let mut uses: BTreeMap<Referent, Vec<Place>> = BTreeMap::new();
+    for name in analysis.names.iter().filter(|name| !name.declares && matches!(name.referent, Referent::Rule(_))) {
+        uses.entry(name.referent).or_default().push(analysis.place(name.span));
+    }
+    for name in analysis.names.iter().filter(|name| name.declares && matches!(name.referent, Referent::Rule(_))) {
+        let places = uses.remove(&name.referent).unwrap_or_default();
         let title = match places.len() {
-            1 => "1 use".to_string(),
-            count => format!("{count} uses"),
+            1 => "1 use here".to_string(),
+            count => format!("{count} uses here"),
         };
-        found.push(Lens { range, title, action: Action::References(places) });
+        found.push(Lens { range: (name.span.start, name.span.end), title, action: Action::References(places) });
     }
     found
 }

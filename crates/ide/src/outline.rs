@@ -60,8 +60,7 @@ pub fn outline<F: Files>(project: &mut Project<F>, path: &str) -> Vec<Entry> {
 pub fn search<F: Files>(project: &mut Project<F>, query: &str) -> Vec<(Entry, Place)> {
     let mut found = Vec::new();
     for file in project.all_files() {
-        let Ok(analysis) = project.analysis(&file) else { continue };
-        let mut open: Vec<Entry> = analysis.tree().map(|tree| entries(&tree)).unwrap_or_default();
+        let mut open: Vec<Entry> = project.tree(&file).map(|tree| entries(&tree)).unwrap_or_default();
         while let Some(mut entry) = open.pop() {
             open.append(&mut entry.inner);
             if let Some(distance) = matches(&entry.name, query) {

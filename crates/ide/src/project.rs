@@ -12,7 +12,7 @@ use groundstate::workspace::{Absent, Files, Findings, Outdated, Reads, imported,
 use groundstate::{Kind, Workspace, patterns};
 use model::{Checked, Loader, Model};
 use syntax::ast::{AstNode, ScenarioFile};
-use syntax::{FileId, SourceFile, Sources};
+use syntax::{FileId, SourceFile, Sources, SyntaxNode};
 
 use crate::analysis::{Analysis, Base};
 
@@ -135,6 +135,17 @@ impl<F: Files> Project<F> {
         let made = Arc::new(made?);
         self.findings.insert(path, Kept { made: Arc::clone(&made), of, seen: self.revision });
         Ok(made)
+    }
+
+    /// The tree of a file, whatever it means.
+    pub fn tree(&mut self, path: &str) -> Option<SyntaxNode> {
+        let source = self.text(path).ok()?;
+        Some(match Kind::of(Path::new(path))? {
+            Kind::Model => self.workspace.texts().parse(FileId(0), &source).syntax(),
+            Kind::Scenario => syntax::parse_avalla(FileId(0), &source.text).syntax(),
+            Kind::Chart => syntax::parse_chart(FileId(0), &source.text).syntax(),
+            Kind::Report | Kind::Verification => return None,
+        })
     }
 
     /// What is known of a file.

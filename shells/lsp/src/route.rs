@@ -70,7 +70,6 @@ pub fn is_about_all(name: &str) -> bool {
             | "workspace/symbol"
             | "callHierarchy/incomingCalls"
             | "callHierarchy/outgoingCalls"
-            | "textDocument/codeLens"
     )
 }
 
