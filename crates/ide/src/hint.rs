@@ -125,7 +125,9 @@ pub fn lenses<F: Files>(project: &mut Project<F>, path: &str) -> Vec<Lens> {
     for name in analysis.names.iter().filter(|name| !name.declares && matches!(name.referent, Referent::Rule(_))) {
         uses.entry(name.referent).or_default().push(analysis.place(name.span));
     }
-    for name in analysis.names.iter().filter(|name| name.declares && matches!(name.referent, Referent::Rule(_))) {
+    let main = analysis.model.main.map(Referent::Rule);
+    let rules = analysis.names.iter().filter(|name| name.declares && matches!(name.referent, Referent::Rule(_)));
+    for name in rules.filter(|name| Some(name.referent) != main) {
         let places = uses.remove(&name.referent).unwrap_or_default();
         let title = match places.len() {
             1 => "1 use here".to_string(),

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use ide::{Called, Coloured, Edit, Entry, EntryKind, Item, ItemKind, Lines, Modifier, Place, Project, TokenKind};
 use lsp_types::*;
 
-use crate::disk::Disk;
+use crate::disk::{Disk, Folder};
 use crate::location::{path_of, uri_of};
 use crate::settings::Settings;
 
@@ -230,7 +230,7 @@ impl Answers {
     }
 
     /// Looks at the disk again.
-    pub fn look_again(&mut self, folders: &[String]) {
+    pub fn look_again(&mut self, folders: &[Folder]) {
         self.project.set_files(crate::disk::project_files(folders));
     }
 }

@@ -25,6 +25,15 @@ const DEPTH: usize = 12;
 /// LIMIT: texts that are kept.
 const KEPT: usize = 256;
 
+/// A folder of the project.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Folder {
+    /// Where it is.
+    pub path: String,
+    /// With the folders in it: it is open in the editor, and not only a file of it.
+    pub whole: bool,
+}
+
 /// See the module.
 #[derive(Debug, Default)]
 pub struct Disk {
@@ -66,11 +75,12 @@ impl Files for Disk {
 
 /// The files of a project in some folders, by their names. Folders that begin with a point, and those of builds, are left out; so is
 /// what is behind a link, since a file is to be there once.
-pub fn project_files(folders: &[String]) -> Vec<String> {
+pub fn project_files(folders: &[Folder]) -> Vec<String> {
     let mut found = Vec::new();
     let mut left = ENTRIES;
     for folder in folders {
-        walk(Path::new(folder), DEPTH, &mut left, &mut found);
+        let depth = if folder.whole { DEPTH } else { 0 };
+        walk(Path::new(&folder.path), depth, &mut left, &mut found);
     }
     found.sort();
     found.dedup();

@@ -18,6 +18,7 @@ use serde_json::{Value, json};
 use syntax::{FileId, Severity};
 
 use crate::capabilities::capabilities;
+use crate::disk::Folder;
 use crate::location::path_of;
 use crate::pending::Pending;
 use crate::route::Refused;
@@ -59,7 +60,7 @@ pub fn serve(connection: &Connection) -> Result<Ended, String> {
     let thread = std::thread::Builder::new().name("worker".to_string()).stack_size(STACK_BYTES);
     let thread = thread.spawn(move || worker.work(&received)).map_err(|error| error.to_string())?;
     let mut session = Session {
-        folders: settings.folders.clone(),
+        folders: settings.folders.iter().cloned().map(whole).collect(),
         settings,
         pending,
         out,
@@ -74,6 +75,10 @@ pub fn serve(connection: &Connection) -> Result<Ended, String> {
     Ok(ended)
 }
 
+fn whole(path: String) -> Folder {
+    Folder { path, whole: true }
+}
+
 /// A text that is being edited.
 struct Document {
     version: i32,
@@ -86,7 +91,7 @@ struct Session {
     out: Out,
     jobs: Sender<Job>,
     documents: BTreeMap<String, Document>,
-    folders: Vec<String>,
+    folders: Vec<Folder>,
     shut_down: bool,
 }
 
@@ -237,10 +242,13 @@ impl Session {
         // A file by itself has the files beside it as its project.
         let folder = Path::new(&path).parent().map(|folder| folder.to_string_lossy().into_owned());
         if let Some(folder) = folder
-            && !self.folders.iter().any(|known| Path::new(&folder).starts_with(known))
+            && !self
+                .folders
+                .iter()
+                .any(|known| known.path == folder || known.whole && Path::new(&folder).starts_with(&known.path))
             && !path.starts_with('<')
         {
-            self.folders.push(folder);
+            self.folders.push(Folder { path: folder, whole: false });
             self.job(Job::Folders(self.folders.clone()));
         }
         self.replace(path, params.text_document.version, Lines::new(params.text_document.text.into()));
@@ -287,8 +295,8 @@ impl Session {
 
     fn folders_changed(&mut self, params: &DidChangeWorkspaceFoldersParams) {
         let removed: Vec<String> = params.event.removed.iter().filter_map(|folder| path_of(&folder.uri)).collect();
-        self.folders.retain(|folder| !removed.contains(folder));
-        self.folders.extend(params.event.added.iter().filter_map(|folder| path_of(&folder.uri)));
+        self.folders.retain(|folder| !removed.contains(&folder.path));
+        self.folders.extend(params.event.added.iter().filter_map(|folder| path_of(&folder.uri)).map(whole));
         self.job(Job::Folders(self.folders.clone()));
     }
 }

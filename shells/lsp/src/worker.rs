@@ -15,6 +15,7 @@ use lsp_types::PublishDiagnosticsParams;
 use serde_json::Value;
 
 use crate::answer::Answers;
+use crate::disk::Folder;
 use crate::location::uri_of;
 use crate::pending::{Pending, Stamp};
 use crate::publish::{Published, diagnostic};
@@ -39,7 +40,7 @@ pub enum Job {
     /// The text at a path is that of the disk.
     Close(String),
     /// These are the folders that are open, or what is in them has changed.
-    Folders(Vec<String>),
+    Folders(Vec<Folder>),
     /// A request.
     Request {
         /// Its id.
@@ -64,7 +65,7 @@ pub struct Worker {
     out: Out,
     published: Published,
     texts: BTreeMap<String, (i32, Arc<str>)>,
-    folders: Vec<String>,
+    folders: Vec<Folder>,
     /// Files to be checked, the one that was edited last at the end.
     unchecked: Vec<String>,
 }
@@ -92,10 +93,19 @@ impl Worker {
             } else {
                 jobs.recv_timeout(REST)
             };
-            match job {
-                Ok(job) => self.job(job),
-                Err(RecvTimeoutError::Timeout) => self.check(jobs),
-                Err(RecvTimeoutError::Disconnected) => return,
+            // Requests and checks catch what happens in them; this is for all between.
+            let done = catch_unwind(AssertUnwindSafe(|| {
+                match job {
+                    Ok(job) => self.job(job),
+                    Err(RecvTimeoutError::Timeout) => self.check(jobs),
+                    Err(RecvTimeoutError::Disconnected) => return false,
+                }
+                true
+            }));
+            match done {
+                Ok(true) => {}
+                Ok(false) => return,
+                Err(_) => self.begin_anew(),
             }
         }
     }
