@@ -296,21 +296,21 @@ fn explorers_do_what_the_machine_does() {
         if checked.diagnostics.iter().any(|found| found.severity == Severity::Error) {
             continue;
         }
-        let Ok(program) = program::lower(&checked.model) else { continue };
-        let program = Arc::new(program);
         let attempt = std::panic::AssertUnwindSafe(|| {
+            let Ok(program) = program::lower(&checked.model) else { return };
+            let program = Arc::new(program);
             let mut widening = Widening::default();
             // Compiling takes longer than all the rest.
             let compiles = full || seed % 4 == 0;
             while let Err(Trouble::TooNarrow(more)) = compare(&program, &mut widening, compiles, &mut total) {
                 widening.merge(&more);
             }
+            total.models += 1;
         });
         if let Err(panic) = std::panic::catch_unwind(attempt) {
             let reason = panic.downcast_ref::<String>().map_or("", String::as_str);
             panic!("seed {seed}: {reason}\n{text}");
         }
-        total.models += 1;
     }
     assert!(total.models > cases as usize / 3 && total.moves > total.models, "{total:?}");
     assert!(total.compiled > total.tried / 3, "{total:?}");

@@ -126,6 +126,12 @@ impl<'p> Scope<'p> {
                 self.unbind_all(*binders);
                 if_none.map_or(Ok(()), |rule| self.rule(rule))
             }
+            Rule::Return { target, arguments, .. } => {
+                // A body with the location in the place of `result` is given the arguments of the location, the same terms.
+                let arguments = program.term_list(*arguments);
+                let target = program.term_list(*target).iter().filter(|term| !arguments.contains(term));
+                arguments.iter().chain(target).try_for_each(|term| self.term(*term))
+            }
             Rule::Forall { binders, condition, body } => {
                 self.bind_all(*binders)?;
                 condition.map_or(Ok(()), |condition| self.term(condition))?;

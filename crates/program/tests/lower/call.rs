@@ -230,6 +230,25 @@ fn turbo_rules_are_called_by_value_and_may_recurse() {
 }
 
 #[test]
+fn a_location_for_a_result_may_bind_variables() {
+    check(
+        "controlled f: Integer -> Integer",
+        "turbo rule r_twice($k in Integer) in Integer = seq result := $k result := result + $k endseq
+         main rule r_Main = f(let ($a = 1) in $a + 1 endlet) <- r_twice(3)",
+        expect![[r#"
+            asm x
+            controlled f: Integer -> Integer
+            rule r_Main#0 main
+              f((let $a = 1 in IntAdd($a, 1))) <- r_twice#1(3, (let $a = 1 in IntAdd($a, 1)))
+            turbo r_twice#1($k, $$result)
+              seq
+                f($$result) := $k
+                f($$result) := IntAdd(f($$result), $k)
+        "#]],
+    );
+}
+
+#[test]
 fn rules_are_values_and_programs_of_agents() {
     check(
         "domain Worker subsetof Agent\n static w: Worker\n controlled job: Worker -> Rule(Integer)\n
