@@ -9,8 +9,9 @@ use machine::EngineChoice;
 use crate::compiled::Compiled;
 use crate::explorer::Explorer;
 
-/// LIMIT: misses of the tree before it is judged for the first time.
-const PATIENCE: u64 = 1 << 10;
+/// LIMIT: misses of the tree before it is judged for the first time. Compiling takes as long as the machine takes for about so
+/// many steps, whatever the size of the program.
+const PATIENCE: u64 = 1 << 13;
 /// The smallest share of misses by which a tree loses is one in so many.
 const RARELY: u64 = 16;
 
