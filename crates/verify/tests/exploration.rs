@@ -168,6 +168,10 @@ struct Total {
     compiled: u64,
     /// Of so many.
     tried: u64,
+    /// States whose steps were made so under conditions, and the alternatives that these left out or failed of.
+    judged: u64,
+    excluded: u32,
+    failed: u32,
 }
 
 /// The successors of the machine's state other than itself; `None` if they cannot all be computed.
@@ -283,6 +287,35 @@ fn compare(program: &Arc<Program>, widening: &mut Widening, compiles: bool, tota
     Ok(())
 }
 
+/// Compares compiled steps with those of the machine under conditions on the step, of which every second one is an assumption.
+fn compare_conditions(program: &Arc<Program>, widening: &Widening, total: &mut Total) -> Result<(), Trouble> {
+    let formulas = program.properties.iter().map(|property| property.formula.clone());
+    let step_conditions = formulas.enumerate().map(|(index, formula)| (formula, index % 2 == 1)).collect();
+    let bounds = Arc::new(bounds(program));
+    let made = Settings { limits: limits(), bounds, step_conditions, forgetful: true, ..Settings::default() };
+    let compiled = Settings { engine: EngineChoice::Compiled, ..made.clone() };
+    let interner = Arc::new(Interner::default());
+    let mut made = Explorer::new(program, made, widening, &interner)?;
+    let mut compiled = Explorer::like(program, compiled, widening, &interner, Some(&made.starts()))?;
+    let mut queue: VecDeque<Box<[u64]>> = made.initial().iter().take(1).map(|(state, _)| state.clone()).collect();
+    let mut seen: BTreeSet<Box<[u64]>> = queue.iter().cloned().collect();
+    while let Some(state) = queue.pop_front() {
+        let (mut out, mut again) = (Vec::new(), Vec::new());
+        let expansion = made.expand(&state, &mut out).map_err(Trouble::TooNarrow)?;
+        assert_eq!(compiled.expand(&state, &mut again).map_err(Trouble::TooNarrow)?, expansion, "with conditions");
+        assert_eq!(out, again, "with conditions");
+        total.excluded += expansion.excluded;
+        total.failed += expansion.failed;
+        for next in out.chunks_exact(made.words()).take(20) {
+            if seen.len() < STATES / 3 && seen.insert(next.into()) {
+                queue.push_back(next.into());
+            }
+        }
+    }
+    total.judged += compiled.compiled_states();
+    Ok(())
+}
+
 #[test]
 fn explorers_do_what_the_machine_does() {
     let number =
@@ -305,6 +338,9 @@ fn explorers_do_what_the_machine_does() {
             while let Err(Trouble::TooNarrow(more)) = compare(&program, &mut widening, compiles, &mut total) {
                 widening.merge(&more);
             }
+            while compiles && let Err(Trouble::TooNarrow(more)) = compare_conditions(&program, &widening, &mut total) {
+                widening.merge(&more);
+            }
             total.models += 1;
         });
         if let Err(panic) = std::panic::catch_unwind(attempt) {
@@ -314,4 +350,5 @@ fn explorers_do_what_the_machine_does() {
     }
     assert!(total.models > cases as usize / 3 && total.moves > total.models, "{total:?}");
     assert!(total.compiled > total.tried / 3, "{total:?}");
+    assert!(total.judged > 0 && total.excluded > 0 && total.failed > 0, "{total:?}");
 }
