@@ -51,17 +51,17 @@ impl Explorer {
         self.makers.states += 1;
     }
 
-    /// Machine code for the steps of a state that the tree does not know, where that is the better way.
-    pub(super) fn code(&mut self) -> Option<&mut Compiled> {
+    /// Compiles the steps, after the tree has missed a state, where that is the better way; at most once.
+    pub(super) fn compile_if_due(&mut self) {
         if self.makers.tried {
-            return self.makers.compiled.as_deref_mut();
+            return;
         }
-        let wanted = match self.settings.engine {
+        let due = match self.settings.engine {
             EngineChoice::Interpreted => false,
             EngineChoice::Compiled => true,
             EngineChoice::Automatic => !self.settings.forgetful && (!self.steps.tree.is_used() || self.makers.loses()),
         };
-        if wanted {
+        if due {
             self.makers.tried = true;
             let Explorer { program, settings, encoding, view, starts, .. } = self;
             let compiled = Compiled::new(program, settings, encoding, view.shared(), starts);
@@ -70,7 +70,6 @@ impl Explorer {
             }
             self.makers.compiled = compiled.map(Box::new);
         }
-        self.makers.compiled.as_deref_mut()
     }
 
     /// Of how many states the steps were made by machine code.

@@ -232,12 +232,13 @@ impl Explorer {
             Err(Unmade::Interrupted) => return Ok(Expansion { interrupted: true, ..expansion }),
             Err(Unmade::Unknown) => out.truncate(start),
         }
-        let interrupt = self.settings.interrupt.clone();
-        if let Some(code) = self.code() {
+        self.compile_if_due();
+        let Explorer { makers, settings, .. } = self;
+        if let Some(code) = &mut makers.compiled {
             let (mut expansion, mut found) = (Expansion::default(), Successors::new(out));
-            match code.make(state, &interrupt, &mut expansion, &mut found) {
+            match code.make(state, &settings.interrupt, &mut expansion, &mut found) {
                 Ok(()) => {
-                    self.makers.made += 1;
+                    makers.made += 1;
                     return Ok(expansion);
                 }
                 Err(Unmade::Interrupted) => return Ok(Expansion { interrupted: true, ..expansion }),
