@@ -40,6 +40,9 @@ fn a_file_of_comments_alone() {
     let indented = "\t// one\n\t// two\n";
     assert_invariants(indented.as_bytes());
     assert_eq!(format(&parse_asmetal(FILE, indented)), "// one\n// two\n");
+    let on_one_line = " /* one */ // two\n";
+    assert_invariants(on_one_line.as_bytes());
+    assert_eq!(format(&parse_asmetal(FILE, on_one_line)), "/* one */\n// two\n");
     assert_eq!(format(&parse_asmetal(FILE, "")), "");
 }
 

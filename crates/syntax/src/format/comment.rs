@@ -145,7 +145,7 @@ pub(super) fn at_end_of_file(root: &SyntaxNode) -> Document {
     for token in trivia {
         if token.kind() == WHITESPACE {
             lines += token.text().matches('\n').count();
-        } else if lines > 0 {
+        } else if lines > 0 || starts_file {
             // Where there are comments alone, there is nothing that an indented one could belong to.
             let belongs = if parts.is_empty() { !starts_file } else { indented };
             indented = belongs && column(&token) > 0;
