@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use machine::inside::SharedCode;
 use machine::{Bounds, Cause, EngineChoice, Fault, Interrupt, Limits};
 use program::Expression;
 
@@ -24,6 +25,8 @@ pub struct Settings {
     pub forgetful: bool,
     /// What makes the steps that are not remembered; by itself the explorer compiles them where remembering does not pay.
     pub engine: EngineChoice,
+    /// The code of the steps, once an explorer has compiled them.
+    pub code: SharedCode,
     /// Looked at between the alternatives of a state, of which there may be many.
     pub interrupt: Interrupt,
     /// What happens within steps is told: see [`crate::Explorer::sightings`].

@@ -20,6 +20,7 @@ use crate::value::Value;
 pub use crate::alternatives::is_kept;
 pub use crate::enumerate::extended;
 pub use crate::layout::LocationIndex;
+pub use crate::native::SharedCode;
 pub use crate::observe::Observations;
 pub use crate::store::Store;
 
@@ -180,11 +181,12 @@ impl Machine {
 
 /// Steps by compiled code alone.
 impl Machine {
-    /// Compiles the main rule for the states that are reached from the present one; whether there is code. Where that is not
+    /// Compiles the main rule for the states that are reached from the present one, or takes the code that was `shared` by
+    /// another machine; whether there is code. Where that is not
     /// the `only` initial state, the code relies on nothing that might not be so in the others.
-    pub fn compile_steps(&mut self, only: bool) -> bool {
+    pub fn compile_steps(&mut self, only: bool, shared: &SharedCode) -> bool {
         self.core.unset |= !only;
-        self.compile_main()
+        self.compile_main(shared)
     }
 
     /// Computes the main rule's update set as [`Machine::prepare`] does, without noting what is looked at, by the code of
@@ -201,7 +203,7 @@ impl Machine {
 
     /// Whether a rule has run in compiled code.
     pub fn has_run_compiled(&self, rule: RuleId) -> bool {
-        self.main_engine().is_some_and(|engine| engine.has_run(rule))
+        self.main_engine().is_some_and(|engine| engine.code().has_run(rule))
     }
 }
 

@@ -16,7 +16,7 @@ pub type LocationIndex = u32;
 const DENSE_LIMIT: u64 = 1 << 18;
 
 /// Where a function's locations stand.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Layout {
     /// It has none: static or derived by definition, or of the library.
     None,
@@ -29,7 +29,7 @@ pub(crate) enum Layout {
 }
 
 /// How one argument becomes an index.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Dimension {
     pub kind: DimensionKind,
     pub size: u32,

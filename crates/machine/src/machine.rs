@@ -12,7 +12,7 @@ use crate::fault::{Fault, FaultKind};
 use crate::interrupt::Interrupt;
 use crate::limits::Limits;
 use crate::location::{Location, LocationRef};
-use crate::native::{Ended, Engine};
+use crate::native::{self, Ended, Engine, SharedCode};
 use crate::start::AT_START;
 use crate::step::{Passed, Step};
 use crate::store::Store;
@@ -275,7 +275,8 @@ impl Machine {
         }
         if !*tried {
             *tried = true;
-            *engine = Engine::compile(&self.program, procedure, &self.core, false).map(Box::new);
+            let code = native::Code::compile(&self.program, procedure, &self.core, false);
+            *engine = code.map(|code| Box::new(Engine::new(Arc::new(code))));
         }
         if choice == EngineChoice::Automatic && engine.as_ref().is_some_and(|engine| !engine.pays()) {
             *engine = None;
@@ -283,12 +284,18 @@ impl Machine {
         engine.is_some()
     }
 
-    /// Compiles the main rule now, to code that notes which rules run; whether there is such code.
-    pub(crate) fn compile_main(&mut self) -> bool {
+    /// Compiles the main rule now, to code that notes which rules run, unless another machine has done so; whether there is
+    /// such code.
+    pub(crate) fn compile_main(&mut self, shared: &SharedCode) -> bool {
         let Some(main) = self.program.main else { return false };
-        let engine = Engine::compile(&self.program, main, &self.core, true).map(Box::new);
+        let compile = || native::Code::compile(&self.program, main, &self.core, true).map(Arc::new);
+        let engine = match shared.get_or_compile(compile) {
+            Some(code) if code.fits(&self.program, main, &self.core) => Some(code),
+            Some(_) => compile(),
+            None => None,
+        };
         let code = self.engine.run(main);
-        (code.tried, code.engine) = (true, engine);
+        (code.tried, code.engine) = (true, engine.map(|code| Box::new(Engine::new(code))));
         code.engine.is_some()
     }
 

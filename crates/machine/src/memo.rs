@@ -22,7 +22,7 @@ const ALWAYS: u64 = 0;
 pub(crate) struct Version(u64);
 
 /// Where the values of one function are kept.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Shelf {
     pub base: u32,
     pub dimensions: Box<[Dimension]>,

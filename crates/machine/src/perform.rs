@@ -16,10 +16,12 @@ use syntax::Span;
 use crate::environment::{Choice, Draw};
 use crate::execute::{Executor, Outcome};
 use crate::fault::{ClashSide, FaultKind};
+use crate::layout::LocationIndex;
 use crate::location::Location;
 use crate::observe::Observation;
 use crate::print::Show;
-use crate::update::Clash;
+use crate::store::Store;
+use crate::update::{Clash, Order};
 use crate::value::Value;
 
 impl<'a> Executor<'a> {
@@ -309,9 +311,9 @@ impl<'a> Executor<'a> {
         parts(self)?;
         let core = &mut *self.core;
         core.memo.back_to(version);
-        let ended = core.updates.end_sequence(sequence, &mut core.store, &|store, index| {
-            !locals.is_empty() && locals.contains(&store.function_of(index))
-        });
+        let is_local =
+            |store: &Store, index: LocationIndex| !locals.is_empty() && locals.contains(&store.function_of(index));
+        let ended = core.updates.end_sequence(sequence, &mut core.store, &is_local, Order::LatestFirst);
         self.consistent(ended)
     }
 

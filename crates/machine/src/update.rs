@@ -70,6 +70,14 @@ pub(crate) struct Sequence {
     created: usize,
 }
 
+/// The order in which the net effect of a `seq` joins the unit around it. It decides only which of several clashes is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Order {
+    /// What was written last comes first.
+    LatestFirst,
+    Any,
+}
+
 /// Two updates of one location with different values.
 #[derive(Debug)]
 pub(crate) struct Clash {
@@ -269,13 +277,14 @@ impl Updates {
         }
     }
 
-    /// Ends a `seq`: takes the intermediate state back and adds the net effect to the current unit, leaving out
-    /// updates of locations for which `local` holds.
+    /// Ends a `seq`: takes the intermediate state back and adds the net effect to the current unit in this order, leaving
+    /// out updates of locations for which `local` holds.
     pub fn end_sequence(
         &mut self,
         sequence: Sequence,
         store: &mut Store,
         local: &dyn Fn(&Store, LocationIndex) -> bool,
+        order: Order,
     ) -> Result<(), Box<Clash>> {
         let mut merge = std::mem::take(&mut self.merge);
         merge.clear();
@@ -287,8 +296,7 @@ impl Updates {
         }
         self.sequence = sequence.enclosing;
         self.forget_intermediate(sequence.created, store);
-        // What was written last comes first.
-        if !merge.is_sorted_by(|one, other| one.time > other.time) {
+        if order == Order::LatestFirst && !merge.is_sorted_by(|one, other| one.time > other.time) {
             merge.sort_unstable_by_key(|entry| std::cmp::Reverse(entry.time));
         }
         let mut outcome = Ok(());

@@ -83,7 +83,7 @@ impl Compiled {
         // Each location has the value that its field says from now on, not only those that differ.
         let first = starts.states.first().map(|(state, _)| state.to_vec())?;
         encoding.unpack(program, &first, &mut machine, &mut view);
-        if !machine.compile_steps(starts.states.len() == 1) {
+        if !machine.compile_steps(starts.states.len() == 1, &settings.code) {
             return None;
         }
         let codecs = encoding.fields.iter().map(|field| Codec::of(encoding, *field)).collect();

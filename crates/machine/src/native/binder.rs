@@ -129,7 +129,7 @@ impl Translator<'_, '_> {
     }
 
     fn walk_domain(&mut self, domain: DomainId) -> Walk {
-        if let Some(elements) = self.plan.contents[domain.0 as usize].clone() {
+        if let Some(elements) = self.plan.facts.contents[domain.0 as usize].clone() {
             let (start, count) = (self.address(elements.as_ptr()), self.word(elements.len() as i64));
             let kind = self.kind(domain);
             self.plan.pin(elements);

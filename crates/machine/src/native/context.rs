@@ -8,7 +8,6 @@
 use std::mem::offset_of;
 
 use crate::execute::{Core, Executor};
-use crate::native::Tables;
 use crate::native::memory::Memory;
 use crate::update::{Stamp, Update};
 use crate::value::Value;
@@ -44,10 +43,12 @@ pub(super) struct Context {
     pub depth: u64,
     /// Work left until the machine looks whether the step is to end ([`crate::work`]).
     pub budget: i64,
+    /// By table of a fixed term: where its states and its values are.
+    pub tables: *const [u64; 2],
     /// The executor of the running step.
     executor: *mut Executor<'static>,
-    /// What belongs to the compiled code.
-    tables: *mut Tables,
+    /// What the machine keeps for the compiled code.
+    memory: *mut Memory,
 }
 
 /// Where the fields are.
@@ -73,6 +74,7 @@ impl Offset {
     pub const candidate_capacity: i32 = offset_of!(Context, candidate_capacity) as i32;
     pub const depth: i32 = offset_of!(Context, depth) as i32;
     pub const budget: i32 = offset_of!(Context, budget) as i32;
+    pub const tables: i32 = offset_of!(Context, tables) as i32;
 
     /// Whether compiled code itself changes the field.
     pub fn is_counter(offset: i32) -> bool {
@@ -84,10 +86,11 @@ impl Context {
     /// A view of no machine yet: see [`Context::begin`].
     ///
     /// # Safety
-    /// `tables` lives as long as the context, and nothing else uses it.
-    pub unsafe fn new(tables: *mut Tables) -> Context {
+    /// `memory` lives as long as the context, and nothing else uses it.
+    pub unsafe fn new(memory: *mut Memory) -> Context {
+        let own = memory;
         // SAFETY: as the caller promises.
-        let memory = unsafe { &mut (*tables).memory };
+        let memory = unsafe { &mut *memory };
         if memory.temporaries.capacity() == 0 {
             memory.temporaries.reserve(TEMPORARIES);
             memory.candidates.reserve(CANDIDATES.min(1 << 12));
@@ -111,8 +114,9 @@ impl Context {
             candidate_capacity: memory.candidates.capacity() as u64,
             depth: 0,
             budget: 0,
+            tables: memory.places(),
             executor: std::ptr::null_mut(),
-            tables,
+            memory: own,
         }
     }
 
@@ -163,7 +167,7 @@ impl Context {
     /// Runs a helper on the machine.
     ///
     /// # Safety
-    /// `context` has begun a step, whose executor and tables still live; nothing else uses them now.
+    /// `context` has begun a step, whose executor and memory still live; nothing else uses them now.
     #[inline]
     pub unsafe fn with<T>(context: *mut Context, helper: impl FnOnce(&mut Executor<'static>, &mut Context) -> T) -> T {
         // SAFETY: as the caller promises; compiled code holds no reference while a helper runs.
@@ -192,13 +196,13 @@ impl Context {
         unsafe { (*(*context).executor).core.updates.compound = true };
     }
 
-    /// What belongs to the compiled code.
+    /// What the machine keeps for the compiled code.
     ///
     /// # Safety
     /// As for [`Context::with`].
-    pub unsafe fn tables<'c>(context: *mut Context) -> &'c mut Tables {
+    pub unsafe fn memory<'c>(context: *mut Context) -> &'c mut Memory {
         // SAFETY: as the caller promises.
-        unsafe { &mut *(*context).tables }
+        unsafe { &mut *(*context).memory }
     }
 
     /// Keeps a value until the statement ends; null where there is no room.

@@ -144,6 +144,9 @@ helpers! {
     RELEASE = release(context, mark) -> ();
     EVALUATE = evaluate(context, term, spill, values) -> *const Value;
     PERFORM = perform(context, rule, spill, values) -> i64;
+    COLLECT = collect(context) -> ();
+    ADD = add(context, element) -> i64;
+    COLLECTED = collected(context, kind) -> *const Value;
     ELEMENTS = elements(context, domain) -> *const Value;
     RANGE = range(context, collection, out) -> i64;
     BEGIN_SEQUENCE = begin_sequence(context) -> ();

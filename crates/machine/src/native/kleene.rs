@@ -51,10 +51,10 @@ impl Translator<'_, '_> {
             Term::Read { function, arguments } => {
                 let index = function.0 as usize;
                 let variables = |term: &TermId| matches!(program.term(*term), Term::Slot(_));
-                self.plan.plain[index]
-                    && !self.plan.lazy[index]
+                self.plan.facts.plain[index]
+                    && !self.plan.facts.lazy[index]
                     && self.kind_of(id).is_some()
-                    && !matches!(self.plan.layouts[index], Layout::Sparse)
+                    && !matches!(self.plan.facts.layouts[index], Layout::Sparse)
                     && program.term_list(*arguments).iter().all(variables)
             }
             _ => false,

@@ -98,7 +98,7 @@ impl Translator<'_, '_> {
     }
 
     fn find(&mut self, function: FunctionId, arguments: &[Operand]) -> Option<Found> {
-        match self.plan.layouts[function.0 as usize].clone() {
+        match self.plan.facts.layouts[function.0 as usize].clone() {
             Layout::Single(index) => {
                 Some(Found { index: self.word(i64::from(index)), inside: None, parts: Some((index, Vec::new())) })
             }
@@ -137,8 +137,8 @@ impl Translator<'_, '_> {
             return Operand::Undef;
         }
         let kind = self.kind_of(term);
-        let lazy = self.plan.lazy[function.0 as usize];
-        let direct = self.plan.plain[function.0 as usize];
+        let lazy = self.plan.facts.lazy[function.0 as usize];
+        let direct = self.plan.facts.plain[function.0 as usize];
         let asked = match declared.kind {
             FunctionKind::Monitored => true,
             FunctionKind::Shared => !lazy,
@@ -161,7 +161,7 @@ impl Translator<'_, '_> {
                     }
                     _ => (self.stored(index), 0),
                 };
-                if self.plan.total[function.0 as usize] {
+                if self.plan.facts.total[function.0 as usize] {
                     let value = self.payload_at(place, offset, kind);
                     return Operand::Scalar(Scalar::defined(kind, value));
                 }
@@ -273,8 +273,8 @@ impl Translator<'_, '_> {
     ) {
         self.check_codomain(function, value);
         let direct =
-            self.plan.plain[function.0 as usize] || self.program.function(function).kind == FunctionKind::Shared;
-        let lazy = self.plan.lazy[function.0 as usize];
+            self.plan.facts.plain[function.0 as usize] || self.program.function(function).kind == FunctionKind::Shared;
+        let lazy = self.plan.facts.lazy[function.0 as usize];
         let found = if direct { self.find(function, arguments) } else { None };
         let index = match found {
             Some(Found { index, inside: None, .. }) if !lazy => index,
@@ -316,7 +316,7 @@ impl Translator<'_, '_> {
 
     /// Gives the step up where a value lies outside the codomain.
     fn check_codomain(&mut self, function: FunctionId, value: Operand) {
-        let membership = self.plan.codomains[function.0 as usize].clone();
+        let membership = self.plan.facts.codomains[function.0 as usize].clone();
         let bounds = match (&membership, value) {
             (Membership::Any, _) | (_, Operand::Undef) => return,
             (Membership::Natural, Operand::Scalar(Scalar { kind: Kind::Integer, .. })) => Some((0, i64::MAX)),

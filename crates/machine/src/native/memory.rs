@@ -1,12 +1,90 @@
-//! The working memory of compiled code.
+//! What one machine keeps while it runs compiled code.
+//!
+//! In: the code, which other machines may run, too. Out: the data that the code and its helpers change: tables as far as they are
+//! filled, and what is open in the running step.
 
+use std::sync::Arc;
+
+use crate::memo::Version;
+use crate::native::code::Code;
+use crate::update::{Sequence, Unit};
 use crate::value::Value;
 
-/// The working memory of compiled code, kept from step to step.
-#[derive(Debug, Default)]
+/// See the module.
+#[derive(Debug)]
 pub(super) struct Memory {
+    pub code: Arc<Code>,
+    /// By table of the code.
+    tables: Vec<Table>,
+    /// By table: the addresses of its states and of its values, as compiled code reads them.
+    places: Vec<[u64; 2]>,
     /// Values that a term needs while it is evaluated.
-    pub(super) temporaries: Vec<Value>,
+    pub temporaries: Vec<Value>,
     /// Candidates of choices that are being collected.
-    pub(super) candidates: Vec<Value>,
+    pub candidates: Vec<Value>,
+    /// Units and sequences open now.
+    pub units: Vec<Unit>,
+    pub sequences: Vec<(Sequence, Version)>,
+    /// Comprehensions whose elements are being collected, the innermost last.
+    pub collections: Vec<Collected>,
+}
+
+/// The values of a fixed term, as far as they were asked for. INVARIANT: its arrays stay where they are.
+#[derive(Debug)]
+struct Table {
+    /// By entry: 1 where it has been evaluated.
+    states: Box<[u8]>,
+    values: Box<[Value]>,
+}
+
+/// The elements of a comprehension so far.
+#[derive(Debug, Default)]
+pub(super) struct Collected {
+    pub elements: Vec<Value>,
+    /// Their size, unfolded.
+    pub leaves: u64,
+}
+
+impl Memory {
+    /// That of a machine that has not run the code.
+    pub fn new(code: Arc<Code>) -> Memory {
+        let table = |entries: usize| Table {
+            states: vec![0; entries].into_boxed_slice(),
+            values: vec![Value::Undef; entries].into_boxed_slice(),
+        };
+        let mut tables: Vec<Table> = code.tables.iter().map(|fixed| table(fixed.entries)).collect();
+        let place = |table: &mut Table| {
+            [table.states.as_mut_ptr().expose_provenance() as u64, table.values.as_mut_ptr().expose_provenance() as u64]
+        };
+        let places = tables.iter_mut().map(place).collect();
+        Memory {
+            code,
+            tables,
+            places,
+            temporaries: Vec::new(),
+            candidates: Vec::new(),
+            units: Vec::new(),
+            sequences: Vec::new(),
+            collections: Vec::new(),
+        }
+    }
+
+    /// Where the tables are.
+    pub fn places(&self) -> *const [u64; 2] {
+        self.places.as_ptr()
+    }
+
+    /// Fills an entry of a table.
+    pub fn fill(&mut self, table: usize, entry: usize, value: Value) {
+        let table = &mut self.tables[table];
+        table.values[entry] = value;
+        table.states[entry] = 1;
+    }
+
+    /// Forgets what an abandoned step left.
+    pub fn clear(&mut self) {
+        self.units.clear();
+        self.sequences.clear();
+        self.collections.clear();
+    }
 }

@@ -9,7 +9,9 @@
 
 mod arithmetic;
 mod binder;
+mod code;
 mod commit;
+mod comprehension;
 mod context;
 mod helper;
 mod kleene;
@@ -24,39 +26,34 @@ mod total;
 mod translate;
 mod unit;
 
-use std::sync::atomic::Ordering;
+use std::sync::{Arc, OnceLock};
 
-use cranelift_codegen::ir::{InstBuilder, UserFuncName, types};
-use cranelift_codegen::settings::{self, Configurable};
-use cranelift_frontend::{FunctionBuilder, FunctionBuilderContext};
-use cranelift_jit::{JITBuilder, JITModule};
-use cranelift_module::{FuncId, Linkage, Module, default_libcall_names};
-use program::{ProcedureId, Program, RuleId};
-
-use crate::execute::{Core, Executor};
+use crate::execute::Executor;
 use crate::step::Passed;
+pub(crate) use code::Code;
 pub(crate) use commit::apply;
 use context::Context;
-use helper::{Helpers, signature};
-use plan::{Fixed, Plan, Tables, UnitKey};
-use translate::Translator;
-
-/// The compiled entry: the context, to a status that is not zero where the step is abandoned.
-type Entry = unsafe extern "C" fn(*mut Context) -> i64;
+use memory::Memory;
 
 /// LIMIT: after so many steps the share of abandoned ones decides whether the code is used further.
 const TRIAL: u64 = 64;
 
-/// A program's main rule, or another procedure without parameters that makes steps, compiled.
+/// The code of a program's main rule, for machines that make its steps side by side or one after the other: the first that needs
+/// it compiles it.
+#[derive(Debug, Clone, Default)]
+pub struct SharedCode(Arc<OnceLock<Option<Arc<Code>>>>);
+
+impl SharedCode {
+    pub(crate) fn get_or_compile(&self, compile: impl FnOnce() -> Option<Arc<Code>>) -> Option<Arc<Code>> {
+        self.0.get_or_init(compile).clone()
+    }
+}
+
+/// Compiled code with what one machine needs to run it.
 pub(crate) struct Engine {
-    entry: Entry,
-    /// Where `self` is kept.
-    myself: Option<u32>,
-    tables: Tables,
+    memory: Memory,
     runs: u64,
     abandoned: u64,
-    /// Owns the code.
-    module: Option<JITModule>,
 }
 
 impl std::fmt::Debug for Engine {
@@ -65,46 +62,15 @@ impl std::fmt::Debug for Engine {
     }
 }
 
-impl Drop for Engine {
-    fn drop(&mut self) {
-        if let Some(module) = self.module.take() {
-            // SAFETY: the code runs only within `run`, which borrows the engine.
-            unsafe { module.free_memory() };
-        }
-    }
-}
-
 impl Engine {
-    /// Compiles a procedure for a started machine; none on a machine that Cranelift has no code for. The code notes which
-    /// rules run if that is wanted.
-    pub fn compile(program: &Program, main: ProcedureId, core: &Core, notes_rules: bool) -> Option<Engine> {
-        let mut flags = settings::builder();
-        flags.set("opt_level", "speed").ok()?;
-        flags.set("is_pic", "false").ok()?;
-        flags.set("enable_verifier", if cfg!(debug_assertions) { "true" } else { "false" }).ok()?;
-        let isa = cranelift_native::builder().ok()?.finish(settings::Flags::new(flags)).ok()?;
-        let mut builder = JITBuilder::with_isa(isa, default_libcall_names());
-        Helpers::register(&mut builder);
-        let mut module = JITModule::new(builder);
-        let helpers = Helpers::declare(&mut module)?;
-        let mut plan = Plan::new(program, main, core, helpers);
-        if notes_rules {
-            plan.note_rules(program);
-        }
+    /// For a machine that the code fits.
+    pub fn new(code: Arc<Code>) -> Engine {
+        Engine { memory: Memory::new(code), runs: 0, abandoned: 0 }
+    }
 
-        let entry = signature(&module, &[types::I64], &[types::I64]);
-        let entry = module.declare_function("entry", Linkage::Local, &entry).ok()?;
-        let mut scratch = FunctionBuilderContext::new();
-        define(program, &mut module, &mut plan, &mut scratch, None, main, entry)?;
-        while let Some((key, id)) = plan.queue.pop() {
-            define(program, &mut module, &mut plan, &mut scratch, Some(key), main, id)?;
-        }
-        module.finalize_definitions().ok()?;
-        let code = module.get_finalized_function(entry);
-        // SAFETY: the code was just defined with this signature.
-        let entry = unsafe { std::mem::transmute::<*const u8, Entry>(code) };
-        let myself = plan.self_location(program);
-        Some(Engine { entry, myself, tables: plan.tables, runs: 0, abandoned: 0, module: Some(module) })
+    /// What it runs.
+    pub fn code(&self) -> &Code {
+        &self.memory.code
     }
 
     /// Whether running the code has paid so far.
@@ -112,15 +78,10 @@ impl Engine {
         self.runs < TRIAL || self.abandoned * 8 < self.runs
     }
 
-    /// Whether a rule has run in some step, as far as that is noted.
-    pub fn has_run(&self, rule: RuleId) -> bool {
-        self.tables.ran.get(rule.0 as usize).is_some_and(|ran| ran.load(Ordering::Relaxed) != 0)
-    }
-
     /// Computes the update set of a step; false where the step must be rolled back and interpreted instead.
     pub fn run(&mut self, executor: &mut Executor<'_>) -> bool {
-        // SAFETY: the tables outlive the context, and nothing else uses them.
-        let mut context = unsafe { Context::new(&raw mut self.tables) };
+        // SAFETY: the memory outlives the context, and nothing else uses it.
+        let mut context = unsafe { Context::new(&raw mut self.memory) };
         context.look(executor.core);
         context.begin(executor);
         self.compute(&mut context, executor)
@@ -130,8 +91,8 @@ impl Engine {
     /// first if they are `stale`.
     pub fn pass(&mut self, executor: &mut Executor<'_>, stale: bool, wanted: u64, passed: &mut Passed) -> Ended {
         let program = executor.program;
-        // SAFETY: the tables outlive the context, and nothing else uses them.
-        let mut context = unsafe { Context::new(&raw mut self.tables) };
+        // SAFETY: the memory outlives the context, and nothing else uses it.
+        let mut context = unsafe { Context::new(&raw mut self.memory) };
         let mut stale = stale;
         context.look(executor.core);
         while passed.steps < wanted {
@@ -156,10 +117,10 @@ impl Engine {
     #[inline]
     fn compute(&mut self, context: &mut Context, executor: &mut Executor<'_>) -> bool {
         self.runs += 1;
-        let former = self.myself.map(|index| executor.core.store.values[index as usize].clone());
-        // SAFETY: the context refers to the executor and the tables, which outlive this call; while the code runs
+        let former = self.memory.code.myself.map(|index| executor.core.store.values[index as usize].clone());
+        // SAFETY: the context refers to the executor and the memory, which outlive this call; while the code runs
         // nothing else uses them. The code was compiled for this program and this layout of the store.
-        let status = unsafe { (self.entry)(&raw mut *context) };
+        let status = unsafe { (self.memory.code.entry)(&raw mut *context) };
         context.enter(executor.core);
         if status == 0 {
             debug_assert!(context.temporary == 0 && context.candidate == 0);
@@ -168,8 +129,8 @@ impl Engine {
         context.release(0);
         context.drop_candidates();
         self.abandoned += 1;
-        self.tables.clear();
-        if let (Some(index), Some(value)) = (self.myself, former) {
+        self.memory.clear();
+        if let (Some(index), Some(value)) = (self.memory.code.myself, former) {
             executor.core.store.values[index as usize] = value;
         }
         false
@@ -185,46 +146,4 @@ pub(crate) enum Ended {
     Paused,
     /// The next one has begun and cannot be computed to its end.
     Abandoned,
-}
-
-/// Builds one function: the entry, or a unit.
-fn define(
-    program: &Program,
-    module: &mut JITModule,
-    plan: &mut Plan,
-    scratch: &mut FunctionBuilderContext,
-    key: Option<UnitKey>,
-    main: ProcedureId,
-    id: FuncId,
-) -> Option<()> {
-    let mut code = module.make_context();
-    code.func.signature = match key {
-        Some(key) => unit::unit_signature(program, module, key),
-        None => signature(module, &[types::I64], &[types::I64]),
-    };
-    code.func.name = UserFuncName::user(0, id.as_u32());
-    {
-        let mut builder = FunctionBuilder::new(&mut code.func, scratch);
-        let start = builder.create_block();
-        builder.append_block_params_for_function_params(start);
-        builder.switch_to_block(start);
-        let parameters = builder.block_params(start).to_vec();
-        let mut translator = Translator::new(builder, module, plan, program, parameters[0]);
-        match key {
-            Some(key) => translator.unit(key, &parameters[1..]),
-            None => {
-                translator.main(main);
-                let good = translator.word(0);
-                translator.builder.ins().return_(&[good]);
-                translator.switch(translator.bail);
-                let bad = translator.word(1);
-                translator.builder.ins().return_(&[bad]);
-            }
-        }
-        translator.builder.seal_all_blocks();
-        translator.builder.finalize();
-    }
-    module.define_function(id, &mut code).ok()?;
-    module.clear_context(&mut code);
-    Some(())
 }

@@ -1,7 +1,7 @@
 //! What the translator knows of the program and its state's layout, and what it leaves to the running code.
 //!
-//! In: the program and the machine's core after its start. Out: decisions (what is inlined, what is tabulated) and
-//! the [`Tables`] that compiled code refers to by number.
+//! In: the program and the machine's core after its start. Out: decisions (what is inlined, what is tabulated), the
+//! [`Facts`] that they rest on, and what compiled code refers to by number.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicU8;
@@ -16,7 +16,6 @@ use crate::memo::{self, Shelf};
 use crate::native::helper::Helpers;
 use crate::native::shape::{Kind, Scalar, consecutive};
 use crate::native::total::total_functions;
-use crate::update::{Sequence, Unit};
 use crate::value::Value;
 use crate::weighed::Items;
 
@@ -43,34 +42,13 @@ static UNDEF: Value = Value::Undef;
 pub(super) struct Fixed {
     pub term: TermId,
     pub spill: u64,
-    /// By entry: whether it has been evaluated.
-    pub states: Vec<u8>,
-    pub values: Vec<Value>,
+    /// How many values its variables have together.
+    pub entries: usize,
 }
 
-/// The running code's own data.
-#[derive(Debug, Default)]
-pub(crate) struct Tables {
-    /// Frames opened for the interpreter: their size and the slots that are handed over.
-    pub spills: Vec<(u32, Vec<u32>)>,
-    pub fixed: Vec<Fixed>,
-    /// Units and sequences open now.
-    pub units: Vec<Unit>,
-    pub sequences: Vec<(Sequence, memo::Version)>,
-    pub memory: super::memory::Memory,
-    /// Arrays that code refers to.
-    pinned: Vec<Arc<Items>>,
-    /// By rule, 1 where it has run; empty where that is not noted.
-    pub ran: Box<[AtomicU8]>,
-}
-
-/// The knowledge of one compilation.
-#[derive(Debug)]
-pub(super) struct Plan {
-    /// The procedure that is compiled.
-    main: ProcedureId,
-    pub helpers: Helpers,
-    pub constants: Arc<Items>,
+/// What code relies on of the machine that runs it.
+#[derive(Debug, PartialEq)]
+pub(super) struct Facts {
     pub layouts: Vec<Layout>,
     pub codomains: Vec<Membership>,
     pub contents: Vec<Option<Arc<Items>>>,
@@ -81,6 +59,31 @@ pub(super) struct Plan {
     /// By function: never undef at its numbered locations.
     pub total: Vec<bool>,
     pub shelves: Vec<Option<Shelf>>,
+}
+
+impl Facts {
+    /// Those of a started machine.
+    pub fn of(program: &Program, core: &Core) -> Facts {
+        Facts {
+            layouts: core.store.layouts.clone(),
+            codomains: core.codomains.clone(),
+            contents: core.contents.clone(),
+            plain: core.plain.clone(),
+            lazy: program.functions.iter().enumerate().map(|(index, _)| is_lazy(core, index)).collect(),
+            total: total_functions(program, core),
+            shelves: core.memo.shelves().to_vec(),
+        }
+    }
+}
+
+/// The knowledge of one compilation.
+#[derive(Debug)]
+pub(super) struct Plan {
+    /// The procedure that is compiled.
+    main: ProcedureId,
+    pub helpers: Helpers,
+    pub constants: Arc<Items>,
+    pub facts: Facts,
     /// By function: its definition depends on no state.
     fixed: Vec<bool>,
     /// How often each unit is called in the program's text.
@@ -88,7 +91,13 @@ pub(super) struct Plan {
     definition_calls: Vec<u32>,
     pub units: Vec<(UnitKey, FuncId)>,
     pub queue: Vec<(UnitKey, FuncId)>,
-    pub tables: Tables,
+    /// Frames opened for the interpreter: their size and the slots that are handed over.
+    pub spills: Vec<(u32, Vec<u32>)>,
+    pub tables: Vec<Fixed>,
+    /// Arrays that the code refers to.
+    pub pinned: Vec<Arc<Items>>,
+    /// By rule, 1 where it has run; empty where that is not noted.
+    pub ran: Box<[AtomicU8]>,
 }
 
 impl Plan {
@@ -116,30 +125,27 @@ impl Plan {
             main,
             helpers,
             constants: Arc::clone(&constants),
-            layouts: core.store.layouts.clone(),
-            codomains: core.codomains.clone(),
-            contents: core.contents.clone(),
-            plain: core.plain.clone(),
-            lazy: program.functions.iter().enumerate().map(|(index, _)| is_lazy(core, index)).collect(),
-            total: total_functions(program, core),
-            shelves: core.memo.shelves().to_vec(),
+            facts: Facts::of(program, core),
             fixed: memo::fixed_functions(program),
             procedure_calls,
             definition_calls,
             units: Vec::new(),
             queue: Vec::new(),
-            tables: Tables { pinned: vec![constants], ..Tables::default() },
+            spills: Vec::new(),
+            tables: Vec::new(),
+            pinned: vec![constants],
+            ran: Box::default(),
         }
     }
 
     /// From now on the code that is made notes which rules run.
     pub fn note_rules(&mut self, program: &Program) {
-        self.tables.ran = program.rules.iter().map(|_| AtomicU8::new(0)).collect();
+        self.ran = program.rules.iter().map(|_| AtomicU8::new(0)).collect();
     }
 
     /// Where it is noted that a rule has run, if that is noted.
     pub fn mark_of(&self, rule: RuleId) -> Option<*const AtomicU8> {
-        self.tables.ran.get(rule.0 as usize).map(std::ptr::from_ref)
+        self.ran.get(rule.0 as usize).map(std::ptr::from_ref)
     }
 
     /// The address of undef.
@@ -149,22 +155,22 @@ impl Plan {
 
     /// Keeps an array alive as long as the code.
     pub fn pin(&mut self, values: Arc<Items>) {
-        self.tables.pinned.push(values);
+        self.pinned.push(values);
     }
 
     /// The number of a list of slots.
     pub fn spill(&mut self, frame: u32, slots: Vec<u32>) -> usize {
         let entry = (frame, slots);
-        if let Some(known) = self.tables.spills.iter().position(|spill| *spill == entry) {
+        if let Some(known) = self.spills.iter().position(|spill| *spill == entry) {
             return known;
         }
-        self.tables.spills.push(entry);
-        self.tables.spills.len() - 1
+        self.spills.push(entry);
+        self.spills.len() - 1
     }
 
     /// The bounds of a domain whose elements are consecutive numbers in every state.
     pub fn numbers(&self, domain: DomainId) -> Option<(i64, i64)> {
-        self.contents[domain.0 as usize].as_ref().and_then(|values| consecutive(values))
+        self.facts.contents[domain.0 as usize].as_ref().and_then(|values| consecutive(values))
     }
 
     /// The numbers that a scalar may have, as far as they are bounded.
@@ -202,14 +208,14 @@ impl Plan {
             let element = Value::Element(base, number as u32);
             program.agents.iter().any(|entry| {
                 entry.domain == base
-                    || self.contents[entry.domain.0 as usize].as_ref().is_some_and(|all| all.contains(&element))
+                    || self.facts.contents[entry.domain.0 as usize].as_ref().is_some_and(|all| all.contains(&element))
             })
         })
     }
 
     /// Where `self` is kept.
     pub fn self_location(&self, program: &Program) -> Option<u32> {
-        match self.layouts[program.self_function?.0 as usize] {
+        match self.facts.layouts[program.self_function?.0 as usize] {
             Layout::Single(index) => Some(index),
             _ => None,
         }
@@ -234,16 +240,13 @@ impl Plan {
         is_worth(program, term) && memo::is_fixed_term(program, term, &self.fixed)
     }
 
-    /// A table for a fixed term.
-    pub fn table(&mut self, term: TermId, spill: usize, entries: i64) -> Option<(usize, *const u8, *const Value)> {
+    /// The number of a table for a fixed term.
+    pub fn table(&mut self, term: TermId, spill: usize, entries: i64) -> Option<usize> {
         if !(1..=TABLE).contains(&entries) {
             return None;
         }
-        let entries = entries as usize;
-        let fixed = Fixed { term, spill: spill as u64, states: vec![0; entries], values: vec![Value::Undef; entries] };
-        let (states, values) = (fixed.states.as_ptr(), fixed.values.as_ptr());
-        self.tables.fixed.push(fixed);
-        Some((self.tables.fixed.len() - 1, states, values))
+        self.tables.push(Fixed { term, spill: spill as u64, entries: entries as usize });
+        Some(self.tables.len() - 1)
     }
 
     /// The variables that occur in a term, sorted.

@@ -5,7 +5,7 @@
 //! a helper does to the machine, rolling back the update set undoes, or doing it again does nothing.
 //!
 //! Compiled code promises every helper three things, which the SAFETY comments call by name:
-//! - *context*: it passes the context of the step that runs. Executor and tables live as long as that step, and nothing
+//! - *context*: it passes the context of the step that runs. Executor and memory live as long as that step, and nothing
 //!   else uses them during the call: compiled code holds pointers only, and reads those that may move anew after it.
 //! - *values*: a pointer to a value leads to one that is initialised and that nothing drops before the statement ends: a
 //!   constant, a location's, one kept for the statement, two words on the code's stack. A list has as many as it says.
@@ -21,8 +21,10 @@ use syntax::{FileId, Span};
 use crate::environment::Choice;
 use crate::evaluate::collection;
 use crate::execute::{Executor, Outcome};
-use crate::native::Tables;
+use crate::native::comprehension::kind_of;
 use crate::native::context::Context;
+use crate::native::memory::Collected;
+use crate::update::Order;
 use crate::value::Value;
 use crate::work::INTERVAL;
 
@@ -216,7 +218,7 @@ unsafe fn in_spilled_frame<T>(
 ) -> Option<T> {
     // SAFETY: as the caller promises.
     unsafe {
-        let (frame, slots) = &Context::tables(context).spills[spill as usize];
+        let (frame, slots) = &Context::memory(context).code.spills[spill as usize];
         let values = borrow(values, slots.len() as u64);
         let slots: &[u32] = slots;
         let frame = *frame;
@@ -253,6 +255,35 @@ pub unsafe extern "C" fn perform(context: Pointer, rule: i64, spill: u64, values
     unsafe {
         let done = in_spilled_frame(context, spill, values, |executor| executor.perform(RuleId(rule as u32)));
         if done.is_some() { 0 } else { BAIL }
+    }
+}
+
+/// Begins to collect the elements of a comprehension.
+pub unsafe extern "C" fn collect(context: Pointer) {
+    // SAFETY: *context*; the memory is no part of the executor.
+    unsafe { Context::memory(context).collections.push(Collected::default()) };
+}
+
+/// Adds an element to the comprehension that was begun last.
+pub unsafe extern "C" fn add(context: Pointer, element: *const Value) -> i64 {
+    // SAFETY: *context* and *values*; neither store nor update set is touched.
+    unsafe {
+        let Some(collected) = Context::memory(context).collections.last_mut() else { return BAIL };
+        let element = (*element).clone();
+        // Sorting compares what is shared again and again: its size is held against the limit before.
+        collected.leaves = collected.leaves.saturating_add(element.weight().leaves);
+        collected.elements.push(element);
+        status(Context::executor(context).check_size(collected.leaves, NOWHERE))
+    }
+}
+
+/// The collection of a comprehension whose elements were all added.
+pub unsafe extern "C" fn collected(context: Pointer, kind: i64) -> *const Value {
+    // SAFETY: *context*; the memory is no part of the executor, so both may be changed at once.
+    unsafe {
+        let Some(collected) = Context::memory(context).collections.pop() else { return std::ptr::null() };
+        let value = collection(kind_of(kind), collected.elements);
+        Context::with(context, |executor, context| kept(context, executor.made(value, NOWHERE)))
     }
 }
 
@@ -293,26 +324,27 @@ pub unsafe extern "C" fn range(context: Pointer, collection: *const Value, out: 
 
 /// Begins a `seq`.
 pub unsafe extern "C" fn begin_sequence(context: Pointer) {
-    // SAFETY: *context*; the tables are no part of the executor, so both may be changed at once.
+    // SAFETY: *context*; the memory is no part of the executor, so both may be changed at once.
     unsafe {
-        let tables = Context::tables(context);
+        let memory = Context::memory(context);
         Context::with(context, |executor, _| {
             let version = executor.core.memo.version();
-            tables.sequences.push((executor.core.updates.begin_sequence(), version));
+            memory.sequences.push((executor.core.updates.begin_sequence(), version));
         });
     }
 }
 
 /// Ends a `seq`, joining its net effect to the unit around it.
 pub unsafe extern "C" fn end_sequence(context: Pointer) -> i64 {
-    // SAFETY: *context*; the tables are no part of the executor, so both may be changed at once.
+    // SAFETY: *context*; the memory is no part of the executor, so both may be changed at once.
     unsafe {
-        let tables = Context::tables(context);
+        let memory = Context::memory(context);
         Context::with(context, |executor, _| {
-            let Some((sequence, version)) = tables.sequences.pop() else { return BAIL };
+            let Some((sequence, version)) = memory.sequences.pop() else { return BAIL };
             let core = &mut *executor.core;
             core.memo.back_to(version);
-            let ended = core.updates.end_sequence(sequence, &mut core.store, &|_, _| false);
+            // Which of several clashes is told, the interpreter decides.
+            let ended = core.updates.end_sequence(sequence, &mut core.store, &|_, _| false, Order::Any);
             i64::from(ended.is_err())
         })
     }
@@ -320,20 +352,20 @@ pub unsafe extern "C" fn end_sequence(context: Pointer) -> i64 {
 
 /// Opens a unit.
 pub unsafe extern "C" fn open(context: Pointer) {
-    // SAFETY: *context*; the tables are no part of the executor, so both may be changed at once.
+    // SAFETY: *context*; the memory is no part of the executor, so both may be changed at once.
     unsafe {
-        let tables = Context::tables(context);
-        Context::with(context, |executor, _| tables.units.push(executor.core.updates.open()));
+        let memory = Context::memory(context);
+        Context::with(context, |executor, _| memory.units.push(executor.core.updates.open()));
     }
 }
 
 /// Ends a part of a `seq`; tells whether it made updates.
 pub unsafe extern "C" fn apply_unit(context: Pointer) -> i64 {
-    // SAFETY: *context*; the tables are no part of the executor, so both may be changed at once.
+    // SAFETY: *context*; the memory is no part of the executor, so both may be changed at once.
     unsafe {
-        let tables = Context::tables(context);
+        let memory = Context::memory(context);
         Context::with(context, |executor, _| {
-            let Some(unit) = tables.units.pop() else { return 0 };
+            let Some(unit) = memory.units.pop() else { return 0 };
             let core = &mut *executor.core;
             let any = !core.updates.is_empty(unit);
             core.updates.apply(unit, &mut core.store);
@@ -347,10 +379,10 @@ pub unsafe extern "C" fn apply_unit(context: Pointer) -> i64 {
 
 /// Ends a turbo call's unit.
 pub unsafe extern "C" fn join(context: Pointer) -> i64 {
-    // SAFETY: *context*; the tables are no part of the executor, so both may be changed at once.
+    // SAFETY: *context*; the memory is no part of the executor, so both may be changed at once.
     unsafe {
-        let tables = Context::tables(context);
-        Context::with(context, |executor, _| match tables.units.pop() {
+        let memory = Context::memory(context);
+        Context::with(context, |executor, _| match memory.units.pop() {
             Some(unit) => i64::from(executor.core.updates.join(unit, None).is_err()),
             None => BAIL,
         })
@@ -418,10 +450,10 @@ pub unsafe extern "C" fn choose_of(
 
 /// Makes room for more candidates.
 pub unsafe extern "C" fn more_candidates(context: Pointer) -> i64 {
-    // SAFETY: *context*; the tables are no part of the context, so both may be changed at once.
+    // SAFETY: *context*; the memory is no part of the context, so both may be changed at once.
     unsafe {
-        let tables = Context::tables(context);
-        if (*context).more_candidates(&mut tables.memory) { 0 } else { BAIL }
+        let memory = Context::memory(context);
+        if (*context).more_candidates(memory) { 0 } else { BAIL }
     }
 }
 
@@ -442,19 +474,13 @@ pub unsafe extern "C" fn agent_program(context: Pointer, agent: *const Value) ->
 
 /// Evaluates an entry of a table of fixed terms.
 pub unsafe extern "C" fn fill(context: Pointer, table: u64, entry: i64, values: *const *const Value) -> i64 {
-    // SAFETY: *context*, *numbers* and *values*, of which the code spills as many as the table lists. The interpreter
-    // does not know the tables, so the entry is still there.
+    // SAFETY: *context*, *numbers* and *values*, of which the code spills as many as the table lists.
     unsafe {
-        let (term, spill) = {
-            let table = &Context::tables(context).fixed[table as usize];
-            (table.term, table.spill)
-        };
-        let value = in_spilled_frame(context, spill, values, |executor| executor.evaluate(term));
-        let table: &mut super::Fixed = &mut Context::tables(context).fixed[table as usize];
-        match value {
+        let code = std::sync::Arc::clone(&Context::memory(context).code);
+        let fixed = &code.tables[table as usize];
+        match in_spilled_frame(context, fixed.spill, values, |executor| executor.evaluate(fixed.term)) {
             Some(value) => {
-                table.values[entry as usize] = value;
-                table.states[entry as usize] = 1;
+                Context::memory(context).fill(table as usize, entry as usize, value);
                 0
             }
             None => BAIL,
@@ -480,13 +506,5 @@ pub unsafe extern "C" fn look(context: Pointer) -> i64 {
             executor.works(u64::try_from(spent).unwrap_or(0));
             status(executor.look(NOWHERE))
         })
-    }
-}
-
-impl Tables {
-    /// Forgets what an abandoned step left.
-    pub fn clear(&mut self) {
-        self.units.clear();
-        self.sequences.clear();
     }
 }

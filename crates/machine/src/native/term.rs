@@ -3,7 +3,7 @@
 use cranelift_codegen::ir::condcodes::IntCC;
 use cranelift_codegen::ir::{self, Block, InstBuilder, types};
 use cranelift_frontend::Variable;
-use program::{Builtin, CollectionKind, FunctionId, Quantifier, Term, TermId, TermList};
+use program::{Builtin, FunctionId, Quantifier, Term, TermId, TermList};
 
 use crate::native::context::Offset;
 use crate::native::helper;
@@ -96,7 +96,10 @@ impl Translator<'_, '_> {
                 }
                 self.interpreted(id)
             }
-            Term::Domain(_) | Term::Range { .. } | Term::Comprehension { .. } => self.interpreted(id),
+            Term::Comprehension { kind, binders, condition, body } => {
+                self.comprehension(*kind, *binders, *condition, *body)
+            }
+            Term::Domain(_) | Term::Range { .. } => self.interpreted(id),
         }
     }
 
@@ -423,57 +426,5 @@ impl Translator<'_, '_> {
         let wanted = if quantifier == Quantifier::Forall { 0 } else { 1 };
         let value = self.builder.ins().icmp_imm(IntCC::Equal, count, wanted);
         Operand::Scalar(Scalar::defined(Kind::Boolean, value))
-    }
-
-    /// The size of a set given by a comprehension, where no two bindings give the same element: counted.
-    pub fn count(&mut self, id: TermId) -> Option<Operand> {
-        let program = self.program;
-        let Term::Comprehension { kind, binders, condition, body } = program.term(id) else { return None };
-        let binders = program.binder_list(*binders);
-        let distinct = match program.term(*body) {
-            Term::Slot(slot) => binders.len() == 1 && binders[0].slot == *slot,
-            Term::Tuple(parts) => {
-                let parts = program.term_list(*parts);
-                binders.iter().all(|binder| {
-                    parts.iter().any(|part| matches!(program.term(*part), Term::Slot(slot) if *slot == binder.slot))
-                })
-            }
-            _ => false,
-        };
-        let elements = |binder: &program::Binder| match program.term(binder.range) {
-            Term::Domain(_) => true,
-            range => matches!(range, Term::Collection { kind: CollectionKind::Set, .. }),
-        };
-        let counts = *kind == CollectionKind::Seq || (distinct && binders.iter().all(elements));
-        // Evaluating the element must be needless: variables alone.
-        let bare = match program.term(*body) {
-            Term::Slot(_) => true,
-            Term::Tuple(parts) => {
-                program.term_list(*parts).iter().all(|part| matches!(program.term(*part), Term::Slot(_)))
-            }
-            _ => false,
-        };
-        if !counts || !bare {
-            return None;
-        }
-        let count = self.variable(types::I64);
-        let zero = self.word(0);
-        self.set(count, zero);
-        let condition = *condition;
-        self.each_binding(binders, &mut |this| {
-            let (fits, next) = (this.block(), this.block());
-            match condition {
-                Some(condition) => this.guard(condition, fits, next),
-                None => this.jump(fits),
-            }
-            this.switch(fits);
-            let before = this.get(count);
-            let after = this.builder.ins().iadd_imm(before, 1);
-            this.set(count, after);
-            this.jump(next);
-            this.switch(next);
-        });
-        let value = self.get(count);
-        Some(Operand::Scalar(Scalar::defined(Kind::Integer, value).within(0, i64::from(u32::MAX))))
     }
 }

@@ -180,7 +180,7 @@ impl Translator<'_, '_> {
         let kind = self.kind_of(id);
         let body = self.program.function(function).definition.as_ref().map(|d| self.program.term_domain(d.body));
         let returned = body.and_then(|domain| self.kind(domain));
-        let shelf = self.plan.shelves[function.0 as usize].clone();
+        let shelf = self.plan.facts.shelves[function.0 as usize].clone();
         let place = shelf.and_then(|shelf| {
             let (offset, inside) = match shelf.dimensions.len() {
                 0 => (self.word(0), None),
@@ -289,7 +289,7 @@ impl Translator<'_, '_> {
         // Refused here, the table has left no code behind.
         let frame = self.frame().size;
         let spill = self.plan.spill(frame, slots.clone());
-        let (table, states, values) = self.plan.table(id, spill, entries)?;
+        let table = self.plan.table(id, spill, entries)?;
         for (scalar, low, size) in columns {
             let mut column = scalar.value;
             if scalar.kind == Kind::Boolean {
@@ -310,7 +310,8 @@ impl Translator<'_, '_> {
             Some(index) => index,
             None => self.word(0),
         };
-        let states = self.address(states);
+        let tables = self.field(Offset::tables);
+        let states = self.load(types::I64, tables, 16 * table as i32);
         let state = self.builder.ins().iadd(states, index);
         let state = self.load(types::I8, state, 0);
         let (fill, ready) = (self.block(), self.block());
@@ -319,11 +320,11 @@ impl Translator<'_, '_> {
         self.switch(fill);
         let operands: Vec<Operand> = slots.iter().map(|slot| self.slot(Slot(*slot)).into()).collect();
         let pointers = self.pointers(&operands);
-        let table = self.word(table as i64);
-        self.call_or_bail(helper::FILL, [self.context, table, index, pointers]);
+        let number = self.word(table as i64);
+        self.call_or_bail(helper::FILL, [self.context, number, index, pointers]);
         self.jump(ready);
         self.switch(ready);
-        let values = self.address(values);
+        let values = self.load(types::I64, tables, 16 * table as i32 + 8);
         let pointer = self.element(values, index, 4);
         Some(match self.kind_of(id) {
             Some(kind) => {
