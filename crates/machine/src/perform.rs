@@ -21,7 +21,7 @@ use crate::location::Location;
 use crate::observe::Observation;
 use crate::print::Show;
 use crate::store::Store;
-use crate::update::{Clash, Order};
+use crate::update::Clash;
 use crate::value::Value;
 
 impl<'a> Executor<'a> {
@@ -313,7 +313,7 @@ impl<'a> Executor<'a> {
         core.memo.back_to(version);
         let is_local =
             |store: &Store, index: LocationIndex| !locals.is_empty() && locals.contains(&store.function_of(index));
-        let ended = core.updates.end_sequence(sequence, &mut core.store, &is_local, Order::LatestFirst);
+        let ended = core.updates.end_sequence(sequence, &mut core.store, &is_local);
         self.consistent(ended)
     }
 

@@ -70,14 +70,6 @@ pub(crate) struct Sequence {
     created: usize,
 }
 
-/// The order in which the net effect of a `seq` joins the unit around it. It decides only which of several clashes is found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Order {
-    /// What was written last comes first.
-    LatestFirst,
-    Any,
-}
-
 /// Two updates of one location with different values.
 #[derive(Debug)]
 pub(crate) struct Clash {
@@ -277,14 +269,13 @@ impl Updates {
         }
     }
 
-    /// Ends a `seq`: takes the intermediate state back and adds the net effect to the current unit in this order, leaving
-    /// out updates of locations for which `local` holds.
+    /// Ends a `seq`: takes the intermediate state back and adds the net effect to the current unit, leaving out
+    /// updates of locations for which `local` holds.
     pub fn end_sequence(
         &mut self,
         sequence: Sequence,
         store: &mut Store,
         local: &dyn Fn(&Store, LocationIndex) -> bool,
-        order: Order,
     ) -> Result<(), Box<Clash>> {
         let mut merge = std::mem::take(&mut self.merge);
         merge.clear();
@@ -296,7 +287,8 @@ impl Updates {
         }
         self.sequence = sequence.enclosing;
         self.forget_intermediate(sequence.created, store);
-        if order == Order::LatestFirst && !merge.is_sorted_by(|one, other| one.time > other.time) {
+        // What was written last comes first.
+        if !merge.is_sorted_by(|one, other| one.time > other.time) {
             merge.sort_unstable_by_key(|entry| std::cmp::Reverse(entry.time));
         }
         let mut outcome = Ok(());
@@ -310,6 +302,23 @@ impl Updates {
             }
         }
         self.merge = merge;
+        outcome
+    }
+
+    /// The same of all locations, in one pass over the log. The order of the updates, and so which of several clashes is found, is
+    /// not that of [`Updates::end_sequence`].
+    pub fn end_sequence_at_once(&mut self, sequence: Sequence, store: &mut Store) -> Result<(), Box<Clash>> {
+        let mut outcome = Ok(());
+        while self.log.len() > sequence.log {
+            let entry = self.log.pop().expect("longer than the sequence's start");
+            let after = std::mem::replace(&mut store.values[entry.location as usize], entry.before);
+            self.logged[entry.location as usize] = entry.previous;
+            if outcome.is_ok() {
+                outcome = self.push(entry.location, after, entry.rule);
+            }
+        }
+        self.sequence = sequence.enclosing;
+        self.forget_intermediate(sequence.created, store);
         outcome
     }
 

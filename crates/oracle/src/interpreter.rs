@@ -19,8 +19,8 @@ pub struct Assignment {
     values: BTreeMap<VariableId, Value>,
     /// The agent whose program is run.
     pub agent: Option<Value>,
-    /// The location that replaces `result`, or why there is none.
-    pub result: Option<Result<Location, Fault>>,
+    /// The location that replaces `result`.
+    pub result: Option<Location>,
 }
 
 impl Assignment {
@@ -47,7 +47,7 @@ impl Assignment {
     }
 
     /// The same with this in the place of `result`.
-    pub fn returning(self, result: Option<Result<Location, Fault>>) -> Assignment {
+    pub fn returning(self, result: Option<Location>) -> Assignment {
         Assignment { result, ..self }
     }
 }

@@ -157,7 +157,7 @@ impl Interpreter<'_> {
     fn location(&mut self, target: &Target, state: &State, zeta: &Assignment) -> Result<Location, Fault> {
         match target {
             Target::Location { function, .. } if self.is_result(*function) && zeta.result.is_some() => {
-                zeta.result.clone().expect("there is one")
+                Ok(zeta.result.clone().expect("there is one"))
             }
             Target::Location { function, arguments, .. } => {
                 Ok(Location::function(*function, self.values(arguments, state, zeta)?))
@@ -299,17 +299,25 @@ impl Interpreter<'_> {
             Target::Location { function, .. } => self.model.function(*function).kind,
             Target::Parameter(..) => FunctionKind::Controlled,
         };
-        // A monitored l is the environment's to write.
-        let location = (kind != FunctionKind::Monitored).then(|| self.location(target, state, zeta));
-        // The called rule knows no local function but its own, even if that is the same one.
-        let stands = location.clone().filter(|_| kind != FunctionKind::Local);
-        let inner = zeta.parameters(&self.model.rule(call.rule).parameters, values).returning(stands);
+        // A monitored l is the environment's to write. The called rule knows no local function but its own, even if that is the
+        // same one.
+        let stands = match kind {
+            FunctionKind::Monitored | FunctionKind::Local => None,
+            _ => Some(self.location(target, state, zeta)?),
+        };
+        let inner = zeta.parameters(&self.model.rule(call.rule).parameters, values).returning(stands.clone());
         let updates = self.turbo(call.rule, state, &inner)?;
         let result = self.model.functions().find(|(_, function)| function.library && function.name == "result");
         let Some((result, _)) = result else { return Ok(updates) };
         let Some(value) = updates.value(&Location::function(result, Vec::new())).cloned() else { return Ok(updates) };
         let updates = updates.without(result);
-        let Some(location) = location else { return Ok(updates) };
+        if kind == FunctionKind::Monitored {
+            return Ok(updates);
+        }
+        let location = match stands {
+            Some(location) => Ok(location),
+            None => self.location(target, state, zeta),
+        };
         let update = location.map_err(Stop::from).and_then(|location| self.update(location, value, state));
         join(updates, update)
     }

@@ -134,7 +134,7 @@ impl Interpreter<'_> {
             && function.name == "result"
             && let Some(location) = &zeta.result
         {
-            return self.read(location.clone()?, state);
+            return self.read(location.clone(), state);
         }
         if matches!(function.kind, FunctionKind::Static | FunctionKind::Derived) {
             return match function.library {

@@ -54,6 +54,10 @@ fn difference(expected: &str, printed: &str) -> Result<(), String> {
         let late = late(machine);
         let end = |line: &&&str| !line.starts_with(". ") && **line != ".";
         let missing = machine.iter().filter(end).find(|line| !code.contains(line));
+        // The code counts rounds of loops alone: it may go on where the machine gives a step up, and then ask for more than it asked.
+        if missing == Some(&"fault limit-reached") && code.contains(&"fault no-input") {
+            continue;
+        }
         let surplus = code.iter().filter(end).find(|line| !machine.contains(line) && !is_late(line, &late));
         if missing.is_some() || surplus.is_some() || machine.len().min(1) != code.len().min(1) {
             return Err(format!(

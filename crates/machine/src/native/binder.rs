@@ -122,7 +122,7 @@ impl Translator<'_, '_> {
             DomainKind::Basic(model::Basic::Boolean) => Some((Kind::Boolean, 0, 1)),
             DomainKind::Enum { literals } => Some((Kind::Enum(*domain), 0, literals.len() as i64 - 1)),
             _ => {
-                let (low, high) = self.plan.numbers(*domain)?;
+                let (low, high) = self.plan.numbers(self.program, *domain)?;
                 Some((self.kind(*domain)?, low, high))
             }
         }

@@ -324,7 +324,7 @@ impl Translator<'_, '_> {
                 Some((*low, *high))
             }
             (Membership::Domain(domain), Operand::Scalar(Scalar { kind: Kind::Element(_), .. })) => {
-                self.plan.numbers(*domain)
+                self.plan.numbers(self.program, *domain)
             }
             _ => None,
         };

@@ -86,6 +86,8 @@ pub(super) struct Plan {
     pub facts: Facts,
     /// By function: its definition depends on no state.
     fixed: Vec<bool>,
+    /// By domain: some rule may make elements of it.
+    growing: Vec<bool>,
     /// How often each unit is called in the program's text.
     procedure_calls: Vec<u32>,
     definition_calls: Vec<u32>,
@@ -127,6 +129,7 @@ impl Plan {
             constants: Arc::clone(&constants),
             facts: Facts::of(program, core),
             fixed: memo::fixed_functions(program),
+            growing: program.growing_domains(),
             procedure_calls,
             definition_calls,
             units: Vec::new(),
@@ -169,8 +172,13 @@ impl Plan {
     }
 
     /// The bounds of a domain whose elements are consecutive numbers in every state.
-    pub fn numbers(&self, domain: DomainId) -> Option<(i64, i64)> {
-        self.facts.contents[domain.0 as usize].as_ref().and_then(|values| consecutive(values))
+    pub fn numbers(&self, program: &Program, domain: DomainId) -> Option<(i64, i64)> {
+        match &program.domain(domain).kind {
+            DomainKind::Abstract { elements, .. } if !self.growing[domain.0 as usize] => {
+                Some((0, elements.len() as i64 - 1))
+            }
+            _ => self.facts.contents[domain.0 as usize].as_ref().and_then(|values| consecutive(values)),
+        }
     }
 
     /// The numbers that a scalar may have, as far as they are bounded.
@@ -179,7 +187,7 @@ impl Plan {
             Kind::Boolean => Some((0, 1)),
             Kind::Enum(domain) | Kind::Element(domain) => match &program.domain(domain).kind {
                 DomainKind::Enum { literals } => Some((0, literals.len() as i64 - 1)),
-                DomainKind::Abstract { elements, dynamic: false } => Some((0, elements.len() as i64 - 1)),
+                DomainKind::Abstract { .. } => self.numbers(program, domain),
                 _ => None,
             },
             _ => None,

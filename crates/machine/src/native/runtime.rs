@@ -24,7 +24,6 @@ use crate::execute::{Executor, Outcome};
 use crate::native::comprehension::kind_of;
 use crate::native::context::Context;
 use crate::native::memory::Collected;
-use crate::update::Order;
 use crate::value::Value;
 use crate::work::INTERVAL;
 
@@ -344,7 +343,7 @@ pub unsafe extern "C" fn end_sequence(context: Pointer) -> i64 {
             let core = &mut *executor.core;
             core.memo.back_to(version);
             // Which of several clashes is told, the interpreter decides.
-            let ended = core.updates.end_sequence(sequence, &mut core.store, &|_, _| false, Order::Any);
+            let ended = core.updates.end_sequence_at_once(sequence, &mut core.store);
             i64::from(ended.is_err())
         })
     }

@@ -59,13 +59,16 @@ impl<'m> Lowering<'m, '_> {
         Some((function, self.term_list(&terms)))
     }
 
-    /// Whether the body of a rule must be given a location of this function.
-    pub(super) fn needs_place(&mut self, rule: RuleId, function: FunctionId) -> bool {
+    /// Whether the body of a rule must be given a location of this function with these arguments.
+    pub(super) fn needs_place(&mut self, rule: RuleId, function: FunctionId, arguments: TermList) -> bool {
         let declared = self.model.function(function);
         // What the environment holds is not written; and the called rule knows no local function but its own, even if that is
         // the same one.
         if matches!(declared.kind, FunctionKind::Monitored | FunctionKind::Local) {
             return false;
+        }
+        if self.program.term_list(arguments).iter().any(|term| self.shows_evaluation(*term)) {
+            return true;
         }
         let restricted = matches!(
             self.model.domains.kind(declared.codomain),
@@ -74,6 +77,19 @@ impl<'m> Lowering<'m, '_> {
         let reach = self.reach(rule);
         let told_apart = restricted || reach.runs_values || reach.functions.contains(&function);
         reach.reads_result || reach.writes_result && reach.has_sequence && told_apart
+    }
+
+    /// Whether it may show if a term is evaluated: it may be at fault, or ask for an input. At the end of a call the arguments
+    /// of its location are evaluated only if the rule has set a result.
+    fn shows_evaluation(&self, term: ir::TermId) -> bool {
+        match self.program.term(term) {
+            ir::Term::Constant(_) | ir::Term::Slot(_) => false,
+            ir::Term::Read { function, arguments } => {
+                matches!(self.program.function(*function).kind, FunctionKind::Monitored | FunctionKind::Shared)
+                    || self.program.term_list(*arguments).iter().any(|argument| self.shows_evaluation(*argument))
+            }
+            _ => true,
+        }
     }
 
     /// Whether a rule writes or reads `result`.

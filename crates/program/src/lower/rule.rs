@@ -37,7 +37,7 @@ impl<'m> Lowering<'m, '_> {
             RuleKind::MacroCall(call) | RuleKind::TurboCall(call) => self.lower_call_rule(call, span),
             RuleKind::Return { target, call } => match self.lower_target(target) {
                 Some((function, target)) => {
-                    let needed = self.needs_place(call.rule, function);
+                    let needed = self.needs_place(call.rule, function, target);
                     let stands = if needed { InPlace::Location(function, target) } else { InPlace::Nothing };
                     let (procedure, arguments) = self.lower_call(call.rule, &call.arguments, stands, span);
                     ir::Rule::Return { function, target, procedure, arguments }
