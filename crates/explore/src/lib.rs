@@ -1,8 +1,8 @@
 //! All futures of a state: every choice taken, every input given, states short enough to be kept by the million.
 //!
 //! An [`Explorer`] holds a machine and makes its steps again and again, each time with the next alternative at the last
-//! place where there is one ([`alternatives`]). States are packed into words ([`packed`]); what a step came to is remembered
-//! by what it looked at, so that most steps need no machine at all ([`memory`]). INVARIANT: the meaning of a step is that of
+//! place where there is one (`alternatives`). States are packed into words (`packed`); what a step came to is remembered
+//! by what it looked at, so that most steps need no machine at all (`memory`). INVARIANT: the meaning of a step is that of
 //! [`machine`]; what comes out does not depend on what was remembered.
 
 mod alternatives;

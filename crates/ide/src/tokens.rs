@@ -1,6 +1,6 @@
 //! What each token of a file is, for an editor's colours.
 //!
-//! In: an [`Analysis`](crate::Analysis). Out: tokens with their kinds, in order. What a name means decides, not its shape alone;
+//! In: an [`Analysis`]. Out: tokens with their kinds, in order. What a name means decides, not its shape alone;
 //! a name that means nothing is coloured by its shape.
 
 use groundstate::workspace::Files;
