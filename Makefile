@@ -57,6 +57,7 @@ lint: $(TESTED)
 	@clippy-driver --version
 	$(CARGO) fmt --all --check
 	$(TESTED) fmt --check library examples bench/models cpp/systems
+	$(LINTED) python3 xtask/docs.py
 
 unit: $(TESTED)
 	sh cpp/install.sh z3 cvc5 clang

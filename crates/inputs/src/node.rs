@@ -1,7 +1,7 @@
 //! A YAML document as a tree whose every node knows its place.
 //!
 //! In: a text, and the id of its faults. Out: a [`Node`], or the first fault. Scalars are taken as they are written.
-//! LIMIT: nesting deeper than [`DEPTH`] is refused, and so are aliases.
+//! LIMIT: nesting deeper than `DEPTH` is refused, and so are aliases.
 
 use saphyr_parser::{Event, Parser, ScalarStyle, ScanError, Span as Mark, StrInput};
 use syntax::{Diagnostic, FileId, Span};

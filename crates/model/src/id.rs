@@ -1,6 +1,6 @@
 //! Names of entries in the tables of a model: an index that only its own table gives a meaning.
 
-/// Names a domain of a [`Domains`] table.
+/// Names a domain of a [`Domains`](crate::Domains) table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct DomainId(pub u32);
 

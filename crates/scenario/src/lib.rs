@@ -1,7 +1,7 @@
 //! Scenarios in Avalla: parsed, resolved against a model, run, judged, and what they covered.
 //!
-//! In: the text of a scenario ([`parse`]), the model it loads, lowered ([`resolve`]). Out: a [`Verdict`] and [`Counts`]
-//! of what ran ([`run`]). The meaning of commands is spec/avalla.md: inputs persist until set again; a `check` sees the
+//! In: the text of a scenario ([`parse`]), the model it loads, lowered ([`resolve()`]). Out: a [`Verdict`] and [`Counts`]
+//! of what ran ([`run()`]). The meaning of commands is spec/avalla.md: inputs persist until set again; a `check` sees the
 //! inputs of the next step; after a failed check the rest of its group is checked, and then the run stops. It must not
 //! know files, random sources or wire formats.
 

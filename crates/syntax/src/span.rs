@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-/// Names one file within a [`Sources`].
+/// Names one file within a [`Sources`](crate::Sources).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct FileId(pub u32);
 

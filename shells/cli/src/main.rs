@@ -1,6 +1,6 @@
 //! The `groundstate` command: arguments in, exit code out.
 //!
-//! Each command has one file, takes its arguments and a [`Shell`](shell::Shell), and returns an [`Exit`](exit::Exit).
+//! Each command has one file, takes its arguments and a [`Shell`], and returns an [`Exit`].
 //! This crate does all I/O; files, terminal, clock and signals are touched nowhere below it. The work runs on a thread
 //! with a large stack, as a second safeguard beside the limits of the crates below.
 

@@ -1,7 +1,7 @@
 //! The types of the IR.
 //!
 //! Terms and rules stand in arenas and name each other by index; lists of children are ranges of one shared
-//! array. INVARIANT (checked by [`crate::verify`]): every index lies in its table, a child's index is below its
+//! array. INVARIANT (checked by [`crate::verify()`]): every index lies in its table, a child's index is below its
 //! parent's, a slot lies below the frame size of its procedure and is bound at one place of it only, argument
 //! counts match, terms and rules nest no deeper than [`MAX_DEPTH`].
 //!

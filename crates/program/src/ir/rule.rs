@@ -6,7 +6,7 @@ use model::{DomainId, FunctionId};
 
 use crate::ir::{BinderList, ProcedureId, RuleId, RuleList, Slot, TermId, TermList};
 
-/// A rule of the IR. Its span stands in [`Program::rule_spans`].
+/// A rule of the IR. Its span stands in [`Program::rule_spans`](crate::Program::rule_spans).
 #[derive(Debug, Clone, PartialEq)]
 pub enum Rule {
     /// Nothing.
@@ -137,7 +137,7 @@ pub enum Rule {
     /// Local functions: reset, the initialisations in sequence, then the body; as one unit, after which the
     /// updates of the locals are dropped and their former values restored.
     Local {
-        /// The functions, a range of [`Program::function_lists`].
+        /// The functions, a range of [`Program::function_lists`](crate::Program::function_lists).
         start: u32,
         /// How many.
         len: u32,

@@ -7,10 +7,10 @@ use model::{CollectionKind, DomainId, FunctionId, Quantifier};
 use crate::builtin::Builtin;
 use crate::ir::{BinderList, ProcedureId, Slot, TermId, TermList};
 
-/// A term of the IR. Its domain and span stand in [`Program::term_domains`] and [`Program::term_spans`].
+/// A term of the IR. Its domain and span stand in [`Program::term_domains`](crate::Program::term_domains) and [`Program::term_spans`](crate::Program::term_spans).
 #[derive(Debug, Clone, PartialEq)]
 pub enum Term {
-    /// A constant of the pool [`Program::constants`].
+    /// A constant of the pool [`Program::constants`](crate::Program::constants).
     Constant(u32),
     /// A variable.
     Slot(Slot),

@@ -2,7 +2,7 @@
 //!
 //! In: the text of a scenario, a command line or a debugger, checked against the same model (which may have grown by
 //! domains and functions meanwhile). Out: ids and expressions of the same program; its other parts do not change.
-//! Errors are those of [`crate::lower`]; after one the program is still well formed.
+//! Errors are those of [`crate::lower()`]; after one the program is still well formed.
 
 use model::{FunctionId, Model, Term, Variable};
 use syntax::Diagnostic;

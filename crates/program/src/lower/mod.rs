@@ -1,6 +1,6 @@
 //! Lowering: the checked model → the IR.
 //!
-//! In: a complete model. Out: a [`Program`] that [`crate::verify`] accepts, or the limits that were passed. A fault
+//! In: a complete model. Out: a [`Program`] that [`crate::verify()`] accepts, or the limits that were passed. A fault
 //! left in an incomplete model becomes undef or skip; nothing here panics on it.
 //!
 //! Bodies are lowered one at a time, each in its own frame. Definitions and formulas are lowered where they are met,

@@ -6,7 +6,7 @@
 //! the class of the first fault that the machine meets, and the update set is the machine's; `beyond` holds wherever
 //! that is not so. Tests compare the two, and a run that the machine does not make is never reported.
 //!
-//! Each file owns one part: terms, builtins, numbers, ranges, rules, locations. [`free`] encodes a condition about an
+//! Each file owns one part: terms, builtins, numbers, ranges, rules, locations. `free` encodes a condition about an
 //! arbitrary state, without a step.
 
 mod builtin;

@@ -4,7 +4,7 @@
 //! books. INVARIANT: every token goes into the tree exactly once and in order, so the tree is lossless; no node but the
 //! root starts or ends with trivia. At most one fault is reported at a token; faults that follow from it are not.
 //!
-//! LIMIT: [`MAX_NESTING`], [`MAX_CHAIN`], [`MAX_FAULTS`], [`MAX_TEXT_BYTES`].
+//! LIMIT: those of [`crate::limit`].
 
 mod cursor;
 mod nesting;

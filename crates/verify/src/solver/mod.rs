@@ -1,7 +1,7 @@
 //! Verification by an SMT solver, for models whose states, inputs or choices cannot be enumerated.
 //!
 //! In: a program and the targets. Out: findings, with runs that the machine has repeated, and proofs. [`solve::encode`]
-//! encodes a step, [`relation`] the whole program; [`bounded`] searches for runs, [`induction`] and [`horn`] prove that
+//! encodes a step, `relation` the whole program; `bounded` searches for runs, `induction` and `horn` prove that
 //! there are none. INVARIANT: a proof counts only if it is also proved that the machine does only what was encoded.
 
 mod bounded;

@@ -1,6 +1,6 @@
 //! Linear temporal logic with past over an explored graph, with fairness.
 //!
-//! The negated formula becomes an automaton ([`automaton`]). Its product with the graph is searched for a fair run that
+//! The negated formula becomes an automaton (`automaton`). Its product with the graph is searched for a fair run that
 //! the automaton accepts (Vardi, Wolper, *An automata-theoretic approach to automatic program verification*, 1986). The
 //! run is checked against the definition of the formula ([`meaning`]) before it is returned.
 
