@@ -2,9 +2,9 @@
 //!
 //! In: an [`Overlay`] of the model, and the text. Out: all faults. Afterwards the overlay holds the file and its terms.
 
-use inputs::{bound, verification};
+use inputs::verification;
 use program::PropertyKind;
-use syntax::{Diagnostic, SourceFile, Span};
+use syntax::{Diagnostic, SourceFile};
 
 use crate::Overlay;
 
@@ -15,16 +15,7 @@ pub fn check_verification(asked: &mut Overlay, name: &str, text: &str) -> Vec<Di
         Ok(wanted) => wanted,
         Err(fault) => return vec![*fault],
     };
-    let wrong = |span: Span, message: String| *verification::fault(span, message);
-    let mut faults = Vec::new();
-    for (bound, place) in wanted.bounds.iter().zip(&wanted.bound_places) {
-        if let Err(refused) = bound::read(&asked.program, std::slice::from_ref(bound)) {
-            faults.push(wrong(*place, format!("bound {refused}")));
-        }
-    }
-    if let Some(fair) = wanted.fair.as_ref().filter(|fair| !["weak", "strong"].contains(&&***fair)) {
-        faults.push(wrong(fair.span(), "`fair` is neither weak nor strong".to_string()));
-    }
+    let mut faults = wanted.faults(&asked.program);
     let kinds = [PropertyKind::Invariant, PropertyKind::Ctl, PropertyKind::Ltl];
     let properties =
         kinds.iter().zip(&wanted.properties).flat_map(|(kind, texts)| texts.iter().map(|text| (*kind, text)));

@@ -1,11 +1,13 @@
 //! `MODEL.verify.yaml`: what to verify of a model, and with which inputs.
 //!
 //! In: the file's text. Out: a [`Verification`], whose terms are still texts that know their places, or the first fault of the form.
-//! Whether the terms fit the model is not known here.
+//! [`Verification::faults`] says whether bounds fit the program. Whether the terms do is not known here.
 
+use program::Program;
 use syntax::{Diagnostic, FileId, Span};
 
 use crate::Scalar;
+use crate::bound;
 use crate::node::{self, Key, Node, Shape};
 
 /// The id of what is wrong with the file.
@@ -14,7 +16,7 @@ const ID: &str = "bad-verification-file";
 /// What the file says.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Verification {
-    /// As [`bound::read`](crate::bound::read) takes them.
+    /// As [`bound::read`] takes them.
     pub bounds: Vec<String>,
     /// Where each of the bounds stands.
     pub bound_places: Vec<Span>,
@@ -26,6 +28,22 @@ pub struct Verification {
     pub properties: [Vec<Scalar>; 3],
     /// Further assumptions.
     pub assumptions: Vec<Scalar>,
+}
+
+impl Verification {
+    /// What of the bounds and of the fairness does not fit the program.
+    pub fn faults(&self, program: &Program) -> Vec<Diagnostic> {
+        let mut faults = Vec::new();
+        for (bound, place) in self.bounds.iter().zip(&self.bound_places) {
+            if let Err(refused) = bound::read(program, std::slice::from_ref(bound)) {
+                faults.push(*fault(*place, format!("bound {refused}")));
+            }
+        }
+        if let Some(fair) = self.fair.as_ref().filter(|fair| !["weak", "strong"].contains(&&***fair)) {
+            faults.push(*fault(fair.span(), "`fair` is neither weak nor strong"));
+        }
+        faults
+    }
 }
 
 /// What a text says.

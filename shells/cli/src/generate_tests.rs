@@ -60,7 +60,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         return crate::run::no_main(shell, &loaded);
     }
     let mut sources = loaded.sources.clone();
-    let Some(beside) = arguments.bounded.beside(shell, &mut sources, &arguments.model)? else {
+    let Some(beside) = arguments.bounded.beside(shell, &loaded.program, &mut sources, &arguments.model)? else {
         return Ok(Exit::World);
     };
     let folder = &arguments.output;

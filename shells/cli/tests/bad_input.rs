@@ -364,6 +364,14 @@ fn check_takes_all_that_a_project_is_made_of() {
     check(folder.path(), &["check", "."], 1, "there is no function `y`");
     write(folder.path(), "Count.verify.yaml", "bounds: {z: 0..3}\n");
     check(folder.path(), &["check", "Count.verify.yaml"], 1, "`z` is no monitored or shared function");
+    // Every command that reads the file names it and the place.
+    for command in [&["verify"][..], &["review"], &["generate-tests", "-o", "tests"]] {
+        let command: Vec<&str> = command.iter().copied().chain(["Count.asm"]).collect();
+        check(folder.path(), &command, 2, "Count.verify.yaml:1:10");
+        check(folder.path(), &command, 2, "bound z=0..3: `z` is no monitored or shared function");
+    }
+    write(folder.path(), "Count.verify.yaml", "fair: often\n");
+    check(folder.path(), &["verify", "Count.asm"], 2, "Count.verify.yaml:1:7");
     write(folder.path(), "Count.report.yaml", "nonsense: 1\n");
     check(folder.path(), &["check", "Count.report.yaml"], 1, "nonsense");
     write(folder.path(), "Other.verify.yaml", "invariants: [x >= 0]\n");

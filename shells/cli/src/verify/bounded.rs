@@ -57,14 +57,21 @@ impl Bounded {
         ))
     }
 
-    /// Reads the file beside a model; `None` if it has faults.
+    /// Reads the file beside a model; if it has faults, shows them and returns `None`.
     pub fn beside(
         &self,
         shell: &mut Shell,
+        program: &Program,
         sources: &mut Sources,
         model: &Path,
     ) -> Result<Option<Verification>, Failure> {
-        beside(shell, sources, self.spec.as_deref(), model)
+        let Some(read) = beside(shell, sources, self.spec.as_deref(), model)? else { return Ok(None) };
+        let faults = read.faults(program);
+        if faults.is_empty() {
+            return Ok(Some(read));
+        }
+        shell.diagnostics(sources, &faults)?;
+        Ok(None)
     }
 
     /// Bounds the memory of the process. If it takes more already, only the states are counted.
@@ -74,19 +81,17 @@ impl Bounded {
         }
     }
 
-    /// The options of a search, and the watch over it.
+    /// The options of a search, and the watch over it. The file beside the model was found to fit the program.
     pub fn options(
         &self,
         shell: &Shell,
         program: &Program,
         beside: &Verification,
     ) -> Result<(Options, Watch), Failure> {
-        let read = |bounds: &[String]| {
-            let wrong = |refused| Failure::usage_with_help(format!("--bound {refused}"), bound::HELP);
-            bound::read(program, bounds).map_err(wrong)
-        };
-        let mut bounds = read(&beside.bounds)?;
-        bounds.extend(read(&self.bounds)?);
+        let mut bounds =
+            bound::read(program, &beside.bounds).map_err(|refused| Failure::usage(format!("bound {refused}")))?;
+        let wrong = |refused| Failure::usage_with_help(format!("--bound {refused}"), bound::HELP);
+        bounds.extend(bound::read(program, &self.bounds).map_err(wrong)?);
         let options = Options {
             limits: shell.global.limits.uninterrupted(),
             max_states: self.max_states.unwrap_or(u64::MAX),

@@ -195,14 +195,16 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     if arguments.counterexample.is_some() && arguments.model.as_os_str() == "-" {
         return Err(Failure::usage("a scenario cannot load standard input: write the model to a file"));
     }
-    let Some(beside) = bounded.beside(shell, &mut loaded.sources.clone(), &arguments.model)? else {
+    let Some(beside) = bounded.beside(shell, &loaded.program, &mut loaded.sources.clone(), &arguments.model)? else {
         return Ok(Exit::World);
     };
     let [_, ctl, ltl] = &beside.properties;
     let (ctl, ltl) = (!arguments.ctl.is_empty() || !ctl.is_empty(), !arguments.ltl.is_empty() || !ltl.is_empty());
     loaded = operators::import(shell, loaded, ctl, ltl);
     let mut asked = loaded.overlay();
-    let Some(beside) = bounded.beside(shell, &mut asked.sources, &arguments.model)? else { return Ok(Exit::World) };
+    let Some(beside) = bounded.beside(shell, &loaded.program, &mut asked.sources, &arguments.model)? else {
+        return Ok(Exit::World);
+    };
     // Assumptions of the command line replace those of the file.
     let assumed: Vec<Said> = match &arguments.assumptions[..] {
         [] => beside.assumptions.iter().map(Said::from).collect(),
