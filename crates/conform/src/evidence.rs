@@ -57,6 +57,11 @@ pub(crate) fn out_of_turn(event: Option<&Event>, claims: &[Claim]) -> Option<Str
     later.then(|| "the model's task does that in the same step, but not first".to_string())
 }
 
+/// The comparison was asked to end here.
+pub(crate) fn interrupted(events: usize) -> Verdict {
+    Verdict::Unknown { events, reason: "the comparison was interrupted".to_string() }
+}
+
 /// All events up to the stop agree. A recording without events says nothing about the program.
 pub(crate) fn conforms(recording: &Recording, events: usize, steps: u64) -> Verdict {
     match events {

@@ -7,7 +7,7 @@
 
 use std::sync::Arc;
 
-use machine::{Limits, Machine};
+use machine::{Interrupt, Limits, Machine};
 use model::Model;
 use program::Program;
 use syntax::{Diagnostic, Sources};
@@ -65,6 +65,7 @@ pub struct Session {
     suspected_ns: Option<i64>,
     /// For each track, how many events are known not to go back in time.
     in_order: Vec<usize>,
+    interrupt: Interrupt,
 }
 
 /// The event of an action may get its instant this long after the action: the task may be interrupted between the two.
@@ -119,7 +120,21 @@ impl Session {
         };
         let program = Arc::new(program);
         let replay = Replay::begin(&program, limits.clone(), &steps, head, by_order)?;
-        Ok(Session { sources, program, steps, limits, replay, suspected_ns: None, in_order: Vec::new() })
+        Ok(Session {
+            sources,
+            program,
+            steps,
+            limits,
+            replay,
+            suspected_ns: None,
+            in_order: Vec::new(),
+            interrupt: Interrupt::default(),
+        })
+    }
+
+    /// From now on, an interrupt ends the comparison within [`Session::go_on`]; the verdict is then unknown.
+    pub fn heed(&mut self, interrupt: Interrupt) {
+        self.interrupt = interrupt;
     }
 
     /// Begins anew, for another recording of the same system. Such recordings are short, so their steps are
@@ -152,14 +167,15 @@ impl Session {
         // Nothing is known after a lost event.
         let more = more && recording.tracks.iter().all(|track| !track.lost);
         let verdict = match &mut self.replay {
-            Replay::Timed(replay) => replay.go_on(recording, more)?,
+            Replay::Timed(replay) => replay.go_on(recording, more, &self.interrupt)?,
             Replay::Untimed(_) => return self.by_order(recording, more),
         };
         // An event for which the model has no word is a matter of order alone.
         let passed = |recording: &Recording| {
             recording.tracks.iter().flat_map(|track| &track.events).any(|event| event.kind == Kind::Passes)
         };
-        if !(matches!(verdict, Some(Verdict::Unknown { .. })) && passed(recording)) {
+        let is_unknown = matches!(verdict, Some(Verdict::Unknown { .. })) && !self.interrupt.is_raised();
+        if !(is_unknown && passed(recording)) {
             return Ok(verdict);
         }
         self.begin_by_order(recording)?;
@@ -185,7 +201,7 @@ impl Session {
         }
         let suspected = self.suspected_ns.take();
         let Replay::Untimed(replay) = &mut self.replay else { unreachable!("it was begun") };
-        let verdict = replay.go_on(recording, more)?;
+        let verdict = replay.go_on(recording, more, &self.interrupt)?;
         let Some(Verdict::Parts(parted)) = &verdict else { return Ok(verdict) };
         let instant_ns = parted.event.as_ref().map_or(0, |event| event.time_ns);
         if !more || suspected == Some(instant_ns) {

@@ -5,11 +5,11 @@
 
 use std::sync::Arc;
 
-use machine::{Closed, EngineChoice, Limits, Machine};
+use machine::{Closed, EngineChoice, Interrupt, Limits, Machine};
 use program::Program;
 
 use crate::Verdict;
-use crate::evidence::{Claim, Parted, Recorded, conforms, objects, out_of_turn};
+use crate::evidence::{Claim, Parted, Recorded, conforms, interrupted, objects, out_of_turn};
 use crate::steps::Steps;
 use crate::vocabulary::Vocabulary;
 use recording::{Event, Kind, Recording};
@@ -49,15 +49,18 @@ impl Replay {
         self.agreed
     }
 
-    /// Goes on as far as the recording is known; none: it agrees so far, and `more` may come.
+    /// Goes on as far as the recording is known, or until interrupted; none: it agrees so far, and `more` may come.
     ///
     /// # Errors
     /// The recording is of another system, in words.
-    pub fn go_on(&mut self, recording: &Recording, more: bool) -> Result<Option<Verdict>, String> {
+    pub fn go_on(&mut self, recording: &Recording, more: bool, asked: &Interrupt) -> Result<Option<Verdict>, String> {
         let tracks = tracks(&self.vocabulary, recording)?;
         let known = recording.known_until_ns().unwrap_or(i64::MAX).min(recording.stopped_ns.unwrap_or(i64::MAX));
         let end = known / recording.tick_ns;
         while self.tick < end {
+            if asked.is_raised() {
+                return Ok(Some(interrupted(self.agreed)));
+            }
             let stopped = self.step(&tracks, recording);
             if stopped.is_some() {
                 return Ok(stopped);

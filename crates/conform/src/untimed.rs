@@ -9,11 +9,13 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use machine::{Change, Choice, EngineChoice, Environment, Fault, Limits, LocationRef, Machine, Mark, TimeUnit, Value};
+use machine::{
+    Change, Choice, EngineChoice, Environment, Fault, Interrupt, Limits, LocationRef, Machine, Mark, TimeUnit, Value,
+};
 use program::{DomainId, ProcedureId, Program, Slot};
 
 use crate::Verdict;
-use crate::evidence::{Claim, Parted, Recorded, conforms, objects, out_of_turn};
+use crate::evidence::{Claim, Parted, Recorded, conforms, interrupted, objects, out_of_turn};
 use crate::order::{Lane, Place, Span};
 use crate::steps::Steps;
 use crate::timed::tracks;
@@ -137,11 +139,11 @@ impl Replay {
         self.agreed
     }
 
-    /// Goes on as far as the recording is known; none: it agrees so far, and `more` may come.
+    /// Goes on as far as the recording is known, or until interrupted; none: it agrees so far, and `more` may come.
     ///
     /// # Errors
     /// The recording is of another system, in words.
-    pub fn go_on(&mut self, recording: &Recording, more: bool) -> Result<Option<Verdict>, String> {
+    pub fn go_on(&mut self, recording: &Recording, more: bool, asked: &Interrupt) -> Result<Option<Verdict>, String> {
         // What tasks do in order to stop is not part of a run of the model.
         let known = recording.known_until_ns().unwrap_or(i64::MAX).min(recording.stopped_ns.unwrap_or(i64::MAX));
         for (lane, events) in self.lanes.iter_mut().zip(tracks(&self.vocabulary, recording)?) {
@@ -152,10 +154,10 @@ impl Replay {
             }
         }
         self.more = more;
-        Ok(self.run(known, recording))
+        Ok(self.run(known, recording, asked))
     }
 
-    fn run(&mut self, known: i64, recording: &Recording) -> Option<Verdict> {
+    fn run(&mut self, known: i64, recording: &Recording, asked: &Interrupt) -> Option<Verdict> {
         loop {
             if !std::mem::take(&mut self.waits) {
                 let (first_ns, open) = self.candidates();
@@ -167,7 +169,7 @@ impl Replay {
                 }
                 self.decide(open);
             }
-            if let Some(verdict) = self.go_one_way() {
+            if let Some(verdict) = self.go_one_way(asked) {
                 return Some(verdict);
             }
             if self.waits {
@@ -203,8 +205,11 @@ impl Replay {
     }
 
     /// Takes the first possible way on; if there is none, goes back to the last decision that has another.
-    fn go_one_way(&mut self) -> Option<Verdict> {
+    fn go_one_way(&mut self, asked: &Interrupt) -> Option<Verdict> {
         loop {
+            if asked.is_raised() {
+                return Some(interrupted(self.agreed));
+            }
             let Some(mut node) = self.stack.pop_back() else {
                 let parted = self.deepest.take().unwrap_or_else(|| unreachable!("a way was tried"));
                 return Some(Verdict::Parts(parted));

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use groundstate::conform::Recording;
+use groundstate::conform::{Recording, Track, Verdict};
 use groundstate::job::{
     self, Cancel, ConformRequest, Events, Folder, GenerateJob, NoTail, NotConformed, NotGenerated, Piece,
     ReviewRequest, RunEvent, RunRequest, Tail, TestsRequest,
@@ -185,4 +185,30 @@ fn a_comparison() {
     let request = ConformRequest { loaded: toggle(), events, limits: Limits::default(), by_order: false };
     let whole = job::conform(request, Cancel::new()).expect("a thread").finish().expect("no panic");
     assert!(matches!(whole, Err(NotConformed::Refused(_))));
+}
+
+/// Every task is silent, so without a request to end the comparison makes every step of the model.
+#[test]
+fn a_comparison_of_a_whole_recording_is_cancelled() {
+    let path = testkit::repository::root().join("cpp/systems/Contention.asm");
+    let source = testkit::Disk::read(&path).expect("the model is there");
+    let loaded = load(source, &mut testkit::Disk).unwrap_or_else(|faulty| panic!("{:?}", faulty.diagnostics));
+    let track = |task: &str| Track { task: task.to_string(), ..Track::default() };
+    let recording = Recording {
+        tracks: ["planner", "slow", "fast", "watcher"].map(track).to_vec(),
+        tick_ns: 100_000,
+        pace: "modelled".to_string(),
+        stopped_ns: Some(i64::MAX),
+        ended: true,
+        ..Recording::default()
+    };
+    let request = ConformRequest {
+        loaded,
+        events: Events::<NoTail>::Whole(recording),
+        limits: Limits::default(),
+        by_order: false,
+    };
+    let conformed = job::conform(request, cancelled()).expect("a thread").finish().expect("no panic");
+    let reason = "the comparison was interrupted".to_string();
+    assert_eq!(conformed.expect("of this system").verdict, Verdict::Unknown { events: 0, reason });
 }

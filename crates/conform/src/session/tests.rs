@@ -152,3 +152,17 @@ fn a_silent_task_is_named_while_one_reads_along() {
     heard.tracks[1].events.last_mut().expect("it did something").time_ns = 3_000_000_000;
     assert!(session.progress(&heard).contains(" has been silent since 0.0 s"), "{}", session.progress(&heard));
 }
+
+#[test]
+fn an_interrupt_ends_a_comparison() {
+    for pace in ["modelled", "real"] {
+        let good = recorded(pace);
+        let mut session = session(&good);
+        let interrupt = Interrupt::new();
+        session.heed(interrupt.clone());
+        interrupt.raise(machine::Cause::Asked);
+        let verdict = session.go_on(&good, false).expect("of this system");
+        let reason = "the comparison was interrupted".to_string();
+        assert_eq!(verdict, Some(Verdict::Unknown { events: 0, reason }), "{pace}");
+    }
+}

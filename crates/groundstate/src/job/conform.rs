@@ -49,7 +49,7 @@ impl Tail for NoTail {
 /// The events to compare with the model.
 #[derive(Debug)]
 pub enum Events<T> {
-    /// All events are there. LIMIT: cancelling does not end such a comparison early.
+    /// All events are there. If cancelled, the verdict is unknown from some event on.
     Whole(Recording),
     /// More events are still coming.
     Coming(T),
@@ -103,7 +103,7 @@ pub enum NotConformed<X> {
     NoEvents,
 }
 
-/// A comparison. After it is cancelled, it compares what has been written so far, then ends.
+/// A comparison. After it is cancelled, one that reads along compares what has been written so far, then ends.
 pub type ConformJob<X> = Job<ConformEvent, Result<Conformed, NotConformed<X>>>;
 
 /// Starts a comparison.
@@ -115,14 +115,13 @@ where
     T: Tail + Send + 'static,
     T::Trouble: Send + 'static,
 {
-    Job::start("conform", cancel, move |port| {
-        follow(request, &|| port.is_cancelled(), &mut |event| port.mention(event))
-    })
+    let asked = cancel.clone();
+    Job::start("conform", cancel, move |port| follow(request, &asked, &mut |event| port.mention(event)))
 }
 
 fn follow<T: Tail>(
     request: ConformRequest<T>,
-    is_cancelled: &dyn Fn() -> bool,
+    cancel: &Cancel,
     tell: &mut dyn FnMut(ConformEvent),
 ) -> Result<Conformed, NotConformed<T::Trouble>> {
     let ConformRequest { loaded: Loaded { sources, model, program, .. }, events, limits, by_order } = request;
@@ -133,6 +132,7 @@ fn follow<T: Tail>(
         Events::Coming(tail) => tail,
         Events::Whole(recording) => {
             let mut session = begin(&recording)?;
+            session.heed(cancel.interrupt().clone());
             let verdict = session.go_on(&recording, false).map_err(NotConformed::Refused)?;
             let Some(verdict) = verdict else { unreachable!("nothing more comes") };
             return Ok(Conformed { sources: session.sources().clone(), recording, verdict, way: session.way() });
@@ -143,7 +143,7 @@ fn follow<T: Tail>(
     let mut replay: Option<Session> = None;
     loop {
         // Cancellation is read before the last look, so that everything written until then is compared.
-        let asked = is_cancelled();
+        let asked = cancel.is_cancelled();
         let Piece { bytes, is_all } = tail.next().map_err(NotConformed::Unread)?;
         let stops = asked && is_all;
         reader.feed(&bytes).map_err(NotConformed::Malformed)?;
