@@ -8,11 +8,12 @@ TESTED := target/debug/groundstate
 MODELS := library/patterns library/runtime examples
 # Clippy's driver is the compiler with its lints, so that tests and lints are one build.
 LINTED := $(if $(shell command -v clippy-driver),RUSTC_WORKSPACE_WRAPPER=clippy-driver CLIPPY_ARGS=-D__CLIPPY_HACKERY__warnings)
+OLDEST := $(shell sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)
 TIMED := sh xtask/timed.sh
 PARTS := lint unit scenarios cpp systems robot
 
 .PHONY: help demo test full quick times lint unit scenarios verify cpp cpp-full systems robot robot-full mutants fuzz bench \
-    bench-cpp corpus update vscode clean
+    msrv bench-cpp corpus update vscode clean
 
 help: ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*##/\t/' | expand -t 12
@@ -37,11 +38,11 @@ timed-%:
 vscode: ## the extension for VS Code, checked and packed: editors/vscode/groundstate.vsix
 	cd editors/vscode && npm ci --no-audit --no-fund && npm test && npm run package
 
-full: ## what is slow and rarely breaks, beside `make test`: larger samples, sanitizers, all robots, proofs, mutants
+full: ## what is slow and rarely breaks, beside `make test`: larger samples, the oldest Rust, sanitizers, all robots, proofs, mutants
 	@$(TIMED) --begin
 	$(MAKE) --no-print-directory test
 	GROUNDSTATE_FULL=1 $(LINTED) $(CARGO) test --workspace --locked --no-fail-fast
-	$(MAKE) --no-print-directory verify cpp-full robot-full mutants
+	$(MAKE) --no-print-directory msrv verify cpp-full robot-full mutants
 	@$(TIMED)
 
 quick: $(TESTED) ## what a one-line change needs: lints, the tests that are over in a moment, the library's scenarios
@@ -67,6 +68,12 @@ scenarios: $(TESTED)
 	$(TESTED) check $(MODELS) library/verification
 	$(TESTED) test $(MODELS)
 	sh library/verification/verify.sh $(TESTED) expected.txt
+
+# The toolchain is not installed here: it would be one more compiler for one check.
+msrv: ## the workspace, checked by the oldest Rust that Cargo.toml promises, if rustup has it
+	@if rustup run $(OLDEST) rustc --version 2>/dev/null; then \
+	    CARGO_TARGET_DIR=target/oldest rustup run $(OLDEST) cargo check --workspace --locked; \
+	else echo "msrv: not checked: Rust $(OLDEST) is not installed (rustup toolchain install $(OLDEST) --profile minimal)"; fi
 
 verify: $(GROUNDSTATE) ## the pattern library's properties in every state, its seeded faults found, the reference systems counted: minutes, 4 GB
 	sh library/verification/verify.sh $(GROUNDSTATE) expected.txt expected-long.txt
