@@ -1,5 +1,5 @@
 //! Every command in the documentation works: it runs in a copy of the repository, in the page's folder or the root,
-//! with the files that it names. Slow commands are shortened: a search makes one step, and scenarios, which other tests
+//! with the files that it names or shows. Slow commands are shortened: a search makes one step, and scenarios, which other tests
 //! run, are only checked.
 
 #![allow(clippy::disallowed_methods, reason = "a test reads pages and works on files")]
@@ -60,6 +60,16 @@ fn commands(text: &str) -> Vec<Vec<String>> {
     found
 }
 
+/// The files that a page shows: blocks of code after a line that ends with "`NAME`:".
+fn files(text: &str) -> Vec<(&str, &str)> {
+    let parts: Vec<&str> = text.split("\n```").collect();
+    let pairs = parts.chunks_exact(2).filter_map(|pair| {
+        let name = pair[0].lines().rfind(|line| !line.is_empty())?.strip_suffix("`:")?.rsplit('`').next()?;
+        Some((name, pair[1].split_once('\n')?.1))
+    });
+    pairs.collect()
+}
+
 /// A command that ends soon, and its good exit codes.
 fn shortened(mut words: Vec<String>) -> (Vec<String>, &'static [i32]) {
     match words[0].as_str() {
@@ -109,6 +119,12 @@ fn the_commands_of_the_pages_work() {
     for page in pages() {
         let text = fs::read_to_string(root().join(&page)).expect("a page");
         let beside = page.parent().filter(|parent| folder.path().join(parent).is_dir()).unwrap_or(Path::new(""));
+        for (name, text) in files(&text) {
+            let path = folder.path().join(beside).join(name);
+            if !path.exists() {
+                fs::write(path, text).expect("a file");
+            }
+        }
         for words in commands(&text) {
             // Paths are relative to the page's folder or to the root.
             let files = words.iter().filter(|word| word.contains('/') && !word.starts_with("out/"));
