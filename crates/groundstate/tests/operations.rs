@@ -128,21 +128,16 @@ fn the_class_of_a_model() {
     let generate = |cancel| {
         let loaded = toggle();
         let options = groundstate::generate::model::Options::default();
-        let headers = &[("machine.hpp", "// the runtime\n")];
-        folder(job::generate_model(loaded.program, loaded.sources, options, headers, cancel).expect("a thread"))
+        folder(job::generate_model(loaded.program, loaded.sources, options, cancel).expect("a thread"))
     };
     let folder = generate(Cancel::new()).expect("it can be generated");
-    let paths: Vec<&str> = folder.decided.iter().map(|(path, _)| path.as_str()).collect();
-    let expected = [
-        "toggle.hpp",
-        "toggle.cpp",
-        "replay.cpp",
-        "CMakeLists.txt",
-        "runtime/include/groundstate/machine/machine.hpp",
-        "source-map.json",
-    ];
+    let runtime = "runtime/include/groundstate/machine/";
+    let (headers, own): (Vec<_>, Vec<_>) = folder.decided.iter().partition(|(path, _)| path.starts_with(runtime));
+    let paths: Vec<&str> = own.iter().map(|(path, _)| path.as_str()).collect();
+    let expected = ["toggle.hpp", "toggle.cpp", "replay.cpp", "CMakeLists.txt", "source-map.json"];
     assert_eq!((paths, folder.once.len()), (expected.to_vec(), 0));
-    assert!(folder.decided[5].1.contains("\"file\": \"Toggle.asm\""));
+    assert!(headers.iter().any(|(path, text)| path.ends_with("/value.hpp") && text.contains("namespace")));
+    assert!(own[4].1.contains("\"file\": \"Toggle.asm\""));
     assert_eq!(generate(cancelled()), Err(NotGenerated::Cancelled));
 }
 
@@ -151,13 +146,14 @@ fn the_program_of_a_system() {
     let generate = |text: &str| {
         let source = SourceFile::new("Blink.chart", text);
         let chart = groundstate::chart::load(source, &mut testkit::Patterns).chart;
-        let job = job::generate_system(chart, "Blink.chart".to_string(), Default::default(), &[], Cancel::new());
+        let job = job::generate_system(chart, "Blink.chart".to_string(), Default::default(), Cancel::new());
         folder(job.expect("a thread"))
     };
     let text = "chart Blink\nimport patterns/ControlTask\nsystem blink\n\tcomponent lamp synchronous period 10 ms\n\
                 \t\telaborate toggle 1 ms\n\tendcomponent\nendsystem\n";
     let folder = generate(text).expect("it can be generated");
-    assert!(folder.once.iter().any(|(path, _)| path == "main.cpp") && !folder.decided.is_empty());
+    assert!(folder.once.iter().any(|(path, _)| path == "main.cpp"));
+    assert!(folder.decided.iter().any(|(path, _)| path == "generated/include/groundstate/system.hpp"));
     assert_eq!(generate("chart Blink\n"), Err(NotGenerated::NoSystem));
 }
 

@@ -7,6 +7,7 @@ use std::io;
 use std::sync::Arc;
 
 use chart::Chart;
+use generate::headers;
 use generate::model::{Generated, Options};
 use generate::system::{Form, ungenerated};
 use machine::{Closed, Limits, Machine};
@@ -45,9 +46,6 @@ pub struct GenerateEvent(pub String);
 /// A generation.
 pub type GenerateJob = Job<GenerateEvent, Result<Folder, NotGenerated>>;
 
-/// Headers of the runtime, by name; the shell has them built in.
-pub type Headers = &'static [(&'static str, &'static str)];
-
 /// Starts to generate the class of a model. The source map shows the names in `sources`.
 ///
 /// # Errors
@@ -56,7 +54,6 @@ pub fn generate_model(
     program: Arc<Program>,
     sources: Sources,
     options: Options,
-    headers: Headers,
     cancel: Cancel,
 ) -> io::Result<GenerateJob> {
     let limits = machine_limits(&cancel);
@@ -72,7 +69,7 @@ pub fn generate_model(
             |(name, text): &(&str, &str)| (format!("runtime/include/groundstate/machine/{name}"), (*text).to_string());
         let files = generated.files.into_iter().map(|file| (file.name, file.text));
         let maps = [("source-map.json".to_string(), map)];
-        let decided = files.chain(headers.iter().map(runtime)).chain(maps).collect();
+        let decided = files.chain(headers::MACHINE.iter().map(runtime)).chain(maps).collect();
         told(&port, Folder { decided, once: Vec::new(), renamed: generated.renamed })
     })
 }
@@ -81,13 +78,7 @@ pub fn generate_model(
 ///
 /// # Errors
 /// The system cannot start a thread.
-pub fn generate_system(
-    chart: Chart,
-    file: String,
-    form: Form,
-    headers: Headers,
-    cancel: Cancel,
-) -> io::Result<GenerateJob> {
+pub fn generate_system(chart: Chart, file: String, form: Form, cancel: Cancel) -> io::Result<GenerateJob> {
     Job::start("generate", cancel, move |port| {
         let system = chart.system.as_ref().ok_or(NotGenerated::NoSystem)?;
         let faults = ungenerated(system);
@@ -99,7 +90,7 @@ pub fn generate_system(
             generate::system::generate(&chart, system, &file, &form);
         let runtime =
             |(name, text): &(&str, &str)| (format!("generated/include/groundstate/{name}"), (*text).to_string());
-        decided.extend(headers.iter().map(runtime));
+        decided.extend(headers::RUNTIME.iter().map(runtime));
         told(&port, Folder { decided, once, renamed: Vec::new() })
     })
 }

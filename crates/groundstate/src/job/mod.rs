@@ -24,7 +24,7 @@ use machine::{Cause, Interrupt};
 pub use conform::{
     ConformEvent, ConformJob, ConformRequest, Conformed, Events, NoTail, NotConformed, Piece, Tail, conform,
 };
-pub use generate::{Folder, GenerateEvent, GenerateJob, Headers, NotGenerated, generate_model, generate_system};
+pub use generate::{Folder, GenerateEvent, GenerateJob, NotGenerated, generate_model, generate_system};
 pub use generate_tests::{TestsEvent, TestsJob, TestsRequest, generate_tests};
 pub use review::{ReviewEvent, ReviewJob, ReviewRequest, review};
 pub use run::{Command, Remote, RunEvent, RunJob, RunRequest, at_once, report, run};

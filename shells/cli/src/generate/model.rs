@@ -15,8 +15,6 @@ use crate::interrupt;
 use crate::load::load;
 use crate::shell::Shell;
 
-include!(concat!(env!("OUT_DIR"), "/machine_headers.rs"));
-
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
     let loaded = match load(shell, &arguments.file)? {
@@ -28,7 +26,7 @@ pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
     std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
     let placed = placed(&loaded.sources, folder);
     let cancel = Cancel::from(interrupt::request().clone());
-    let job = job::generate_model(loaded.program, placed, options, MACHINE_HEADERS, cancel);
+    let job = job::generate_model(loaded.program, placed, options, cancel);
     let Folder { decided, renamed, .. } = match finished(shell, &loaded.sources, job)? {
         Ok(folder) => folder,
         Err(exit) => return Ok(exit),

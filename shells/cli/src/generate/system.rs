@@ -11,8 +11,6 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::shell::Shell;
 
-include!(concat!(env!("OUT_DIR"), "/runtime_headers.rs"));
-
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
     let (sources, chart) = match crate::chart::read(shell, &arguments.file)? {
@@ -27,7 +25,7 @@ pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
     }
     let name = arguments.file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let form = Form { wait_free: arguments.wait_free, namespace: arguments.namespace.clone() };
-    let job = job::generate_system(chart, name, form, HEADERS, Cancel::from(interrupt::request().clone()));
+    let job = job::generate_system(chart, name, form, Cancel::from(interrupt::request().clone()));
     let Folder { decided, once, .. } = match finished(shell, &sources, job)? {
         Ok(folder) => folder,
         Err(exit) => return Ok(exit),
