@@ -3,6 +3,11 @@
 //! In: a program and how its steps are made. Out: an outcome for each CTLSPEC and LTLSPEC, with a run in steps if one
 //! is violated. INVARIANT: Holds is returned only if the graph is complete, every proposition has a truth value in
 //! every state, and some run is fair.
+//!
+//! This is no `engine::Engine`. An engine is asked which targets, each a state or a step, are reachable,
+//! and may stop at the first path to one. A formula is a question about the whole graph with its fairness: its witness
+//! is an endless run or only the beginning of a branching one, and why it is unknown depends on propositions and on
+//! runs. As targets, formulas would leave most of `Ended` empty here, and every other engine would have to refuse them.
 
 mod close;
 pub(crate) mod outcome;
