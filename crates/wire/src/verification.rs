@@ -1,5 +1,7 @@
 //! The results of a verification, as JSON objects: verdicts with their runs, the extent of the search, assumptions.
 
+use groundstate::tell::{FoundChange, FoundStep, Verdicts, id, place_of, why_unreduced};
+use groundstate::verify::{self, EngineKind, Outcome, Report, Subject, Symmetry, Trace};
 use serde::Serialize;
 
 use crate::Place;
@@ -34,13 +36,43 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// A check that holds. `kind` is `property` for a property of the model, else `builtin`.
-    pub fn holds(check: String, kind: &'static str, at: Option<Place>) -> Verdict {
+    /// A verdict of a search.
+    pub fn new(words: &Verdicts<'_>, verdict: &verify::Verdict, report: &Report) -> Verdict {
+        let mut line = Verdict::holds(words, verdict.subject);
+        match &verdict.outcome {
+            Outcome::Holds => match words.proof(verdict.subject, report) {
+                None => line.states = Some(report.progress.states),
+                proof => line.by = proof,
+            },
+            Outcome::Unknown(reasons) => {
+                line.verdict = "unknown";
+                line.reasons = words.reasons(verdict.subject, reasons, report);
+            }
+            Outcome::Violated(trace) => line = Verdict::violated(words, verdict.subject, trace),
+        }
+        line
+    }
+
+    /// A violation.
+    pub fn violated(words: &Verdicts<'_>, subject: Subject, trace: &Trace) -> Verdict {
+        Verdict {
+            verdict: "violated",
+            trace: Some(RunStep::all(words, trace)),
+            again_from: trace.turn.map(|turn| turn + 1),
+            ..Verdict::holds(words, subject)
+        }
+    }
+
+    fn holds(words: &Verdicts<'_>, subject: Subject) -> Verdict {
+        let (kind, span) = match subject {
+            Subject::Property(index) => ("property", Some(words.program.properties[index].span)),
+            _ => ("builtin", None),
+        };
         Verdict {
             r#type: "verdict",
-            check,
+            check: id(subject).map_or_else(|| words.name(subject), str::to_string),
             kind,
-            at,
+            at: span.map(|span| Place::new(words.sources, span)),
             verdict: "holds",
             states: None,
             by: None,
@@ -72,6 +104,19 @@ pub struct RunStep {
     /// Why the step could not be made.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fault: Option<String>,
+}
+
+impl RunStep {
+    /// The initial state and the steps of a run.
+    pub fn all(words: &Verdicts<'_>, trace: &Trace) -> Vec<RunStep> {
+        let steps = words.steps(trace).into_iter().enumerate();
+        let line = |(step, FoundStep { values, inputs, choices, changes, fault })| {
+            let change = |FoundChange { location, from, to, by }| RunChange { location, from, to, by };
+            let changes = changes.into_iter().map(change).collect();
+            RunStep { step, values, inputs, choices, changes, fault }
+        };
+        steps.map(line).collect()
+    }
 }
 
 /// A location whose value changed.
@@ -143,6 +188,19 @@ pub struct Explored {
     pub sets: bool,
 }
 
+impl Explored {
+    /// The facts of a verification.
+    pub fn new(words: &Verdicts<'_>, report: &Report) -> Explored {
+        Explored {
+            bits: Some(report.width.1),
+            omission: report.omission.map(|expected| expected.0),
+            partial_order: report.reduced.map(|reduced| reduced.map_or_else(why_unreduced, |()| "reduced")),
+            symmetry: report.symmetry.as_ref().map(|symmetry| DomainLine::all(words, symmetry)),
+            sets: report.engine == EngineKind::Symbolic,
+        }
+    }
+}
+
 /// A domain with its interchangeable elements, or why none are interchangeable.
 #[derive(Debug, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -161,9 +219,22 @@ pub struct DomainLine {
 }
 
 impl DomainLine {
-    /// Whether elements are interchangeable.
-    pub fn is_class(&self) -> bool {
-        !self.interchangeable.is_empty()
+    /// The domains that symmetry reduction looked at.
+    pub fn all(words: &Verdicts<'_>, symmetry: &Symmetry) -> Vec<DomainLine> {
+        let name = |domain: &program::DomainId| words.program.domain(*domain).name.clone();
+        let classes = symmetry.classes.iter().map(|(domain, class)| DomainLine {
+            domain: name(domain),
+            interchangeable: words.elements(class),
+            distinct: None,
+            at: None,
+        });
+        let distinct = symmetry.distinct.iter().map(|(domain, why)| DomainLine {
+            domain: name(domain),
+            interchangeable: Vec::new(),
+            distinct: Some(words.why_distinct(*why)),
+            at: place_of(*why).map(|span| Place::new(words.sources, span)),
+        });
+        classes.chain(distinct).collect()
     }
 }
 

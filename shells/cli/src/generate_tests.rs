@@ -154,7 +154,7 @@ fn told(shell: &mut Shell, teller: &Teller<'_>, tests: &Tests) -> Result<(), Fai
     if shell.json() {
         for goal in &tests.goals {
             let (kind, what) = goal.kind.words();
-            let (of, at) = (goal.rule.as_str(), Place::new(teller.sources, goal.span));
+            let (of, at) = (goal.rule.as_str(), Place::new(teller.words.sources, goal.span));
             shell.object(&wire::Goal::new(kind, what, of, at, outcome(goal)))?;
         }
     } else if shell.talks() {
@@ -163,18 +163,18 @@ fn told(shell: &mut Shell, teller: &Teller<'_>, tests: &Tests) -> Result<(), Fai
             writeln!(shell.out(), "  {kind:<12} {reached:>4} of {all}")?;
         }
         for goal in tests.goals.iter().filter(|goal| !goal.reached) {
-            let at = teller.sources.position(goal.span);
+            let at = teller.words.sources.position(goal.span);
             let (kind, what) = goal.kind.words();
             let what = if what.is_empty() { kind } else { what };
             writeln!(shell.out(), "  {:<11} {at}: {what} of {}", outcome(goal), goal.rule)?;
         }
         if tests.progress.is_some() && !complete {
-            let reasons: Vec<String> = tests.reasons.iter().map(|reason| teller.reason(reason)).collect();
+            let reasons: Vec<String> = tests.reasons.iter().map(|reason| teller.words.reason(reason)).collect();
             writeln!(shell.out(), "  unknown because: {}", reasons.join("; "))?;
         }
     }
     match &tests.progress {
-        Some(progress) => teller.explored(shell, progress, complete, &crate::verify::Explored::default()),
+        Some(progress) => teller.explored(shell, progress, complete),
         None => Ok(()),
     }
 }

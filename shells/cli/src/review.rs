@@ -13,7 +13,7 @@ use groundstate::tell::says;
 use groundstate::verify::review::{Finding, Meta, MetaOutcome, Review};
 use groundstate::verify::{Reason, Stop};
 use syntax::FileId;
-use wire::{Fault, MetaProperty};
+use wire::{Fault, MetaProperty, RunStep};
 
 use crate::check::plural;
 use crate::exit::Exit;
@@ -96,16 +96,16 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
 }
 
 fn tell(shell: &mut Shell, teller: &Teller<'_>, review: &Review, finding: &Finding, runs: bool) -> Result<(), Failure> {
-    let diagnostic = groundstate::diagnose_finding(finding, review, teller.program);
+    let diagnostic = groundstate::diagnose_finding(finding, review, teller.words.program);
     if shell.json() {
-        let witness = finding.witness.as_deref().map(|trace| teller.steps(trace));
-        let fault = Fault::new(teller.sources, &diagnostic);
+        let witness = finding.witness.as_deref().map(|trace| RunStep::all(&teller.words, trace));
+        let fault = Fault::new(teller.words.sources, &diagnostic);
         return shell.object(&wire::Finding::new(finding.meta.number(), fault, witness));
     }
-    shell.details(teller.sources, &[diagnostic])?;
+    shell.details(teller.words.sources, &[diagnostic])?;
     if let (Some(trace), true) = (&finding.witness, shell.talks()) {
         if runs {
-            teller.run(shell, trace)?;
+            write!(shell.out(), "{}", teller.words.run(trace))?;
         } else {
             writeln!(shell.out(), "  in step {} of a run that --runs shows", trace.steps.len())?;
         }
@@ -118,7 +118,7 @@ fn summary(shell: &mut Shell, teller: &Teller<'_>, review: &Review) -> Result<()
     for (meta, outcome) in &review.outcomes {
         let findings = review.findings.iter().filter(|finding| finding.meta == *meta).count();
         let reasons = match outcome {
-            MetaOutcome::Unknown => review.reasons.iter().map(|reason| teller.reason(reason)).collect(),
+            MetaOutcome::Unknown => review.reasons.iter().map(|reason| teller.words.reason(reason)).collect(),
             _ => Vec::new(),
         };
         let word = match outcome {
@@ -139,7 +139,7 @@ fn summary(shell: &mut Shell, teller: &Teller<'_>, review: &Review) -> Result<()
             writeln!(shell.out(), "{number} {word:<9} {says}{more}")?;
         }
     }
-    teller.explored(shell, &review.progress, review.reasons.is_empty(), &crate::verify::Explored::default())
+    teller.explored(shell, &review.progress, review.reasons.is_empty())
 }
 
 fn exit(review: &Review) -> Exit {

@@ -4,16 +4,24 @@
 //! terminals; the caller asks for colours.
 
 mod coverage;
+mod extent;
+mod found;
+mod hint;
 mod parting;
 mod review;
 mod run;
 mod story;
+mod verdict;
 
 pub use coverage::{Uncovered, uncovered};
+pub use extent::{Extent, explored, place_of, why_unreduced};
+pub use found::{FoundChange, FoundStep};
+pub use hint::hint;
 pub use parting::parting;
 pub use review::says;
 pub use run::{Detail, Narrator};
 pub use story::story;
+pub use verdict::{Verdicts, id};
 
 /// A count with its noun.
 pub fn plural(count: usize, word: &str) -> String {

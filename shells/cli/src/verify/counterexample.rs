@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use groundstate::Overlay;
 use groundstate::simulate::{End, Header, Invariants};
+use groundstate::tell::id;
 use groundstate::verify::{Outcome, Report, Subject, Trace};
 use program::{Program, PropertyKind};
 use syntax::Sources;
@@ -17,7 +18,6 @@ use crate::files::{Unfinished, write_text};
 use crate::report::page_of;
 use crate::shell::Shell;
 use crate::tracefile::TraceFile;
-use crate::verify::tell::id;
 
 /// Writes the first counterexample to a file, or all of them into a folder.
 pub fn write(

@@ -9,10 +9,8 @@ mod checkpoint;
 mod conflict;
 mod counterexample;
 mod disk;
-mod hint;
 mod live;
 mod operators;
-mod symmetry;
 mod tell;
 mod watch;
 
@@ -40,7 +38,6 @@ pub use counterexample::relative;
 use disk::Folder;
 use live::Live;
 pub use tell::Teller;
-pub use wire::Explored;
 
 /// Arguments of `verify`.
 #[derive(Debug, Args)]
@@ -296,7 +293,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     }
     let (outcome, checkpoint) = job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0));
     let (timed_out, told) = live.done()?;
-    teller.timed_out = timed_out;
+    teller.words.timed_out = timed_out;
     let mut report = match outcome {
         Ok(report) => report,
         Err(NoStart::Refused(refusal)) => {
@@ -320,22 +317,22 @@ pub fn no_start(shell: &mut Shell, teller: &Teller<'_>, trouble: NoStart) -> Res
     match trouble {
         NoStart::Refused(_) => unreachable!("a checkpoint is refused where there is one"),
         NoStart::Fault(fault) => {
-            shell.diagnostic(teller.sources, &groundstate::diagnose_fault(&fault, teller.program))?;
+            shell.diagnostic(teller.words.sources, &groundstate::diagnose_fault(&fault, teller.words.program))?;
             Ok(Exit::Model)
         }
         NoStart::Stopped(stop) => {
             shell.note(&format!(
                 "not known: {} before all initial states were found",
-                teller.reason(&Reason::Stopped(stop))
+                teller.words.reason(&Reason::Stopped(stop))
             ))?;
             Ok(Exit::Unknown)
         }
         NoStart::Unbounded(unbounded) => {
-            shell.diagnostic(teller.sources, &teller.unbounded(&unbounded))?;
+            shell.diagnostic(teller.words.sources, &teller.words.unbounded(&unbounded))?;
             Ok(Exit::Unknown)
         }
         NoStart::Outside(outside) => {
-            shell.diagnostic(teller.sources, &groundstate::diagnose_outside(&outside))?;
+            shell.diagnostic(teller.words.sources, &groundstate::diagnose_outside(&outside))?;
             Ok(Exit::Unknown)
         }
         NoStart::NoSolver(reason) => {

@@ -2,11 +2,11 @@
 //!
 //! In: a violated check and its run. Out: a line of advice, if there is one. It depends on the run alone.
 
-use groundstate::verify::{Subject, Trace, runs::scheduler};
 use program::Program;
+use verify::{Subject, Trace, runs::scheduler};
 
 /// The advice.
-pub(super) fn hint(program: &Program, subject: Subject, trace: &Trace) -> Option<&'static str> {
+pub fn hint(program: &Program, subject: Subject, trace: &Trace) -> Option<&'static str> {
     if subject == Subject::NoDeadlock {
         return Some("if runs may end there, name the final states: `--terminal CONDITION`");
     }
