@@ -1,4 +1,4 @@
-//! The checked model → the IR, which the machine, the checker and the generators read.
+//! Lowers the checked model to the IR, which the machine, the checker and the generators read.
 //!
 //! In: a complete [`model::Model`]. Out: a [`Program`]: flat arenas of terms and rules in which variables are frame
 //! slots, macro calls are procedures specialised on their by-name arguments, and library functions are

@@ -25,7 +25,7 @@ pub struct BuiltinInfo {
     pub declared: &'static [&'static str],
     /// The operands it is declared with.
     pub operands: Operands,
-    /// What its value depends on beside its operands.
+    /// What its value depends on besides its operands.
     pub effect: Effect,
     /// Whether its result shows an order of elements.
     pub shows_order: ShowsOrder,
@@ -71,15 +71,15 @@ pub enum Operands {
     Values(usize),
     /// One or more, of any kind.
     OneOrMore,
-    /// Two of any kind that are compared; numbers among them are brought to the wider form.
+    /// Two of any kind, to compare; numbers are coerced to the wider form.
     Alike,
-    /// Two Char, or two numbers none of which is Complex, brought to the wider form.
+    /// Two Char, or two numbers of which none is Complex; numbers are coerced to the wider form.
     Ordered,
-    /// So many Integer or Natural.
+    /// This many Integer or Natural.
     Integers(usize),
-    /// This many numbers, the widest of them Real. All are brought to Real.
+    /// This many numbers, the widest of them Real. All are coerced to Real.
     Reals(usize),
-    /// This many numbers, the widest of them Complex. All are brought to Complex.
+    /// This many numbers, the widest of them Complex. All are coerced to Complex.
     Complexes(usize),
     /// Of these kinds, in this order.
     Of(&'static [Kind]),
@@ -99,7 +99,7 @@ pub enum Effect {
     ReadsAgents,
     /// The state before the step, in which its operand is evaluated.
     ReadsBefore,
-    /// A choice of the environment's.
+    /// A choice of the environment.
     Chooses,
     /// The environment's clock.
     ReadsClock,
@@ -118,7 +118,7 @@ pub enum ShowsOrder {
     OfResult,
 }
 
-/// What a builtin looks through without making anything of that size. This work must be counted.
+/// What a builtin goes through without building anything of that size. This work must be counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LooksThrough {
     /// Nothing that may be large.

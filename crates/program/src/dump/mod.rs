@@ -1,8 +1,8 @@
 //! A program as text: for people, and for golden tests.
 //!
-//! Tables in order, one entry on each line, rules indented by their nesting. Operations of the machine have their names
-//! in [`crate::Builtin`], so that `IntAdd(x, 1)` and `RealAdd(x, 1.0)` differ; what the model did not declare is left
-//! out. INVARIANT: the same program gives the same text.
+//! The tables come in order, one entry on each line; rules are indented by their nesting. Operations of the machine have
+//! their names in [`crate::Builtin`], so that `IntAdd(x, 1)` and `RealAdd(x, 1.0)` differ. What the model did not
+//! declare is left out. INVARIANT: the same program gives the same text.
 
 mod rule;
 mod term;

@@ -1,4 +1,4 @@
-//! Rules, a line each and their parts below them.
+//! Rules: a line for each, with its parts below it.
 
 use std::fmt::Write;
 

@@ -1,9 +1,9 @@
 //! The types of the IR.
 //!
-//! Terms and rules stand in arenas and name each other by index; lists of children are ranges of one shared
-//! array. INVARIANT (checked by [`crate::verify()`]): every index lies in its table, a child's index is below its
-//! parent's, a slot lies below the frame size of its procedure and is bound at one place of it only, argument
-//! counts match, terms and rules nest no deeper than [`MAX_DEPTH`].
+//! Terms and rules are kept in arenas and refer to each other by index. Lists of children are ranges of one shared
+//! array. INVARIANT (checked by [`crate::verify()`]): every index is within its table; a child's index is below its
+//! parent's; a slot is below the frame size of its procedure, and only one place binds it; argument counts match;
+//! terms and rules nest no deeper than [`MAX_DEPTH`].
 //!
 //! Domain and function ids are those of the model, so a fault found here can refer to the model.
 
@@ -19,7 +19,7 @@ pub(crate) use specialisation::ArgumentId;
 pub use specialisation::Specialisations;
 pub use term::Term;
 
-/// LIMIT: how deep terms and rules nest in one procedure or expression.
+/// LIMIT: the depth to which terms and rules nest in one procedure or expression.
 pub const MAX_DEPTH: u32 = 4096;
 
 /// Names a term of the arena.
@@ -56,10 +56,10 @@ pub struct RuleList {
     pub len: u32,
 }
 
-/// `slot in range`, of quantifiers, comprehensions, choose and forall.
+/// `slot in range`, in quantifiers, comprehensions, choose and forall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Binder {
-    /// The variable bound.
+    /// The bound variable.
     pub slot: Slot,
     /// The range: often a [`Term::Domain`].
     pub range: TermId,

@@ -16,11 +16,11 @@ pub struct Procedure {
     pub name: String,
     /// The model's rule, if it is one.
     pub rule: Option<model::RuleId>,
-    /// Called by value, as one unit.
+    /// Whether it is called by value, as one unit.
     pub turbo: bool,
     /// The domains of its parameters, which are its first slots.
     pub parameters: Vec<DomainId>,
-    /// How many slots its frame has.
+    /// The number of slots of its frame.
     pub frame: u32,
     /// The name of each slot as the model writes it, with its `$`; not always distinct.
     pub names: Vec<String>,
@@ -35,7 +35,7 @@ pub struct Procedure {
 pub struct Expression {
     /// The domains of its parameters, which are its first slots.
     pub parameters: Vec<DomainId>,
-    /// How many slots its frame has.
+    /// The number of slots of its frame.
     pub frame: u32,
     /// The name of each slot as the model writes it, with its `$`; not always distinct.
     pub names: Vec<String>,
@@ -56,18 +56,18 @@ pub struct Function {
     pub codomain: DomainId,
     /// The definition of a static or derived one.
     pub definition: Option<Expression>,
-    /// For a 0-ary static function of an abstract domain: which element it is, from 0, of the base domain.
+    /// For a 0-ary static function of an abstract domain: the number of its element in the base domain, from 0.
     pub element: Option<u32>,
-    /// Declared in a built-in library.
+    /// Whether a built-in library declares it.
     pub library: bool,
     /// Where it is declared.
     pub span: Span,
 }
 
-/// What is needed of a domain at run time: enumeration, membership, printing.
+/// What a run needs to know of a domain, to list its elements, test membership and print values.
 #[derive(Debug, Clone)]
 pub struct Domain {
-    /// As it would be written.
+    /// The domain as a model would write it.
     pub name: String,
     /// What it is.
     pub kind: DomainKind,
@@ -87,18 +87,18 @@ pub enum DomainKind {
         /// Their names.
         literals: Vec<String>,
     },
-    /// Abstract; the elements named by static functions come first, in order of declaration.
+    /// Abstract. The elements that static functions name come first, in order of declaration.
     Abstract {
         /// Names of the static elements.
         elements: Vec<String>,
-        /// May grow.
+        /// Whether it may grow.
         dynamic: bool,
     },
     /// Concrete.
     Concrete {
         /// The type domain.
         base: DomainId,
-        /// Its contents are part of the state.
+        /// Whether its contents are part of the state.
         dynamic: bool,
         /// The static elements declared with it (indices into the base's elements).
         elements: Vec<u32>,
@@ -130,7 +130,7 @@ pub struct Property {
     pub formula: Expression,
     /// The second formula of a compassion.
     pub conclusion: Option<Expression>,
-    /// A monitored function is read in it, directly or through definitions.
+    /// Whether it reads a monitored function, directly or through definitions.
     pub reads_monitored: bool,
     /// Where it is written.
     pub span: Span,
@@ -161,7 +161,7 @@ pub struct AgentProgram {
 pub struct Program {
     /// The machine's name.
     pub name: String,
-    /// Agents interleave.
+    /// Whether agents interleave.
     pub asynchronous: bool,
     /// Domains, by the model's ids.
     pub domains: Vec<Domain>,
@@ -191,9 +191,9 @@ pub struct Program {
     pub procedures: Vec<Procedure>,
     /// The main rule.
     pub main: Option<ProcedureId>,
-    /// Initial values, in order; a library function such as `self` has none.
+    /// Initial values, in order. A library function such as `self` has none.
     pub initials: Vec<Initial>,
-    /// Programs of agents, the more specific domains first: the first that holds an agent counts.
+    /// Programs of agents, those of more specific domains first. An agent runs the first whose domain contains it.
     pub agents: Vec<AgentProgram>,
     /// Properties and assumptions.
     pub properties: Vec<Property>,
@@ -201,7 +201,7 @@ pub struct Program {
     pub self_function: Option<FunctionId>,
     /// The library function `result`, if the model imports it.
     pub result_function: Option<FunctionId>,
-    /// The procedure of each rule with certain arguments; used when fragments are added.
+    /// The procedures of rules with their arguments, for fragments that are added later.
     pub specialisations: Specialisations,
 }
 
@@ -257,7 +257,7 @@ impl Program {
     pub fn procedure(&self, id: ProcedureId) -> &Procedure {
         &self.procedures[id.0 as usize]
     }
-    /// The function of that name and number of parameters; the last declared wins.
+    /// The function with this name and number of parameters. If there are several, it is the one declared last.
     pub fn find_function(&self, name: &str, arity: usize) -> Option<FunctionId> {
         let found = self.functions.iter().rposition(|f| f.name == name && f.parameters.len() == arity);
         found.map(|index| FunctionId(index as u32))

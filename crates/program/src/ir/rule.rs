@@ -1,12 +1,12 @@
 //! Rules of the IR (Börger & Stärk 2003, tables 2.2 and 4.1).
 //!
-//! INVARIANT: a child's index is below its parent's; the bodies of procedures are reached by [`ProcedureId`].
+//! INVARIANT: a child's index is below its parent's. A [`ProcedureId`] leads to the body of a procedure.
 
 use model::{DomainId, FunctionId};
 
 use crate::ir::{BinderList, ProcedureId, RuleId, RuleList, Slot, TermId, TermList};
 
-/// A rule of the IR. Its span stands in [`Program::rule_spans`](crate::Program::rule_spans).
+/// A rule of the IR. [`Program::rule_spans`](crate::Program::rule_spans) has its span.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Rule {
     /// Nothing.
@@ -20,15 +20,15 @@ pub enum Rule {
         /// The new value.
         value: TermId,
     },
-    /// A macro call: the procedure's first slots are set to the arguments. It is not a unit of its own: its updates are
-    /// those of the caller.
+    /// A macro call: sets the procedure's first slots to the arguments. It is not a unit of its own: its updates belong
+    /// to the caller.
     Call {
         /// The procedure.
         procedure: ProcedureId,
         /// Values of its parameters.
         arguments: TermList,
     },
-    /// A turbo call: the arguments by value, the body as one unit (its update set is computed, then joined).
+    /// A turbo call: passes the arguments by value and runs the body as one unit, whose update set then joins the caller's.
     TurboCall {
         /// The procedure.
         procedure: ProcedureId,
@@ -53,7 +53,7 @@ pub enum Rule {
         /// Values of its parameters.
         arguments: TermList,
     },
-    /// The program of an agent, with `self` bound to it within.
+    /// The program of an agent; within it, `self` is the agent.
     RunAgent {
         /// The agent.
         agent: TermId,
@@ -62,14 +62,14 @@ pub enum Rule {
     Par(RuleList),
     /// In sequence, as one unit.
     Seq(RuleList),
-    /// guard\[i\] → rule\[i\]; the rules list may hold one more: the `else`.
+    /// guard\[i\] → rule\[i\]. The list of rules may have one more: the `else`.
     If {
         /// The guards.
         guards: TermList,
         /// The rules.
         rules: RuleList,
     },
-    /// value\[i\] → rule\[i\]; the rules list may hold one more: the `otherwise`.
+    /// value\[i\] → rule\[i\]. The list of rules may have one more: the `otherwise`.
     Switch {
         /// The term compared.
         subject: TermId,
@@ -84,27 +84,27 @@ pub enum Rule {
         slot: Slot,
         /// Its value.
         value: TermId,
-        /// The rule it is bound in.
+        /// The rule that can read it.
         body: RuleId,
     },
     /// One choice.
     Choose {
-        /// What is ranged over, leftmost slowest.
+        /// The ranges; the leftmost varies slowest.
         binders: BinderList,
-        /// Only where this holds.
+        /// The condition on the values.
         condition: Option<TermId>,
-        /// The rule run with the choice.
+        /// The rule to run with the chosen values.
         body: RuleId,
-        /// The rule run where there is none.
+        /// The rule to run if no values fulfil the condition.
         if_none: Option<RuleId>,
     },
     /// All in parallel.
     Forall {
-        /// What is ranged over, leftmost slowest.
+        /// The ranges; the leftmost varies slowest.
         binders: BinderList,
-        /// Only where this holds.
+        /// The condition on the values.
         condition: Option<TermId>,
-        /// The rule run for each.
+        /// The rule to run for each.
         body: RuleId,
     },
     /// With fresh elements: slots `first`, `first+1`, …
@@ -134,28 +134,28 @@ pub enum Rule {
         /// The body.
         body: RuleId,
     },
-    /// Local functions: reset, the initialisations in sequence, then the body; as one unit, after which the
-    /// updates of the locals are dropped and their former values restored.
+    /// Local functions: resets them, runs the initialisations in sequence, then the body, all as one unit. At its end, it
+    /// drops the updates of the local functions and restores their former values.
     Local {
         /// The functions, a range of [`Program::function_lists`](crate::Program::function_lists).
         start: u32,
         /// How many.
         len: u32,
-        /// One initialisation a function.
+        /// An initialisation for each function.
         initialisations: RuleList,
-        /// The rule they are local to.
+        /// The rule that can use them.
         body: RuleId,
     },
 }
 
-/// What a rule runs that does not stand in it.
+/// What a rule runs that is not written in it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Runs {
     /// Nothing.
     Nothing,
     /// A procedure.
     Procedure(ProcedureId),
-    /// The rule that a term's value is, with as many arguments.
+    /// The rule that is the value of a term, with these arguments.
     Value {
         /// The arguments.
         arguments: TermList,
@@ -165,7 +165,7 @@ pub enum Runs {
 }
 
 impl Rule {
-    /// What it runs besides the rules that stand in it.
+    /// What it runs besides the rules written in it.
     pub fn runs(&self) -> Runs {
         match self {
             Rule::Call { procedure, .. } | Rule::TurboCall { procedure, .. } | Rule::Return { procedure, .. } => {

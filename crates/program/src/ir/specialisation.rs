@@ -1,5 +1,5 @@
-//! Which procedure stands for which rule with which arguments: kept with the program, so that terms and rules lowered later
-//! share its procedures.
+//! Maps a rule with its arguments to the procedure that stands for it. The map is kept with the program, so that terms and
+//! rules that are lowered later use the same procedures.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use crate::ir::ProcedureId;
 /// Names a by-name argument: equal arguments have one id.
 pub(crate) type ArgumentId = u32;
 
-/// Which procedure stands for which rule with which arguments.
+/// The procedures of rules with their arguments.
 #[derive(Debug, Clone, Default)]
 pub struct Specialisations {
     /// By-name arguments by their canonical text.

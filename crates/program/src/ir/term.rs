@@ -7,7 +7,8 @@ use model::{CollectionKind, DomainId, FunctionId, Quantifier};
 use crate::builtin::Builtin;
 use crate::ir::{BinderList, ProcedureId, Slot, TermId, TermList};
 
-/// A term of the IR. Its domain and span stand in [`Program::term_domains`](crate::Program::term_domains) and [`Program::term_spans`](crate::Program::term_spans).
+/// A term of the IR. [`Program::term_domains`](crate::Program::term_domains) has its domain,
+/// [`Program::term_spans`](crate::Program::term_spans) its span.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Term {
     /// A constant of the pool [`Program::constants`](crate::Program::constants).
@@ -19,14 +20,14 @@ pub enum Term {
     Read {
         /// The function.
         function: FunctionId,
-        /// One term a parameter.
+        /// A term for each parameter.
         arguments: TermList,
     },
     /// A static or derived function with a definition.
     Define {
         /// The function.
         function: FunctionId,
-        /// One term a parameter, evaluated first.
+        /// A term for each parameter; they are evaluated first.
         arguments: TermList,
     },
     /// A library function.
@@ -47,7 +48,7 @@ pub enum Term {
         /// Which component.
         index: u32,
     },
-    /// A collection by its elements; those of a map are tuples.
+    /// A collection, given by its elements. Those of a map are tuples.
     Collection {
         /// Of which kind.
         kind: CollectionKind,
@@ -69,9 +70,9 @@ pub enum Term {
     Comprehension {
         /// Of which kind.
         kind: CollectionKind,
-        /// What is ranged over, leftmost slowest.
+        /// The ranges; the leftmost varies slowest.
         binders: BinderList,
-        /// Only where this holds.
+        /// The condition on the values.
         condition: Option<TermId>,
         /// The element.
         body: TermId,
@@ -80,7 +81,7 @@ pub enum Term {
     Quantified {
         /// Which quantifier.
         quantifier: Quantifier,
-        /// What is ranged over, leftmost slowest.
+        /// The ranges; the leftmost varies slowest.
         binders: BinderList,
         /// The condition; true if absent.
         condition: Option<TermId>,
@@ -89,7 +90,7 @@ pub enum Term {
     If {
         /// guard, term, guard, term, …
         branches: TermList,
-        /// Where no guard holds.
+        /// The value if no guard holds.
         otherwise: Option<TermId>,
     },
     /// Values and terms alternate in `cases`.
@@ -98,7 +99,7 @@ pub enum Term {
         subject: TermId,
         /// value, term, value, term, …
         cases: TermList,
-        /// Where no case matches.
+        /// The value if no case matches.
         otherwise: Option<TermId>,
     },
     /// One binding; several are nested.
@@ -107,7 +108,7 @@ pub enum Term {
         slot: Slot,
         /// Its value.
         value: TermId,
-        /// The term it is bound in.
+        /// The term that can read it.
         body: TermId,
     },
     /// A rule as a value.

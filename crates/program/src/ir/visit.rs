@@ -1,7 +1,7 @@
 //! The children of terms and rules, in the order in which they are written.
 //!
-//! For readers that walk a program without regard to what each construct means: the verifier, dependency searches,
-//! generators. A call's procedure is not a child: it has a frame of its own.
+//! It is for code that walks a program whatever its constructs mean: the verifier, dependency searches, generators.
+//! The procedure of a call is not a child, because it has its own frame.
 
 use std::collections::BTreeSet;
 
@@ -156,7 +156,7 @@ impl Program {
         (read, depends_on_more)
     }
 
-    /// The same, with monitored functions treated like any other.
+    /// The same, but treats monitored functions like all others.
     pub fn reads_and_more(&self, expression: &Expression) -> (Vec<FunctionId>, bool) {
         let mut read = BTreeSet::new();
         let mut depends_on_more = false;

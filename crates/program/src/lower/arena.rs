@@ -1,4 +1,4 @@
-//! Putting terms, rules and lists into the arenas.
+//! Adds terms, rules and lists to the arenas.
 //!
 //! Children are added before their parents. INVARIANT: the tables of domains and places grow with their arena.
 
@@ -55,7 +55,7 @@ impl Lowering<'_, '_> {
         BinderList { start, len: binders.len() as u32 }
     }
 
-    /// The term and the rule that stand for all others once a limit is passed. They are added whatever the size.
+    /// The term and the rule that replace all others once a limit is passed. They are added even then.
     pub(super) fn sentinels(&mut self, span: Span) -> (TermId, RuleId) {
         let undef = self.constant_index(&Literal::Undef);
         (self.push_term(Term::Constant(undef), Domains::UNDEF, span), self.push_rule(Rule::Skip, span))

@@ -1,9 +1,9 @@
-//! By-name arguments: which ones are passed by value, and the canonical form of the others.
+//! By-name arguments: decides which can be passed by value, and gives the others a canonical form.
 //!
 //! A macro call substitutes its arguments in the rule's body (Börger & Stärk 2003, section 2.4.4). An argument is
 //! passed by value if that has the same effect as substitution: its value is the same wherever the body may evaluate
-//! it, and its evaluation cannot fail. Every other one becomes an [`Argument`]: the term as written, and what its
-//! variables stand for. The slots that it needs from the caller are numbered from 0 in order of occurrence. INVARIANT:
+//! it, and its evaluation cannot fail. Any other argument becomes an [`Argument`]: the term as written, and the meaning
+//! of its variables. The slots that it needs from the caller are numbered from 0 in order of occurrence. INVARIANT:
 //! arguments with the same text of [`Lowering::intern`] differ only in places of the source, so equal calls share a
 //! procedure. LIMIT: the shared terms have the place of the first of equal arguments.
 
@@ -44,7 +44,7 @@ impl<'m> Lowering<'m, '_> {
         }
     }
 
-    /// Whether a term without variables has one value for ever: a literal, an element, a static constant.
+    /// Whether a term without variables always has the same value: a literal, an element, a static constant.
     fn is_constant(&mut self, term: &Term) -> bool {
         if self.folded(term).is_some() {
             return true;
@@ -92,7 +92,7 @@ impl<'m> Lowering<'m, '_> {
         result
     }
 
-    /// The argument that a term is in the current environment, and the slots it needs.
+    /// A term of the current environment as an argument, and the slots it needs.
     pub(super) fn intern(&mut self, term: &'m Term) -> (ArgumentId, Vec<Slot>) {
         let mut canonical = Canonical::new(&self.environment);
         canonical.write_term(term);

@@ -1,15 +1,15 @@
-//! Which operation of the machine a library function is.
+//! Finds the machine's operation for a library function.
 //!
-//! In: a library function without definition. Out: its meaning, by its name and the kinds of its parameter domains
-//! (spec/standard-library.md). A domain variable of a polymorphic function is of kind `Any`; a declared product of
-//! parameters was taken apart by the checker.
+//! In: a library function without definition. Out: its meaning. Its name and the kinds of its parameter domains decide
+//! it (spec/standard-library.md). A domain variable of a polymorphic function is of kind `Any`. The checker has already
+//! split a declared product into parameters.
 
 use model::{Basic, DomainId, DomainKind, Function, Model};
 
 use crate::builtin::{Builtin, COMPONENTS, Kind, TemporalOperator};
 use crate::lower::meaning::Meaning;
 
-/// The meaning of a library function; none if the machine knows no such operation.
+/// The meaning of a library function; none if the machine has no such operation.
 pub(super) fn resolve(model: &Model, function: &Function) -> Option<Meaning> {
     let kinds: Vec<Kind> = function.parameters.iter().map(|domain| kind(model, *domain)).collect();
     let name = function.name.as_str();

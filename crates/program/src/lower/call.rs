@@ -1,8 +1,8 @@
-//! Calls: which procedure a rule becomes for the arguments it is given.
+//! Calls: finds or makes the procedure of a rule for its arguments.
 //!
-//! A turbo rule is one procedure, called by value. A macro rule is one procedure for each shape of its arguments: those
-//! by value are its first slots, then come the slots that its by-name arguments need. INVARIANT: a procedure has its
-//! number before its body is lowered, so recursion ends; calls of the same shape share it.
+//! A turbo rule has one procedure, called by value. A macro rule has a procedure for each shape of its arguments, and
+//! calls of the same shape share it. Its first slots hold the arguments passed by value; then come the slots that the
+//! by-name arguments need. INVARIANT: a procedure has its number before its body is lowered, so recursion ends.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -27,7 +27,7 @@ pub(super) struct Pending<'m> {
 }
 
 impl<'m> Lowering<'m, '_> {
-    /// The procedure of a call, and the terms passed to it; `stands` is what replaces `result` in it.
+    /// The procedure of a call, and the terms passed to it. In its body, `stands` replaces `result`.
     pub(super) fn lower_call(
         &mut self,
         id: RuleId,
@@ -133,7 +133,7 @@ impl<'m> Lowering<'m, '_> {
         procedure.body = body;
     }
 
-    /// The argument and the slots it needs, unless it is passed by value. One passed on is the same argument.
+    /// The argument and the slots it needs, unless it is passed by value. An argument that is passed on stays the same.
     fn by_name(&mut self, argument: &'m Term) -> Option<(ArgumentId, Vec<Slot>)> {
         if let model::TermKind::Variable(variable) = &argument.kind {
             return match self.environment.bindings.get(variable) {

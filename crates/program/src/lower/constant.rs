@@ -1,6 +1,6 @@
 //! Constants: the pool, and literals with a sign or a coercion as one constant.
 //!
-//! There is no further folding. So no meaning changes, and the IR stays close to the text.
+//! Nothing else is folded, so no meaning changes and the IR stays close to the text.
 
 use model::{Basic, DomainId, DomainKind, Literal, Term, TermKind};
 use syntax::Span;
@@ -48,7 +48,7 @@ impl Lowering<'_, '_> {
         self.term(ir::Term::Constant(index), domain, span)
     }
 
-    /// Where a literal stands in the pool. Adding zero keeps a negative zero out.
+    /// The index of a literal in the pool. Adding zero turns a negative zero into zero.
     pub(super) fn constant_index(&mut self, literal: &Literal) -> u32 {
         let literal = match literal {
             Literal::Real(number) => Literal::Real(number + 0.0),
@@ -67,7 +67,7 @@ impl Lowering<'_, '_> {
         self.constant(&Literal::Undef, domain, span)
     }
 
-    /// The constant that a term is: a literal, or a literal with a sign or a coercion.
+    /// The value of a term that is a literal, or a literal with a sign or a coercion.
     pub(super) fn folded(&mut self, term: &Term) -> Option<Literal> {
         match &term.kind {
             TermKind::Literal(literal) => Some(literal.clone()),

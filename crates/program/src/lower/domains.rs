@@ -1,7 +1,7 @@
-//! The table of domains: what is needed of each at run time.
+//! The table of domains: what a run needs to know of each.
 //!
-//! INVARIANT: a domain has the model's id. Contents of a static concrete domain come from its definition, those of
-//! a dynamic one from the initial state; names of elements are filled in with the functions that denote them.
+//! INVARIANT: a domain has the model's id. The contents of a static concrete domain come from its definition, those of
+//! a dynamic one from the initial state. The functions that denote elements give them their names.
 
 use model::{DomainId, Init};
 
@@ -9,7 +9,7 @@ use crate::ir::{Domain, DomainKind};
 use crate::lower::Lowering;
 
 impl<'m> Lowering<'m, '_> {
-    /// Adds the domains that the program does not have yet, without contents.
+    /// Adds the domains that the program lacks, without contents.
     pub(super) fn lower_domains(&mut self) {
         for (id, domain) in self.model.domains.iter().skip(self.program.domains.len()) {
             let kind = match &domain.kind {

@@ -1,9 +1,8 @@
-//! What a variable stands for, and the slots of a frame.
+//! The meaning of each variable, and the slots of a frame.
 //!
 //! The variables of a model are numbered by declaration. A body can hold terms of several declarations, because by-name
-//! arguments are lowered within the callee. An [`Environment`] speaks about the variables of *one* declaration and the
-//! slots of *one* frame. INVARIANT: a slot is bound at one place of its body only, so that a name can never capture
-//! another.
+//! arguments are lowered within the callee. An [`Environment`] is about the variables of *one* declaration and the
+//! slots of *one* frame. INVARIANT: only one place of a body binds a slot, so no name can capture another.
 
 use std::collections::BTreeMap;
 

@@ -1,8 +1,8 @@
 //! Fragments: terms, rules and locations added to a program that is already lowered.
 //!
-//! In: the text of a scenario, a command line or a debugger, checked against the same model (which may have grown by
-//! domains and functions meanwhile). Out: ids and expressions of the same program; its other parts do not change.
-//! Errors are those of [`crate::lower()`]; after one the program is still well formed.
+//! In: the text of a scenario, a command line or a debugger, checked against the same model. The model may have new
+//! domains and functions by now. Out: ids and expressions of the same program; its other parts do not change. The
+//! errors are those of [`crate::lower()`]; after an error the program is still well formed.
 
 use model::{FunctionId, Model, Term, Variable};
 use syntax::Diagnostic;
@@ -26,7 +26,7 @@ pub fn lower_term(
     Ok(expression)
 }
 
-/// Adds a rule without parameters, which need not be one of the model's, as a procedure.
+/// Adds a rule without parameters as a procedure. The rule need not be one of the model.
 ///
 /// # Errors
 /// `model-too-large`, `not-a-location`.
@@ -37,7 +37,7 @@ pub fn lower_rule(program: &mut Program, model: &Model, rule: &model::Rule) -> R
     Ok(procedure)
 }
 
-/// Adds the arguments of a location: `f(1, a)` as the function and a term for each argument.
+/// Adds the arguments of a location: of `f(1, a)`, returns the function and a term for each argument.
 ///
 /// # Errors
 /// `not-a-location` for a term that is not an application of a dynamic function; `model-too-large`.

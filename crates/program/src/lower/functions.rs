@@ -1,7 +1,7 @@
-//! The table of functions, the elements that some of them denote, and what an application of each means.
+//! The table of functions, the elements that some of them denote, and the meaning of an application of each.
 //!
-//! INVARIANT: a function has the model's id. The 0-ary static functions without definition that are declared in an
-//! abstract domain, or in a subset of one, are its elements, numbered from 0 in order of declaration.
+//! INVARIANT: a function has the model's id. The elements of an abstract domain are the 0-ary static functions that are
+//! declared in it or in a subset of it and have no definition. They are numbered from 0 in order of declaration.
 
 use model::{Definition, DomainId, FunctionId, FunctionKind, Init};
 
@@ -10,7 +10,7 @@ use crate::lower::meaning::Meaning;
 use crate::lower::{Lowering, builtin};
 
 impl<'m> Lowering<'m, '_> {
-    /// What an application of a function is.
+    /// The meaning of an application of a function.
     pub(super) fn meaning(&mut self, id: FunctionId) -> Meaning {
         if let Some(known) = self.meanings.get(&id) {
             return *known;
@@ -86,7 +86,7 @@ impl<'m> Lowering<'m, '_> {
         }
     }
 
-    /// Which element of its domain a function denotes, if it denotes one. Numbers it.
+    /// The element that a function denotes, if it denotes one; gives it a number.
     fn element(&mut self, function: &model::Function) -> Option<u32> {
         let constant =
             function.kind == FunctionKind::Static && function.parameters.is_empty() && function.definition.is_none();
@@ -112,7 +112,7 @@ impl<'m> Lowering<'m, '_> {
     }
 }
 
-/// The definition of a static or derived function, unless it is only the rest of a reported fault.
+/// The definition of a static or derived function, unless a reported fault left only a part of it.
 fn definition(function: &model::Function) -> Option<&Definition> {
     let defined = matches!(function.kind, FunctionKind::Static | FunctionKind::Derived);
     let fits = |definition: &&Definition| definition.parameters.len() == function.parameters.len();

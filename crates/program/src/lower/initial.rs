@@ -1,7 +1,7 @@
 //! The initial state: contents of dynamic domains, initial values, programs of agents.
 //!
-//! It is the default one, or the only one. INVARIANT: the program of a subset of `Agent` comes before that of `Agent`,
-//! so an agent's program is the first one whose domain holds the agent.
+//! It is the default one, or the only one that the model has. INVARIANT: the program of a subset of `Agent` comes
+//! before that of `Agent`, so an agent's program is the first one whose domain holds the agent.
 
 use model::{DomainKind, Init};
 

@@ -1,8 +1,8 @@
-//! What an application of a function is.
+//! The meaning of an application of a function.
 
 use crate::builtin::Builtin;
 
-/// What an application of a function is.
+/// The meaning of an application of a function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Meaning {
     /// A location.
@@ -13,6 +13,6 @@ pub(super) enum Meaning {
     Missing,
     /// An operation of the library.
     Builtin(Builtin),
-    /// Just its argument of that index: unary plus, `first(1, 2)`.
+    /// Its argument with this index: unary plus, `first(1, 2)`.
     Argument(usize),
 }

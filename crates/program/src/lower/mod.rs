@@ -3,8 +3,8 @@
 //! In: a complete model. Out: a [`Program`] that [`crate::verify()`] accepts, or the limits that were passed. A fault
 //! left in an incomplete model becomes undef or skip; nothing here panics on it.
 //!
-//! Bodies are lowered one at a time, each in its own frame. Definitions and formulas are lowered where they are met,
-//! rules from a queue ([`call`]), so chains of calls cost no stack. Macro rules are called by name (Börger & Stärk
+//! Bodies are lowered one at a time, each in its own frame. Definitions and formulas are lowered at once, rules from
+//! a queue ([`call`]), so chains of calls cost no stack. Macro rules are called by name (Börger & Stärk
 //! 2003, section 2.4.4): [`argument`] says what that means for a frame of slots.
 
 mod arena;
@@ -42,13 +42,13 @@ use meaning::Meaning;
 /// The ids of the faults that lowering may report; each has a page `spec/faults/<id>.md`.
 pub const IDS: &[&str] = &["model-too-large", "not-a-location"];
 
-/// LIMIT: how many procedures, each a rule specialised on its arguments.
+/// LIMIT: the number of procedures, each a rule specialised on its arguments.
 const MAX_PROCEDURES: usize = 100_000;
-/// LIMIT: how many terms and rules.
+/// LIMIT: the number of terms and rules.
 const MAX_NODES: usize = 2_000_000;
-/// LIMIT: how deep the lowering nests. An application can add a coercion, so this is half of what the IR allows.
+/// LIMIT: the depth to which lowering nests. An application can add a coercion, so this is half of what the IR allows.
 const MAX_NESTING: u32 = MAX_DEPTH / 2;
-/// Stack kept free for one level, and how much is added when it is not.
+/// The stack that one level needs, and how much is added when less is free.
 const RED_ZONE: usize = 64 * 1024;
 const STACK_PIECE: usize = 1024 * 1024;
 
@@ -91,26 +91,26 @@ pub fn lower(model: &Model) -> Result<Program, Vec<Diagnostic>> {
 struct Lowering<'m, 'p> {
     model: &'m Model,
     program: &'p mut Program,
-    /// Where each literal stands in the pool.
+    /// The index of each literal in the pool.
     constants: BTreeMap<ConstantKey, u32>,
-    /// What an application of each function is, once it was needed.
+    /// The meaning of an application of each function, as far as it was needed.
     meanings: BTreeMap<FunctionId, Meaning>,
-    /// The by-name arguments met so far.
+    /// The by-name arguments found so far.
     arguments: BTreeMap<ArgumentId, Rc<Argument<'m>>>,
     /// Procedures whose bodies are still to be lowered.
     pending: VecDeque<call::Pending<'m>>,
     diagnostics: Vec<Diagnostic>,
-    /// Set when a limit was passed; it then stands for every term and rule.
+    /// Set once a limit is passed; it then replaces every term and rule.
     stopped: Option<(TermId, RuleId)>,
-    /// What the variables of the term or rule being lowered stand for.
+    /// The meaning of the variables of the term or rule being lowered.
     environment: Environment<'m>,
     /// The slots of the body being lowered.
     frame: Frame,
-    /// How deep in the body.
+    /// The depth within the body.
     depth: u32,
     /// What replaces `result` in the body.
     place: Option<result::Place>,
-    /// What rules do, as far as that was asked for.
+    /// What rules do, as far as it was needed.
     reaches: BTreeMap<model::RuleId, Rc<result::Reach>>,
 }
 
@@ -146,7 +146,7 @@ impl<'m, 'p> Lowering<'m, 'p> {
         self.program.main = self.model.main.map(|rule| self.procedure_by_value(rule));
     }
 
-    /// Lowers the bodies still pending; gives the faults, if there were any.
+    /// Lowers the bodies that are still pending; returns the faults, if any.
     fn finish(mut self) -> Result<(), Vec<Diagnostic>> {
         while let Some(pending) = self.pending.pop_front() {
             self.lower_pending(pending);
@@ -194,7 +194,7 @@ impl<'m, 'p> Lowering<'m, 'p> {
         result
     }
 
-    /// Reports that a limit is passed, once; from now on nothing is lowered.
+    /// Reports once that a limit is passed; from then on nothing is lowered.
     fn stop(&mut self, span: Span, message: String) {
         if self.stopped.is_some() {
             return;

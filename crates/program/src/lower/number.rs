@@ -1,15 +1,15 @@
-//! Numeric forms: if operands of one operation differ in form, the narrower one is coerced.
+//! Numeric forms: if the operands of an operation differ in form, the narrower one is coerced.
 //!
-//! The checker makes a coercion explicit where an argument's domain differs from the parameter's. That leaves library
-//! functions declared over different numbers, such as `eq: Prod(Real, Integer)`, and equality over a domain variable;
-//! the machine compares values of one form only.
+//! The checker makes a coercion explicit where an argument's domain differs from the parameter's. Two cases remain:
+//! library functions over different numbers, such as `eq: Prod(Real, Integer)`, and equality over a domain variable.
+//! The machine only compares values of the same form.
 
 use model::{Basic, DomainId, DomainKind, Term};
 
 use crate::builtin::{Builtin, Operands};
 use crate::lower::Lowering;
 
-/// How the machine holds a number; wider ones later.
+/// The machine's form of a number, from the narrowest to the widest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Form {
     /// Integer and Natural.
@@ -30,7 +30,7 @@ impl Lowering<'_, '_> {
         }
     }
 
-    /// The form that an operation's operands are brought to: its own, or the widest of theirs.
+    /// The form to which the operands of an operation are coerced: its own, or the widest of theirs.
     pub(super) fn common_form(&self, builtin: Builtin, operands: &[Term]) -> Option<Form> {
         match builtin.info().operands {
             Operands::Alike | Operands::Ordered => {

@@ -4,8 +4,8 @@
 //! reads l. The arguments of l are evaluated once, where the rule is called, and passed to a procedure of its own for
 //! l's function. Most bodies do not need one: if nothing in them shows the difference, they write `result`, and at the
 //! end of the call the machine turns that into an update of l. INVARIANT: the two ways have the same effect. A rule
-//! that runs through a rule value, or as an agent's program, always writes `result`; so does a rule whose result goes
-//! to a local function.
+//! that runs as a rule value or as an agent's program always writes `result`. So does a rule whose result goes to a
+//! local function.
 
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -34,14 +34,14 @@ pub(super) enum InPlace {
     Location(FunctionId, TermList),
 }
 
-/// What a rule does and reads, with all that it calls.
+/// What a rule does and reads, including all that it calls.
 #[derive(Debug, Default)]
 pub(super) struct Reach {
     writes_result: bool,
     reads_result: bool,
-    /// Something comes after something else.
+    /// It does something after something else.
     has_sequence: bool,
-    /// It runs what only a run shows.
+    /// It runs something that only a run can determine.
     runs_values: bool,
     functions: BTreeSet<FunctionId>,
 }
@@ -62,8 +62,8 @@ impl<'m> Lowering<'m, '_> {
     /// Whether the body of a rule must be given a location of this function with these arguments.
     pub(super) fn needs_place(&mut self, rule: RuleId, function: FunctionId, arguments: TermList) -> bool {
         let declared = self.model.function(function);
-        // What the environment holds is not written; and the called rule knows no local function but its own, even if that is
-        // the same one.
+        // Rules do not write what the environment holds. The called rule knows only its own local functions, even if one of
+        // them is the same function.
         if matches!(declared.kind, FunctionKind::Monitored | FunctionKind::Local) {
             return false;
         }

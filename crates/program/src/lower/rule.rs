@@ -1,7 +1,6 @@
-//! Rules: one case a construct.
+//! Rules: one case for each construct.
 //!
-//! An update of a parameter is an update of the location that the caller's argument names, through as many calls
-//! as it was passed on.
+//! An update of a parameter updates the location that the caller's argument names, however many calls passed it on.
 
 use model::{Call, DomainKind, FunctionId, FunctionKind, RuleKind, RuleNode, Target, TermKind, VariableId};
 use syntax::{Diagnostic, Span};
@@ -12,7 +11,7 @@ use crate::lower::environment::Binding;
 use crate::lower::result::InPlace;
 
 impl<'m> Lowering<'m, '_> {
-    /// Adds a rule with everything in it.
+    /// Adds a rule and all its parts.
     pub(super) fn lower_rule(&mut self, rule: &'m RuleNode) -> RuleId {
         if let Some((_, skip)) = self.stopped {
             return skip;
@@ -91,7 +90,7 @@ impl<'m> Lowering<'m, '_> {
         self.rule(lowered, span)
     }
 
-    /// Whether a rule is more than the rest of a reported fault.
+    /// Whether a rule is complete: a reported fault may have left only a part of it.
     fn is_whole(&self, rule: &RuleNode) -> bool {
         match &rule.kind {
             RuleKind::Choose { binders, .. } | RuleKind::Forall { binders, .. } => !binders.is_empty(),
@@ -128,7 +127,7 @@ impl<'m> Lowering<'m, '_> {
         ir::Rule::Local { start, len: locals.len() as u32, initialisations, body }
     }
 
-    /// The location written to; none if the parameter is not a location here, which is reported.
+    /// The location to write. If the parameter is not a location here, reports it and returns none.
     fn lower_target(&mut self, target: &'m Target) -> Option<(FunctionId, TermList)> {
         match target {
             Target::Location { function, arguments, span } => {

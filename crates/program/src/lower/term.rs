@@ -1,6 +1,6 @@
-//! Terms: one case a construct.
+//! Terms: one case for each construct.
 //!
-//! A variable becomes its slot, or the by-name argument that it stands for; that argument is lowered anew at each
+//! A variable becomes its slot, or the by-name argument that it stands for. The argument is lowered again at each
 //! place.
 
 use model::{Domains, FunctionId, TermKind, VariableId};
@@ -13,7 +13,7 @@ use crate::lower::number::Form;
 use crate::lower::{Lowering, constant};
 
 impl<'m> Lowering<'m, '_> {
-    /// Adds a term with everything in it.
+    /// Adds a term and all its parts.
     pub(super) fn lower_term(&mut self, term: &'m model::Term) -> TermId {
         if let Some((undef, _)) = self.stopped {
             return undef;
@@ -118,7 +118,7 @@ impl<'m> Lowering<'m, '_> {
         self.term(lowered, term.domain, term.span)
     }
 
-    /// A builtin; operands of different numeric forms are brought to one.
+    /// A builtin; operands of different numeric forms are coerced to one form.
     fn lower_operation(&mut self, builtin: Builtin, arguments: &'m [model::Term]) -> ir::Term {
         let form = self.common_form(builtin, arguments);
         let mut operands = Vec::with_capacity(arguments.len());

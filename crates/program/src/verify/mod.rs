@@ -1,7 +1,7 @@
 //! The verifier: is a program well formed?
 //!
 //! In: any program. Out: the first breach of an invariant of [`crate::ir`], as a sentence. Lowering asserts in debug
-//! builds that its result passes; hand-built programs of tests should too.
+//! builds that its result passes. Programs that tests build by hand should pass, too.
 
 mod arena;
 mod scope;

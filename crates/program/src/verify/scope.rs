@@ -127,7 +127,7 @@ impl<'p> Scope<'p> {
                 if_none.map_or(Ok(()), |rule| self.rule(rule))
             }
             Rule::Return { target, arguments, .. } => {
-                // A body with the location in the place of `result` is given the arguments of the location, the same terms.
+                // If a location replaces `result` in a body, the body gets the arguments of that location: the same terms.
                 let arguments = program.term_list(*arguments);
                 let target = program.term_list(*target).iter().filter(|term| !arguments.contains(term));
                 arguments.iter().chain(target).try_for_each(|term| self.term(*term))
