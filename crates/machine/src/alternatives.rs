@@ -1,7 +1,7 @@
-//! Where every alternative of a step is wanted, not one: who goes through them, and what the machine tells it.
+//! The interface of an explorer that wants every alternative of a step, not one.
 //!
-//! In: an [`Alternatives`], which the environment names. Out: what a step asks for, as one of so many alternatives, and what it
-//! looks at. INVARIANT: nothing but the answers and what is looked at decides how a step goes on.
+//! In: an [`Alternatives`], which the environment provides. Out: each question of a step, with the number of its
+//! alternatives, and each read of the state. INVARIANT: only the answers and what was read decide how a step goes on.
 
 use std::collections::BTreeMap;
 

@@ -1,8 +1,8 @@
-//! The choose rule and inputs where every alternative is wanted: see [`crate::alternatives`].
+//! The choose rule and inputs when every alternative is wanted: see [`crate::alternatives`].
 //!
-//! A choose rule with a guard is asked for before its guards are evaluated, so that an alternative looks at no more of the
-//! state than its own guard does. INVARIANT: the alternatives that are alive are exactly the candidates of the choose rule,
-//! in their order; where there is none, the rule without candidates is run.
+//! If a choose rule has a guard, the alternative is selected before the guards are evaluated, so that an alternative reads
+//! only what its own guard reads. INVARIANT: the alternatives that remain are exactly the candidates of the choose rule,
+//! in their order. If none remains, the rule for no candidates runs.
 
 use std::ops::ControlFlow;
 
@@ -16,7 +16,7 @@ use crate::location::LocationRef;
 use crate::value::Value;
 
 impl Executor<'_> {
-    /// Notes that a location is looked at.
+    /// Notes that a location is read.
     #[cold]
     pub fn note_look(&mut self, function: FunctionId, found: Option<u32>) {
         let kept = is_kept(self.program, function);
@@ -34,7 +34,7 @@ impl Executor<'_> {
         }
     }
 
-    /// Notes that the elements of a dynamic domain are looked at.
+    /// Notes that the elements of a dynamic domain are read.
     #[cold]
     pub fn note_carriers(&mut self) {
         if let Some(alternatives) = self.environment.alternatives() {
@@ -60,7 +60,7 @@ impl Executor<'_> {
         }
     }
 
-    /// Whether the alternatives of a choose rule can be asked for before its guards are evaluated: neither these nor the
+    /// Whether an alternative of a choose rule can be selected before its guards are evaluated: neither these nor the
     /// ranges ask for anything themselves. A guard over an input may let all candidates fail for one of its values and
     /// none for another.
     pub fn asks_first(&mut self, id: RuleId, binders: &[Binder], condition: Option<TermId>) -> bool {

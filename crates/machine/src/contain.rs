@@ -1,7 +1,7 @@
-//! Is a value in a domain? The check made when an update is.
+//! Checks whether a value is in a domain. Every update is checked.
 //!
-//! In: a value, a domain or the function it is written to. Out: whether it is in it in the current state, with the elements that
-//! the running step makes.
+//! In: a value, and a domain or the function to which it is written. Out: whether the domain contains the value in the
+//! current state, including the elements that the running step makes.
 
 use program::{DomainId, DomainKind, FunctionId};
 
@@ -49,7 +49,7 @@ impl Executor<'_> {
                         self.note_carriers();
                     }
                     let carrier = &self.core.store.carriers[domain.0 as usize];
-                    // Fresh elements have rising numbers; what is asked for is most often the newest.
+                    // Fresh elements have rising numbers; most questions are about the newest.
                     let created = || self.core.updates.created().iter().rev().any(|(d, v)| *d == domain && v == value);
                     return carrier.elements.binary_search(value).is_ok()
                         || carrier.intermediate.binary_search(value).is_ok()

@@ -1,7 +1,7 @@
 //! Ranging over domains and collections: the binders of quantifiers, comprehensions, choose and forall.
 //!
-//! The order is canonical: enum literals and numbers ascending, elements in the order of their making, sets in the
-//! order of values, sequences in their own; of several binders the leftmost varies slowest.
+//! The order is canonical: enum literals and numbers ascend; elements come in the order in which they were made, the
+//! members of sets in the order of values, those of sequences in theirs. Of several binders the leftmost varies slowest.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -47,7 +47,7 @@ impl Elements {
     }
 }
 
-/// The bindings of binders of whose ranges none depends on the binders before it, not built.
+/// The bindings of binders whose ranges do not depend on each other, without building them.
 pub(crate) struct Grid {
     /// By binder, how many elements each, the last varying fastest.
     ranges: Vec<Elements>,
@@ -64,7 +64,7 @@ impl<'a> Executor<'a> {
         }
         let mut grid = Grid { ranges: Vec::with_capacity(binders.len()), len: 1 };
         for binder in binders {
-            // Where a range is empty those after it are not looked at.
+            // If a range is empty, those after it are not read.
             if grid.len == 0 {
                 break;
             }

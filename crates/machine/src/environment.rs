@@ -1,4 +1,4 @@
-//! What a step takes from outside: values of monitored locations, choices, the clock.
+//! What a step gets from outside: values of monitored locations, choices, the clock.
 
 use program::{DomainId, Program};
 use syntax::Span;
@@ -80,7 +80,7 @@ impl Draw {
     }
 }
 
-/// The environment of a run. Each location is asked for at most once a step.
+/// The environment of a run. A step asks for each location at most once.
 pub trait Environment {
     /// The value of a monitored location in the coming step, or of a shared one that has none yet. An error is a
     /// sentence for the user.
@@ -117,7 +117,7 @@ pub trait Environment {
     /// The clock.
     fn time(&mut self, unit: TimeUnit) -> Result<i64, String>;
 
-    /// Where every alternative is wanted, not one: who goes through them.
+    /// The explorer, if every alternative is wanted, not one.
     fn alternatives(&mut self) -> Option<&mut dyn Alternatives> {
         None
     }

@@ -1,7 +1,7 @@
 //! Terms → values, in the current (intermediate) state (Börger & Stärk 2003, definition 2.4.10).
 //!
-//! `and`, `or`, `not`, `implies` are Kleene's and evaluate from the left, the right operand only where it matters;
-//! equality is total; every other operation on undef is a fault, as is a guard that is undef.
+//! `and`, `or`, `not`, `implies` are Kleene's. They evaluate from the left, and the right operand only if it matters.
+//! Equality is total. Every other operation on undef is a fault, and so is a guard that is undef.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -151,7 +151,7 @@ impl<'a> Executor<'a> {
         self.read(function, &arguments, self.program.term_span(id))
     }
 
-    /// A location that nobody is asked for; if it is undef it may have an initial value that is not there yet.
+    /// A location that is not an input. If it is undef, its initial value may not have been evaluated yet.
     #[inline]
     fn read_plain(&mut self, function: FunctionId, arguments: &[Value], id: TermId) -> Outcome<Value> {
         let found = self.core.store.find(function, arguments);
@@ -310,7 +310,7 @@ impl<'a> Executor<'a> {
         }
     }
 
-    /// Kleene's `and` and `or`; `evaluate` says what an operand comes to.
+    /// Kleene's `and` and `or`; `evaluate` evaluates an operand.
     #[inline]
     pub fn and_or(
         &mut self,

@@ -71,7 +71,7 @@ pub(crate) struct Core {
     pub journal: Option<Box<Journal>>,
     /// The choices of this step.
     pub choices: Choices,
-    /// Every alternative is wanted, and what is looked at is noted: see [`crate::alternatives`].
+    /// Every alternative is wanted, and reads are noted: see [`crate::alternatives`].
     pub exploring: bool,
     /// By term, where any is: a range whose elements are to be interchangeable, all of which quantifiers look at.
     pub unordered: std::sync::Arc<[bool]>,
@@ -83,11 +83,11 @@ pub(crate) struct Core {
     pub shared: bool,
     /// Sparse locations at the last compaction.
     pub compacted: usize,
-    /// By choose rule, as far as it is known: its alternatives are asked for before its guards are evaluated.
+    /// By choose rule, as far as it is known: whether its alternative is selected before its guards are evaluated.
     pub asked_first: Vec<Option<bool>>,
 }
 
-/// The choices made in a step, so that one begun anew makes the same.
+/// The choices made in a step, so that it makes the same ones if it is started again.
 #[derive(Debug, Default)]
 pub(crate) struct Choices {
     made: Vec<usize>,
@@ -99,7 +99,7 @@ pub(crate) struct Choices {
 }
 
 impl Choices {
-    /// Lets the environment choose, unless this choice was made before the step was begun anew.
+    /// Lets the environment choose, unless the step made this choice before it was started again.
     pub fn choose(
         &mut self,
         environment: &mut dyn Environment,
@@ -118,7 +118,7 @@ impl Choices {
         Ok(chosen)
     }
 
-    /// Lets the environment draw a number, unless this one was drawn before the step was begun anew.
+    /// Lets the environment draw a number, unless the step drew it before it was started again.
     pub fn number(
         &mut self,
         environment: &mut dyn Environment,
@@ -141,7 +141,7 @@ impl Choices {
         self.repeat();
     }
 
-    /// The step begins anew.
+    /// The step starts again.
     pub fn repeat(&mut self) {
         (self.again, self.drawn_again) = (0, 0);
     }
@@ -183,7 +183,7 @@ impl Executor<'_> {
         self.core.frames[index] = value;
     }
 
-    /// Runs `body` in a new frame whose first slots are the values that stand on the frame stack from `arguments` on.
+    /// Runs `body` in a new frame. Its first slots are the values on the frame stack from `arguments` on.
     pub fn in_frame<T>(
         &mut self,
         arguments: usize,
@@ -314,7 +314,7 @@ impl Executor<'_> {
         Ok(value)
     }
 
-    /// Asks for an input whose location has a number; false where the environment has none or it does not fit.
+    /// Asks for an input whose location has a number. False if the environment has none, or if it does not fit.
     pub fn ask_at(&mut self, function: FunctionId, arguments: &[Value], index: u32) -> bool {
         if self.core.initials[function.0 as usize].is_some() || self.environment.alternatives().is_some() {
             return self.ask(function, arguments, self.program.function(function).span).is_ok();

@@ -1,7 +1,7 @@
 //! Why a step could not be made: faults of the model at run time.
 //!
-//! A fault is the model's, never ours: it names its place in the text and what the values were. After a fault the
-//! state is the one before the step.
+//! A fault is always the model's, never a bug of this program. It names its place in the text and the values there. After a
+//! fault, the state is the one before the step.
 
 use std::fmt;
 
@@ -33,7 +33,7 @@ pub struct Fault {
     pub calls: Vec<Span>,
 }
 
-/// What kind of fault a step met, as far as it is told apart by who goes through many.
+/// The kind of a fault, as far as an explorer of many steps tells kinds apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FaultClass {
     /// An inconsistent update.
@@ -78,12 +78,12 @@ pub enum FaultKind {
     },
     /// A guard or condition is neither true nor false.
     UndefinedGuard,
-    /// An operation met an undefined operand.
+    /// An operand of an operation is undefined.
     UndefinedOperand {
         /// The operation, as written.
         operation: String,
     },
-    /// An operation met operands outside its domain; the sentence says which.
+    /// The operands of an operation are outside its domain; the sentence says which.
     BadOperand {
         /// What is wrong, e.g. `index 7 is outside a sequence of length 3`.
         reason: String,

@@ -1,10 +1,10 @@
-//! The machine from inside, for engines that are built on it: its state by the numbers of locations, the update set of the
-//! step that is being made, and what a step looks at.
+//! The machine from inside, for engines built on it: its state by the numbers of locations, the update set of the
+//! running step, and what a step reads.
 //!
-//! An engine that keeps states in a form of its own puts the machine into one ([`Machine::store_mut`], [`Machine::give`]),
-//! lets it make a step ([`Machine::prepare`] with an environment that names [`crate::Alternatives`]) and reads what the step
-//! comes to ([`Machine::updates`]). The number of a dense location is the same in all states. INVARIANT: nothing here gives a
-//! rule or a term another meaning; who puts in values that a run could not have gets steps of no run.
+//! An engine with its own form of states sets the machine to a state ([`Machine::store_mut`], [`Machine::give`]), lets it
+//! make a step ([`Machine::prepare`] with an environment that provides [`crate::Alternatives`]) and reads the update set
+//! ([`Machine::updates`]). The number of a dense location is the same in all states. INVARIANT: nothing here changes the
+//! meaning of a rule or a term. If the values set could not occur in a run, neither can the step.
 
 use std::sync::Arc;
 
@@ -91,7 +91,7 @@ impl Machine {
         }
     }
 
-    /// Puts in an input that was asked for before the step.
+    /// Sets an input that the caller asked for before the step.
     pub fn give(&mut self, index: LocationIndex, function: FunctionId, value: Value) {
         let core = &mut self.core;
         core.store.values[index as usize] = value;
@@ -209,7 +209,7 @@ impl Machine {
 
 /// What is gone through, and what is noted of it.
 impl Machine {
-    /// From now on the environment's [`crate::Alternatives`] are told what steps look at and asked for what they choose.
+    /// From now on, the environment's [`crate::Alternatives`] hear what steps read, and select what they choose.
     pub fn explore(&mut self) {
         self.core.exploring = true;
     }
@@ -218,7 +218,7 @@ impl Machine {
     /// fault may depend on their order [`Machine::order_mattered`] tells. Empty: none are.
     pub fn set_unordered(&mut self, ranges: Arc<[bool]>) {
         self.core.unordered = ranges;
-        // Values that were kept may come from quantifiers that looked at more elements, or at fewer.
+        // Kept values may come from quantifiers that read more elements, or fewer.
         self.core.memo.forget();
     }
 

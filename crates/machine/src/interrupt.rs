@@ -1,8 +1,8 @@
-//! A request to stop, from whoever waits for a long piece of work.
+//! A request to stop long work.
 //!
-//! In: a shell raises it from another thread (a signal, a time that is up, memory that is short). Out: work without an end in
-//! sight looks at it now and then, and ends as soon as it can with what it has. INVARIANT: nothing
-//! may be called complete that was cut off by it. It knows neither signals nor clocks.
+//! In: a shell raises it from another thread, because of a signal, a limit of time, or a lack of memory. Out: long work
+//! checks it regularly and ends as soon as it can, with the result so far. INVARIANT: work that it ended is never reported
+//! as complete. It knows neither signals nor clocks.
 
 use std::fmt;
 use std::sync::Arc;
@@ -11,17 +11,17 @@ use std::sync::atomic::{AtomicU8, Ordering};
 /// Why work is to stop.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cause {
-    /// Whoever waits has had enough.
+    /// The user asked for it.
     Asked,
     /// The process takes as much memory as it may.
     Memory,
 }
 
-/// See the module. The default is one that nobody can raise.
+/// See the module. Nobody can raise the default.
 #[derive(Clone, Default)]
 pub struct Interrupt(Option<Arc<AtomicU8>>);
 
-/// The same whether it is raised or not, so that what is told of settings does not depend on it.
+/// Always the same text, so that the text of settings does not depend on whether it is raised.
 impl fmt::Debug for Interrupt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("Interrupt")
@@ -29,12 +29,12 @@ impl fmt::Debug for Interrupt {
 }
 
 impl Interrupt {
-    /// One that can be raised, by way of any of its clones.
+    /// A request that each of its clones can raise.
     pub fn new() -> Interrupt {
         Interrupt(Some(Arc::default()))
     }
 
-    /// Asks work to stop. Memory may be given back, so that of two causes having been asked is the one that stays.
+    /// Asks work to stop. Memory may become free again, so of two causes the user's request stays.
     pub fn raise(&self, cause: Cause) {
         let Some(flag) = &self.0 else { return };
         match cause {
@@ -45,7 +45,7 @@ impl Interrupt {
         }
     }
 
-    /// Memory was given back: work that begins now may go on, unless it was asked to stop.
+    /// Memory is free again: work that begins now may go on, unless the user asked to stop.
     pub fn relieve(&self) {
         if let Some(flag) = &self.0 {
             let memory = 1 + Cause::Memory as u8;

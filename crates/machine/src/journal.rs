@@ -1,8 +1,8 @@
-//! What steps overwrote: a machine goes back a few steps without a copy of its state.
+//! A log of overwritten values, by which a machine goes back a few steps without a copy of its state.
 //!
-//! From the first [`crate::Mark`] on, each commit and each value set from outside notes what stood there before; going back puts
-//! it back, the latest first. INVARIANT: the entries from a mark on, put back, give the state at that mark, and the numbers
-//! in them are those of the store.
+//! From the first [`crate::Mark`] on, each commit and each value set from outside logs the value that was there before.
+//! Going back restores these values, the latest first. INVARIANT: restoring the entries from a mark on gives the state at
+//! that mark; the numbers in them are those of the store.
 
 use std::collections::VecDeque;
 
@@ -45,7 +45,7 @@ impl Journal {
         self.entries.push_back(Entry::Value { location, given: store.given[location as usize], before });
     }
 
-    /// The locations of the entries, so that they can be numbered anew.
+    /// The locations of the entries, so that they can be renumbered.
     pub fn locations(&self, store: &Store) -> Vec<Location> {
         let location = |entry: &Entry| match entry {
             Entry::Value { location, .. } => Some(store.location(*location)),
@@ -71,7 +71,7 @@ impl Journal {
         self.first + self.entries.len() as u64
     }
 
-    /// Puts back what stood there before this entry and those after it.
+    /// Restores the values from before this entry and those after it.
     pub fn go_back(&mut self, entry: u64, store: &mut Store) {
         assert!(self.first <= entry, "the mark was forgotten");
         while self.end() > entry

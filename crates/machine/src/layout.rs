@@ -1,9 +1,9 @@
-//! Where the locations of each function stand in the store.
+//! The numbers of each function's locations in the store.
 //!
-//! In: the program and the contents of its static domains. Out: one [`Layout`] a function. A function over small
-//! finite domains is *dense*: its locations are an array, and a location's number is computed from its
-//! arguments. Of an infinite or growing domain the array covers a window. All other functions, and arguments outside
-//! the array (undef among them), are *sparse*: numbered as they come up. INVARIANT: number ↔ location is one to one.
+//! In: the program and the contents of its static domains. Out: a [`Layout`] for each function. A function over small
+//! finite domains is *dense*: its locations are an array, and a location's number is computed from its arguments. For an
+//! infinite or growing domain, the array covers a window. All other functions are *sparse*, and so are arguments outside
+//! the array, such as undef: their locations are numbered as they appear. INVARIANT: number ↔ location is one to one.
 
 use program::{DomainId, DomainKind, Function, FunctionKind, Program};
 

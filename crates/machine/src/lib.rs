@@ -1,9 +1,9 @@
 //! The semantics of ASMs: program × state × environment → update set → next state.
 //!
-//! In: a [`program::Program`]. A [`Machine`] holds its current state; [`Machine::step`] makes one step, taking
-//! inputs and choices from an [`Environment`], or gives a [`Fault`] and leaves the state as it was. Definitions
-//! are those of E. Börger, R. Stärk, *Abstract State Machines*, Springer 2003: locations, updates and update sets
-//! (2.4), rules (2.4.4), turbo rules (4.1). It must not know files, clocks, random sources or printing.
+//! In: a [`program::Program`]. A [`Machine`] holds its current state. [`Machine::step`] makes one step with inputs and
+//! choices from an [`Environment`], or returns a [`Fault`] and leaves the state as it was. The definitions are those of
+//! E. Börger, R. Stärk, *Abstract State Machines*, Springer 2003: locations, updates and update sets (2.4), rules
+//! (2.4.4), turbo rules (4.1). It must not know files, clocks, random sources or printing.
 
 mod alternatives;
 mod branching;

@@ -1,4 +1,4 @@
-//! Bounds on what one step may take, so that a model that runs forever or grows without end is told so.
+//! Bounds on what one step may take, so that a model that runs forever or grows without end gets a fault.
 
 use crate::interrupt::Interrupt;
 
@@ -19,7 +19,7 @@ pub struct Limits {
     /// Bindings of variables, calls and rounds of loops in one step, all together, and an eighth of the members that are
     /// copied or looked through. Compiled code counts fewer: it may make a step that is too long for the interpreter.
     pub work: u64,
-    /// Looked at within steps: whoever waits may have had enough, or there may be no more memory.
+    /// Checked within steps: the user may have asked to stop, or memory may be short.
     pub interrupt: Interrupt,
 }
 

@@ -23,13 +23,13 @@ impl Location {
         self.borrowed().show(program)
     }
 
-    /// The same without arguments of its own.
+    /// The same location with borrowed arguments.
     pub fn borrowed(&self) -> LocationRef<'_> {
         LocationRef { function: self.function, arguments: &self.arguments }
     }
 }
 
-/// A location that borrows its arguments: what is asked for, compared or looked up without building a [`Location`].
+/// A location that borrows its arguments, for reading, comparing or finding one without building a [`Location`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct LocationRef<'a> {
     /// The dynamic function.
@@ -44,7 +44,7 @@ impl<'a> LocationRef<'a> {
         ShowLocation { location: self, program }
     }
 
-    /// The same with arguments of its own.
+    /// The same location with owned arguments.
     pub fn to_location(self) -> Location {
         Location { function: self.function, arguments: self.arguments.to_vec() }
     }

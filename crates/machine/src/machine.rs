@@ -1,4 +1,4 @@
-//! The public face of the machine: a program and its current state, moved on step by step.
+//! The machine's public interface: a program and its current state, which changes step by step.
 
 use std::sync::Arc;
 
@@ -113,12 +113,12 @@ impl Machine {
         Machine { program, limits, core, steps: 0, settled: false, engine, stale: false }
     }
 
-    /// From now on steps are made to their end, whoever waits: to tell again what was found before.
+    /// From now on steps ignore the request to stop: to repeat what was found before.
     pub fn ignore_interrupts(&mut self) {
         self.limits.interrupt = Interrupt::default();
     }
 
-    /// From now on what these limits name is looked at within steps.
+    /// From now on steps check the request to stop of these limits.
     pub fn mind_interrupts(&mut self, limits: &Limits) {
         self.limits.interrupt = limits.interrupt.clone();
     }
@@ -155,7 +155,7 @@ impl Machine {
         self.execute(environment, |executor, _| executor.start())
     }
 
-    /// The same from a copy of the state before any start, for who starts again and again while exploring.
+    /// The same from a copy of the state before any start, for an explorer, which starts many times.
     ///
     /// # Errors
     /// An initial value that cannot be evaluated.
@@ -345,7 +345,7 @@ impl Machine {
         ended
     }
 
-    /// Begins an abandoned step anew: it will make the same choices.
+    /// Starts an abandoned step again: it will make the same choices.
     fn repeat(&mut self) {
         self.discard();
         self.core.iterations = 0;
@@ -421,13 +421,13 @@ impl Machine {
         self.core.inputs.iter().map(|(i, _)| (store.location(*i), store.values[*i as usize].clone())).collect()
     }
 
-    /// Makes every monitored location, and the clock, be asked for anew.
+    /// Forgets the values of all monitored locations and of the clock, so that a step asks for them again.
     pub fn forget_inputs(&mut self) {
         self.stale = false;
         self.core.forget_inputs(&self.program);
     }
 
-    /// The current value of a location; a monitored one's only if it was asked for in this step.
+    /// The current value of a location; of a monitored one only if this step asked for it.
     pub fn value(&self, location: &Location) -> Value {
         self.value_at(location.borrowed())
     }

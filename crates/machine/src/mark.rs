@@ -1,4 +1,4 @@
-//! Marks: states that a machine goes back to by what its steps overwrote.
+//! Marks: states to which a machine goes back by restoring what its steps overwrote.
 
 use crate::machine::Machine;
 

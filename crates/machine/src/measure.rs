@@ -1,7 +1,7 @@
-//! What a step works, counted and held against its limits: see [`crate::work`].
+//! Counts the work of a step and compares it with the limits: see [`crate::work`].
 //!
-//! In: what a rule or term does again and again, the values that it makes. Out: a fault where that is more than the limits allow,
-//! or where whoever waits has had enough.
+//! In: the repeated work of a rule or term, and the values that it makes. Out: a fault if that exceeds the limits, or if the
+//! step is asked to stop.
 
 use std::cmp::min;
 

@@ -1,7 +1,7 @@
-//! What remains to be checked of a value that is written to a function: see [`crate::contain`].
+//! What must still be checked when a value is written to a function: see [`crate::contain`].
 //!
-//! In: a domain. Out: a [`Membership`], which says what remains to be checked given that the value has the
-//! domain's type (the model's checker has seen to that).
+//! In: a domain. Out: a [`Membership`], which says what must still be checked. The checker of models has already made sure
+//! that the value has the domain's type.
 
 use program::{DomainId, DomainKind, Program};
 
@@ -33,7 +33,7 @@ pub(crate) fn membership(
             None => Membership::Domain(domain),
         },
         DomainKind::Concrete { .. } => Membership::Domain(domain),
-        // What is inside of tuples and collections is not looked at.
+        // The members of tuples and collections are not checked.
         _ => Membership::Any,
     }
 }

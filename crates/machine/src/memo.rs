@@ -1,10 +1,10 @@
 //! Values of derived and static functions, kept while the state stays the same.
 //!
-//! A definition that reads neither `self` nor anything that a second evaluation could answer differently (a
-//! choice, `pre`) has one value a state. It is kept by an array like a dense function's locations, marked with the
-//! *version* of the state it was evaluated in. INVARIANT: two moments with the same version have the same
-//! (intermediate) state; a `seq` that ends brings back the version it began with. Values of static functions
-//! that depend on static functions alone are kept for good.
+//! A definition has one value in a state, unless it reads `self` or something that a second evaluation could answer
+//! differently (a choice, `pre`). The value is kept in an array like a dense function's locations, with the *version* of
+//! the state in which it was evaluated. INVARIANT: two moments with the same version have the same (intermediate) state;
+//! the end of a `seq` restores the version with which it began. Values of static functions that depend only on static
+//! functions are kept forever.
 
 use program::{DomainId, DomainKind, Effect, FunctionId, FunctionKind, Program, Term, TermId};
 
@@ -14,7 +14,7 @@ use crate::value::Value;
 /// LIMIT: definitions of fewer terms are evaluated each time.
 const WORTH_KEEPING: u32 = 5;
 
-/// The version of values that are kept for good.
+/// The version of values that are kept forever.
 const ALWAYS: u64 = 0;
 
 /// A version of the state.

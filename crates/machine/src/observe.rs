@@ -1,16 +1,16 @@
-//! What happens within steps, for whoever wants to know whether everything has happened at least once.
+//! Observes what happens within steps, to find out whether everything happens at least once.
 //!
-//! In: the steps that a machine makes while it is watched. Out: [`Observation`]s, each once. A guard that connects several
-//! conditions is told with the truth of each, as far as they were evaluated. INVARIANT: watching changes no step: nothing
-//! is evaluated that would not be anyway, but that a step whose updates clash is made to its end to see what else does. Who
-//! evaluates and performs notes them by way of [`crate::watch`].
+//! In: the steps that a machine makes while it is watched. Out: [`Observation`]s, each once. For a guard that connects
+//! several conditions, the observation has the truth of each that was evaluated. INVARIANT: watching evaluates nothing
+//! else. There is one exception: a step whose updates clash goes on to its end, to see what else clashes. Evaluation and
+//! rules report through [`crate::watch`].
 
 use program::{Builtin, DomainId, FunctionId, Program, RuleId, Term, TermId};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::fault::Fault;
 
-/// LIMIT: of a guard with more conditions only its branches are told.
+/// LIMIT: for a guard with more conditions, only its branches are observed.
 pub(crate) const CONDITIONS: usize = 32;
 
 /// The truth of the conditions of a guard and of the guard itself.
@@ -54,7 +54,7 @@ pub struct Observations {
     pub(crate) conditions: FxHashMap<TermId, Vec<TermId>>,
     /// The conditions of the guard being evaluated.
     pub(crate) truths: Vec<(TermId, bool)>,
-    /// The first clash of the step. It goes on, so that all others are seen; nothing else is from then on.
+    /// The first clash of the step. The step goes on to find all other clashes; nothing else is observed from then on.
     pub(crate) clash: Option<Box<Fault>>,
 }
 
@@ -81,7 +81,7 @@ impl Observations {
         std::mem::take(&mut self.step)
     }
 
-    /// Makes something known, so that it is not told again; whether it was not.
+    /// Marks something as observed, so that it is not reported again; true if it was new.
     pub fn learn(&mut self, observation: Observation) -> bool {
         self.known.insert(observation)
     }

@@ -1,7 +1,7 @@
 //! Rules → updates (Börger & Stärk 2003, table 2.2; section 4.1 for turbo rules).
 //!
-//! Running a rule adds its updates to the current unit of the update set; the units of [`crate::update`] give
-//! `par` its consistency and `seq` its intermediate states.
+//! Running a rule adds its updates to the current unit of the update set. The units of [`crate::update`] make `par`
+//! consistent and give `seq` its intermediate states.
 
 use std::borrow::Cow;
 use std::ops::ControlFlow;
@@ -242,7 +242,7 @@ impl<'a> Executor<'a> {
         let unit = self.core.updates.open();
         self.call(procedure, arguments, id)?;
         let joined = self.core.updates.join(unit, result);
-        // The target stands in the place of `result`: where nothing is written to that, the target stays as it is.
+        // The target replaces `result`: if nothing writes to that, the target stays as it is.
         match self.consistent(joined)? {
             // What a monitored location holds is the environment's affair: the value is lost.
             Some(_) if self.program.function(function).kind == FunctionKind::Monitored => Ok(()),
@@ -317,7 +317,7 @@ impl<'a> Executor<'a> {
         self.consistent(ended)
     }
 
-    /// Runs one part of a sequence, whose updates make the next intermediate state; tells whether there were any.
+    /// Runs one part of a sequence, whose updates make the next intermediate state; returns whether there were any.
     fn perform_part(&mut self, rule: RuleId) -> Outcome<bool> {
         let unit = self.core.updates.open();
         self.perform(rule)?;

@@ -1,5 +1,5 @@
-//! Values as text: as AsmetaL would write them, so that what is printed can be read back (named elements and
-//! literals by their names, elements made by `extend` as `domain!k`).
+//! Values as text, in the syntax of AsmetaL, so that the text can be read back. Named elements and literals have their
+//! names; elements made by `extend` are `domain!k`.
 
 use std::fmt;
 
@@ -48,7 +48,7 @@ impl fmt::Display for BriefValue<'_> {
     }
 }
 
-/// Takes so many bytes, and then no more.
+/// Takes this many bytes, and ignores the rest.
 struct Cut<'f, 'o> {
     out: &'f mut fmt::Formatter<'o>,
     left: usize,

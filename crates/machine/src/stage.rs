@@ -1,7 +1,7 @@
 //! The stages of a step, on the core: begin, compute the update set, apply it, forget the inputs.
 //!
-//! In: a core between two steps. What computes the update set ([`crate::perform`], [`crate::native`]) stands between
-//! [`Core::begin_step`] and [`Core::commit`]. INVARIANT: only `commit` changes the state.
+//! In: a core between two steps. Between [`Core::begin_step`] and [`Core::commit`], [`crate::perform`] or
+//! [`crate::native`] computes the update set. INVARIANT: only `commit` changes the state.
 
 use program::{DomainKind, FunctionKind, Program};
 
@@ -52,7 +52,7 @@ impl Core {
         Step { updates, changed, grown }
     }
 
-    /// A shared location that the machine makes undef is not asked for.
+    /// The environment is not asked for a shared location that the machine makes undef.
     #[cold]
     fn note_shared(&mut self, program: &Program) {
         for update in self.updates.stack.iter().filter(|update| update.value.is_undef()) {
@@ -77,7 +77,8 @@ impl Core {
         }
     }
 
-    /// Makes every monitored location, and the clock, be asked for anew. True where locations have got new numbers.
+    /// Forgets the values of all monitored locations and of the clock, so that a step asks for them again. True if locations
+    /// got new numbers.
     #[inline]
     pub fn forget_inputs(&mut self, program: &Program) -> bool {
         self.epoch += 1;

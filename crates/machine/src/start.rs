@@ -1,9 +1,9 @@
 //! The initial state, and what is fixed before it: contents of static domains, layouts, membership checks.
 //!
-//! Initial values are evaluated eagerly, in the initial state: one that reads another initialised location has
-//! that one evaluated first. They hold for all arguments, outside the declared domains too; LIMIT: of a location
-//! that cannot be enumerated the initial value is evaluated when it is first read or written, in the initial state. An initial value need
-//! not be in the codomain: that is asked of updates.
+//! Initial values are evaluated eagerly, in the initial state. If one reads another initialised location, that one is
+//! evaluated first. They are defined for all arguments, also outside the declared domains. LIMIT: if a location cannot be
+//! enumerated, its initial value is evaluated in the initial state when it is first read or written. An initial value
+//! need not be in the codomain; only updates must be.
 
 use std::sync::Arc;
 
@@ -130,7 +130,7 @@ impl<'a> Executor<'a> {
         }
     }
 
-    /// Evaluates an expression without parameters in a frame of its own.
+    /// Evaluates an expression without parameters in its own frame.
     pub fn closed(&mut self, expression: &'a program::Expression) -> Outcome<Value> {
         let span = self.program.term_span(expression.body);
         let start = self.core.frames.len();

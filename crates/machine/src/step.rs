@@ -1,4 +1,4 @@
-//! What steps did, for who made them.
+//! What steps did, for the caller.
 
 /// What a step did.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -11,7 +11,7 @@ pub struct Step {
     pub grown: bool,
 }
 
-/// What steps that nobody looked at did.
+/// What several steps did that one call made.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Passed {
     /// How many were made.

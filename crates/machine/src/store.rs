@@ -1,8 +1,8 @@
 //! The current state: a value for each location, and the carriers of the dynamic domains.
 //!
-//! Locations are numbered ([`crate::layout`]); a value is read by its number without looking anything up by name.
-//! INVARIANT: between steps a location's entry is the state's value; within a `seq` it is that of the
-//! intermediate state, and the log in [`crate::update`] can take it back.
+//! Locations have numbers ([`crate::layout`]), so reading a value looks up no name. INVARIANT: between steps, a location's
+//! entry is its value in the state. Within a `seq`, it is the value in the intermediate state, and the log in
+//! [`crate::update`] can restore the other.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -153,7 +153,7 @@ impl Store {
         self.given[index as usize] != 0
     }
 
-    /// Puts a value in the place of another; who gave that does not change.
+    /// Replaces a value by another; its giver stays the same.
     #[inline]
     pub fn overwrite(&mut self, index: LocationIndex, value: Value) {
         self.values[index as usize] = value;
@@ -173,7 +173,7 @@ impl Store {
         self.given[index as usize] = 0;
     }
 
-    /// Whether another store of the same program has the same values, given by whom they may be.
+    /// Whether another store of the same program has the same values, whoever gave them.
     pub fn is_like(&self, other: &Store) -> bool {
         self.values == other.values
             && self.given == other.given
@@ -209,7 +209,7 @@ impl Store {
         if index >= self.dense {
             self.sparse_locations[(index - self.dense) as usize].function
         } else {
-            // The owners stand in the order of their first numbers.
+            // The owners are in the order of their first numbers.
             let after = self.owners.partition_point(|(first, _)| *first <= index);
             self.owners[after - 1].1
         }

@@ -4,10 +4,10 @@
 //! round of a `while`, the body of a turbo call. Units nest; their updates are consecutive suffixes of one stack.
 //! A location's *stamp* says whether the current unit holds an update for it, so a clash is found in constant time.
 //!
-//! A finished part of a `seq` is applied to the store at once and what it overwrote is logged, once for each location: of
-//! the values that it has in between none is kept. When the `seq` ends the log is taken back and its net effect (the U ⊕ V of
-//! the book) joins the enclosing unit. So reading in an intermediate state costs nothing extra, and a loop takes the memory of
-//! what it writes, however often it does.
+//! A finished part of a `seq` is applied to the store at once. What it overwrites is logged once for each location; the
+//! values in between are not kept. At the end of the `seq` the log is taken back, and the net effect (the U ⊕ V of the
+//! book) joins the enclosing unit. So a read in an intermediate state costs nothing extra, and a loop takes memory only
+//! for the locations that it writes, however often it writes them.
 
 use program::{DomainId, RuleId};
 
@@ -15,7 +15,7 @@ use crate::layout::LocationIndex;
 use crate::store::Store;
 use crate::value::Value;
 
-/// One update: what a location is to become, and who says so. Compiled code writes them by their layout.
+/// One update: the new value of a location, and the place of the rule. Compiled code writes updates by their layout.
 #[derive(Debug, Clone)]
 #[repr(C)]
 pub(crate) struct Update {
@@ -43,7 +43,7 @@ struct Overwritten {
     before: Value,
     /// When that was.
     time: u64,
-    /// Where else the location stands in the log: for a sequence around this one.
+    /// The location's other entry in the log: of an enclosing sequence.
     previous: Logged,
 }
 
@@ -82,7 +82,7 @@ pub(crate) struct Clash {
 #[derive(Debug, Default)]
 pub(crate) struct Updates {
     pub stack: Vec<Update>,
-    /// Some value on the stack may have memory of its own.
+    /// Whether a value on the stack may own memory.
     pub compound: bool,
     pub stamps: Vec<Stamp>,
     log: Vec<Overwritten>,
@@ -111,7 +111,7 @@ impl Updates {
         if self.units.max(self.sequences) > u32::MAX / 2 {
             self.renumbered();
         }
-        // Unit numbers never come again, so that no old stamp can be taken for a new one.
+        // Unit numbers are never used again, so an old stamp cannot be mistaken for a new one.
         self.units += 1;
         self.unit = self.units;
         self.outermost = self.unit;
@@ -327,7 +327,7 @@ impl Updates {
         self.logged.get(location as usize).is_some_and(|logged| logged.sequence != 0)
     }
 
-    /// Takes back every intermediate state and empties the update set; tells whether there was anything.
+    /// Takes back every intermediate state and empties the update set; returns whether there was anything.
     pub fn roll_back(&mut self, store: &mut Store) -> bool {
         let any = !(self.stack.is_empty() && self.log.is_empty() && self.created.is_empty());
         while let Some(entry) = self.log.pop() {
@@ -355,7 +355,7 @@ impl Updates {
         }
     }
 
-    /// Whether the state before the step stands in place of the intermediate one.
+    /// Whether the state before the step has replaced the intermediate one.
     pub fn shows_original(&self) -> bool {
         self.original
     }

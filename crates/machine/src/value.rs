@@ -1,8 +1,8 @@
 //! Values: the elements of the universes.
 //!
-//! A value is 16 bytes: small ones stand in it, compound ones are shared and immutable. INVARIANT: a set's
-//! elements are sorted and distinct; a bag's and a map's keys are sorted by their tree; no NaN occurs and no
-//! negative zero, so that equality is that of the derived order. CIRCLE(values): a value holds collections of values.
+//! A value is 16 bytes: small values are inline, compound ones are shared and immutable. INVARIANT: the elements of a set
+//! are sorted and distinct; the keys of bags and maps are sorted by their tree; there is neither NaN nor negative zero, so
+//! that equality is that of the derived order. CIRCLE(values): a value holds collections of values.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -143,7 +143,7 @@ impl Value {
         }
     }
 
-    /// Does it stand in its two words alone?
+    /// Whether it is complete in its two words, with nothing shared.
     #[inline]
     pub(crate) fn is_scalar(&self) -> bool {
         matches!(

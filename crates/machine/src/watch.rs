@@ -1,7 +1,7 @@
-//! How what happens within a step is noted while it is watched: see [`crate::observe`].
+//! Notes what happens within a step that is watched: see [`crate::observe`].
 //!
-//! In: the rules, guards and locations that a step comes to. INVARIANT: a guard is evaluated as it would be without anybody
-//! watching, from the left and no further than needed.
+//! In: the rules, guards and locations that a step reaches. INVARIANT: a guard is evaluated as in a step that is not
+//! watched: from the left, and no further than needed.
 
 use program::{Builtin, FunctionId, RuleId, Term, TermId};
 
@@ -29,7 +29,7 @@ impl Core {
         }
     }
 
-    /// Something happens that is to be told if somebody watches.
+    /// Notes that something happens, if the step is watched.
     #[inline]
     pub fn note(&mut self, observation: Observation) {
         if let Some(observations) = &mut self.observations {

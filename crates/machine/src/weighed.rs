@@ -1,9 +1,9 @@
 //! Collections that know how large they are when all that is shared within them is unfolded.
 //!
-//! Values share what they are made of: `s := [s, s]` takes a few words a step and doubles what printing, ordering and
-//! hashing walk through. So every collection keeps its *weight*, the number of values at its leaves, each counted as often
-//! as it occurs, and its depth; both are counted from those of its members when it is made. A limit on the weight bounds
-//! all that walks through a value ([`crate::measure`]). CIRCLE(values)
+//! Values share their parts: `s := [s, s]` takes a few words in each step, but doubles what printing, ordering and hashing
+//! walk through. So every collection keeps its depth and its *weight*: the number of values at its leaves, each counted as
+//! often as it occurs. Both are computed from those of the members when the collection is made. A limit on the weight
+//! bounds every walk through a value ([`crate::measure`]). CIRCLE(values)
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -18,12 +18,12 @@ use crate::value::Value;
 pub struct Weight {
     /// Values at its leaves, each as often as it occurs; at least one. A string counts a value for every two words.
     pub leaves: u64,
-    /// How deep collections and tuples lie in each other.
+    /// The depth to which collections and tuples nest.
     pub depth: u32,
 }
 
 impl Weight {
-    /// What stands in its two words alone.
+    /// Of a value without parts.
     pub(crate) const SCALAR: Weight = Weight { leaves: 1, depth: 0 };
 
     fn of_members(members: impl Iterator<Item = (Weight, u64)>) -> Weight {

@@ -1,8 +1,8 @@
-//! What a step has worked, held against its limits; and the request to end it, looked at on the way.
+//! Compares the work of a step with its limits, and checks the request to stop on the way.
 //!
-//! Everything that a rule or term can do again and again counts: bindings of variables, calls, rounds of loops, and an
-//! eighth of the members that an operation copies or looks through. INVARIANT: between two looks at the request lies no more
-//! than [`INTERVAL`] of that, or one operation on values within the limit of their size.
+//! Everything that a rule or term can repeat counts: bindings of variables, calls, rounds of loops, and an eighth of the
+//! members that an operation copies or goes through. INVARIANT: between two checks of the request there is at most
+//! [`INTERVAL`] of that work, or one operation on values within the limit of their size.
 
 /// Work between two looks.
 pub(crate) const INTERVAL: u64 = 1 << 12;
