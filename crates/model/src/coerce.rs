@@ -1,8 +1,8 @@
-//! Makes a term fit where another domain is expected.
+//! Converts a term to the domain that is expected in its place.
 //!
-//! In: a term and the domain expected. Out: whether it may stand there, and the converted term. A number that changes
-//! its form gets a [`TermKind::Coerce`]; constants become literals of the expected domain. Both are pushed into
-//! branches, elements and components, so the coercion stands at the number itself. INVARIANT: a term without numbers
+//! In: a term and the expected domain. Out: whether the term is allowed there, and the converted term. A number that
+//! changes its form gets a [`TermKind::Coerce`]; constants become literals of the expected domain. Both are pushed into
+//! branches, elements and components, so the coercion is applied to the number itself. INVARIANT: a term without numbers
 //! does not change, except for the domain of an empty collection.
 
 use crate::check::body::Body;
@@ -14,10 +14,10 @@ use crate::id::DomainId;
 use crate::model::Model;
 use crate::term::{Binder, Literal, Term, TermKind};
 
-/// The cost of taking a constant Integer for a Natural.
+/// The cost of using a constant Integer as a Natural.
 const CONSTANT: u32 = COERCING / 2;
 
-/// The cost of a term for a formal domain: [`Domains::fit`], with what is known of the term itself.
+/// The cost of a term for a formal domain: as [`Domains::fit`], but also uses what is known of the term itself.
 pub(crate) fn cost(model: &Model, term: &Term, formal: DomainId, bindings: &mut Bindings) -> Option<u32> {
     let domains = &model.domains;
     let before = bindings.clone();
@@ -36,7 +36,7 @@ pub(crate) fn cost(model: &Model, term: &Term, formal: DomainId, bindings: &mut 
     by_domain.filter(|_| can_coerce(model, term, target))
 }
 
-/// The term may stand where `target` is expected.
+/// Whether the term is allowed where `target` is expected.
 pub(crate) fn can_coerce(model: &Model, term: &Term, target: DomainId) -> bool {
     match model.domains.fits(term.domain, target) {
         Some(cost) if cost < COERCING => true,
@@ -45,7 +45,7 @@ pub(crate) fn can_coerce(model: &Model, term: &Term, target: DomainId) -> bool {
     }
 }
 
-/// A value of the one domain can be turned into one of the other without looking at the term.
+/// Whether any value of the one domain can be converted to the other, whatever the term is.
 fn convertible(domains: &Domains, from: DomainId, to: DomainId) -> bool {
     match (domains.kind(domains.type_domain(from)), domains.kind(domains.type_domain(to))) {
         (DomainKind::Map(..), DomainKind::Map(..)) => !changes_form(domains, from, to),
@@ -57,7 +57,7 @@ fn convertible(domains: &Domains, from: DomainId, to: DomainId) -> bool {
     }
 }
 
-/// The coercion changes the value itself: somewhere a number becomes a Real or a Complex.
+/// Whether the coercion changes the value itself: some number in it becomes a Real or a Complex.
 fn changes_form(domains: &Domains, from: DomainId, to: DomainId) -> bool {
     let (from, to) = (domains.type_domain(from), domains.type_domain(to));
     if from == to {
@@ -76,7 +76,7 @@ fn changes_form(domains: &Domains, from: DomainId, to: DomainId) -> bool {
     }
 }
 
-/// The expectation can be pushed into the parts of the term.
+/// Whether the expected domain can be pushed into the parts of the term.
 fn can_push(model: &Model, term: &Term, target: DomainId) -> bool {
     let domains = &model.domains;
     let into =
@@ -131,7 +131,7 @@ fn rough(domains: &Domains, domain: DomainId) -> DomainId {
 }
 
 impl Body<'_> {
-    /// The term as one of domain `target`; it must be able to ([`can_coerce`]).
+    /// The term converted to the domain `target`, which must be possible ([`can_coerce`]).
     pub(crate) fn coerce(&mut self, mut term: Term, target: DomainId) -> Term {
         let domains = &self.site.model.domains;
         let fit = domains.fits(term.domain, target);
@@ -190,7 +190,7 @@ impl Body<'_> {
         *term = self.coerce(taken, target);
     }
 
-    /// Turns the value of a term into one of `target`, whatever the term is.
+    /// Converts the value of a term to `target`, whatever the term is.
     fn convert(&mut self, term: Term, target: DomainId) -> Term {
         let domains = &self.site.model.domains;
         let (span, target) = (term.span, domains.type_domain(target));

@@ -1,4 +1,4 @@
-//! The kinds of collections, of which both domains and terms speak.
+//! The kinds of collections, for domains and terms.
 
 /// Set, sequence, bag or map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -1,18 +1,18 @@
 //! Compatibility of domains, as a cost.
 //!
-//! In: the domain of a term (actual) and the domain expected (formal). Out: `None` if no value of the one may stand for
-//! the other; otherwise how far apart they are. 0 means exactly the same; below [`COERCING`] they are compatible as
-//! AsmetaL has it (spec/language.md, 8.1: concrete and type domain in either direction, `undef`, type variables); from
-//! there on, they need a numeric coercion Natural ⊂ Integer ⊂ Real ⊂ Complex.
+//! In: the domain of a term (actual) and the expected domain (formal). Out: `None` if a value of the one is never a value
+//! of the other; otherwise the distance between them. 0 means that they are the same. Below [`COERCING`] they are
+//! compatible in the sense of AsmetaL (spec/language.md, 8.1: concrete and type domain in either direction, `undef`, type
+//! variables). From [`COERCING`] on, they need a numeric coercion Natural ⊂ Integer ⊂ Real ⊂ Complex.
 //!
-//! INVARIANT: reads the table only; a type variable is bound to a domain that a term really has.
+//! INVARIANT: only reads the table; binds a type variable only to the domain of some term.
 
 use crate::domain::{Basic, DomainKind, Domains};
 use crate::id::DomainId;
 
-/// The least cost that stands for a numeric coercion.
+/// The least cost of a numeric coercion.
 pub(crate) const COERCING: u32 = 10_000;
-/// The least cost that stands for taking a value for one of a subset; only the run knows whether it is one.
+/// The least cost of using a value as a member of a subset; only the run can tell whether it is one.
 pub(crate) const NARROWING: u32 = 100;
 const TO_BASE: u32 = 10;
 const VARIABLE: u32 = 20;
@@ -21,12 +21,12 @@ const TO_CONCRETE: u32 = NARROWING;
 const SIBLING: u32 = 200;
 const PER_COMPONENT: u32 = 1;
 
-/// What the type variables of a signature stand for in one application.
+/// The domains of a signature's type variables in one application.
 #[derive(Debug, Default, Clone)]
 pub(crate) struct Bindings(Vec<(DomainId, DomainId)>);
 
 impl Bindings {
-    /// The domain that a type variable stands for.
+    /// The domain of a type variable.
     pub(crate) fn get(&self, variable: DomainId) -> Option<DomainId> {
         self.0.iter().find(|(bound, _)| *bound == variable).map(|(_, domain)| *domain)
     }
@@ -40,12 +40,12 @@ impl Bindings {
 }
 
 impl Domains {
-    /// A term of domain `actual` may stand where `formal` is expected, type variables standing for anything.
+    /// Whether a term of domain `actual` is allowed where `formal` is expected; a type variable may be any domain.
     pub(crate) fn fits(&self, actual: DomainId, formal: DomainId) -> Option<u32> {
         self.fit(actual, formal, &mut Bindings::default())
     }
 
-    /// As [`Domains::fits`] without numeric coercions, in either direction: `compat` of spec/language.md, 8.1.
+    /// As [`Domains::fits`], but in either direction and without numeric coercions: `compat` of spec/language.md, 8.1.
     pub(crate) fn compatible(&self, a: DomainId, b: DomainId) -> bool {
         [self.fits(a, b), self.fits(b, a)].into_iter().flatten().any(|cost| cost < COERCING)
     }
@@ -115,7 +115,7 @@ impl Domains {
         Some(if cost >= COERCING { cost } else { cost.min(TO_BASE) })
     }
 
-    /// The domain that takes the values of both, if there is one.
+    /// The domain that contains the values of both, if there is one.
     pub(crate) fn join(&mut self, a: DomainId, b: DomainId) -> Option<DomainId> {
         if a == b || b == Domains::ERROR {
             return Some(a);
@@ -149,7 +149,7 @@ impl Domains {
         Some(self.structured(kind))
     }
 
-    /// The domain with the type variables replaced by what they stand for; an unbound one becomes `Any`.
+    /// The domain with its type variables replaced by their domains; an unbound one becomes `Any`.
     pub(crate) fn instantiate(&mut self, domain: DomainId, bindings: &Bindings) -> DomainId {
         if matches!(self.kind(domain), DomainKind::Enum { .. } | DomainKind::Concrete { .. }) {
             return domain;
@@ -182,7 +182,7 @@ impl Domains {
     }
 }
 
-/// The cost of taking a number of one basic domain for one of another.
+/// The cost of using a number of one basic domain as one of another.
 fn widening(actual: Basic, formal: Basic) -> Option<u32> {
     let rank = |basic| match basic {
         Basic::Natural => Some(0),

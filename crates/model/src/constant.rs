@@ -1,7 +1,7 @@
 //! Integers known without a state: literals and arithmetic on them.
 //!
-//! In: a checked term. Out: its value, if it is plainly the same in every state. This is used to take a constant for a
-//! Natural, to find an empty range, and to find an element written twice. It knows no definitions.
+//! In: a checked term. Out: its value, if it is plainly the same in every state. This allows a constant as a Natural, and
+//! finds empty ranges and elements written twice. It knows no definitions.
 
 use crate::model::Model;
 use crate::term::{Literal, Term, TermKind};

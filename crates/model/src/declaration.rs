@@ -17,7 +17,7 @@ pub struct Variable {
     pub span: Span,
 }
 
-/// Who may change a function, and when (Börger & Stärk, section 2.2.3).
+/// Who may change a function, and when (Börger & Stärk 2003, section 2.2.3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum FunctionKind {
     /// Never changes; defined by a term, by the library, or (0-ary, abstract) an element of its domain.

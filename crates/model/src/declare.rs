@@ -1,4 +1,4 @@
-//! Declarations: the signature of a file and the headings of its rules, into the model's tables.
+//! Declarations: adds the signature of a file and the headings of its rules to the model's tables.
 //!
 //! In: a unit and the names that its imports bring. Out: the names that the file sees, its own included; faults for
 //! what is declared twice, or over what does not exist. INVARIANT: this module does not look at bodies. Every declared
@@ -21,7 +21,7 @@ use crate::rule::{RuleKind, RuleNode};
 use crate::site::{Site, predefined};
 use crate::uses::Referent;
 
-/// Declares what a unit declares; gives its names and its rules in the order of the text, the main rule last.
+/// Adds the declarations of a unit; returns its names, and its rules in the order of the text, the main rule last.
 pub(crate) fn declare(
     unit: &Unit,
     names: Names,

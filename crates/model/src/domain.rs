@@ -63,11 +63,11 @@ pub enum DomainKind {
     },
     /// A subset of a type domain.
     Concrete {
-        /// The domain it is a subset of; never itself concrete.
+        /// The domain of which it is a subset; this is never concrete itself.
         base: DomainId,
-        /// Its contents are part of the state.
+        /// Whether its contents are part of the state.
         dynamic: bool,
-        /// Contents of a static one. (Those of a dynamic one stand in [`crate::Init`].)
+        /// The contents of a static one. ([`crate::Init`] has those of a dynamic one.)
         definition: Option<Term>,
     },
     /// A Cartesian product of at least two domains.
@@ -82,7 +82,7 @@ pub enum DomainKind {
     Map(DomainId, DomainId),
     /// Rules with these parameter domains.
     Rule(Vec<DomainId>),
-    /// The domain that a reported fault left unknown; compatible with every other.
+    /// A domain that is unknown after a reported fault; compatible with every other.
     Error,
 }
 
@@ -199,7 +199,7 @@ impl Domains {
         self.structured(kind)
     }
 
-    /// What ranging over a collection of this domain gives: elements, and pairs for a map.
+    /// The domain of a collection's elements; for a map, of its pairs.
     pub fn element(&mut self, collection: DomainId) -> Option<DomainId> {
         match self.kind(self.type_domain(collection)) {
             DomainKind::Powerset(of) | DomainKind::Seq(of) | DomainKind::Bag(of) => Some(*of),
@@ -221,12 +221,12 @@ impl Domains {
         }
     }
 
-    /// The domain of that name; panics on an id of another table.
+    /// The domain with this id; panics on an id of another table.
     pub fn get(&self, id: DomainId) -> &Domain {
         &self.entries[id.0 as usize]
     }
 
-    /// The domain of that name, to fill in what its declaration left open.
+    /// The domain with this id, to complete its declaration.
     pub fn get_mut(&mut self, id: DomainId) -> &mut Domain {
         &mut self.entries[id.0 as usize]
     }
@@ -249,7 +249,7 @@ impl Domains {
         self.entries.iter().enumerate().map(|(i, entry)| (DomainId(i as u32), entry))
     }
 
-    /// The domain as it would be written.
+    /// The domain as a model would write it.
     pub fn display(&self, id: DomainId) -> String {
         let list = |ids: &[DomainId]| ids.iter().map(|id| self.display(*id)).collect::<Vec<_>>().join(",");
         let entry = self.get(id);

@@ -1,9 +1,8 @@
-//! Definitions that use themselves whatever the state is, so that no evaluation of them ends.
+//! Finds definitions that use themselves in every state, so that their evaluation never ends.
 //!
-//! In: the checked definitions of static and derived functions. Out: one warning for each circle of functions of which
-//! each certainly evaluates the next. A use is certain if it stands in no branch, in no condition or body of a binder,
-//! and not on the right of a connective that its left side may decide. Any other recursion may end, and is a run's to
-//! judge.
+//! In: the checked definitions of static and derived functions. Out: a warning for each circle of functions that
+//! certainly evaluate each other. A use is certain unless it is in a branch, in the condition or body of a binder, or to the
+//! right of a connective that its left side may decide. Any other recursion may end; only a run can tell.
 
 use syntax::Span;
 
@@ -12,7 +11,7 @@ use crate::id::FunctionId;
 use crate::model::Model;
 use crate::term::{Term, TermKind};
 
-/// Warns of definitions that cannot be evaluated.
+/// Warns of definitions whose evaluation never ends.
 pub(crate) fn check(model: &Model, faults: &mut Faults) {
     let edges: Vec<Vec<(usize, Span)>> = model
         .functions
@@ -39,7 +38,7 @@ pub(crate) fn check(model: &Model, faults: &mut Faults) {
                 let mut cycle: Vec<String> = path[at..].iter().map(|(open, _)| name(*open)).collect();
                 cycle.push(name(used));
                 faults.push(fault::function::endless(span, &cycle, model.functions[used].span));
-                // One circle through a function is enough to tell.
+                // One circle through a function is enough.
                 done[function] = true;
             } else if !done[used] {
                 path.push((used, 0));
@@ -48,7 +47,7 @@ pub(crate) fn check(model: &Model, faults: &mut Faults) {
     }
 }
 
-/// The functions with a definition that every evaluation of a term evaluates, with the places.
+/// The defined functions that every evaluation of a term uses, with the places.
 fn certain(model: &Model, term: &Term) -> Vec<(usize, Span)> {
     let mut found = Vec::new();
     let mut open = vec![term];

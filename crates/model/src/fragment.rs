@@ -1,9 +1,8 @@
-//! Terms and rules from elsewhere, read as if they stood in a model's root file.
+//! Terms and rules from elsewhere, checked as if a model's root file contained them.
 //!
 //! In: a checked model, and views of a term, rule or location in another text (a scenario, a command line). Out: the
-//! resolved term or rule with its variables, and the faults found. The model is changed only by what the fragment
-//! adds to its tables: structured domains, and local functions. All names of the root file are visible, imported
-//! ones included.
+//! resolved term or rule with its variables, and the faults found. A fragment only adds structured domains and
+//! local functions to the model's tables. It sees all names of the root file, also the imported ones.
 
 use syntax::{Diagnostic, FileId, ast};
 
@@ -32,7 +31,7 @@ pub struct Fragment<T> {
 }
 
 impl Fragment<RuleNode> {
-    /// As a rule of its own, without parameters.
+    /// The checked rule as a separate rule without parameters.
     pub fn into_rule(self) -> Rule {
         Rule {
             name: "exec".to_string(),
@@ -47,8 +46,8 @@ impl Fragment<RuleNode> {
 }
 
 impl Model {
-    /// Checks a term. `file` is where its text stands: add that text to the [`crate::Checked::sources`] of the
-    /// model, so that faults can point to both.
+    /// Checks a term. `file` has its text: add it to the [`crate::Checked::sources`] of the model, so that faults can
+    /// point to both.
     pub fn check_term(&mut self, file: FileId, term: &ast::Term) -> Fragment<Term> {
         self.fragment(file, |body| body.term(term))
     }

@@ -1,4 +1,4 @@
-//! Names of entries in the tables of a model: an index that only its own table gives a meaning.
+//! Ids of entries in the tables of a model. An id is an index that has a meaning only in its own table.
 
 /// Names a domain of a [`Domains`](crate::Domains) table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -36,7 +36,7 @@ pub(crate) struct Import {
     pub(crate) target: Option<usize>,
 }
 
-/// Reads everything; the units stand in the order in which they are to be checked.
+/// Reads all files; returns the units in the order in which they must be checked.
 pub(crate) fn read(root: SourceFile, loader: &mut dyn Loader, sources: &mut Sources, faults: &mut Faults) -> Vec<Unit> {
     let mut reader = Reader { loader, sources, faults, seen: BTreeMap::new(), open: Vec::new(), units: Vec::new() };
     let (identity, library) = (identity(&root.name), library::is_library(&root.name));

@@ -1,8 +1,8 @@
-//! Lossless trees → the checked model.
+//! Checks lossless trees, and makes the model of them.
 //!
 //! In: the root file and a [`Loader`] that finds imported texts. Out: [`Checked`]: the sources read, an immutable
 //! [`Model`] in which every name is resolved, every term has a domain and every coercion is explicit, and the
-//! faults found. The model is complete only when no fault is an error; readers further down may rely on that.
+//! faults found. If no fault is an error, the model is complete; later stages may rely on that.
 //!
 //! Definitions follow E. Börger, R. Stärk, *Abstract State Machines*, Springer 2003, chapter 2; where AsmetaL
 //! differs, spec/language.md says so. It must not know how a model is executed or what a shell looks like.

@@ -1,8 +1,8 @@
-//! What can be said of macro rules only when all rules are known.
+//! Checks of macro rules that need all rules to be known.
 //!
 //! In: the rules of a model. Out: faults where macro rules call each other in a circle, and where an updated parameter
-//! gets an argument that is not a location. A macro call stands for the body of the rule with the arguments put in for
-//! the parameters (Börger & Stärk 2003, section 2.2.4), hence both.
+//! gets an argument that is not a location. Both follow from the meaning of a macro call: the body of the rule with
+//! the arguments in place of the parameters (Börger & Stärk 2003, section 2.2.4).
 
 use std::collections::BTreeSet;
 
@@ -16,7 +16,7 @@ use crate::model::Model;
 use crate::rule::{Call, RuleKind, RuleNode, Target};
 use crate::term::{Term, TermKind};
 
-/// Reports recursive macro rules, and arguments that must be locations and are not.
+/// Reports recursive macro rules, and arguments that are not locations but must be.
 pub(crate) fn check(model: &Model, faults: &mut Faults) {
     report_recursion(model, faults);
     let updated = updated_parameters(model);
@@ -28,7 +28,7 @@ pub(crate) fn check(model: &Model, faults: &mut Faults) {
     }
 }
 
-/// As [`check`], for a rule that is not one of the model's.
+/// As [`check`], for a rule that is not one of the model.
 pub(crate) fn check_fragment(model: &Model, rule: &RuleNode, faults: &mut Faults) {
     let updated = updated_parameters(model);
     for (call, _) in calls(rule) {
@@ -85,7 +85,7 @@ fn report_recursion(model: &Model, faults: &mut Faults) {
     }
 }
 
-/// The parameters that a macro rule updates, itself or through the macro rules that it hands them to.
+/// The parameters that a macro rule updates, itself or through the macro rules to which it passes them.
 fn updated_parameters(model: &Model) -> BTreeSet<(RuleId, VariableId)> {
     let mut updated = BTreeSet::new();
     for (index, rule) in model.rules.iter().enumerate() {

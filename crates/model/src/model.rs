@@ -14,18 +14,18 @@ use crate::uses::Uses;
 
 /// Finds the texts of imported files; the shells implement it over a disk, tests over a map.
 pub trait Loader {
-    /// The text that `path`, as written in an import of `importer`, leads to; `.asm` is still to be added where
-    /// it is missing and either slash is a separator. The error is a sentence for the user.
+    /// The text of `path`, as an import of `importer` has it. The loader adds `.asm` if it is missing, and accepts
+    /// either slash as a separator. The error is a sentence for the user.
     fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String>;
 
-    /// The tree of a text, under the name that its file has among the texts read. An implementation that keeps trees
-    /// gives one of the same text.
+    /// The tree of a text; `file` is its id among the texts read. An implementation that keeps trees returns the one of the
+    /// same text.
     fn parse(&mut self, file: FileId, source: &SourceFile) -> Parse {
         syntax::parse_asmetal(file, &source.text)
     }
 }
 
-/// The result of checking: always as much as could be understood.
+/// The result of checking: as much as could be understood, even after faults.
 #[derive(Debug, Clone)]
 pub struct Checked {
     /// All texts read, the root first.
@@ -41,7 +41,7 @@ pub struct Checked {
 pub struct Model {
     /// The name after `asm` or `module`; empty for a file of comments alone.
     pub name: String,
-    /// The file it stands in.
+    /// Its file.
     pub root: FileId,
     /// `asyncr` stands before `asm`: agents interleave.
     pub asynchronous: bool,

@@ -1,8 +1,8 @@
 //! The names visible in a file: its own and those that its imports bring.
 //!
 //! In: declarations and the names exported by imported files. Out: name → domain, enum literal, functions (all
-//! overloads), rules (all overloads). INVARIANT: overloads stand in the order of declaration, imported ones first; of
-//! two functions with the same name and parameters, the one that came first stays.
+//! overloads), rules (all overloads). INVARIANT: overloads are in the order of declaration, imported ones first; of
+//! two functions with the same name and parameters, the first one counts.
 
 use std::collections::{BTreeMap, BTreeSet};
 

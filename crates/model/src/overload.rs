@@ -1,4 +1,4 @@
-//! Which of several functions or rules of one name an application means.
+//! Finds which of several functions or rules with the same name an application means.
 //!
 //! In: the candidates and the checked arguments. Out: the candidate of the least cost, and what its type variables
 //! stand for. Exact domains win, then compatible ones (spec/language.md, 8.1), then those that need a numeric coercion.
@@ -13,7 +13,7 @@ use crate::id::{FunctionId, RuleId};
 use crate::model::Model;
 use crate::term::{Term, TermKind};
 
-/// How the arguments meet the parameters.
+/// How the arguments match the parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Shape {
     /// One to one.
@@ -28,9 +28,9 @@ pub(crate) enum Shape {
 pub(crate) struct Choice<Id> {
     /// Which.
     pub(crate) id: Id,
-    /// What its type variables stand for.
+    /// The domains of its type variables.
     pub(crate) bindings: Bindings,
-    /// How its arguments are given.
+    /// How its arguments match the parameters.
     pub(crate) shape: Shape,
 }
 

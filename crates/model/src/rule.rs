@@ -67,7 +67,7 @@ pub enum RuleKind {
     RunValue {
         /// The term whose value is a rule.
         rule: Term,
-        /// One term a parameter, by value.
+        /// A term for each parameter, by value.
         arguments: Vec<Term>,
     },
     /// `program(a)`: the program of the agent, run with `self` = a.
@@ -104,18 +104,18 @@ pub enum RuleKind {
     },
     /// For one choice of values, if there is one.
     Choose {
-        /// What is ranged over, leftmost slowest.
+        /// The ranges; the leftmost varies slowest.
         binders: Vec<Binder>,
         /// Only where this holds.
         condition: Option<Term>,
-        /// The rule run with the choice.
+        /// The rule to run with the chosen values.
         body: Box<RuleNode>,
-        /// The rule run where there is none.
+        /// The rule to run if no values fulfil the condition.
         if_none: Option<Box<RuleNode>>,
     },
     /// For all values in parallel.
     Forall {
-        /// What is ranged over, leftmost slowest.
+        /// The ranges; the leftmost varies slowest.
         binders: Vec<Binder>,
         /// Only where this holds.
         condition: Option<Term>,
@@ -126,7 +126,7 @@ pub enum RuleKind {
     Extend {
         /// The domain: dynamic abstract, or dynamic concrete over an abstract one.
         domain: DomainId,
-        /// One variable a fresh element.
+        /// A variable for each fresh element.
         variables: Vec<VariableId>,
         /// The rule that sees them.
         body: Box<RuleNode>,
@@ -140,7 +140,7 @@ pub enum RuleKind {
         /// The body.
         body: Box<RuleNode>,
     },
-    /// `whilerec condition do body`: recursive while, until the condition is false (it may then not end).
+    /// `whilerec condition do body`: recursive while, until the condition is false. It may never end.
     RecursiveWhile {
         /// The condition.
         condition: Term,
@@ -155,6 +155,6 @@ pub enum RuleKind {
         /// The rule they are local to.
         body: Box<RuleNode>,
     },
-    /// Stands where a reported fault left no rule.
+    /// Replaces a rule that a reported fault left out.
     Error,
 }

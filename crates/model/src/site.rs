@@ -1,4 +1,4 @@
-//! Where names are resolved: a file, what it sees, and the model under construction.
+//! The context in which names are resolved: a file, the names it sees, and the model under construction.
 //!
 //! In: names and domains as written. Out: what they mean, or a reported fault and [`Domains::ERROR`]. Everything that
 //! declares or checks does so through a [`Site`].

@@ -1,7 +1,7 @@
-//! "Did you mean": the nearest of the names that would have been right.
+//! "Did you mean": the nearest of the valid names.
 //!
-//! In: a name that means nothing and the names in scope. Out: one of them, if it is so near that it was likely meant:
-//! it differs only in capitals, or is few edits away for its length.
+//! In: a name that means nothing and the names in scope. Out: one of them, if it is so near that it was probably
+//! meant: it differs only in capitals, or by few edits for its length.
 
 /// The candidate that was likely meant.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {

@@ -1,10 +1,10 @@
-//! Control states that nothing ever enters: a function without an initial value that is set only where it has one already.
+//! Finds control states that nothing ever enters: functions without an initial value that are set only if they have one.
 //!
 //! In: a model without errors. Out: a warning for each such function. It finds controlled functions over enums that no
 //! initial state gives a value, if each of their updates, in all rules that can run, is guarded by a test for one of
 //! their values: `mode = IDLE`, `switch mode`, `isDef(mode)`, also within `and` and derived functions. INVARIANT: it
-//! reports no function that some rule might set first. So rules whose values are taken, and locations that are handed
-//! to rules, count as updates.
+//! reports no function that some rule might set first. So rules that are used as values, and locations that are passed to
+//! rules, count as updates.
 
 use std::collections::BTreeSet;
 
@@ -18,7 +18,7 @@ use crate::model::Model;
 use crate::rule::{RuleKind, RuleNode, Target};
 use crate::term::{Literal, Term, TermKind};
 
-/// LIMIT: how deep definitions of derived functions are followed.
+/// LIMIT: the depth to which definitions of derived functions are followed.
 const DEFINITIONS: usize = 8;
 
 /// Warns of functions that never get a value.
@@ -45,7 +45,7 @@ pub(crate) fn check(model: &Model, faults: &mut Faults) {
     }
 }
 
-/// Rules that are taken as values somewhere: they may run wherever such a value goes.
+/// Rules that are used as values somewhere: they may run wherever such a value goes.
 fn values(model: &Model) -> BTreeSet<u32> {
     let mut found = BTreeSet::new();
     let mut look = |term: &Term| {
@@ -143,7 +143,7 @@ impl<'m> Search<'m> {
         matches!(&term.kind, TermKind::Apply { function, .. } if *function == self.function)
     }
 
-    /// The term is not true while the function has no value.
+    /// Whether the term cannot be true while the function has no value.
     fn excludes(&self, term: &Term, depth: usize) -> bool {
         let TermKind::Apply { function, arguments } = &term.kind else { return false };
         let applied = self.model.function(*function);

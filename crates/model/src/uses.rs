@@ -1,8 +1,8 @@
-//! What each name of the texts means, as the checker found it: the table from a place to what it refers to.
+//! The meaning of each name of the texts, as the checker found it: a table from places to what they refer to.
 //!
-//! In: every name that the checker resolves, when it does. Out: [`Uses`], for whoever goes from a text to what stands in it
-//! (an editor); nothing that runs a model reads it. INVARIANT: a name is in the table only if the checker took it for what the
-//! table says, or if there is nothing else of that name; one that might mean several things is not in it.
+//! In: every name that the checker resolves. Out: [`Uses`], for editors; nothing that runs a model reads it. INVARIANT:
+//! a name is in the table only if the checker resolved it to this meaning, or if nothing else has that name. A name that
+//! might mean several things is not in it.
 
 use syntax::{FileId, Span};
 
@@ -31,7 +31,7 @@ pub struct Use {
     pub span: Span,
     /// What it refers to.
     pub referent: Referent,
-    /// It is declared, or bound, here.
+    /// Whether it is declared or bound here.
     pub declares: bool,
 }
 
@@ -48,7 +48,7 @@ impl Uses {
         self.0.push(Use { span, referent, declares: true });
     }
 
-    /// Adds all that a name of a list means.
+    /// Adds all meanings of a name in a list.
     pub(crate) fn add_all(&mut self, span: Span, name: &str, names: &Names) {
         let domain = names.domain(name).map(Referent::Domain);
         let literal = names.literal(name).map(|(domain, place)| Referent::Literal(domain, place));
@@ -59,7 +59,7 @@ impl Uses {
         }
     }
 
-    /// Those that stand in a file, in the order of their places, each once.
+    /// Those of a file, in the order of their places, each once.
     pub fn in_file(&self, file: FileId) -> Vec<Use> {
         let mut found: Vec<Use> = self.0.iter().filter(|name| name.span.file == file).copied().collect();
         found.sort_by_key(|name| (name.span, name.referent, !name.declares));

@@ -1,7 +1,7 @@
 //! Walks over terms and rules in the order of the text; the parts of a node come before its later siblings.
 //!
-//! In: a term or rule and a function to call on each. Out: nothing of its own. INVARIANT: every term and rule inside is
-//! visited once, the outermost first; safe however deep.
+//! In: a term or rule, and a function to call on each. INVARIANT: every term and rule inside is visited once, the
+//! outermost first; any depth is safe.
 
 use crate::rule::{RuleKind, RuleNode, Target};
 use crate::term::{Binder, Term, TermKind};
@@ -102,7 +102,7 @@ impl RuleNode {
         }
     }
 
-    /// Calls `visit` on the terms of this rule that stand in no rule inside it; update targets count by their arguments.
+    /// Calls `visit` on the terms of this rule that are not in a rule inside it; of an update target, on its arguments.
     pub fn terms<'r>(&'r self, visit: &mut dyn FnMut(&'r Term)) {
         match &self.kind {
             RuleKind::Update { target, value } => {

@@ -1,4 +1,4 @@
-//! Applications of functions and operators: which overload is meant, and why none is.
+//! Applications of functions and operators: finds the overload that is meant, or says why there is none.
 //!
 //! In: a name and arguments. Out: [`TermKind::Apply`] with one argument for each parameter, or a fault that says what
 //! the candidates would take. Projections (`first`, `second`, …) of products become [`TermKind::Project`].
@@ -21,7 +21,7 @@ const PROJECTIONS: [&str; 9] = ["first", "second", "third", "fourth", "fifth", "
 pub(crate) struct Written<'a> {
     /// The function's name.
     pub(crate) name: &'a str,
-    /// The name or operator as it stands in the text.
+    /// The name or operator as it is written.
     pub(crate) shown: &'a str,
     /// Where that stands.
     pub(crate) name_span: Span,

@@ -44,7 +44,7 @@ pub(crate) struct Body<'a> {
     scope: Vec<(String, Meaning)>,
     /// The variables that some update in this declaration writes to.
     pub(crate) updated: BTreeSet<String>,
-    /// The local functions that stand for variables, and what bound those.
+    /// The local functions that replace variables, and what bound the variables.
     local_variables: Vec<(FunctionId, Bound)>,
     /// The local functions declared here, the innermost last.
     pub(crate) locals: Vec<(String, FunctionId)>,
@@ -52,7 +52,7 @@ pub(crate) struct Body<'a> {
     pub(crate) result: Option<DomainId>,
     /// The environment's functions may be updated too (a scenario sets them).
     pub(crate) as_environment: bool,
-    /// In a rule that a scenario runs, which stands for the machine and the environment alike.
+    /// In a rule of a scenario, which acts both for the machine and for the environment.
     pub(crate) in_scenario: bool,
 }
 
@@ -131,7 +131,7 @@ impl<'a> Body<'a> {
         id
     }
 
-    /// What bound the variable that a local function stands for.
+    /// What bound the variable that a local function replaces.
     pub(crate) fn bound_of_local(&self, function: FunctionId) -> Option<Bound> {
         self.local_variables.iter().find(|(id, _)| *id == function).map(|(_, bound)| *bound)
     }

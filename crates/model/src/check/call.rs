@@ -1,7 +1,7 @@
 //! Calls of rules: macro rules with `[]`, turbo rules with `()`, and rules named as values.
 //!
 //! In: a name and arguments. Out: a [`Call`] with the overload resolved and the arguments coerced, or a fault that
-//! says what the rules of that name take.
+//! says which arguments the rules of that name take.
 
 use syntax::{Span, SyntaxToken, ast};
 

@@ -1,7 +1,7 @@
 //! Definitions of functions and domains, in the definitions section.
 //!
-//! In: typed views. Out: the defining terms, in the model's tables. A static function may depend on static functions
-//! only, and a derived one depends on the state (spec/language.md, section 5).
+//! In: typed views. Out: the defining terms, in the model's tables. A static function may depend only on
+//! static functions; a derived one depends on the state (spec/language.md, section 5).
 
 use std::collections::BTreeMap;
 
@@ -75,7 +75,7 @@ pub(crate) fn header_and_body(site: &mut Site<'_>, def: &ast::FunctionDef) -> Op
     Some((found?, definition))
 }
 
-/// The body of a definition whose one parameter is the product of all.
+/// The body of a definition that has one parameter for the product of all.
 fn product_body(site: Site<'_>, def: &ast::FunctionDef, id: FunctionId, parameter: &Variable) -> Definition {
     let place = site.span(def);
     let domains = site.model.function(id).parameters.clone();

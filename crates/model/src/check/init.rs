@@ -14,7 +14,7 @@ use crate::id::DomainId;
 use crate::model::{AgentProgram, Init, InitialFunction};
 use crate::site::{Site, kind_word};
 
-/// Checks all initial states of a file; gives them and the index of the default one.
+/// Checks all initial states of a file; returns them and the index of the default one.
 pub(crate) fn inits(site: &mut Site<'_>, tree: &ast::SourceFile) -> (Vec<Init>, Option<usize>) {
     let mut inits: Vec<Init> = Vec::new();
     let mut default = None;

@@ -1,4 +1,4 @@
-//! Constants: from the text of a token to its value and domain.
+//! Constants: reads the value and the domain from the text of a token.
 //!
 //! In: a literal token. Out: the constant, or a reported fault. Escapes are decoded here and nowhere else.
 

@@ -78,7 +78,7 @@ enum Wrapper {
 }
 
 impl Body<'_> {
-    /// `let`, whose variables may be local state.
+    /// A `let`, whose variables may be local state.
     pub(crate) fn let_rule(&mut self, rule: &ast::LetRule, span: Span) -> RuleKind {
         let mark = self.mark();
         let mut wrappers: Vec<Wrapper> = Vec::new();

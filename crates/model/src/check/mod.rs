@@ -1,7 +1,7 @@
-//! The whole of checking: texts in, checked model out.
+//! Checks a whole model: texts in, checked model out.
 //!
-//! In: the root file and a [`Loader`]. Out: [`Checked`]. Files are checked in the order of imports, so what a file
-//! needs from another is known. Within a file everything is declared first; then bodies are checked.
+//! In: the root file and a [`Loader`]. Out: [`Checked`]. Files are checked in the order of imports, so whatever a
+//! file needs from another is known. Within a file, everything is declared before bodies are checked.
 
 pub(crate) mod body;
 
@@ -37,7 +37,7 @@ use body::{Body, Bound};
 use definition::Defined;
 use local_state::UpdatedParameters;
 
-/// Checks a model: reads what it imports, resolves every name, gives every term a domain.
+/// Checks a model: reads its imports, resolves every name, finds the domain of every term.
 ///
 /// Never fails and never panics: what could not be understood is in `diagnostics`, and everything else is checked
 /// all the same, so one run shows all faults.
@@ -98,7 +98,7 @@ struct Checker<'a> {
     /// What each checked unit exports; none without an export clause.
     exported: Vec<Option<Names>>,
     defined: Defined,
-    /// Parameters of macro rules that stand for locations.
+    /// Parameters of macro rules that are locations.
     updated: UpdatedParameters,
 }
 

@@ -1,4 +1,4 @@
-//! Rules: from a written rule to one with every name resolved (spec/language.md, section 7).
+//! Rules: resolves every name of a written rule (spec/language.md, section 7).
 //!
 //! In: a typed view of a rule. Out: a [`RuleNode`]; [`RuleKind::Error`] where a fault was reported. INVARIANT: safe on
 //! any tree, however deep. Whether macro rules are recursive, and whether location parameters get locations, is known

@@ -1,4 +1,4 @@
-//! Terms: from a written term to one with a domain on every part (spec/language.md, section 6).
+//! Terms: finds the domain of every part of a written term (spec/language.md, section 6).
 //!
 //! In: a typed view of a term. Out: a [`Term`]. After a reported fault its domain is [`Domains::ERROR`], which is
 //! compatible with every other, so one mistake gives one fault. INVARIANT: safe on any tree, however deep.

@@ -1,4 +1,4 @@
-//! Updates and turbo returns: what they write to, and whether the value fits.
+//! Updates and turbo returns: finds what they write to, and checks whether the value fits.
 //!
 //! In: the written target and value. Out: a [`Target`] with the value coerced to its codomain. A rule may write to
 //! controlled, shared, out and local functions, a macro rule also to its location parameters; the environment
@@ -83,7 +83,7 @@ impl Body<'_> {
         RuleKind::Return { target: place.target, call }
     }
 
-    /// The location that a term stands for; `returned` if a turbo rule gives it its result.
+    /// The location that a term names; `returned` if it gets the result of a turbo rule.
     fn target(&mut self, target: &ast::Term, returned: bool) -> Option<Place> {
         if let ast::Term::Variable(variable) = target {
             return self.variable_place(variable);

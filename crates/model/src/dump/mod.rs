@@ -1,8 +1,8 @@
 //! The checked model as text, for people and for golden tests (`groundstate dump model`).
 //!
-//! In: a [`Model`]. Out: its own declarations in the order of its tables, terms in prefix form with every coercion shown
-//! and overloads resolved; library functions and structured domains only where they are used. Stable: the same model
-//! gives the same text.
+//! In: a [`Model`]. Out: its own declarations in the order of its tables. Terms are in prefix form, with every coercion
+//! and with overloads resolved. Library functions and structured domains are shown only if they are used. The same model
+//! always gives the same text.
 
 mod text;
 

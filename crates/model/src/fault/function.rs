@@ -37,7 +37,7 @@ pub(crate) fn undefined(span: Span, name: &str, kind: &str) -> Diagnostic {
         .with_help(format!("define it: `function {name}… = …` in the definitions section"))
 }
 
-/// A function that is set only where it already has a value, and begins without one.
+/// A function that begins without a value, and is set only if it has one already.
 pub(crate) fn unstarted(span: Span, name: &str, asked: Span, has_init: bool) -> Diagnostic {
     let help = match has_init {
         true => format!("give it its first value in the `default init` section: `function {name} = …`"),
@@ -49,7 +49,7 @@ pub(crate) fn unstarted(span: Span, name: &str, asked: Span, has_init: bool) -> 
         .with_help(help)
 }
 
-/// Definitions that use each other in a circle whatever the state is.
+/// Definitions that use each other in a circle in every state.
 pub(crate) fn endless(span: Span, cycle: &[String], declared: Span) -> Diagnostic {
     let name = cycle.last().map(String::as_str).unwrap_or_default();
     let message = match cycle {

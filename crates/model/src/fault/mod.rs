@@ -1,7 +1,7 @@
 //! The faults that checking reports: one function for each kind, grouped by subject.
 //!
-//! In: the names, domains and places involved. Out: a [`Diagnostic`]. This module only words the faults; whether there
-//! is one is decided where the rule of the language is checked. INVARIANT: every id is in [`IDS`] and has a page
+//! In: the names, domains and places involved. Out: a [`Diagnostic`]. This module only words the faults. The code
+//! that checks a rule of the language decides whether there is one. INVARIANT: every id is in [`IDS`] and has a page
 //! `spec/faults/<id>.md`.
 
 pub(crate) mod domain;
@@ -170,7 +170,7 @@ pub(crate) fn list(items: &[String]) -> String {
     }
 }
 
-/// A term of one domain where another is expected, in words.
+/// Says that a term of one domain is where another is expected.
 pub(crate) struct Mismatch {
     /// What is expected.
     pub(crate) expected: String,

@@ -15,7 +15,7 @@ pub(crate) fn unknown_function(span: Span, name: &str, help: String) -> Diagnost
     Diagnostic::error("unknown-function", span, format!("there is no function `{name}`")).with_help(help)
 }
 
-/// Says of an unknown function in a formula about runs which library has it as an operator.
+/// An unknown function in a formula about runs: says which library has it as an operator.
 pub fn missing_operator(fault: &mut Diagnostic, kind: PropertyKind) {
     let name = fault.message.split('`').nth(1).filter(|_| fault.id == "unknown-function");
     if let Some((name, library)) = name.and_then(|name| Some((name, library::of_operator(name, kind)?))) {
@@ -44,7 +44,7 @@ pub(crate) fn unknown_literal(span: Span, name: &str, help: String) -> Diagnosti
     Diagnostic::error("unknown-enum-literal", span, format!("no enum domain has the literal `{name}`")).with_help(help)
 }
 
-/// A domain whose name reads as an enum literal.
+/// A domain whose name looks like an enum literal.
 pub(crate) fn domain_in_capitals(span: Span, name: &str) -> Diagnostic {
     Diagnostic::error("domain-in-capitals", span, format!("`{name}` cannot name a domain"))
         .here("two capitals first and no small letter: this shape is for enum literals")

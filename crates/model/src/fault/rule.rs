@@ -4,7 +4,7 @@ use syntax::{Diagnostic, Span};
 
 use super::Mismatch;
 
-/// Says of an unknown function in the place of a rule how rules are called.
+/// An unknown function in the place of a rule: says how rules are called.
 pub(crate) fn not_called_by_rule_name(fault: &mut Diagnostic, name: &str, known: bool) {
     if fault.id != "unknown-function" {
         return;
@@ -128,7 +128,7 @@ pub(crate) fn not_a_rule(span: Span, found: &str, help: String) -> Diagnostic {
         .with_help(help)
 }
 
-/// The result of a rule that gives none.
+/// The result of a rule that returns none.
 pub(crate) fn without_result(span: Span, name: &str, declared: Span) -> Diagnostic {
     Diagnostic::warning("rule-without-result", span, format!("`{name}` declares no result"))
         .with_label(declared, "declared here")

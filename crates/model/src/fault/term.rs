@@ -35,7 +35,7 @@ pub(crate) fn argument_count(
         .fold(fault, |fault, (place, signature)| fault.with_label(*place, format!("declared as `{signature}`")))
 }
 
-/// An argument of the wrong domain, where there is only one function to choose.
+/// An argument of the wrong domain, if only one function has that name.
 pub(crate) fn argument_domain(
     span: Span,
     name: &str,
@@ -134,7 +134,7 @@ pub(crate) fn range_bounds(span: Span, found: &str) -> Diagnostic {
         .with_help("give Natural, Integer or Real bounds, or list the elements: `{AA, BB}`")
 }
 
-/// A range that holds nothing, or a step that leads nowhere.
+/// A range that is empty, or a step that leads nowhere.
 pub(crate) fn empty_range(span: Span, reason: &str, help: &str) -> Diagnostic {
     Diagnostic::warning("empty-range", span, "this range holds nothing").here(reason.to_string()).with_help(help)
 }
