@@ -59,7 +59,11 @@ impl Explorer {
         let due = match self.settings.engine {
             EngineChoice::Interpreted => false,
             EngineChoice::Compiled => true,
-            EngineChoice::Automatic => !self.settings.forgetful && (!self.steps.tree.is_used() || self.makers.loses()),
+            EngineChoice::Automatic => {
+                // Where another explorer of the search has compiled them, its tree has lost.
+                let pays = !self.steps.tree.is_used() || self.settings.code.is_made() || self.makers.loses();
+                !self.settings.forgetful && pays
+            }
         };
         if due {
             self.makers.tried = true;

@@ -17,7 +17,8 @@ use program::{ProcedureId, Program, RuleId};
 use crate::execute::Core;
 use crate::native::context::Context;
 use crate::native::helper::{Helpers, signature};
-use crate::native::plan::{Facts, Fixed, Plan, UnitKey};
+use crate::native::numbered::Numbered;
+use crate::native::plan::{Facts, Plan, UnitKey};
 use crate::native::translate::Translator;
 use crate::native::unit;
 use crate::weighed::Items;
@@ -33,10 +34,7 @@ pub(crate) struct Code {
     pub(super) entry: Entry,
     /// Where `self` is kept.
     pub(super) myself: Option<u32>,
-    /// Frames opened for the interpreter: their size and the slots that are handed over.
-    pub(super) spills: Vec<(u32, Vec<u32>)>,
-    /// The fixed terms whose values are tabulated.
-    pub(super) tables: Vec<Fixed>,
+    pub(super) numbered: Arc<Numbered>,
     /// By rule, 1 where it has run; empty where that is not noted.
     ran: Box<[AtomicU8]>,
     /// What the code refers to.
@@ -98,15 +96,14 @@ impl Code {
         // SAFETY: the code was just defined with this signature.
         let entry = unsafe { std::mem::transmute::<*const u8, Entry>(code) };
         let myself = plan.self_location(program);
-        let Plan { facts, spills, tables, pinned, ran, .. } = plan;
+        let Plan { facts, numbered, pinned, ran, .. } = plan;
         Some(Code {
             program: Arc::clone(program),
             procedure,
             facts,
             entry,
             myself,
-            spills,
-            tables,
+            numbered: Arc::new(numbered),
             ran,
             _pinned: pinned,
             _owner: Owner(Some(module)),

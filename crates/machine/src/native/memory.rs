@@ -1,22 +1,22 @@
 //! What one machine keeps while it runs compiled code.
 //!
-//! In: the code, which other machines may run, too. Out: the data that the code and its helpers change: tables as far as they are
+//! In: what the code refers to, which is the same for all machines. Out: the data that the code and its helpers change: tables as far as they are
 //! filled, and what is open in the running step.
 
 use std::sync::Arc;
 
 use crate::memo::Version;
-use crate::native::code::Code;
+use crate::native::numbered::Numbered;
 use crate::update::{Sequence, Unit};
 use crate::value::Value;
 
 /// See the module.
 #[derive(Debug)]
 pub(super) struct Memory {
-    pub code: Arc<Code>,
-    /// By table of the code.
+    pub numbered: Arc<Numbered>,
+    /// By fixed term.
     tables: Vec<Table>,
-    /// By table: the addresses of its states and of its values, as compiled code reads them.
+    /// By fixed term: the addresses of its states and of its values, as compiled code reads them.
     places: Vec<[u64; 2]>,
     /// Values that a term needs while it is evaluated.
     pub temporaries: Vec<Value>,
@@ -47,18 +47,18 @@ pub(super) struct Collected {
 
 impl Memory {
     /// That of a machine that has not run the code.
-    pub fn new(code: Arc<Code>) -> Memory {
+    pub fn new(numbered: Arc<Numbered>) -> Memory {
         let table = |entries: usize| Table {
             states: vec![0; entries].into_boxed_slice(),
             values: vec![Value::Undef; entries].into_boxed_slice(),
         };
-        let mut tables: Vec<Table> = code.tables.iter().map(|fixed| table(fixed.entries)).collect();
+        let mut tables: Vec<Table> = numbered.fixed.iter().map(|fixed| table(fixed.entries)).collect();
         let place = |table: &mut Table| {
             [table.states.as_mut_ptr().expose_provenance() as u64, table.values.as_mut_ptr().expose_provenance() as u64]
         };
         let places = tables.iter_mut().map(place).collect();
         Memory {
-            code,
+            numbered,
             tables,
             places,
             temporaries: Vec::new(),

@@ -17,6 +17,7 @@ mod helper;
 mod kleene;
 mod location;
 mod memory;
+mod numbered;
 mod plan;
 mod rule;
 mod runtime;
@@ -44,6 +45,11 @@ const TRIAL: u64 = 64;
 pub struct SharedCode(Arc<OnceLock<Option<Arc<Code>>>>);
 
 impl SharedCode {
+    /// Whether some machine has compiled it.
+    pub fn is_made(&self) -> bool {
+        matches!(self.0.get(), Some(Some(_)))
+    }
+
     pub(crate) fn get_or_compile(&self, compile: impl FnOnce() -> Option<Arc<Code>>) -> Option<Arc<Code>> {
         self.0.get_or_init(compile).clone()
     }
@@ -51,6 +57,7 @@ impl SharedCode {
 
 /// Compiled code with what one machine needs to run it.
 pub(crate) struct Engine {
+    code: Arc<Code>,
     memory: Memory,
     runs: u64,
     abandoned: u64,
@@ -65,12 +72,13 @@ impl std::fmt::Debug for Engine {
 impl Engine {
     /// For a machine that the code fits.
     pub fn new(code: Arc<Code>) -> Engine {
-        Engine { memory: Memory::new(code), runs: 0, abandoned: 0 }
+        let memory = Memory::new(Arc::clone(&code.numbered));
+        Engine { code, memory, runs: 0, abandoned: 0 }
     }
 
     /// What it runs.
     pub fn code(&self) -> &Code {
-        &self.memory.code
+        &self.code
     }
 
     /// Whether running the code has paid so far.
@@ -117,10 +125,10 @@ impl Engine {
     #[inline]
     fn compute(&mut self, context: &mut Context, executor: &mut Executor<'_>) -> bool {
         self.runs += 1;
-        let former = self.memory.code.myself.map(|index| executor.core.store.values[index as usize].clone());
+        let former = self.code.myself.map(|index| executor.core.store.values[index as usize].clone());
         // SAFETY: the context refers to the executor and the memory, which outlive this call; while the code runs
         // nothing else uses them. The code was compiled for this program and this layout of the store.
-        let status = unsafe { (self.memory.code.entry)(&raw mut *context) };
+        let status = unsafe { (self.code.entry)(&raw mut *context) };
         context.enter(executor.core);
         if status == 0 {
             debug_assert!(context.temporary == 0 && context.candidate == 0);
@@ -130,7 +138,7 @@ impl Engine {
         context.drop_candidates();
         self.abandoned += 1;
         self.memory.clear();
-        if let (Some(index), Some(value)) = (self.memory.code.myself, former) {
+        if let (Some(index), Some(value)) = (self.code.myself, former) {
             executor.core.store.values[index as usize] = value;
         }
         false

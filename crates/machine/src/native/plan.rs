@@ -14,6 +14,7 @@ use crate::layout::Layout;
 use crate::membership::Membership;
 use crate::memo::{self, Shelf};
 use crate::native::helper::Helpers;
+use crate::native::numbered::{Fixed, Numbered};
 use crate::native::shape::{Kind, Scalar, consecutive};
 use crate::native::total::total_functions;
 use crate::value::Value;
@@ -36,15 +37,6 @@ const DEPTH: usize = 24;
 const TABLE: i64 = 1 << 16;
 
 static UNDEF: Value = Value::Undef;
-
-/// A term that depends on nothing but its variables, tabulated over their values.
-#[derive(Debug)]
-pub(super) struct Fixed {
-    pub term: TermId,
-    pub spill: u64,
-    /// How many values its variables have together.
-    pub entries: usize,
-}
 
 /// What code relies on of the machine that runs it.
 #[derive(Debug, PartialEq)]
@@ -93,9 +85,7 @@ pub(super) struct Plan {
     definition_calls: Vec<u32>,
     pub units: Vec<(UnitKey, FuncId)>,
     pub queue: Vec<(UnitKey, FuncId)>,
-    /// Frames opened for the interpreter: their size and the slots that are handed over.
-    pub spills: Vec<(u32, Vec<u32>)>,
-    pub tables: Vec<Fixed>,
+    pub numbered: Numbered,
     /// Arrays that the code refers to.
     pub pinned: Vec<Arc<Items>>,
     /// By rule, 1 where it has run; empty where that is not noted.
@@ -134,8 +124,7 @@ impl Plan {
             definition_calls,
             units: Vec::new(),
             queue: Vec::new(),
-            spills: Vec::new(),
-            tables: Vec::new(),
+            numbered: Numbered::default(),
             pinned: vec![constants],
             ran: Box::default(),
         }
@@ -159,16 +148,6 @@ impl Plan {
     /// Keeps an array alive as long as the code.
     pub fn pin(&mut self, values: Arc<Items>) {
         self.pinned.push(values);
-    }
-
-    /// The number of a list of slots.
-    pub fn spill(&mut self, frame: u32, slots: Vec<u32>) -> usize {
-        let entry = (frame, slots);
-        if let Some(known) = self.spills.iter().position(|spill| *spill == entry) {
-            return known;
-        }
-        self.spills.push(entry);
-        self.spills.len() - 1
     }
 
     /// The bounds of a domain whose elements are consecutive numbers in every state.
@@ -253,8 +232,7 @@ impl Plan {
         if !(1..=TABLE).contains(&entries) {
             return None;
         }
-        self.tables.push(Fixed { term, spill: spill as u64, entries: entries as usize });
-        Some(self.tables.len() - 1)
+        Some(self.numbered.table(Fixed { term, spill: spill as u64, entries: entries as usize }))
     }
 
     /// The variables that occur in a term, sorted.

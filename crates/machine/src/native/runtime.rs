@@ -217,7 +217,7 @@ unsafe fn in_spilled_frame<T>(
 ) -> Option<T> {
     // SAFETY: as the caller promises.
     unsafe {
-        let (frame, slots) = &Context::memory(context).code.spills[spill as usize];
+        let (frame, slots) = &Context::memory(context).numbered.spills[spill as usize];
         let values = borrow(values, slots.len() as u64);
         let slots: &[u32] = slots;
         let frame = *frame;
@@ -475,8 +475,8 @@ pub unsafe extern "C" fn agent_program(context: Pointer, agent: *const Value) ->
 pub unsafe extern "C" fn fill(context: Pointer, table: u64, entry: i64, values: *const *const Value) -> i64 {
     // SAFETY: *context*, *numbers* and *values*, of which the code spills as many as the table lists.
     unsafe {
-        let code = std::sync::Arc::clone(&Context::memory(context).code);
-        let fixed = &code.tables[table as usize];
+        let numbered = std::sync::Arc::clone(&Context::memory(context).numbered);
+        let fixed = &numbered.fixed[table as usize];
         match in_spilled_frame(context, fixed.spill, values, |executor| executor.evaluate(fixed.term)) {
             Some(value) => {
                 Context::memory(context).fill(table as usize, entry as usize, value);

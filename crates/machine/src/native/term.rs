@@ -141,7 +141,7 @@ impl Translator<'_, '_> {
     pub fn spill(&mut self, slots: Vec<u32>) -> (ir::Value, ir::Value) {
         let operands: Vec<Operand> = slots.iter().map(|slot| self.slot(program::Slot(*slot)).into()).collect();
         let size = self.frame().size;
-        let spill = self.plan.spill(size, slots);
+        let spill = self.plan.numbered.spill(size, slots);
         let values = self.pointers(&operands);
         (self.word(spill as i64), values)
     }

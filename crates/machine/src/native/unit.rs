@@ -288,7 +288,7 @@ impl Translator<'_, '_> {
         }
         // Refused here, the table has left no code behind.
         let frame = self.frame().size;
-        let spill = self.plan.spill(frame, slots.clone());
+        let spill = self.plan.numbered.spill(frame, slots.clone());
         let table = self.plan.table(id, spill, entries)?;
         for (scalar, low, size) in columns {
             let mut column = scalar.value;

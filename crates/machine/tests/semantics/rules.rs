@@ -445,6 +445,14 @@ fn the_location_stands_in_the_place_of_result() {
             1: k=4 f(2)=84
         "#]],
     );
+    // They are evaluated there, even if the rule sets no result.
+    check(
+        &model("turbo rule r_t in Integer = skip", "par k := 2 f(div(1, 0)) <- r_t() endpar"),
+        1,
+        expect![[r#"
+            1: division by zero
+        "#]],
+    );
     // Beside each other they are two locations.
     check(
         &model(
