@@ -447,7 +447,7 @@ fn the_location_stands_in_the_place_of_result() {
     );
     // They are evaluated there, even if the rule sets no result.
     check(
-        &model("turbo rule r_t in Integer = skip", "par k := 2 f(div(1, 0)) <- r_t() endpar"),
+        &model("turbo rule r_t in Integer = skip", "par k := 2 f(idiv(1, n - 1)) <- r_t() endpar"),
         1,
         expect![[r#"
             1: division by zero
