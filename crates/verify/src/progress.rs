@@ -17,6 +17,8 @@ pub struct Progress {
     pub bytes: u64,
     /// Bytes of files.
     pub spilled: u64,
+    /// States whose steps were made by machine code.
+    pub compiled: u64,
 }
 
 /// Why a search ended before it had explored all states.

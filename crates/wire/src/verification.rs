@@ -147,6 +147,9 @@ pub struct ExploredLine<'a> {
     bytes: u64,
     #[serde(skip_serializing_if = "Option::is_none")]
     disk: Option<u64>,
+    /// How many states' steps were made by machine code, where any were.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    compiled: Option<u64>,
     #[serde(flatten)]
     more: &'a Explored,
 }
@@ -162,6 +165,7 @@ impl<'a> ExploredLine<'a> {
             depth: progress.depth,
             bytes: progress.bytes,
             disk: (progress.spilled > 0).then_some(progress.spilled),
+            compiled: (progress.compiled > 0).then_some(progress.compiled),
             more,
         }
     }

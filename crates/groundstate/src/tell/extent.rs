@@ -54,7 +54,12 @@ pub fn explored(progress: &Progress, extent: Extent) -> String {
         0 => String::new(),
         bytes => format!(", {} MiB on disk", bytes.div_ceil(1 << 20)),
     };
-    format!("{states} ({whole}), {transitions}{depth}{disk}")
+    // Where the engine has found that remembering steps does not pay.
+    let compiled = match progress.compiled {
+        0 => String::new(),
+        count => format!(", the steps of {count} by machine code"),
+    };
+    format!("{states} ({whole}), {transitions}{depth}{disk}{compiled}")
 }
 
 /// Why partial-order reduction was not possible.

@@ -34,6 +34,8 @@ pub(crate) struct Shard {
     pub levels: Vec<usize>,
     pub found: Vec<Found>,
     pub transitions: u64,
+    /// How many states' steps were made by machine code.
+    pub compiled: u64,
     /// The next state to expand.
     pub next: usize,
     /// Conditions whose truth is unknown in some state.
@@ -88,6 +90,7 @@ struct Board {
 pub(crate) struct Tally {
     pub states: u64,
     pub transitions: u64,
+    pub compiled: u64,
     /// States of this level that still have to be expanded.
     pub left: u64,
     /// States of the next level.
@@ -123,6 +126,7 @@ impl Tally {
             depth: if fresh > 0 { depth } else { depth.saturating_sub(1) },
             bytes: sum(|report| report.bytes),
             spilled: sum(|report| report.spilled),
+            compiled: sum(|report| report.compiled),
         }
     }
 }
@@ -210,6 +214,7 @@ impl Shard {
             levels: Vec::new(),
             found: Vec::new(),
             transitions: 0,
+            compiled: 0,
             next: 0,
             unknown: BTreeSet::new(),
             widening: Widening::default(),
@@ -332,6 +337,7 @@ impl Shard {
         Tally {
             states: self.store.len() as u64,
             transitions: self.transitions,
+            compiled: self.compiled,
             left: (end - self.next) as u64,
             fresh: (self.store.len() - end) as u64,
             pending: self.store.pending() as u64,
@@ -381,6 +387,7 @@ impl Shard {
                     return false;
                 }
                 Ok(expansion) => {
+                    self.compiled = explorer.compiled_states();
                     self.transitions += u64::from(expansion.moved);
                     made += u64::from(expansion.moved);
                     if expansion.moved == 0 || expansion.failed > 0 || expansion.faults != [0; 3] {

@@ -188,7 +188,7 @@ impl<'s> Exploration<'s> {
             queue: (self.states.len() - next) as u64,
             depth: u64::from(depth),
             bytes: self.bytes(),
-            spilled: 0,
+            ..Progress::default()
         }
     }
 

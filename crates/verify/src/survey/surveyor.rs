@@ -195,7 +195,7 @@ impl<'p> Surveyor<'p> {
             queue: (states - next) as u64,
             depth: u64::from(self.depth),
             bytes: (self.survey.table.bytes() + 4 * self.survey.parents.len()) as u64,
-            spilled: 0,
+            ..Progress::default()
         }
     }
 

@@ -208,7 +208,7 @@ impl Reach {
             queue: self.diagrams.count(frontier) as u64,
             depth: self.progress.depth + 1,
             bytes: self.diagrams.nodes() as u64 * NODE,
-            spilled: 0,
+            ..Progress::default()
         };
         self.go_on(plan, watch)
     }
