@@ -97,7 +97,8 @@ fn meant(help: &str) -> Option<&str> {
     rest.split_once('`').map(|(name, _)| name)
 }
 
-fn line_end(analysis: &Analysis) -> &'static str {
+/// How the lines of a file end.
+pub(crate) fn line_end(analysis: &Analysis) -> &'static str {
     if analysis.text().contains("\r\n") { "\r\n" } else { "\n" }
 }
 

@@ -16,6 +16,7 @@ mod navigate;
 mod outline;
 mod position;
 mod project;
+mod refactor;
 mod rename;
 mod report;
 mod signature;
@@ -32,6 +33,7 @@ pub use navigate::{Reference, definition, highlights, implementations, links, re
 pub use outline::{Entry, EntryKind, outline, search};
 pub use position::{Edit, Encoding, Lines, Position, edited};
 pub use project::{Project, library_text};
+pub use refactor::{Refactoring, RefactoringKind, refactorings};
 pub use rename::{Edits, prepare, rename};
 pub use report::{Fault, Report, Weight, reports};
 pub use signature::{Signature, Signatures, signatures};

@@ -236,6 +236,18 @@ impl<F: Files> Project<F> {
     }
 }
 
+/// The texts of a project as the files of another, in which edits are tried.
+#[derive(Debug)]
+pub(crate) struct Overlaid<'p, F> {
+    pub project: &'p mut Project<F>,
+}
+
+impl<F: Files> Files for Overlaid<'_, F> {
+    fn read(&mut self, path: &str) -> Result<SourceFile, Absent> {
+        self.project.text(path)
+    }
+}
+
 fn still_holds<T, F: Files>(kept: &mut Kept<T>, revision: u64, workspace: &mut Workspace<F>) -> bool {
     if kept.seen != revision && !workspace.are_unchanged(&kept.of) {
         return false;

@@ -8,14 +8,14 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use groundstate::Kind;
-use groundstate::workspace::{Absent, Files};
+use groundstate::workspace::Files;
 use model::Referent;
-use syntax::{FileId, Severity, SourceFile, SyntaxKind, SyntaxNode};
+use syntax::{FileId, Severity, SyntaxKind, SyntaxNode};
 
 use crate::analysis::{Analysis, Place, Symbol, is_word};
 use crate::navigate::{places_to_look, symbols};
 use crate::position::{Edit, edited};
-use crate::project::{Project, library_text};
+use crate::project::{Overlaid, Project, library_text};
 
 /// Edits by the file's path.
 pub type Edits = BTreeMap<String, Vec<Edit>>;
@@ -208,17 +208,6 @@ fn is_label(kind: SyntaxKind) -> bool {
     matches!(kind, SyntaxKind::GENERIC_ID | SyntaxKind::MODULE_REF | SyntaxKind::STRING)
 }
 
-/// A project as it would be after edits.
-struct After<'p, F> {
-    project: &'p mut Project<F>,
-}
-
-impl<F: Files> Files for After<'_, F> {
-    fn read(&mut self, path: &str) -> Result<SourceFile, Absent> {
-        self.project.text(path)
-    }
-}
-
 /// Makes the edits to a copy, and finds that every name means what it meant.
 fn proved<F: Files>(
     project: &mut Project<F>,
@@ -243,7 +232,7 @@ fn proved<F: Files>(
         let source = project.text(file).map_err(|absent| absent.told(file))?;
         texts.insert(file.clone(), edited(&source.text, edits));
     }
-    let mut after = Project::new(After { project });
+    let mut after = Project::new(Overlaid { project });
     for (file, text) in texts {
         _ = after.set_text(&file, 0, text);
     }

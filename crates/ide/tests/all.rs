@@ -3,4 +3,5 @@
 
 mod edits;
 mod pages;
+mod refactor;
 mod support;

@@ -79,6 +79,7 @@ fn ask(project: &mut Project<Texts>, path: &str, at: u32) -> String {
     told += &format!("{:?}", ide::formatted(project, path));
     told += &format!("{:?}", ide::fixes(project, path, (at, at + 20)));
     told += &format!("{:?}", ide::prepare(project, path, at));
+    told += &format!("{:?}", ide::refactorings(project, path, (at, at + 30)));
     told
 }
 

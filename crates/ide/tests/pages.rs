@@ -147,6 +147,24 @@ fn answer(project: &mut Project<Texts>, question: &str, file: &str, at: u32) -> 
                 lines.extend(changed.map(|line| format!("    {}", line.trim())));
             }
         }
+        "refactorings" => {
+            let text = project.text(file).expect("a file").text;
+            // What is chosen ends behind the words that the question has.
+            let end = if rest.is_empty() { at } else { end_of(&text, at, rest) };
+            for found in ide::refactorings(project, file, (at, end)) {
+                lines.push(format!("{:?}: {}", found.kind, found.title));
+            }
+        }
+        "refactored" => {
+            let (title, rest) = rest.split_once(" | ").unwrap_or((rest, ""));
+            let text = project.text(file).expect("a file").text;
+            let end = if rest.is_empty() { at } else { end_of(&text, at, rest) };
+            let all = ide::refactorings(project, file, (at, end));
+            return match all.iter().find(|found| found.title == title) {
+                Some(found) => ide::edited(&text, &found.edits),
+                None => format!("not offered, but {:?}", all.iter().map(|found| &found.title).collect::<Vec<_>>()),
+            };
+        }
         "outline" => {
             let found = ide::outline(project, file);
             tell(&found, 0, &mut lines);
@@ -211,6 +229,12 @@ fn answer(project: &mut Project<Texts>, question: &str, file: &str, at: u32) -> 
     lines.join("\n")
 }
 
+/// Where words end that stand at or behind an offset.
+fn end_of(text: &str, at: u32, words: &str) -> u32 {
+    let behind = text[at as usize..].find(words).unwrap_or_else(|| panic!("no `{words}` behind the cursor"));
+    at + (behind + words.len()) as u32
+}
+
 fn tell(entries: &[Entry], depth: usize, lines: &mut Vec<String>) {
     for entry in entries {
         lines.push(
@@ -243,4 +267,9 @@ fn diagnostics() {
 #[test]
 fn structure() {
     check("structure");
+}
+
+#[test]
+fn refactoring() {
+    check("refactoring");
 }

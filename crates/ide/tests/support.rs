@@ -22,3 +22,13 @@ pub fn project(files: &BTreeMap<String, String>) -> Project<Texts> {
     project.set_files(files.keys().cloned());
     project
 }
+
+/// Files as the disk has them.
+#[derive(Debug, Clone, Copy)]
+pub struct Folder;
+
+impl Files for Folder {
+    fn read(&mut self, path: &str) -> Result<SourceFile, Absent> {
+        std::fs::read_to_string(path).map(|text| SourceFile::new(path, text)).map_err(|_| Absent::Missing)
+    }
+}

@@ -36,6 +36,10 @@ pub const MODIFIERS: [&str; 10] = [
     "local",
 ];
 
+/// The kinds of refactorings.
+pub const REFACTORINGS: [CodeActionKind; 3] =
+    [CodeActionKind::REFACTOR_EXTRACT, CodeActionKind::REFACTOR_INLINE, CodeActionKind::REFACTOR_REWRITE];
+
 /// See the module.
 pub fn capabilities(settings: &Settings) -> ServerCapabilities {
     let encoding = match settings.encoding {
@@ -69,7 +73,7 @@ pub fn capabilities(settings: &Settings) -> ServerCapabilities {
         document_symbol_provider: Some(OneOf::Left(true)),
         workspace_symbol_provider: Some(OneOf::Left(true)),
         code_action_provider: Some(CodeActionProviderCapability::Options(CodeActionOptions {
-            code_action_kinds: Some(vec![CodeActionKind::QUICKFIX]),
+            code_action_kinds: Some([vec![CodeActionKind::QUICKFIX], REFACTORINGS.to_vec()].concat()),
             ..CodeActionOptions::default()
         })),
         code_lens_provider: Some(CodeLensOptions { resolve_provider: None }),

@@ -2,13 +2,14 @@
 //!
 //! In: a method and parameters as JSON. Out: the answer as JSON, or an error with its code. Nothing here waits or sends.
 
-use ide::{Action, FoldKind, Role};
+use ide::{Action, FoldKind, RefactoringKind, Role};
 use lsp_server::ErrorCode;
 use lsp_types::request::{self as method, Request};
 use lsp_types::*;
 use serde_json::Value;
 
 use crate::answer::Answers;
+use crate::capabilities::REFACTORINGS;
 use crate::location::{path_of, uri_of};
 use crate::publish::diagnostic;
 
@@ -211,23 +212,44 @@ fn search(answers: &mut Answers, params: WorkspaceSymbolParams) -> Option<Option
 
 fn actions(answers: &mut Answers, params: CodeActionParams) -> Option<Option<CodeActionResponse>> {
     let path = path_of(&params.text_document.uri)?;
-    let wanted = params.context.only.as_ref();
-    if wanted.is_some_and(|kinds| !kinds.contains(&CodeActionKind::QUICKFIX) && !kinds.contains(&CodeActionKind::EMPTY))
-    {
-        return Some(Some(Vec::new()));
-    }
     let range = (answers.offset(&path, params.range.start), answers.offset(&path, params.range.end));
+    // A kind stands for those that begin with its words, too: `refactor` for `refactor.extract`.
+    let asked = |kind: &CodeActionKind| {
+        params.context.only.as_ref().is_none_or(|kinds| {
+            kinds.iter().any(|asked| {
+                let rest = kind.as_str().strip_prefix(asked.as_str());
+                asked.as_str().is_empty() || rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+            })
+        })
+    };
     let mut found = Vec::new();
-    for fix in ide::fixes(&mut answers.project, &path, range) {
-        let edit = answers.workspace_edit(&[(path.clone(), fix.edits)].into());
-        let mended = diagnostic(answers, &path, &fix.fault);
-        found.push(CodeActionOrCommand::CodeAction(CodeAction {
-            title: fix.title,
-            kind: Some(CodeActionKind::QUICKFIX),
-            diagnostics: Some(vec![mended]),
-            edit: Some(edit),
-            ..CodeAction::default()
-        }));
+    if asked(&CodeActionKind::QUICKFIX) {
+        for fix in ide::fixes(&mut answers.project, &path, range) {
+            let edit = answers.workspace_edit(&[(path.clone(), fix.edits)].into());
+            let mended = diagnostic(answers, &path, &fix.fault);
+            found.push(CodeActionOrCommand::CodeAction(CodeAction {
+                title: fix.title,
+                kind: Some(CodeActionKind::QUICKFIX),
+                diagnostics: Some(vec![mended]),
+                edit: Some(edit),
+                ..CodeAction::default()
+            }));
+        }
+    }
+    if REFACTORINGS.iter().any(asked) {
+        for refactoring in ide::refactorings(&mut answers.project, &path, range) {
+            let kind = match refactoring.kind {
+                RefactoringKind::Extract => CodeActionKind::REFACTOR_EXTRACT,
+                RefactoringKind::Inline => CodeActionKind::REFACTOR_INLINE,
+                RefactoringKind::Rewrite => CodeActionKind::REFACTOR_REWRITE,
+            };
+            if !asked(&kind) {
+                continue;
+            }
+            let edit = answers.workspace_edit(&[(path.clone(), refactoring.edits)].into());
+            let (title, kind, edit) = (refactoring.title, Some(kind), Some(edit));
+            found.push(CodeActionOrCommand::CodeAction(CodeAction { title, kind, edit, ..CodeAction::default() }));
+        }
     }
     Some(Some(found))
 }
