@@ -7,6 +7,7 @@ use std::path::Path;
 
 use groundstate::Kind;
 use ide::{Project, Report};
+use syntax::{FileId, SyntaxKind};
 use testkit::repository;
 
 use crate::support::{Texts, project};
@@ -79,6 +80,11 @@ fn ask(project: &mut Project<Texts>, path: &str, at: u32) -> String {
     told += &format!("{:?}", ide::formatted(project, path));
     told += &format!("{:?}", ide::fixes(project, path, (at, at + 20)));
     told += &format!("{:?}", ide::prepare(project, path, at));
+    let text = project.text(path).map(|source| source.text).unwrap_or_default();
+    if text.is_char_boundary(at as usize) {
+        told += &format!("{:?}", ide::layout_in(path, &text, (at, at + 60)));
+        told += &format!("{:?}", ide::layout_typed(path, &text, at));
+    }
     told += &format!("{:?}", ide::refactorings(project, path, (at, at + 30)));
     told
 }
@@ -165,4 +171,58 @@ fn a_renamed_project_has_the_faults_that_it_had() {
         }
     }
     assert!(renamed > 5, "{renamed} renamed; {refused:?}");
+}
+
+/// A text whose white space is other than it was, and nothing else.
+fn spread(text: &str, path: &str, dice: &mut Dice) -> String {
+    let tree = match Kind::of(Path::new(path)) {
+        Some(Kind::Scenario) => syntax::parse_avalla(FileId(0), text),
+        Some(Kind::Chart) => syntax::parse_chart(FileId(0), text),
+        _ => syntax::parse_asmetal(FileId(0), text),
+    };
+    let mut spread = String::new();
+    let mut after_line_comment = false;
+    for token in tree.syntax().descendants_with_tokens().filter_map(|element| element.into_token()) {
+        if token.kind() == SyntaxKind::WHITESPACE && dice.below(3) == 0 {
+            const SPACES: [&str; 5] = [" ", "\n", "   ", "\n\t\t\t\t\t", " \n\n  "];
+            let space = SPACES[if after_line_comment { 1 + 2 * dice.below(2) } else { dice.below(SPACES.len()) }];
+            spread.push_str(if after_line_comment && space == "   " { "\n" } else { space });
+        } else {
+            spread.push_str(token.text());
+        }
+        after_line_comment = token.kind() == SyntaxKind::LINE_COMMENT;
+    }
+    spread
+}
+
+#[test]
+fn layout_of_a_part_changes_white_space_of_that_part_alone() {
+    let mut dice = Dice(17);
+    let mut changed = 0;
+    for (name, text) in examples().iter().filter(|(name, _)| !name.ends_with("yaml")) {
+        for _ in 0..rounds(2, 60) {
+            let text = spread(text, name, &mut dice);
+            let start = dice.below(text.len());
+            let length = if dice.below(2) == 0 { 400 } else { text.len() };
+            let end = (start + dice.below(length)).min(text.len());
+            if !text.is_char_boundary(start) || !text.is_char_boundary(end) {
+                continue;
+            }
+            let whole = |text: &str| ide::formatted(&mut project(&[(name.clone(), text.to_string())].into()), name);
+            let Ok(formatted) = whole(&text) else { continue };
+            let part = ide::layout_in(name, &text, (start as u32, end as u32)).expect("no errors");
+            let typed = ide::layout_typed(name, &text, start as u32);
+            for edits in [part, typed] {
+                changed += edits.len();
+                let after = ide::edited(&text, &edits);
+                let words = |text: &str| text.split_whitespace().collect::<String>();
+                assert_eq!(words(&after), words(&text), "{name}");
+                assert_eq!(whole(&after).as_ref(), Ok(&formatted), "{name} {start} {end}\n{text}\n====\n{after}");
+            }
+            let outside = ide::layout_in(name, &text, (start as u32, end as u32)).expect("no errors");
+            let inside = |edit: &ide::Edit| start as u32 <= edit.range.0 && edit.range.1 <= end as u32;
+            assert!(outside.iter().all(inside), "{name} {start} {end}");
+        }
+    }
+    assert!(changed > 100, "{changed} edits");
 }

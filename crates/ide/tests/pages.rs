@@ -223,6 +223,17 @@ fn answer(project: &mut Project<Texts>, question: &str, file: &str, at: u32) -> 
                 lines.push(format!("{} ×{}", place(project, &called.place), called.calls.len()));
             }
         }
+        "laid-out" => {
+            let text = project.text(file).expect("a file").text;
+            return match ide::layout_in(file, &text, (at, end_of(&text, at, rest))) {
+                Ok(edits) => ide::edited(&text, &edits),
+                Err(reason) => format!("refused: {reason}"),
+            };
+        }
+        "typed" => {
+            let text = project.text(file).expect("a file").text;
+            return ide::edited(&text, &ide::layout_typed(file, &text, at));
+        }
         "formatted" => return ide::formatted(project, file).unwrap_or_else(|reason| format!("refused: {reason}")),
         other => panic!("no question is called {other}"),
     }
@@ -272,4 +283,9 @@ fn structure() {
 #[test]
 fn refactoring() {
     check("refactoring");
+}
+
+#[test]
+fn layout() {
+    check("layout");
 }

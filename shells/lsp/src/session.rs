@@ -4,13 +4,13 @@
 //! more: all that takes time is done by the worker, or, for formatting, by a thread of its own.
 
 use std::collections::BTreeMap;
-use std::panic::catch_unwind;
+use std::panic::{UnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 
 use groundstate::Kind;
-use ide::{Edit, Lines};
+use ide::{Edit, Encoding, Lines};
 use lsp_server::{Connection, ErrorCode, Message, Notification, Request, RequestId};
 use lsp_types::notification::{self, Notification as _};
 use lsp_types::*;
@@ -139,7 +139,12 @@ impl Session {
                 self.shut_down = true;
                 respond(&self.pending, &self.out, id, Ok(Value::Null));
             }
-            "textDocument/formatting" => self.format(id, params),
+            "textDocument/formatting" => self.format(id, &params, |path, lines| {
+                let text = formatted(path, lines.text())?;
+                Ok(difference(lines.text(), &text).into_iter().collect())
+            }),
+            "textDocument/rangeFormatting" => self.format_range(id, params),
+            "textDocument/onTypeFormatting" => self.format_typed(id, params),
             _ => {
                 let stamp = self.pending.stamp(&crate::route::subject(&params).unwrap_or_default());
                 self.job(Job::Request { id, method, params, stamp });
@@ -147,9 +152,14 @@ impl Session {
         }
     }
 
-    /// Formats on a thread of its own: a long file holds up nothing else.
-    fn format(&self, id: RequestId, params: Value) {
-        let path = crate::route::subject(&params).unwrap_or_default();
+    /// Lays a text out on a thread of its own: a long file holds up nothing else.
+    fn format(
+        &self,
+        id: RequestId,
+        params: &Value,
+        layout: impl FnOnce(&str, &Lines) -> Result<Vec<Edit>, String> + Send + UnwindSafe + 'static,
+    ) {
+        let path = crate::route::subject(params).unwrap_or_default();
         let Some(document) = self.documents.get(&path) else {
             let refused = Refused::new(ErrorCode::InvalidParams, "the file is not open");
             return respond(&self.pending, &self.out, id, Err(refused));
@@ -157,22 +167,15 @@ impl Session {
         let (lines, encoding) = (document.lines.clone(), self.settings.encoding);
         let (pending, out, stamp) = (Arc::clone(&self.pending), Arc::clone(&self.out), self.pending.stamp(&path));
         let work = move || {
-            let text = Arc::clone(lines.text());
-            let name = path.clone();
-            let formatted = catch_unwind(move || formatted(&name, &text));
-            let answer = match formatted {
-                Ok(Ok(text)) => {
-                    let edits: Vec<TextEdit> = difference(lines.text(), &text)
-                        .into_iter()
-                        .map(|edit| {
-                            let at = |offset: u32| {
-                                let at = lines.position(offset as usize, encoding);
-                                Position::new(at.line, at.column)
-                            };
-                            TextEdit::new(Range::new(at(edit.range.0), at(edit.range.1)), edit.text)
-                        })
-                        .collect();
-                    Ok(json!(edits))
+            let (name, own) = (path.clone(), lines.clone());
+            let answer = match catch_unwind(move || layout(&name, &own)) {
+                Ok(Ok(edits)) => {
+                    let at = |offset: u32| {
+                        let at = lines.position(offset as usize, encoding);
+                        Position::new(at.line, at.column)
+                    };
+                    let of = |edit: Edit| TextEdit::new(Range::new(at(edit.range.0), at(edit.range.1)), edit.text);
+                    Ok(json!(edits.into_iter().map(of).collect::<Vec<TextEdit>>()))
                 }
                 Ok(Err(reason)) => Err(Refused::new(ErrorCode::RequestFailed, reason)),
                 Err(panic) => Err(Refused::new(ErrorCode::InternalError, told(&*panic))),
@@ -187,6 +190,39 @@ impl Session {
         if let Err(error) = thread.spawn(work) {
             eprintln!("groundstate: formatting could not begin: {error}");
         }
+    }
+
+    /// Lays out the parts of a text in a range.
+    fn format_range(&self, id: RequestId, params: Value) {
+        let encoding = self.settings.encoding;
+        match serde_json::from_value::<DocumentRangeFormattingParams>(params.clone()) {
+            Ok(DocumentRangeFormattingParams { range, .. }) => self.format(id, &params, move |path, lines| {
+                let range = (offset(lines, range.start, encoding), offset(lines, range.end, encoding));
+                ide::layout_in(path, lines.text(), range)
+            }),
+            Err(error) => self.wrong_params(id, &error),
+        }
+    }
+
+    /// Lays out what was typed.
+    fn format_typed(&self, id: RequestId, params: Value) {
+        let encoding = self.settings.encoding;
+        match serde_json::from_value::<DocumentOnTypeFormattingParams>(params.clone()) {
+            Ok(DocumentOnTypeFormattingParams { text_document_position: at, ch, .. }) => {
+                self.format(id, &params, move |path, lines| {
+                    let at = offset(lines, at.position, encoding);
+                    // Editors indent a new line before they ask.
+                    let begun = lines.text()[..at as usize].trim_end_matches([' ', '\t']).len() as u32;
+                    let at = if ch == "\n" { begun } else { at };
+                    Ok(ide::layout_typed(path, lines.text(), at))
+                });
+            }
+            Err(error) => self.wrong_params(id, &error),
+        }
+    }
+
+    fn wrong_params(&self, id: RequestId, error: &serde_json::Error) {
+        respond(&self.pending, &self.out, id, Err(Refused::new(ErrorCode::InvalidParams, error.to_string())));
     }
 
     fn notification(&mut self, note: Notification) {
@@ -268,10 +304,7 @@ impl Session {
                 lines = Lines::new(change.text.into());
                 continue;
             };
-            let at = |position: Position| {
-                let position = ide::Position { line: position.line, column: position.character };
-                lines.offset(position, self.settings.encoding) as u32
-            };
+            let at = |position: Position| offset(&lines, position, self.settings.encoding);
             let (start, end) = (at(range.start), at(range.end));
             let edit = Edit::new(start..end.max(start), change.text);
             lines = Lines::new(ide::edited(lines.text(), &[edit]).into());
@@ -299,6 +332,11 @@ impl Session {
         self.folders.extend(params.event.added.iter().filter_map(|folder| path_of(&folder.uri)).map(whole));
         self.job(Job::Folders(self.folders.clone()));
     }
+}
+
+/// The byte at a position.
+fn offset(lines: &Lines, position: Position, encoding: Encoding) -> u32 {
+    lines.offset(ide::Position { line: position.line, column: position.character }, encoding) as u32
 }
 
 /// A text in its canonical layout.

@@ -7,9 +7,10 @@ use groundstate::workspace::Files;
 use model::{DomainId, DomainKind, FunctionKind, Model, Referent};
 use syntax::{SyntaxKind, SyntaxNode};
 
-use super::{Candidate, RefactoringKind, bytes, indentation, is_target, level, meanings, moved, tokens_in};
+use super::{Candidate, RefactoringKind, bytes, is_target, level, meanings, moved, tokens_in};
 use crate::analysis::Analysis;
 use crate::fix::line_end;
+use crate::layout::indentation;
 use crate::position::Edit;
 use crate::project::Project;
 

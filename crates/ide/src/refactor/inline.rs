@@ -8,8 +8,9 @@ use model::{Basic, Call, DomainKind, Referent, RuleKind, TermKind};
 use syntax::ast::{self, AstNode};
 use syntax::{Span, SyntaxKind, SyntaxNode, SyntaxToken};
 
-use super::{Candidate, RefactoringKind, bytes, has_comment, indentation, is_target, meanings, moved, tokens_in};
+use super::{Candidate, RefactoringKind, bytes, has_comment, is_target, meanings, moved, tokens_in};
 use crate::analysis::Analysis;
+use crate::layout::indentation;
 use crate::position::Edit;
 
 /// A macro rule of the file.

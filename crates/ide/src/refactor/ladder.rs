@@ -9,9 +9,10 @@ use model::{DomainKind, FunctionKind, Referent, RuleKind};
 use syntax::ast::{self, AstNode};
 use syntax::{SyntaxKind, SyntaxNode, SyntaxToken};
 
-use super::{Candidate, RefactoringKind, bytes, has_comment, indentation, is_rule, level};
+use super::{Candidate, RefactoringKind, bytes, has_comment, is_rule, level};
 use crate::analysis::Analysis;
 use crate::fix::line_end;
+use crate::layout::indentation;
 use crate::position::Edit;
 
 /// What can be made of the `if` or `switch` that a token belongs to.

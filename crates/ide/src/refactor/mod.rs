@@ -182,13 +182,6 @@ fn has_comment(tree: &SyntaxNode, range: (u32, u32)) -> bool {
     tokens_in(tree, range).any(|token| token.kind().is_trivia() && token.kind() != SyntaxKind::WHITESPACE)
 }
 
-/// The white space that the line of an offset begins with.
-fn indentation(text: &str, at: u32) -> &str {
-    let start = text[..at as usize].rfind('\n').map_or(0, |end| end + 1);
-    let line = &text[start..];
-    &line[..line.len() - line.trim_start_matches([' ', '\t']).len()]
-}
-
 /// One more level, as the file has them.
 fn level(text: &str) -> &'static str {
     let spaces = text.lines().filter(|line| line.starts_with("  ")).count();

@@ -5,9 +5,10 @@
 
 use syntax::{SyntaxKind, SyntaxNode, SyntaxToken};
 
-use super::{Candidate, RefactoringKind, bytes, indentation, is_rule, level, meanings, moved};
+use super::{Candidate, RefactoringKind, bytes, is_rule, level, meanings, moved};
 use crate::analysis::Analysis;
 use crate::fix::line_end;
+use crate::layout::indentation;
 use crate::position::Edit;
 
 /// Puts the chosen rules in a `par` of their own: one rule, or some of the rules of a `par`.
