@@ -25,7 +25,7 @@ pub(crate) struct Decision {
 /// Reads and checks a model, lowers it, and reads its temporal properties.
 pub(crate) fn decide(root: SourceFile, loader: &mut dyn Loader) -> Decision {
     let mut checked = model::check(root, loader);
-    if has_errors(&checked.diagnostics) {
+    if has_errors(&checked.diagnostics) || loader.stop().is_asked() {
         return Decision { checked, program: None };
     }
     let mut faults: Vec<Diagnostic> = no_main_rule(&checked.model, &checked.sources).into_iter().collect();

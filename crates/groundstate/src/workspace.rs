@@ -11,7 +11,7 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use model::{Checked, Loader};
-use syntax::{Diagnostic, FileId, Parse, SourceFile};
+use syntax::{Diagnostic, FileId, Parse, SourceFile, Stop};
 
 use crate::{
     BuiltChart, Faulty, Kind, Loaded, Located, Suite, build_chart, check, check_specification, load, model_of, patterns,
@@ -34,6 +34,9 @@ pub enum Absent {
     /// It cannot be read; a sentence for the user.
     Unreadable(String),
 }
+
+/// What is said of a text whose check was stopped.
+pub const STOPPED: &str = "the check was stopped";
 
 impl Absent {
     /// The reason as a sentence.
@@ -67,6 +70,7 @@ pub struct Workspace<F> {
     parsed: Parsed,
     /// What is read, if anybody wants to know.
     reads: Option<Reads>,
+    stop: Stop,
 }
 
 /// The result of checking a path.
@@ -103,7 +107,7 @@ impl Findings {
 impl<F: Files> Workspace<F> {
     /// A workspace in which nothing is being edited.
     pub fn new(files: F) -> Workspace<F> {
-        Workspace { files, open: BTreeMap::new(), parsed: Parsed::default(), reads: None }
+        Workspace { files, open: BTreeMap::new(), parsed: Parsed::default(), reads: None, stop: Stop::default() }
     }
 
     /// Replaces the text at a path until it is closed, whatever the disk has.
@@ -124,6 +128,16 @@ impl<F: Files> Workspace<F> {
     /// Reads the text at a path from the disk again.
     pub fn close(&mut self, path: &str) {
         self.open.remove(&tidy(path));
+    }
+
+    /// From now on this can stop reading and checking. What is given while it is asked is to be thrown away.
+    pub fn set_stop(&mut self, stop: Stop) {
+        self.stop = stop;
+    }
+
+    /// What can stop reading and checking.
+    pub fn stop(&self) -> &Stop {
+        &self.stop
     }
 
     /// The files that are not being edited.
@@ -217,7 +231,13 @@ impl<F: Files> Workspace<F> {
 
     /// Reads texts and what they import. The workspace cannot be edited meanwhile.
     pub fn texts(&mut self) -> Texts<'_, F> {
-        Texts { files: &mut self.files, open: &self.open, parsed: &mut self.parsed, reads: &mut self.reads }
+        Texts {
+            files: &mut self.files,
+            open: &self.open,
+            parsed: &mut self.parsed,
+            reads: &mut self.reads,
+            stop: &self.stop,
+        }
     }
 }
 
@@ -247,6 +267,7 @@ pub struct Texts<'w, F> {
     open: &'w BTreeMap<String, (i64, SourceFile)>,
     parsed: &'w mut Parsed,
     reads: &'w mut Option<Reads>,
+    stop: &'w Stop,
 }
 
 impl<F: Files> Files for Texts<'_, F> {
@@ -268,7 +289,11 @@ impl<F: Files> Loader for Texts<'_, F> {
     }
 
     fn parse(&mut self, file: FileId, source: &SourceFile) -> Parse {
-        self.parsed.of(file, &source.text)
+        self.parsed.of(file, &source.text, self.stop)
+    }
+
+    fn stop(&self) -> Stop {
+        self.stop.clone()
     }
 }
 
@@ -327,13 +352,16 @@ struct Parsed {
 }
 
 impl Parsed {
-    fn of(&mut self, file: FileId, text: &Arc<str>) -> Parse {
+    fn of(&mut self, file: FileId, text: &Arc<str>, stop: &Stop) -> Parse {
         self.now += 1;
         if let Some((used, parse)) = self.trees.get_mut(text) {
             *used = self.now;
             return parse.clone().in_file(file);
         }
-        let parse = syntax::parse_asmetal(file, text);
+        let parse = syntax::parse_asmetal_unless(stop, file, text);
+        if stop.is_asked() {
+            return parse;
+        }
         self.bytes += text.len();
         while self.bytes > PARSED_BYTES {
             let oldest = self.trees.iter().min_by_key(|(_, (used, _))| *used).map(|(text, _)| Arc::clone(text));

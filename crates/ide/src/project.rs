@@ -8,11 +8,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
 
-use groundstate::workspace::{Absent, Files, Findings, Outdated, Reads, imported, tidy};
+use groundstate::workspace::{Absent, Files, Findings, Outdated, Reads, STOPPED, imported, tidy};
 use groundstate::{Kind, Workspace, patterns};
 use model::{Checked, Loader, Model};
 use syntax::ast::{AstNode, ScenarioFile};
-use syntax::{FileId, SourceFile, Sources, SyntaxNode};
+use syntax::{FileId, SourceFile, Sources, Stop, SyntaxNode};
 
 use crate::analysis::{Analysis, Base};
 
@@ -80,6 +80,27 @@ impl<F: Files> Project<F> {
         self.retired.clear();
     }
 
+    /// From now on this stops what is being made of texts. While it is asked, there is no analysis and there are no findings; nothing of
+    /// what was stopped is kept.
+    pub fn set_stop(&mut self, stop: Stop) {
+        self.workspace.set_stop(stop);
+    }
+
+    fn not_stopped(&self) -> Result<(), Absent> {
+        match self.workspace.stop().is_asked() {
+            true => Err(Absent::Unreadable(STOPPED.to_string())),
+            false => Ok(()),
+        }
+    }
+
+    /// The paths that were read for what is known of a file.
+    pub fn read_for(&self, path: &str) -> BTreeSet<String> {
+        let path = tidy(path);
+        let of_findings = self.findings.get(&path).into_iter().flat_map(|kept| kept.of.keys());
+        let of_analysis = self.analyses.get(&path).into_iter().flat_map(|kept| kept.of.keys());
+        of_findings.chain(of_analysis).cloned().collect()
+    }
+
     /// Files on the disk may have changed.
     pub fn changed(&mut self) {
         self.revision += 1;
@@ -132,6 +153,7 @@ impl<F: Files> Project<F> {
             return Ok(Arc::clone(&kept.made));
         }
         let (made, of) = self.workspace.reading(|workspace| workspace.check(&path));
+        self.not_stopped()?;
         let made = Arc::new(made?);
         self.findings.insert(path, Kept { made: Arc::clone(&made), of, seen: self.revision });
         Ok(made)
@@ -187,6 +209,7 @@ impl<F: Files> Project<F> {
                 })
             }
         };
+        self.not_stopped()?;
         let made = Arc::new(made);
         let kept = Kept { made: Arc::clone(&made), of, seen: self.revision };
         self.retired.extend(self.analyses.insert(path, kept).map(|former| former.made));

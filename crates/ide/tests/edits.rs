@@ -7,7 +7,7 @@ use std::path::Path;
 
 use groundstate::Kind;
 use ide::{Project, Report};
-use syntax::{FileId, SyntaxKind};
+use syntax::{FileId, Stop, SyntaxKind};
 use testkit::repository;
 
 use crate::support::{Texts, project};
@@ -225,4 +225,48 @@ fn layout_of_a_part_changes_white_space_of_that_part_alone() {
         }
     }
     assert!(changed > 100, "{changed} edits");
+}
+
+#[test]
+fn a_check_that_is_stopped_leaves_nothing_behind() {
+    let files = examples();
+    let stop = Stop::new();
+    let mut stopped = 0;
+    for name in files.keys().filter(|name| name.ends_with(".asm")) {
+        let mut edited = project(&files);
+        edited.set_stop(stop.clone());
+        let whole = ide::reports(&mut edited, name).expect("a file");
+        let looks = stop.looks();
+        for after in [0, 1, looks / 3, looks / 2, looks - 1] {
+            let mut again = project(&files);
+            again.set_stop(stop.clone());
+            stop.clear();
+            stop.ask_after(after);
+            assert!(ide::reports(&mut again, name).is_err(), "{name} after {after} of {looks} looks");
+            stopped += 1;
+            stop.clear();
+            assert_eq!(ide::reports(&mut again, name).as_ref(), Ok(&whole), "{name} after {after}");
+        }
+        stop.clear();
+    }
+    assert!(stopped > 20, "{stopped}");
+}
+
+#[test]
+fn a_long_text_is_looked_up_from_often() {
+    let stop = Stop::new();
+    let looks = |rules: usize| {
+        let rule = |index| format!("\trule r_{index} = par n := 1 n := 1 + 1 n := {index} endpar\n");
+        let rules: String = (0..rules).map(rule).collect();
+        let text =
+            format!("asm Long\nsignature:\n\tcontrolled n: Integer\ndefinitions:\n{rules}\tmain rule r_Main = skip\n");
+        let mut project = project(&[("Long.asm".to_string(), text)].into());
+        stop.clear();
+        project.set_stop(stop.clone());
+        ide::reports(&mut project, "Long.asm").expect("a file");
+        stop.looks()
+    };
+    // Once for each rule while it is checked, and now and then while it is read: no part of the text is long without a look.
+    let (few, many) = (looks(500), looks(5_000));
+    assert!(few > 500 && many > 5_000 && many > few + 4_500, "{few}, {many}");
 }

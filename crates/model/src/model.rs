@@ -3,7 +3,7 @@
 //! INVARIANT: ids index the tables of the model they come from. Tables are in the order of declaration, imported
 //! files first, so that output made by walking them is the same every time.
 
-use syntax::{Diagnostic, FileId, Parse, SourceFile, Sources, Span};
+use syntax::{Diagnostic, FileId, Parse, SourceFile, Sources, Span, Stop};
 
 use crate::declaration::{Definition, Function, Rule, Variable};
 use crate::domain::Domains;
@@ -22,6 +22,11 @@ pub trait Loader {
     /// same text.
     fn parse(&mut self, file: FileId, source: &SourceFile) -> Parse {
         syntax::parse_asmetal(file, &source.text)
+    }
+
+    /// Checking ends early if this is asked, and what it gives is to be thrown away.
+    fn stop(&self) -> Stop {
+        Stop::default()
     }
 }
 

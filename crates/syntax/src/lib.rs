@@ -21,6 +21,7 @@ mod lexer;
 mod limit;
 mod parser;
 mod span;
+mod stop;
 mod token_set;
 
 pub use diagnostic::{Diagnostic, Label, Severity};
@@ -33,6 +34,7 @@ pub use kind::{AsmetaL, SyntaxKind};
 pub use limit::{MAX_CHAIN, MAX_FAULTS, MAX_NESTING, MAX_TEXT_BYTES};
 pub use source::{LineColumn, SourceFile, Sources};
 pub use span::{FileId, Span};
+pub use stop::Stop;
 
 use lexer::Mode;
 
@@ -73,6 +75,11 @@ impl Parse {
 /// Parses a file of AsmetaL (`.asm`).
 pub fn parse_asmetal(file: FileId, text: &str) -> Parse {
     parser::parse(file, text, Mode::AsmetaL, SyntaxKind::SOURCE_FILE, grammar::source_file)
+}
+
+/// Parses a file of AsmetaL unless that is stopped: then the text is one token, unread.
+pub fn parse_asmetal_unless(stop: &Stop, file: FileId, text: &str) -> Parse {
+    parser::parse_unless(stop, file, text, Mode::AsmetaL, SyntaxKind::SOURCE_FILE, grammar::source_file)
 }
 
 /// Parses a scenario file (`.avalla`).

@@ -341,3 +341,74 @@ fn an_editor_that_goes_away_ends_the_server() {
     drop(input);
     assert_eq!(server.wait().expect("it ends").code(), Some(2));
 }
+
+#[test]
+fn selections_are_laid_out_and_rules_get_names() {
+    let mut editor = Editor::plain("layout", &[]);
+    editor.open("Lamp.asm", &LAMP.replace("if light", "if   light"));
+    let document = json!({ "uri": editor.uri("Lamp.asm") });
+    let options = json!({ "tabSize": 4, "insertSpaces": false });
+    let whole = json!({ "start": { "line": 8, "character": 0 }, "end": { "line": 9, "character": 0 } });
+    let edits = editor
+        .ask("textDocument/rangeFormatting", json!({ "textDocument": document, "range": whole, "options": options }));
+    assert!(edits["result"].as_array().is_some_and(|edits| edits.len() == 2), "{edits}");
+    let typed = editor.ask(
+        "textDocument/onTypeFormatting",
+        json!({ "textDocument": document, "position": { "line": 9, "character": 4 }, "ch": "\n", "options": options }),
+    );
+    assert!(typed["result"].is_array(), "{typed}");
+    let rule = range(9, 20, 52);
+    let actions = |only: &str| json!({ "textDocument": document, "range": rule, "context": { "diagnostics": [], "only": [only] } });
+    let found = editor.ask("textDocument/codeAction", actions("refactor"));
+    let kinds: Vec<&str> =
+        found["result"].as_array().expect("actions").iter().filter_map(|one| one["kind"].as_str()).collect();
+    assert_eq!(kinds, ["refactor.extract", "refactor.rewrite"], "{found}");
+    let none = editor.ask("textDocument/codeAction", actions("refactor.inline"));
+    assert_eq!(none["result"], json!([]));
+    editor.end();
+}
+
+#[test]
+fn files_that_are_not_open_have_faults_until_they_are_gone() {
+    let wrong = LAMP.replace("asm Lamp", "asm Other").replace("light := ON", "lihgt := ON");
+    let clean = LAMP.replace("asm Lamp", "asm Clean");
+    let mut editor = Editor::plain(
+        "folder",
+        &[("Clean.asm", &clean), ("Other.asm", &wrong), ("build/Not.asm", "asm"), ("notes.txt", "asm")],
+    );
+    let other = editor.uri("Other.asm");
+    let told = |message: &Value| {
+        let about = message["method"] == "textDocument/publishDiagnostics" && message["params"]["uri"] == *other;
+        about.then(|| message["params"]["diagnostics"].as_array().map_or(0, Vec::len))
+    };
+    editor.wait(|message| told(message).is_some_and(|count| count > 0));
+    // A text that is open counts, and then the disk again.
+    editor.open("Other.asm", &LAMP.replace("asm Lamp", "asm Other"));
+    editor.wait(|message| told(message) == Some(0));
+    let document = json!({ "textDocument": { "uri": other } });
+    editor.tell("textDocument/didClose", document);
+    editor.wait(|message| told(message).is_some_and(|count| count > 0));
+    // Of files without faults nothing is told.
+    let is_other = |message: &Value| message["params"]["uri"] == *other;
+    assert!(editor.kept.iter().all(is_other), "{:?}", editor.kept);
+    editor.kept.clear();
+    std::fs::remove_file(editor.folder.join("Other.asm")).expect("it is gone");
+    editor.tell("workspace/didChangeWatchedFiles", json!({ "changes": [{ "uri": other, "type": 3 }] }));
+    editor.wait(|message| told(message) == Some(0));
+    editor.end();
+}
+
+#[test]
+fn a_text_that_is_too_large_is_told_so() {
+    let mut editor = Editor::plain("large", &[]);
+    let large = format!("{LAMP}/*{}*/", "x".repeat(17 << 20));
+    editor.open("Lamp.asm", &large);
+    let told = editor.wait(|message| message["params"]["version"] == 1);
+    let told = told["params"]["diagnostics"][0]["message"].as_str().unwrap_or_default();
+    assert!(told.contains("not checked as it is typed"), "{told}");
+    let hover = editor.ask("textDocument/hover", editor.at("Lamp.asm", 8, 18));
+    assert_eq!(hover["result"], Value::Null, "{hover}");
+    editor.change("Lamp.asm", 2, json!({ "text": LAMP }));
+    assert_eq!(editor.faults("Lamp.asm", 2), [""; 0]);
+    editor.end();
+}

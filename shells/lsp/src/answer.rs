@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use ide::{Called, Coloured, Edit, Entry, EntryKind, Item, ItemKind, Lines, Modifier, Place, Project, TokenKind};
 use lsp_types::*;
+use syntax::Stop;
 
 use crate::disk::{Disk, Folder};
 use crate::location::{path_of, uri_of};
@@ -31,15 +32,11 @@ pub struct Answers {
 }
 
 impl Answers {
-    /// A project of files on the disk.
-    pub fn new(settings: Arc<Settings>) -> Answers {
-        Answers {
-            project: Project::new(Disk::default()),
-            settings,
-            versions: BTreeMap::new(),
-            lines: BTreeMap::new(),
-            present: BTreeSet::new(),
-        }
+    /// A project of files on the disk, whose work can be stopped.
+    pub fn new(settings: Arc<Settings>, stop: Stop) -> Answers {
+        let mut project = Project::new(Disk::default());
+        project.set_stop(stop);
+        Answers { project, settings, versions: BTreeMap::new(), lines: BTreeMap::new(), present: BTreeSet::new() }
     }
 
     /// Something else is to be done: texts may have changed since.

@@ -14,6 +14,7 @@
 )]
 
 mod answer;
+mod background;
 mod capabilities;
 mod disk;
 mod location;

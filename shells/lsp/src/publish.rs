@@ -32,6 +32,13 @@ impl Published {
         self.of.insert(path.to_string(), reports);
     }
 
+    /// The text of a file is another one: what the check of others showed of it was about the former.
+    pub fn changed(&mut self, path: &str) {
+        for (_, reports) in self.of.iter_mut().filter(|(checked, _)| *checked != path) {
+            reports.retain(|report| report.path != path);
+        }
+    }
+
     /// A file is not open any more.
     pub fn closed(&mut self, path: &str) {
         self.of.remove(path);
@@ -53,6 +60,9 @@ impl Published {
                 continue;
             }
             let gone = present.0.is_empty() && present.1.is_none();
+            if gone && !self.told.contains_key(&path) {
+                continue;
+            }
             news.push((path.clone(), present.0.clone()));
             match gone {
                 true => _ = self.told.remove(&path),
@@ -91,5 +101,42 @@ pub fn diagnostic(answers: &mut Answers, path: &str, fault: &Fault) -> Diagnosti
         related_information: (!related.is_empty()).then_some(related),
         tags: (fault.weight == Weight::Unused).then(|| vec![DiagnosticTag::UNNECESSARY]),
         data: None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faults_are_told_once_and_never_of_a_former_text() {
+        let report = |path: &str, faults: usize| {
+            let fault = |at: usize| Fault {
+                range: (at as u32, at as u32),
+                weight: Weight::Error,
+                id: "",
+                message: String::new(),
+                help: None,
+                related: Vec::new(),
+            };
+            Report { path: path.to_string(), faults: (0..faults).map(fault).collect() }
+        };
+        let mut published = Published::default();
+        let told = |published: &mut Published, version: i32| -> Vec<(String, usize)> {
+            let news = published.news(|path| (path == "part").then_some(version));
+            news.into_iter().map(|(path, faults)| (path, faults.len())).collect()
+        };
+        published.checked("main", vec![report("main", 0), report("part", 1)]);
+        // Nothing is told of a file that has no faults, is not open, and never had any.
+        assert_eq!(told(&mut published, 1), [("part".to_string(), 1)]);
+        assert_eq!(told(&mut published, 1), []);
+        published.changed("part");
+        published.checked("part", vec![report("part", 0)]);
+        assert_eq!(told(&mut published, 2), [("part".to_string(), 0)]);
+        published.checked("main", vec![report("main", 2)]);
+        published.closed("part");
+        assert_eq!(told(&mut published, 2), [("main".to_string(), 2)]);
+        published.closed("main");
+        assert_eq!(told(&mut published, 2), [("main".to_string(), 0)]);
     }
 }

@@ -54,7 +54,7 @@ pub fn serve(connection: &Connection) -> Result<Ended, String> {
     let sender = connection.sender.clone();
     // If the editor is gone there is nobody to tell.
     let out: Out = Arc::new(move |message| _ = sender.send(message));
-    let pending = Arc::new(Pending::default());
+    let pending = Arc::new(Pending::new());
     let (jobs, received) = channel();
     let worker = Worker::new(Arc::clone(&settings), Arc::clone(&pending), Arc::clone(&out));
     let thread = std::thread::Builder::new().name("worker".to_string()).stack_size(STACK_BYTES);
@@ -110,6 +110,7 @@ impl Session {
     }
 
     fn job(&self, job: Job) {
+        self.pending.arrived();
         // The worker ends with the session alone.
         _ = self.jobs.send(job);
     }
@@ -264,6 +265,7 @@ impl Session {
                         NumberOrString::String(text) => RequestId::from(text),
                     };
                     let refused = Refused::new(ErrorCode::RequestCanceled, "cancelled");
+                    self.pending.cancelled(&id);
                     respond(&self.pending, &self.out, id, Err(refused));
                 }
                 Err(error) => wrong(error),

@@ -22,6 +22,8 @@ pub struct Settings {
     pub watches: bool,
     /// The editor has the commands `groundstate.run` and its like.
     pub commands: bool,
+    /// The files of the folders are checked though they are not open.
+    pub checks_folders: bool,
     /// For a test: the request `groundstate/panic` panics.
     pub may_panic: bool,
     /// The folders that are open.
@@ -62,6 +64,7 @@ impl Settings {
                 .and_then(|workspace| workspace.did_change_watched_files.as_ref()?.dynamic_registration)
                 .unwrap_or(false),
             commands: option("commands").unwrap_or(false),
+            checks_folders: option("checkFolders").unwrap_or(true),
             may_panic: option("mayPanic").unwrap_or(false),
             folders,
         }

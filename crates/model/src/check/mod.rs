@@ -20,7 +20,7 @@ mod update;
 use std::collections::BTreeSet;
 
 use syntax::ast::{self, AstNode};
-use syntax::{FileId, SourceFile, Sources, Span};
+use syntax::{FileId, SourceFile, Sources, Span, Stop};
 
 use crate::declaration::FunctionKind;
 use crate::domain::{DomainKind, Domains};
@@ -67,7 +67,9 @@ pub fn check(root: SourceFile, loader: &mut dyn Loader) -> Checked {
     let mut sources = Sources::default();
     let mut faults = Faults::default();
     let units = imports::read(root, loader, &mut sources, &mut faults);
+    let stop = loader.stop();
     let mut checker = Checker {
+        stop: &stop,
         sources: &sources,
         units: &units,
         model: Model::empty(FileId(0)),
@@ -77,9 +79,15 @@ pub fn check(root: SourceFile, loader: &mut dyn Loader) -> Checked {
         updated: UpdatedParameters::new(),
     };
     for index in 0..units.len() {
+        if stop.is_asked() {
+            break;
+        }
         checker.unit(index);
     }
     let Checker { model, mut faults, .. } = checker;
+    if stop.is_asked() {
+        return Checked { diagnostics: faults.into_sorted(), model, sources };
+    }
     macros::check(&model, &mut faults);
     if !faults.has_errors() {
         endless::check(&model, &mut faults);
@@ -91,6 +99,8 @@ pub fn check(root: SourceFile, loader: &mut dyn Loader) -> Checked {
 }
 
 struct Checker<'a> {
+    /// Looked at before each file and each declaration.
+    stop: &'a Stop,
     sources: &'a Sources,
     units: &'a [Unit],
     model: Model,
@@ -230,18 +240,24 @@ impl Checker<'_> {
 
     fn definitions(&mut self, unit: &Unit, names: &Names, rules: &[(ast::RuleDecl, RuleId)]) {
         let definitions = unit.tree.definitions();
+        let stop = self.stop;
         for def in definitions.iter().flat_map(|definitions| definitions.domain_defs()) {
             let mut defined = std::mem::take(&mut self.defined);
             definition::domain(self.site(names, unit.file), &def, &mut defined);
             self.defined = defined;
         }
-        for def in definitions.iter().flat_map(|definitions| definitions.function_defs()) {
+        for def in
+            definitions.iter().flat_map(|definitions| definitions.function_defs()).take_while(|_| !stop.is_asked())
+        {
             let mut defined = std::mem::take(&mut self.defined);
             definition::function(self.site(names, unit.file), &def, &mut defined);
             self.defined = defined;
         }
         local_state::add_updated_parameters(rules.iter().map(|(decl, _)| decl), &mut self.updated);
         for (decl, id) in rules {
+            if stop.is_asked() {
+                return;
+            }
             self.rule(unit, names, decl, *id);
         }
         let sources = self.sources;

@@ -14,7 +14,7 @@ mod tree;
 use crate::fault;
 use crate::lexer::{self, Mode, Token};
 use crate::limit::MAX_TEXT_BYTES;
-use crate::{AsmetaL, Diagnostic, FileId, Parse, Span, SyntaxKind, SyntaxKind::*};
+use crate::{AsmetaL, Diagnostic, FileId, Parse, Span, Stop, SyntaxKind, SyntaxKind::*};
 use nesting::Open;
 use rowan::{GreenNodeBuilder, Language};
 use std::cell::Cell;
@@ -66,12 +66,35 @@ pub(crate) struct Parser<'t> {
     pub(crate) within: Within,
     /// A scenario is read: `;` ends a command.
     pub(crate) in_scenario: bool,
+    /// Looked at every [`LOOK`] tokens.
+    stop: Stop,
+    /// The rest of the tokens is not read, and what was made of the others is thrown away.
+    is_stopped: bool,
 }
+
+/// So many tokens are read between two looks at [`Parser::stop`].
+const LOOK: usize = 4096;
 
 /// Parses a text from one start of the grammar.
 pub(crate) fn parse(file: FileId, text: &str, mode: Mode, root: SyntaxKind, grammar: fn(&mut Parser<'_>)) -> Parse {
+    parse_unless(&Stop::default(), file, text, mode, root, grammar)
+}
+
+/// The same unless it is stopped: then the text is one token, unread.
+pub(crate) fn parse_unless(
+    stop: &Stop,
+    file: FileId,
+    text: &str,
+    mode: Mode,
+    root: SyntaxKind,
+    grammar: fn(&mut Parser<'_>),
+) -> Parse {
     if text.len() > MAX_TEXT_BYTES {
-        return too_large(file, text, root);
+        let fault = fault::file_too_large(Span { file, start: 0, end: 0 }, text.len());
+        return unread(text, root, vec![fault]);
+    }
+    if stop.is_asked() {
+        return unread(text, root, Vec::new());
     }
     let lexed = lexer::tokenize(file, text, mode);
     let mut parser = Parser {
@@ -94,14 +117,19 @@ pub(crate) fn parse(file: FileId, text: &str, mode: Mode, root: SyntaxKind, gram
         looks: Cell::new(0),
         within: Within::Plain,
         in_scenario: mode == Mode::Avalla,
+        stop: stop.clone(),
+        is_stopped: false,
     };
     parser.skip();
     grammar(&mut parser);
+    if parser.is_stopped {
+        return unread(text, root, Vec::new());
+    }
     parser.finish_root(root)
 }
 
-/// A text beyond the limit is one token, unread.
-fn too_large(file: FileId, text: &str, root: SyntaxKind) -> Parse {
+/// The text as one token.
+fn unread(text: &str, root: SyntaxKind, diagnostics: Vec<Diagnostic>) -> Parse {
     let mut builder = GreenNodeBuilder::new();
     builder.start_node(AsmetaL::kind_to_raw(root));
     // A token's length is 32 bits wide; beyond that not even the tree can hold the text.
@@ -109,6 +137,5 @@ fn too_large(file: FileId, text: &str, root: SyntaxKind) -> Parse {
         builder.token(AsmetaL::kind_to_raw(ERROR), text);
     }
     builder.finish_node();
-    let fault = fault::file_too_large(Span { file, start: 0, end: 0 }, text.len());
-    Parse { green: builder.finish(), diagnostics: vec![fault] }
+    Parse { green: builder.finish(), diagnostics }
 }

@@ -4,7 +4,7 @@
 //! INVARIANT: a node starts right before its first token and ends right after its last one. So trivia and skipped
 //! characters lie outside the nodes that they separate, and a node without tokens is never made.
 
-use super::Parser;
+use super::{LOOK, Parser};
 use crate::fault;
 use crate::lexer::Token;
 use crate::limit::MAX_FAULTS;
@@ -68,9 +68,16 @@ impl Parser<'_> {
     pub(crate) fn bump_as(&mut self, kind: SyntaxKind) {
         if !self.at(EOF) {
             self.events.push(Event::Token(kind, self.at as u32));
+            let before = self.at;
             self.at += 1;
             self.looks.set(0);
             self.skip();
+            if before / LOOK != self.at / LOOK && self.stop.is_asked() {
+                // The grammar sees the end of the text, and comes to its own.
+                self.is_stopped = true;
+                self.tokens.truncate(self.at + 1);
+                self.tokens[self.at].kind = EOF;
+            }
         }
     }
 
