@@ -7,10 +7,11 @@ use std::path::Path;
 
 use groundstate::Kind;
 use groundstate::workspace::Files;
-use model::{Domains, Referent, RuleNode, Term, TermKind};
+use model::{Domains, Referent, RuleNode, Term, TermKind, Use};
 use syntax::{FileId, SyntaxKind};
 
-use crate::analysis::{Analysis, Place};
+use crate::analysis::{Analysis, Place, Symbol};
+use crate::navigate::others_that_write;
 use crate::project::Project;
 
 /// A text that is shown and not there.
@@ -120,20 +121,34 @@ pub fn lenses<F: Files>(project: &mut Project<F>, path: &str) -> Vec<Lens> {
             action: action.clone(),
         }));
     }
-    // Uses in the file itself: those of others would have every file of the project looked at for each letter that is typed.
-    let mut uses: BTreeMap<Referent, Vec<Place>> = BTreeMap::new();
-    for name in analysis.names.iter().filter(|name| !name.declares && matches!(name.referent, Referent::Rule(_))) {
-        uses.entry(name.referent).or_default().push(analysis.place(name.span));
-    }
-    let main = analysis.model.main.map(Referent::Rule);
-    let rules = analysis.names.iter().filter(|name| name.declares && matches!(name.referent, Referent::Rule(_)));
-    for name in rules.filter(|name| Some(name.referent) != main) {
-        let places = uses.remove(&name.referent).unwrap_or_default();
-        let title = match places.len() {
-            1 => "1 use here".to_string(),
-            count => format!("{count} uses here"),
-        };
-        found.push(Lens { range: (name.span.start, name.span.end), title, action: Action::References(places) });
-    }
+    found.extend(uses(project, &analysis));
     found
+}
+
+/// How often each rule that a file declares is named, there and in the other files of the project.
+fn uses<F: Files>(project: &mut Project<F>, analysis: &Analysis) -> Vec<Lens> {
+    let is_rule = |name: &Use| matches!(name.referent, Referent::Rule(_));
+    let main = analysis.model.main.map(Referent::Rule);
+    let declared: Vec<&Use> =
+        analysis.names.iter().filter(|name| name.declares && is_rule(name) && Some(name.referent) != main).collect();
+    let words: Vec<&str> = declared.iter().map(|name| &analysis.text()[name.span.range()]).collect();
+    let (others, more) = others_that_write(project, analysis, &words);
+    let mut uses: BTreeMap<Symbol, Vec<Place>> = BTreeMap::new();
+    for file in std::iter::once(analysis).chain(others.iter().map(|other| &**other)) {
+        for name in file.names.iter().filter(|name| !name.declares && is_rule(name)) {
+            uses.entry(file.symbol(name.referent)).or_default().push(file.place(name.span));
+        }
+    }
+    let mut lens = |name: &&Use| {
+        let places = uses.remove(&analysis.symbol(name.referent)).unwrap_or_default();
+        let elsewhere = places.iter().filter(|place| place.path != analysis.source().name).count();
+        let noun = if places.len() == 1 { "use" } else { "uses" };
+        let title = match (elsewhere, more) {
+            (_, true) => format!("at least {} {noun}", places.len()),
+            (0, false) => format!("{} {noun}", places.len()),
+            (_, false) => format!("{} {noun}, {elsewhere} in other files", places.len()),
+        };
+        Lens { range: (name.span.start, name.span.end), title, action: Action::References(places) }
+    };
+    declared.iter().map(&mut lens).collect()
 }

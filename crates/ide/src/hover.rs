@@ -4,12 +4,14 @@
 //! library, what spec/standard-library.md says.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use groundstate::workspace::Files;
-use model::{DomainKind, FunctionId, FunctionKind, Referent, Rule, kind_word};
+use model::{DomainKind, FunctionId, FunctionKind, Referent, Rule, Use, kind_word};
 use syntax::Span;
 
 use crate::analysis::{Analysis, Place, Role};
+use crate::navigate::others_that_write;
 use crate::project::Project;
 
 /// The page that says what the functions of the libraries mean.
@@ -29,12 +31,22 @@ pub fn hover<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -> Opt
     let analysis = project.analysis(path).ok()?;
     let names = analysis.names_at(offset);
     let first = names.first()?;
-    let mut parts: Vec<String> = names.iter().map(|name| describe(&analysis, name.referent)).collect();
+    let written = &analysis.text()[first.span.range()];
+    let is_shared = |name: &Use| match name.referent {
+        Referent::Function(id) => !analysis.model.function(id).library,
+        Referent::Rule(_) => true,
+        Referent::Domain(_) | Referent::Literal(..) | Referent::Variable(..) => false,
+    };
+    let others = match names.iter().any(is_shared) {
+        true => others_that_write(project, &analysis, &[written]).0,
+        false => Vec::new(),
+    };
+    let mut parts: Vec<String> = names.iter().map(|name| describe(&analysis, name.referent, &others)).collect();
     parts.dedup();
     Some(Hover { place: analysis.place(first.span), text: parts.join("\n\n---\n\n") })
 }
 
-fn describe(analysis: &Analysis, referent: Referent) -> String {
+fn describe(analysis: &Analysis, referent: Referent, others: &[Arc<Analysis>]) -> String {
     let mut parts = vec![format!("```asmetal\n{}\n```", declaration(analysis, referent))];
     if let Some(span) = analysis.declaration(referent) {
         parts.extend(comment(&analysis.sources.file(span.file).text, span));
@@ -45,7 +57,7 @@ fn describe(analysis: &Analysis, referent: Referent) -> String {
     if let Referent::Function(id) = referent {
         parts.extend(library_meaning(analysis, id));
     }
-    parts.extend(used_by(analysis, referent));
+    parts.extend(used_by(analysis, referent, others));
     parts.join("\n\n")
 }
 
@@ -167,11 +179,25 @@ fn library_meaning(analysis: &Analysis, id: FunctionId) -> Option<String> {
     Some(undef.map_or_else(|| meaning.to_string(), |undef| format!("{meaning}\n\nundef and errors: {undef}")))
 }
 
-/// What of the file updates, calls and reads it.
-fn used_by(analysis: &Analysis, referent: Referent) -> Option<String> {
+/// What of the file, and of others, updates, calls and reads it.
+fn used_by(analysis: &Analysis, referent: Referent, others: &[Arc<Analysis>]) -> Option<String> {
+    let symbol = analysis.symbol(referent);
     let by = |wanted: Role| -> BTreeSet<String> {
         let names = analysis.names.iter().filter(|name| name.referent == referent && analysis.role(name) == wanted);
-        names.filter_map(|name| analysis.enclosing_rule(name.span)).map(|rule| format!("`{}`", rule.text())).collect()
+        let here = names.filter_map(|name| analysis.enclosing_rule(name.span)).map(|rule| format!("`{}`", rule.text()));
+        let mut found: BTreeSet<String> = here.collect();
+        for other in others {
+            let path = &other.source().name;
+            let file = path.rsplit(['/', '\\']).next().unwrap_or(path);
+            let named = |name: &&Use| other.role(name) == wanted && other.symbol(name.referent) == symbol;
+            for name in other.names.iter().filter(named) {
+                found.insert(match other.enclosing_rule(name.span) {
+                    Some(rule) => format!("`{}` in `{file}`", rule.text()),
+                    None => format!("`{file}`"),
+                });
+            }
+        }
+        found
     };
     let listed = |words: &str, rules: BTreeSet<String>| {
         (!rules.is_empty()).then(|| format!("{words} {}.", rules.into_iter().collect::<Vec<_>>().join(", ")))

@@ -3,6 +3,8 @@
 //! In: a project, a file and an offset. Out: places. Each file is asked about itself alone, so a place is found once. Only files
 //! in which the name is written are looked at.
 
+use std::sync::Arc;
+
 use groundstate::workspace::Files;
 use model::{Referent, Use};
 use syntax::ast::{self, AstNode};
@@ -73,6 +75,32 @@ pub(crate) fn references_in<F: Files>(
     let named = analysis.names.iter().filter(is_written);
     let meant = named.filter(|name| symbols.contains(&analysis.symbol(name.referent)));
     meant.map(|name| Reference { place: analysis.place(name.span), role: analysis.role(name) }).collect()
+}
+
+/// LIMIT: so many other files are looked at for what they name.
+pub(crate) const OTHERS: usize = 32;
+
+/// What is known of the other files that write one of some words; and whether there are more of them.
+pub(crate) fn others_that_write<F: Files>(
+    project: &mut Project<F>,
+    own: &Analysis,
+    words: &[&str],
+) -> (Vec<Arc<Analysis>>, bool) {
+    let mut found = Vec::new();
+    for file in project.all_files() {
+        if file == own.source().name {
+            continue;
+        }
+        let Ok(source) = project.text(&file) else { continue };
+        if !words.iter().any(|word| source.text.contains(word)) {
+            continue;
+        }
+        if found.len() == OTHERS {
+            return (found, true);
+        }
+        found.extend(project.analysis(&file));
+    }
+    (found, false)
 }
 
 /// What names mean, each once.

@@ -64,6 +64,8 @@ pub fn is_about_all(name: &str) -> bool {
     matches!(
         name,
         "textDocument/rename"
+            | "textDocument/hover"
+            | "textDocument/codeLens"
             | "textDocument/references"
             | "textDocument/definition"
             | "textDocument/declaration"
