@@ -14,6 +14,8 @@ use model::{Checked, Model, Referent, RuleKind, Use};
 use syntax::ast::{self, AstNode};
 use syntax::{FileId, Parse, SourceFile, Sources, Span, SyntaxKind, SyntaxNode, SyntaxToken};
 
+use crate::specification;
+
 /// See the module.
 #[derive(Debug)]
 pub struct Analysis {
@@ -91,10 +93,16 @@ impl Analysis {
         Analysis::of_model(checked, None)
     }
 
-    /// A scenario or a chart over a model.
+    /// A scenario, a chart or a specification over a model.
     pub(crate) fn over(source: SourceFile, base: Base) -> Analysis {
         let Base { mut sources, mut model } = base;
         let file = sources.add(source.clone());
+        if let Some(kind @ (Kind::Report | Kind::Verification)) = Kind::of(Path::new(&source.name)) {
+            let names = specification::names(&mut model, file, &source, kind);
+            let declarations = declarations(&model);
+            let (findings, model) = (Arc::default(), Arc::new(model));
+            return Analysis { sources, model, file, names, findings, parse: None, declarations };
+        }
         let parse = match Kind::of(Path::new(&source.name)) {
             Some(Kind::Chart) => syntax::parse_chart(file, &source.text),
             _ => syntax::parse_avalla(file, &source.text),

@@ -21,6 +21,7 @@ mod refactor;
 mod rename;
 mod report;
 mod signature;
+mod specification;
 mod structure;
 mod tokens;
 

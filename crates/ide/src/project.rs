@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use groundstate::workspace::{Absent, Files, Findings, Outdated, Reads, STOPPED, imported, tidy};
-use groundstate::{Kind, Workspace, patterns};
+use groundstate::{Kind, Workspace, model_of, patterns};
 use model::{Checked, Loader, Model};
 use syntax::ast::{AstNode, ScenarioFile};
 use syntax::{FileId, SourceFile, Sources, Stop, SyntaxNode};
@@ -201,7 +201,11 @@ impl<F: Files> Project<F> {
                 let parse = workspace.texts().parse(FileId(0), &source);
                 Analysis::of_model(checked, Some(parse))
             }),
-            Some(Kind::Report | Kind::Verification) | None => {
+            Some(Kind::Report | Kind::Verification) => {
+                let model = model_of(Path::new(&source.name));
+                self.over_model(source, model.file_name().map(|name| name.to_string_lossy().into_owned()))
+            }
+            None => {
                 self.workspace.reading(|workspace| {
                     // The text is what the answers depend on.
                     _ = workspace.text(&path);
@@ -216,7 +220,7 @@ impl<F: Files> Project<F> {
         Ok(made)
     }
 
-    /// A scenario or a chart: its names are those of a model.
+    /// A scenario, a chart or a specification: its names are those of a model.
     fn over_model(&mut self, source: SourceFile, model: Option<String>) -> (Analysis, Reads) {
         let (root, mut reads) = self.workspace.reading(|workspace| {
             let texts = &mut workspace.texts();

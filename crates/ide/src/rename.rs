@@ -9,7 +9,7 @@ use std::path::Path;
 
 use groundstate::Kind;
 use groundstate::workspace::Files;
-use model::Referent;
+use model::{Referent, Use};
 use syntax::{FileId, Severity, SyntaxKind, SyntaxNode};
 
 use crate::analysis::{Analysis, Place, Symbol, is_word};
@@ -54,14 +54,8 @@ pub fn rename<F: Files>(project: &mut Project<F>, path: &str, offset: u32, to: &
             }
             continue;
         }
-        match Kind::of(Path::new(&file)) {
-            None => continue,
-            Some(Kind::Report | Kind::Verification) => {
-                return Err(format!(
-                    "{file} writes `{from}`, and names in such files are not looked up: rename by hand"
-                ));
-            }
-            Some(Kind::Model | Kind::Scenario | Kind::Chart) => {}
+        if Kind::of(Path::new(&file)).is_none() {
+            continue;
         }
         let found = in_file(project, &file, &from, to, &symbol)?;
         if !found.is_empty() {
@@ -143,7 +137,13 @@ fn in_file<F: Files>(
     symbol: &Symbol,
 ) -> Result<Vec<Edit>, String> {
     let analysis = project.analysis(file).map_err(|absent| absent.told(file))?;
-    let Some(tree) = analysis.tree() else { return Ok(Vec::new()) };
+    let Some(tree) = analysis.tree() else {
+        // A specification: what of it is text for people is not known to be a name.
+        let named = analysis.names.iter().filter(|name| analysis.text()[name.span.range()] == *from);
+        let mut meant: Vec<Use> = named.filter(|name| analysis.symbol(name.referent) == *symbol).copied().collect();
+        meant.dedup_by_key(|name| name.span);
+        return Ok(meant.iter().map(|name| Edit::new(name.span.start..name.span.end, to)).collect());
+    };
     let broken = analysis.parse().is_some_and(|parse| parse.diagnostics.iter().any(|f| f.severity == Severity::Error));
     if broken {
         return Err(format!("{file} writes `{from}`, and it cannot be read as it is: mend it first"));
@@ -216,11 +216,11 @@ fn proved<F: Files>(
     from: &str,
     to: &str,
 ) -> Result<(), String> {
-    let charts = charts_over(project, edits);
+    let built = built_over(project, edits);
     let mut faults = BTreeMap::new();
-    for chart in charts {
-        let count = project.findings(&chart).map_err(|absent| absent.told(&chart))?.diagnostics().count();
-        faults.insert(chart, count);
+    for file in built {
+        let count = project.findings(&file).map_err(|absent| absent.told(&file))?.diagnostics().count();
+        faults.insert(file, count);
     }
     let mut before = BTreeMap::new();
     for file in files {
@@ -236,10 +236,15 @@ fn proved<F: Files>(
     for (file, text) in texts {
         _ = after.set_text(&file, 0, text);
     }
-    for (chart, before) in faults {
-        let count = after.findings(&chart).map_err(|absent| absent.told(&chart))?.diagnostics().count();
+    for (file, before) in faults {
+        let count = after.findings(&file).map_err(|absent| absent.told(&file))?.diagnostics().count();
         if count > before {
-            return Err(format!("{chart} relies on the name `{from}`: what is built of it would have faults"));
+            return Err(match Kind::of(Path::new(&file)) {
+                Some(Kind::Chart) => {
+                    format!("{file} relies on the name `{from}`: what is built of it would have faults")
+                }
+                _ => format!("{file} relies on the name `{from}`, and would have faults: rename by hand"),
+            });
         }
     }
     for (file, before) in before {
@@ -251,16 +256,16 @@ fn proved<F: Files>(
     Ok(())
 }
 
-/// The charts whose models read a file that is edited. What is built of a chart names what its imports declare, so a chart may
-/// rely on a name that it does not write.
-fn charts_over<F: Files>(project: &mut Project<F>, edits: &Edits) -> Vec<String> {
-    let mut charts = project.all_files();
-    charts.retain(|file| Kind::of(Path::new(file)) == Some(Kind::Chart));
-    charts.retain(|chart| {
-        let sources = project.analysis(chart).map(|analysis| analysis.sources.clone()).unwrap_or_default();
+/// The charts and specifications whose models read a file that is edited. What is built of a chart names what its imports declare, and
+/// a pattern of a report puts names together, so they may rely on a name that they do not write.
+fn built_over<F: Files>(project: &mut Project<F>, edits: &Edits) -> Vec<String> {
+    let mut built = project.all_files();
+    built.retain(|file| matches!(Kind::of(Path::new(file)), Some(Kind::Chart | Kind::Report | Kind::Verification)));
+    built.retain(|file| {
+        let sources = project.analysis(file).map(|analysis| analysis.sources.clone()).unwrap_or_default();
         sources.iter().any(|(_, source)| edits.contains_key(&source.name))
     });
-    charts
+    built
 }
 
 /// Where the names of a file stand, and what they mean, as they would after edits; and how many faults there are.

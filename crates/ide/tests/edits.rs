@@ -150,7 +150,7 @@ fn a_renamed_project_has_the_faults_that_it_had() {
     let before = faults(&files);
     let (mut renamed, mut refused) = (0, Vec::new());
     for (name, text) in files.iter().filter(|(name, _)| name.ends_with(".asm")) {
-        for _ in 0..rounds(1, 12) {
+        for _ in 0..rounds(2, 12) {
             let mut project = project(&files);
             let at = dice.below(text.len()) as u32;
             let Ok(place) = ide::prepare(&mut project, name, at) else { continue };
