@@ -8,8 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
 
-use groundstate::workspace::{Absent, Files, Findings, Outdated, Reads, STOPPED, imported, tidy};
-use groundstate::{Kind, Workspace, model_of, patterns};
+use groundstate::workspace::{Absent, Files, Findings, NotLoaded, Outdated, Reads, STOPPED, imported, tidy};
+use groundstate::{Kind, Loaded, Workspace, model_of, patterns};
 use model::{Checked, Loader, Model};
 use syntax::ast::{AstNode, ScenarioFile};
 use syntax::{FileId, SourceFile, Sources, Stop, SyntaxNode};
@@ -157,6 +157,19 @@ impl<F: Files> Project<F> {
         let made = Arc::new(made?);
         self.findings.insert(path, Kept { made: Arc::clone(&made), of, seen: self.revision });
         Ok(made)
+    }
+
+    /// The model at a path, ready to run.
+    ///
+    /// # Errors
+    /// There is none, or it has errors; a sentence.
+    pub fn load(&mut self, path: &str) -> Result<Arc<Loaded>, String> {
+        let loaded = self.workspace.load(path);
+        self.not_stopped().map_err(|absent| absent.told(path))?;
+        loaded.map_err(|reason| match reason {
+            NotLoaded::Absent(absent) => absent.told(path),
+            NotLoaded::Faulty(_) => format!("{path} has errors: mend them first"),
+        })
     }
 
     /// The tree of a file, whatever it means.

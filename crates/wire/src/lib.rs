@@ -19,6 +19,7 @@ mod run;
 mod scenario;
 #[cfg(test)]
 mod schema;
+mod session;
 mod trace;
 mod verification;
 
@@ -33,6 +34,7 @@ pub use junit::Junit;
 pub use kept::Kept;
 pub use review::{Finding, MetaProperty};
 pub use run::{RunFile, RunTold, Unseen};
+pub use session::{Named, Related, SESSION_VERSION, SessionState, Waiting, Written, Wrong, written_state};
 pub use trace::{Ending, Head, Line, Pairs, Reader, State, Step, VERSION, Wire};
 pub use verification::{Assumed, DomainLine, Explored, ExploredLine, RunChange, RunStep, Verdict};
 

@@ -412,3 +412,99 @@ fn a_text_that_is_too_large_is_told_so() {
     assert_eq!(editor.faults("Lamp.asm", 2), [""; 0]);
     editor.end();
 }
+
+#[test]
+fn a_model_runs_at_the_cursor() {
+    let model = "asm Lamp
+import StandardLibrary
+signature:
+	enum domain Light = {ON | OFF}
+	controlled light: Light
+	controlled count: Integer
+	monitored pressed: Boolean
+definitions:
+	rule r_Count = count := count + 1
+	rule r_Clash = par count := 7 count := 8 endpar
+	main rule r_Main =
+		if pressed then
+			par
+				choose $l in Light do light := $l
+				r_Count[]
+			endpar
+		else
+			r_Clash[]
+		endif
+default init s0:
+	function light = OFF
+	function count = 0
+";
+    let mut editor = Editor::plain("run", &[]);
+    editor.open("Lamp.asm", model);
+    let document = json!({ "textDocument": { "uri": editor.uri("Lamp.asm") } });
+    let opened = editor.ask("groundstate/session/open", document.clone())["result"].clone();
+    assert_eq!(
+        (&opened["version"], &opened["step"], &opened["waiting"]),
+        (&json!(1), &json!(0), &json!("step")),
+        "{opened}"
+    );
+    assert_eq!(opened["state"], json!({ "light": "OFF", "count": "0" }));
+    let id = opened["session"].clone();
+    let mut ask = |method: &str, mut params: Value| {
+        params["session"] = id.clone();
+        editor.ask(&format!("groundstate/session/{method}"), params)["result"].clone()
+    };
+    // A step asks for an input, then for a choice, and tells what it changed by which updates of which rules.
+    let asks = ask("step", json!({}));
+    assert_eq!((&asks["waiting"], &asks["word"]), (&json!("input"), &json!("pressed")), "{asks}");
+    assert_eq!(asks["offered"], json!(["true", "false"]));
+    assert!(ask("step", json!({}))["refused"].is_string());
+    assert!(ask("answer", json!({ "value": "3" }))["refused"].is_string());
+    let asks = ask("answer", json!({ "value": "true" }));
+    assert_eq!((&asks["waiting"], &asks["at"]["range"]["start"]["line"]), (&json!("choice"), &json!(13)), "{asks}");
+    assert_eq!(asks["offered"], json!(["ON", "OFF"]));
+    assert!(ask("choose", json!({ "candidate": 2 }))["refused"].is_string());
+    let made = ask("choose", json!({ "candidate": 0 }));
+    assert_eq!(
+        (&made["step"], &made["state"]),
+        (&json!(1), &json!({ "light": "ON", "count": "1", "pressed": "true" })),
+        "{made}"
+    );
+    let lines = |list: &Value| -> Vec<(String, u64)> {
+        let of = |one: &Value| {
+            let name = one["location"].as_str().or(one["name"].as_str()).unwrap_or_default();
+            (name.to_string(), one["at"]["range"]["start"]["line"].as_u64().unwrap_or_default())
+        };
+        list.as_array().expect("a list").iter().map(of).collect()
+    };
+    let mut updates = lines(&made["updates"]);
+    updates.sort();
+    assert_eq!(updates, [("count".to_string(), 8), ("light".to_string(), 13)]);
+    let mut rules = lines(&made["rules"]);
+    rules.sort();
+    assert_eq!(rules, [("r_Count".to_string(), 8), ("r_Main".to_string(), 10)]);
+    // A clash names both updates; a step back makes it undone.
+    ask("set", json!({ "location": "pressed", "value": "false" }));
+    let clash = ask("step", json!({}));
+    assert_eq!((&clash["waiting"], &clash["word"]), (&json!("nothing"), &json!("fault")), "{clash}");
+    let fault = &clash["faults"][0];
+    assert_eq!(fault["id"], "inconsistent-update", "{clash}");
+    let both = [&fault["at"], &fault["related"][0]["at"]].map(|at| at["range"]["start"]["line"].clone());
+    assert_eq!(both, [json!(9), json!(9)], "{clash}");
+    let back = ask("back", json!({}));
+    assert_eq!(
+        (&back["step"], &back["state"]["light"], &back["waiting"]),
+        (&json!(0), &json!("OFF"), &json!("step")),
+        "{back}"
+    );
+    assert!(ask("back", json!({}))["refused"].is_string());
+    assert_eq!(ask("close", json!({})), Value::Null);
+    assert!(ask("state", json!({})).is_null());
+    // With a seed nothing is asked; a text that is typed meanwhile makes places stale.
+    let mut seeded = document;
+    seeded["seed"] = json!(3);
+    let opened = editor.ask("groundstate/session/open", seeded)["result"].clone();
+    editor.change("Lamp.asm", 2, json!({ "text": LAMP }));
+    let made = editor.ask("groundstate/session/step", json!({ "session": opened["session"], "steps": 1 }));
+    assert_eq!((&made["result"]["stale"], opened["stale"].as_bool()), (&json!(true), Some(false)), "{made}");
+    editor.end();
+}

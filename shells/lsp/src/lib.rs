@@ -21,6 +21,7 @@ mod location;
 mod pending;
 mod publish;
 mod route;
+mod run;
 mod session;
 mod settings;
 mod worker;

@@ -24,6 +24,7 @@ use crate::location::uri_of;
 use crate::pending::{Pending, Stamp, Work};
 use crate::publish::{Published, diagnostic};
 use crate::route::{self, Refused};
+use crate::run::{self, Sessions};
 use crate::settings::Settings;
 
 /// How long nothing has to come before files are checked: letters that are typed at once are checked once.
@@ -76,6 +77,8 @@ pub struct Worker {
     /// Files to be checked, the one that was edited last at the end.
     unchecked: Vec<String>,
     background: Background,
+    /// The models that run.
+    sessions: Sessions,
     /// How many changes of texts have been taken in.
     changes: u64,
 }
@@ -93,6 +96,7 @@ impl Worker {
             folders: Vec::new(),
             unchecked: Vec::new(),
             background: Background::default(),
+            sessions: Sessions::default(),
             changes: 0,
         }
     }
@@ -266,7 +270,11 @@ impl Worker {
         } else if self.pending.is_present(&path, stamp, about_all) {
             let answers = &mut self.answers;
             self.pending.begin(Work::Request { id: id.clone(), path: path.clone(), about_all }, self.changes);
-            let answered = catch_unwind(AssertUnwindSafe(|| route::answer(answers, method, params)));
+            let (sessions, stop) = (&mut self.sessions, self.pending.stop());
+            let answered = catch_unwind(AssertUnwindSafe(|| match method.strip_prefix(run::PREFIX) {
+                Some(method) => run::answer(sessions, answers, method, &params, &stop),
+                None => route::answer(answers, method, params),
+            }));
             self.pending.end();
             answer = answered.unwrap_or_else(|panic| {
                 self.begin_anew();
