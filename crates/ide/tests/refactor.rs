@@ -83,7 +83,7 @@ fn a_refactored_model_means_what_it_meant() {
         let path = path.to_string_lossy().into_owned();
         let text = std::fs::read_to_string(&path).expect("a model");
         let mut project = Project::new(Folder);
-        let every = if full { 1 } else { 4 + text.len() / 600 };
+        let every = if full { 1 } else { 10 + text.len() / 220 };
         let before = states(&path, &text);
         for (index, refactoring) in offered(&mut project, &path, &text, every).iter().enumerate() {
             let after = ide::edited(&text, &refactoring.edits);
