@@ -35,7 +35,10 @@ def check(package, target, dependencies):
     return done.stdout if done.returncode else ""
 
 
-metadata = json.loads(cargo("metadata", "--locked", "--offline", "--format-version=1"))
+# Packages of other platforms are not there.
+compiler = subprocess.run(["rustc", "-vV"], check=True, stdout=subprocess.PIPE, text=True).stdout
+host = next(line.split()[1] for line in compiler.splitlines() if line.startswith("host: "))
+metadata = json.loads(cargo("metadata", "--locked", "--filter-platform", host, "--format-version=1"))
 folder = os.path.join(metadata["target_directory"], "debug", "deps")
 libraries, scripts = {}, {}
 for line in cargo("test", "--workspace", "--locked", "--no-run", "--message-format=json", "--quiet").splitlines():
