@@ -115,7 +115,7 @@ default init s0:
 		endswitch
 
 	// what varies, what is observed, what is seeded
-	function longest($p in SchedulePhase) = if action($p) = WAITING_TRIGGER then undef else 2 endif
+	function timeAtLeast($p in SchedulePhase) = if action($p) = WAITING_TRIGGER then undef else 0 endif
 	function handedOver($b in SwingingBuffer) = 0
 	function unaccounted($b in SwingingBuffer) = 0
 	function before_read($b in SwingingBuffer) = indexRead($b)

@@ -40,7 +40,7 @@ definitions:
 	function numbers($b in SwingingBuffer) =
 		union(
 			{sb_written($b), sb_receivedSequence($b), handedOver($b)},
-			{$n in {0 : 2} | isAlive($b, $n) : sb_sequence($b, $n)})
+			{$n in {0 : dimension($b) - 1} | isAlive($b, $n) : sb_sequence($b, $n)})
 
 	function rank($all in Powerset(Integer), $number in Integer) =
 		size({$m in $all | $m < $number : $m})
@@ -61,7 +61,7 @@ definitions:
 	rule r_turn($b in SwingingBuffer, $all in Powerset(Integer)) =
 		let ($first = indexWrite($b), $arrays = dimension($b)) in
 			par
-				forall $n in {0 : 2} with $n < $arrays do
+				forall $n in {0 : $arrays - 1} with true do
 					let ($m = ($n + $first) mod $arrays) in
 						if isAlive($b, $m) then
 							par
@@ -109,7 +109,7 @@ definitions:
 			mq_staged($q) := 0
 			mq_received($q) := 0
 			mq_refused($q) := 0
-			forall $n in {0 : 3} with $n < mq_capacity($q) do mq_slot($q, $n) := 0
+			forall $n in {0 : mq_capacity($q) - 1} with true do mq_slot($q, $n) := 0
 		endpar
 
 	rule r_shiftValue($v in SharedValue) =

@@ -1,7 +1,7 @@
 /* A system of tasks, to the tick: all of them step at once and the clock goes on, as the system's own main rule says.
 
-   An elaboration whose length varies may end at any tick up to its longest. All else, and so every bound, is as the system
-   has it. */
+   An action whose length varies may end at any tick between the least and the most that it takes, or never, where it is
+   endless. All else, and so every bound, is as the system has it. */
 module SystemInTicks
 
 import ../std/StandardLibrary
@@ -13,15 +13,11 @@ import SystemProperties
 export *
 
 signature:
-	// the elaboration that a task is at ends now, if it may
-	monitored endsNow: Scheduler -> Boolean
-
-	// The most ticks of an elaboration whose length varies, `oldest` of one without end; undef of all other phases.
-	controlled longest: SchedulePhase -> Integer
+	// The action may last for ever; it varies from no ticks on.
+	controlled endless: SchedulePhase -> Boolean
 
 	// the datum that the consumer works with is at most so many ticks old
 	derived isWithin: Prod(SwingingBuffer, Integer) -> Boolean
-	derived mayEnd: Scheduler -> Boolean
 	derived isEndless: Scheduler -> Boolean
 	// in the first phase of its cycle
 	derived isBeginning: Task -> Boolean
@@ -32,11 +28,8 @@ definitions:
 	function isWithin($b in SwingingBuffer, $ticks in Integer) =
 		if isDef(sb_received($b)) then clock - sb_received($b) <= $ticks else true endif
 
-	function mayEnd($c in Scheduler) =
-		isDef(longest(scheduler_currentPhase($c)))
-
 	function isEndless($c in Scheduler) =
-		longest(scheduler_currentPhase($c)) = oldest
+		endless(scheduler_currentPhase($c)) = true
 
 	function isBeginning($t in Task) =
 		(exists $c in Scheduler, $p in SchedulePhase with
@@ -47,16 +40,6 @@ definitions:
 	function isFree($t in Task) =
 		(exists $c in Scheduler with scheduler_mainThread($c) = $t and isEndless($c))
 
-	rule r_setTimes =
-		forall $c in Scheduler with mayEnd($c) do
-			if endsNow($c) then
-				time(scheduler_currentPhase($c)) := 0
-			endif
-
-	rule r_resetTimes =
-		forall $c in Scheduler with isDef(longest(before_phase($c))) do
-			time(before_phase($c)) := longest(before_phase($c))
-
 	// How long it has lasted does not matter.
 	rule r_stopEndless =
 		forall $c in Scheduler with isEndless($c) do
@@ -65,10 +48,8 @@ definitions:
 	// A tick of the system; its main rule is the parameter.
 	rule r_tick($main in Rule) =
 		seq
-			r_setTimes[]
 			$main[]
 			r_observe[]
-			r_resetTimes[]
 			r_forget[]
 			r_stopEndless[]
 			r_remember[]

@@ -138,7 +138,7 @@ default init s0:
 			otherwise undef
 		endswitch
 	// what varies, what is observed, what is seeded
-	function longest($p in SchedulePhase) = if action($p) = ELABORATING then time($p) else undef endif
+	function timeAtLeast($p in SchedulePhase) = if action($p) = ELABORATING then 0 else undef endif
 	function handedOver($b in SwingingBuffer) = 0
 	function unaccounted($b in SwingingBuffer) = 0
 	function before_read($b in SwingingBuffer) = indexRead($b)

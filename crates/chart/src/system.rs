@@ -81,8 +81,10 @@ pub struct Phase {
     pub subject: String,
     /// What it does.
     pub action: Action,
-    /// Its duration in ticks, without waiting for a lock.
+    /// Its duration in ticks, without waiting for a lock; the longest if it varies.
     pub time: u64,
+    /// The shortest duration; equal to `time` unless it varies.
+    pub least: u64,
     /// Where it is declared.
     pub span: Span,
 }
@@ -143,4 +145,37 @@ pub struct Device {
     pub is_sensor: bool,
     /// Where it is declared: its name.
     pub span: Span,
+}
+
+/// A number of ticks, in the largest unit that makes it a short number.
+pub fn length(ticks: i64, tick_ns: u64) -> String {
+    let nanoseconds = i128::from(ticks) * i128::from(tick_ns);
+    let units = [("s", 1_000_000_000_i128), ("ms", 1_000_000), ("us", 1_000), ("ns", 1)];
+    // Three decimals are enough for a time written by hand; otherwise a smaller unit is used.
+    let unit = units.into_iter().find(|(_, size)| nanoseconds.abs() >= *size && nanoseconds * 1_000 % size == 0);
+    let (name, size) = unit.unwrap_or(("ms", 1_000_000));
+    let thousandths = nanoseconds * 1_000 / size;
+    let sign = if thousandths < 0 { "-" } else { "" };
+    let (whole, rest) = (thousandths.abs() / 1_000, thousandths.abs() % 1_000);
+    let digits = format!("{rest:03}");
+    let digits = digits.trim_end_matches('0');
+    let point = if digits.is_empty() { "" } else { "." };
+    format!("{sign}{whole}{point}{digits} {name}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::length;
+
+    #[test]
+    fn lengths_of_time() {
+        let shown = |ticks, tick_ns| length(ticks, tick_ns);
+        assert_eq!(shown(100, 100_000), "10 ms");
+        assert_eq!(shown(62, 100_000), "6.2 ms");
+        assert_eq!(shown(-50, 100_000), "-5 ms");
+        assert_eq!(shown(3, 100), "300 ns");
+        assert_eq!(shown(1_234_567, 1_000), "1234.567 ms");
+        assert_eq!(shown(0, 1_000), "0 ms");
+        assert_eq!(shown(2_500, 1_000_000), "2.5 s");
+    }
 }

@@ -8,6 +8,7 @@
 //! recorded never conforms.
 
 mod claims;
+mod events;
 mod evidence;
 mod fault;
 mod order;
@@ -18,6 +19,7 @@ mod untimed;
 mod vocabulary;
 mod waiting;
 
+pub use events::Events;
 pub use evidence::{Claim, Parted, Recorded};
 pub use fault::{IDS as FAULT_IDS, diagnose_parted};
 pub use recording::{Event, Kind, Malformed, Reader, Recording, Track};

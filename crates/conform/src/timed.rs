@@ -5,10 +5,11 @@
 
 use std::sync::Arc;
 
-use machine::{Closed, EngineChoice, Interrupt, Limits, Machine};
+use machine::{EngineChoice, Interrupt, Limits, Machine};
 use program::Program;
 
 use crate::Verdict;
+use crate::events::Longest;
 use crate::evidence::{Claim, Parted, Recorded, conforms, interrupted, objects, out_of_turn};
 use crate::steps::Steps;
 use crate::vocabulary::Vocabulary;
@@ -86,7 +87,7 @@ impl Replay {
     /// The step of a tick; none: it agrees.
     fn step(&mut self, tracks: &[&[Event]], recording: &Recording) -> Option<Verdict> {
         let tick = self.tick;
-        if let Err(fault) = self.machine.step(&mut Closed) {
+        if let Err(fault) = self.machine.step(&mut Longest) {
             let fault = fault.show(self.machine.program()).to_string();
             let reason = format!("the model cannot make the step of tick {tick}: {fault}");
             return Some(Verdict::Unknown { events: self.agreed, reason });

@@ -58,7 +58,7 @@ fn about(component: &Component, system: &System) -> Vec<Detail> {
             Action::Elaborate(_) => "elaborate".to_string(),
         };
         let id = Some(format!("{}/{}", component.name, phase.name));
-        lines.push(Detail { id, text: what, right: Some(words::time(phase.time, system.tick_ns)) });
+        lines.push(Detail { id, text: what, right: Some(words::duration(phase, system.tick_ns)) });
     }
     lines
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use chart::system::{ChannelKind, System, Timing};
+use chart::system::{ChannelKind, Phase, System, Timing};
 use chart::{Chart, Machine, Origin, Target, transitions};
 
 /// LIMIT: a description tells so many transitions.
@@ -53,6 +53,20 @@ pub fn time(ticks: u64, tick_ns: u64) -> String {
         _ => (nanoseconds as f64 / 1e9, "s"),
     };
     format!("{value} {unit}")
+}
+
+/// How long a phase takes.
+pub fn duration(phase: &Phase, tick_ns: u64) -> String {
+    let most = time(phase.time, tick_ns);
+    if phase.least == phase.time {
+        return most;
+    }
+    let least = time(phase.least, tick_ns);
+    // A unit that both have is written once.
+    match (least.split_once(' '), most.split_once(' ')) {
+        (Some((number, one)), Some((_, other))) if one == other => format!("{number}\u{2013}{most}"),
+        _ => format!("{least} \u{2013} {most}"),
+    }
 }
 
 /// When a component runs.

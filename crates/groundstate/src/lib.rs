@@ -20,6 +20,7 @@ pub mod reporting;
 pub mod tell;
 mod test;
 pub mod test_generation;
+mod verified_system;
 pub mod workspace;
 
 use std::collections::BTreeMap;
@@ -45,6 +46,7 @@ pub use fingerprint::fingerprint;
 pub use kind::{Kind, has_ending, model_of};
 pub use overlay::{Overlay, Said};
 pub use test::{SeededChoices, Suite, Tested, own_files};
+pub use verified_system::{VerifiedSystem, verified_system};
 pub use workspace::Workspace;
 pub use {chart, conform, generate, inputs, machine, model, program, scenario, simulate, solve, syntax, verify};
 

@@ -94,12 +94,8 @@ default init s0:
 	function elaborationRule($p in SchedulePhase) = complete_elaboration($p)
 
 	// what varies, what is observed, what is seeded
-	function longest($p in SchedulePhase) =
-		switch $p
-			case vs_elaborate: vision_time($p)
-			case operator_plan: oldest
-			otherwise undef
-		endswitch
+	function timeAtLeast($p in SchedulePhase) = if $p = vs_elaborate or $p = operator_plan then 0 else undef endif
+	function endless($p in SchedulePhase) = $p = operator_plan
 	function handedOver($b in SwingingBuffer) = 0
 	function unaccounted($b in SwingingBuffer) = 0
 	function before_read($b in SwingingBuffer) = indexRead($b)

@@ -109,8 +109,8 @@ default init s0:
 		endswitch
 
 	// what varies, what is observed, what is seeded
-	function longest($p in SchedulePhase) =
-		if $p = vs_elaborate or (othersVary and action($p) = ELABORATING) then vision_time($p) else undef endif
+	function timeAtLeast($p in SchedulePhase) =
+		if $p = vs_elaborate or (othersVary and action($p) = ELABORATING) then 0 else undef endif
 	function handedOver($b in SwingingBuffer) = 0
 	function unaccounted($b in SwingingBuffer) = 0
 	function before_read($b in SwingingBuffer) = indexRead($b)

@@ -83,6 +83,56 @@ pub(crate) fn fresh(chart: &Chart) -> String {
     chart.system.as_ref().map_or_else(String::new, |one| module::fresh(chart, &system::parts(chart, one, &known)))
 }
 
+/// Why the system of a chart cannot be verified as it is drawn; the places are in the chart.
+pub fn unverified(chart: &Chart, known: &Known) -> Vec<syntax::Diagnostic> {
+    let Some(system) = &chart.system else {
+        let file = chart.places.first().map_or(syntax::FileId(0), |place| place.file);
+        let span = chart.machines.first().map_or(syntax::Span { file, start: 0, end: 0 }, |machine| machine.span);
+        let help = "build the model with `groundstate chart build`, and verify that";
+        return vec![fault::not_verified(span, "the chart has no system", "a system is verified as it is drawn", help)];
+    };
+    let unbuilt = unbuilt(chart, known);
+    if unbuilt.is_empty() && library(chart).is_none() {
+        let here = "the patterns come with another module, which may have changed them";
+        let help = "import ControlTask in the chart, too";
+        return vec![fault::not_verified(system.span, "it is not known which patterns to verify", here, help)];
+    }
+    unbuilt
+}
+
+/// The folder of the pattern library, as the chart's imports write it.
+pub fn library(chart: &Chart) -> Option<String> {
+    let folder = |import: &String| {
+        import.replace('\\', "/").trim_end_matches(".asm").strip_suffix("ControlTask").map(str::to_string)
+    };
+    chart.imports.iter().find_map(folder)
+}
+
+/// The chart's system alone, with its times and without what its elaborations compute: the part of the ground model that
+/// [`verified`] is about.
+pub fn communication(chart: &Chart) -> Chart {
+    let mut bare = Chart { system: chart.system.as_ref().map(system::bare), ..chart.clone() };
+    let own = |(import, _): &(String, syntax::Span)| {
+        import.replace('\\', "/").trim_end_matches(".asm").ends_with("ControlTask")
+    };
+    let imports = chart.imports.iter().cloned().zip(chart.places.iter().copied()).filter(own);
+    (bare.imports, bare.places) = imports.unzip();
+    bare
+}
+
+/// The text of the model that verifies the system of a chart for which [`unbuilt`] is empty: the ground model with each state reduced
+/// to what its rules can tell apart, so that the states are finitely many. It imports the modules of the pattern library from the
+/// folder of its [`library`], those of the verification library from `verification/`, and further built-in libraries.
+pub fn verified(chart: &Chart, libraries: &[&str]) -> Option<String> {
+    let mut parts = system::verified(chart, chart.system.as_ref()?, &library(chart)?);
+    parts.imports.extend(libraries.iter().filter(|name| **name != "CTLLibrary").map(|name| (*name).to_string()));
+    let verified = Chart { name: format!("{}InTicks", chart.name), ..chart.clone() };
+    let text = module::fresh(&verified, &parts);
+    let text = text.split_once("*/").map_or(text.as_str(), |(_, rest)| rest);
+    let text = format!("/* What is verified of {}.chart. */{text}", chart.name);
+    Some(syntax::format(&syntax::parse_asmetal(syntax::FileId(0), &text)))
+}
+
 /// Builds the specification of a chart for which [`unbuilt`] is empty.
 ///
 /// # Errors

@@ -75,8 +75,8 @@ pub(super) fn parts(chart: &Chart, system: &System, known: &Known) -> Parts {
     let deadlines =
         "invariant inv_deadlines over task_deadlinesMissed: (forall $t in Task with task_deadlinesMissed($t) = 0)\n";
     fixed(&mut parts, "inv_deadlines", deadlines);
-    parts.main = Some(MAIN.to_string());
-    parts.init = Some(initial(system));
+    parts.main = Some(format!("main rule r_Main =\n{TICK}"));
+    parts.init = Some(initial(system) + AGENT);
     parts
 }
 
@@ -84,13 +84,54 @@ fn fixed(parts: &mut Parts, name: &str, text: &str) {
     parts.definitions.push(Item { name: name.to_string(), text: text.to_string(), decided: false });
 }
 
-const MAIN: &str = "main rule r_Main =
-par
+/// One tick of all components.
+const TICK: &str = "par
 forall $c in Scheduler with true do program($c)
 forall $s in Semaphore with true do r_sem_arbitrate[$s]
 clock := clock + 1
 endpar
 ";
+
+/// The system without the rules of its elaborations.
+pub(super) fn bare(system: &System) -> System {
+    let mut system = system.clone();
+    for phase in system.components.iter_mut().flat_map(|component| &mut component.phases) {
+        if let Action::Elaborate(link) = &mut phase.action {
+            *link = None;
+        }
+    }
+    system
+}
+
+/// The parts of the model that verifies a system: its text is the whole of a file.
+///
+/// The system's own main rule becomes a tick of the verification library, which forgets after each tick what no rule can tell apart.
+/// What elaborations compute is left out; their times are not. `library` is the path of the pattern library's folder in imports.
+pub(super) fn verified(chart: &Chart, system: &System, library: &str) -> Parts {
+    let system = bare(system);
+    let mut parts = parts(chart, &system, &Known::default());
+    let verification = ["Quotient", "SystemProperties", "SystemInTicks"];
+    let standard = ["StandardLibrary", "CTLLibrary"].map(str::to_string);
+    parts.imports = standard.into_iter().chain([format!("{library}ControlTask")]).collect();
+    parts.imports.extend(verification.map(|name| format!("{VERIFICATION}{name}")));
+    fixed(&mut parts, "r_system", &format!("// a tick of the system as it is drawn\nrule r_system =\n{TICK}"));
+    parts.main = Some("main rule r_Main = r_tick[<<r_system>>]\n".to_string());
+    let mut initial = initial(&system);
+    let mut define = |function: &str, value: &str| _ = writeln!(initial, "function {function} = {value}");
+    define("handedOver($b in SwingingBuffer)", "0");
+    define("unaccounted($b in SwingingBuffer)", "0");
+    define("before_read($b in SwingingBuffer)", "indexRead($b)");
+    define("before_written($b in SwingingBuffer)", "0");
+    define("before_phase($c in Scheduler)", "scheduler_currentPhase($c)");
+    define("lostSilently($v in SharedValue)", "false");
+    parts.init = Some(initial + AGENT);
+    parts
+}
+
+/// The folder of the verification library in imports.
+pub(super) const VERIFICATION: &str = "verification/";
+
+const AGENT: &str = "agent Scheduler: r_controlTask[]\n";
 
 fn task(component: &Component) -> String {
     format!("{}_task", component.name)
@@ -130,7 +171,7 @@ fn initial(system: &System) -> String {
     channels(system, &mut define);
     schedulers(system, &mut define);
     phases(system, &mut define);
-    text + "agent Scheduler: r_controlTask[]\n"
+    text
 }
 
 fn tasks(system: &System, define: &mut impl FnMut(&str, &str)) {
@@ -255,6 +296,8 @@ struct Row {
     name: String,
     action: &'static str,
     time: u64,
+    /// The shortest time, if it varies.
+    least: Option<u64>,
     next: String,
     buffer: Option<String>,
     queue: Option<String>,
@@ -269,7 +312,8 @@ fn phases(system: &System, define: &mut impl FnMut(&str, &str)) {
         let wait = waiting(component);
         for (index, phase) in component.phases.iter().enumerate() {
             let next = names.get(index + 1).map_or(wait.clone(), |next| (*next).to_string());
-            let mut row = Row { name: phase.name.clone(), time: phase.time, next, ..Row::default() };
+            let least = (phase.least < phase.time).then_some(phase.least);
+            let mut row = Row { name: phase.name.clone(), time: phase.time, least, next, ..Row::default() };
             match &phase.action {
                 Action::Read(channel) => {
                     use_channel(&mut row, system, *channel, ["READING_FROM_SB", "RECEIVING", "LOADING"])
@@ -298,6 +342,10 @@ fn phases(system: &System, define: &mut impl FnMut(&str, &str)) {
     let or_undef = |value: &Option<String>| value.clone().unwrap_or_else(|| "undef".to_string());
     define("action($p in SchedulePhase)", &by_case("$p", &column(&|row| row.action.to_string())));
     define("time($p in SchedulePhase)", &by_case("$p", &column(&|row| row.time.to_string())));
+    if rows.iter().any(|row| row.least.is_some()) {
+        let least = |row: &Row| row.least.map_or("undef".to_string(), |least| least.to_string());
+        define("timeAtLeast($p in SchedulePhase)", &by_case("$p", &column(&least)));
+    }
     define("nextPhase($p in SchedulePhase)", &by_case("$p", &column(&|row| row.next.clone())));
     define("sharedMemory($p in SchedulePhase)", &by_case("$p", &column(&|row| or_undef(&row.buffer))));
     if rows.iter().any(|row| row.queue.is_some()) {

@@ -14,7 +14,7 @@ use syntax::{Diagnostic, FileId, Span};
 use super::ground::{Given, Ground, plain};
 use crate::chart::Chart;
 use crate::fault;
-use crate::system::{Component, System};
+use crate::system::{Component, System, length};
 
 /// The differences between a chart's system and the model in a file.
 pub(super) fn compare(chart: &Chart, system: &System, file: FileId, text: &str) -> Vec<Diagnostic> {
@@ -321,7 +321,8 @@ impl Comparison<'_> {
 
     /// A value in the system's terms.
     fn shown(&self, function: &str, value: &str) -> String {
-        let ticks = ["task_period", "task_deadline", "task_timeForElaboration", "task_periodStart", "time"];
+        let ticks =
+            ["task_period", "task_deadline", "task_timeForElaboration", "task_periodStart", "time", "timeAtLeast"];
         if value == "undef" {
             return "none".to_string();
         }
@@ -364,6 +365,7 @@ fn what(function: &str) -> String {
         "task_timeForElaboration" => "the time of a cycle without waiting",
         "task_periodStart" => "the beginning of its first period",
         "time" => "its time",
+        "timeAtLeast" => "its shortest time, where it varies,",
         "nextPhase" => "the next phase",
         "action" => "what it does",
         "sharedMemory" | "messageQueue" | "sharedValue" => "its channel",
@@ -396,37 +398,4 @@ fn bare(domain: &str) -> &'static str {
 /// A whole number, with or without a space after its sign.
 fn number(text: &str) -> Option<i64> {
     text.replace(' ', "").parse().ok()
-}
-
-/// A number of ticks, in the largest unit that makes it a short number.
-pub(crate) fn length(ticks: i64, tick_ns: u64) -> String {
-    let nanoseconds = i128::from(ticks) * i128::from(tick_ns);
-    let units = [("s", 1_000_000_000_i128), ("ms", 1_000_000), ("us", 1_000), ("ns", 1)];
-    // Three decimals are enough for a time written by hand; otherwise a smaller unit is used.
-    let unit = units.into_iter().find(|(_, size)| nanoseconds.abs() >= *size && nanoseconds * 1_000 % size == 0);
-    let (name, size) = unit.unwrap_or(("ms", 1_000_000));
-    let thousandths = nanoseconds * 1_000 / size;
-    let sign = if thousandths < 0 { "-" } else { "" };
-    let (whole, rest) = (thousandths.abs() / 1_000, thousandths.abs() % 1_000);
-    let digits = format!("{rest:03}");
-    let digits = digits.trim_end_matches('0');
-    let point = if digits.is_empty() { "" } else { "." };
-    format!("{sign}{whole}{point}{digits} {name}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::length;
-
-    #[test]
-    fn lengths_of_time() {
-        let shown = |ticks, tick_ns| length(ticks, tick_ns);
-        assert_eq!(shown(100, 100_000), "10 ms");
-        assert_eq!(shown(62, 100_000), "6.2 ms");
-        assert_eq!(shown(-50, 100_000), "-5 ms");
-        assert_eq!(shown(3, 100), "300 ns");
-        assert_eq!(shown(1_234_567, 1_000), "1234.567 ms");
-        assert_eq!(shown(0, 1_000), "0 ms");
-        assert_eq!(shown(2_500, 1_000_000), "2.5 s");
-    }
 }

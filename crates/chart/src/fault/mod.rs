@@ -30,6 +30,7 @@ pub const IDS: &[&str] = &[
     "misplaced-exit",
     "not-built",
     "not-control-state",
+    "not-verified",
     "overlapping-paths",
     "system-differs",
     "time-unit",
@@ -300,6 +301,25 @@ pub(crate) fn no_whole_ticks(span: Span) -> Diagnostic {
     Diagnostic::error("time-unit", span, "this is not a whole number of ticks")
         .here("the model advances by one tick per step")
         .with_help("write another time, or a shorter `tick`")
+}
+
+/// A chart that has nothing to verify, or whose patterns cannot be told.
+pub(crate) fn not_verified(span: Span, message: &str, here: &str, help: &str) -> Diagnostic {
+    Diagnostic::error("not-verified", span, message).here(here).with_help(help)
+}
+
+/// An interval without a value.
+pub(crate) fn empty_interval(span: Span) -> Diagnostic {
+    Diagnostic::error("time-unit", span, "the shortest time is greater than the longest")
+        .here("an elaboration takes `LEAST..MOST`")
+        .with_help("exchange the two numbers")
+}
+
+/// An access to a channel whose time varies.
+pub(crate) fn fixed_access(span: Span) -> Diagnostic {
+    Diagnostic::error("time-unit", span, "only the time of an elaboration varies")
+        .here("copying a datum takes the same time in each cycle; what varies is the waiting for the lock")
+        .with_help("write the longest time")
 }
 
 /// A part of a system that cannot be built.

@@ -10,9 +10,8 @@ use super::Reader;
 use super::link::link;
 use super::machine::spoken;
 use crate::build::system::{busy, taken};
-use crate::check::system::length;
 use crate::fault;
-use crate::system::{Action, Channel, ChannelKind, Component, Device, Phase, System, Timing};
+use crate::system::{Action, Channel, ChannelKind, Component, Device, Phase, System, Timing, length};
 
 /// The default length of a step: a millisecond.
 const TICK_NS: u64 = 1_000_000;
@@ -107,7 +106,13 @@ impl Reader {
 
     /// A length of time in nanoseconds.
     fn nanoseconds(&mut self, quantity: &ast::Quantity) -> Option<u64> {
-        let (number, unit) = (quantity.number()?, quantity.unit()?);
+        let number = quantity.number()?;
+        self.measure(quantity, &number)
+    }
+
+    /// A number of a length of time, in nanoseconds.
+    fn measure(&mut self, quantity: &ast::Quantity, number: &SyntaxToken) -> Option<u64> {
+        let unit = quantity.unit()?;
         let scale: u64 = match unit.text() {
             "ns" => 1,
             "us" => 1_000,
@@ -126,11 +131,30 @@ impl Reader {
 
     /// A length of time in ticks.
     fn ticks(&mut self, quantity: &ast::Quantity, tick_ns: u64) -> u64 {
-        let Some(length) = self.nanoseconds(quantity) else { return 1 };
+        quantity.number().map_or(1, |number| self.ticks_of(quantity, &number, tick_ns))
+    }
+
+    fn ticks_of(&mut self, quantity: &ast::Quantity, number: &SyntaxToken, tick_ns: u64) -> u64 {
+        let Some(length) = self.measure(quantity, number) else { return 1 };
         if length % tick_ns != 0 {
             self.faults.push(fault::no_whole_ticks(Span::new(self.file, quantity.range())));
         }
         length / tick_ns
+    }
+
+    /// The shortest and the longest duration of a phase.
+    fn durations(&mut self, phase: &ast::Phase, tick_ns: u64) -> (u64, u64) {
+        let Some(quantity) = phase.time() else { return (1, 1) };
+        let least = self.ticks(&quantity, tick_ns);
+        let Some(most) = quantity.most() else { return (least, least) };
+        let most = self.ticks_of(&quantity, &most, tick_ns);
+        let span = Span::new(self.file, quantity.range());
+        if phase.kind() != Some(PhaseKind::Elaborate) {
+            self.faults.push(fault::fixed_access(span));
+        } else if most < least {
+            self.faults.push(fault::empty_interval(span));
+        }
+        (least, most)
     }
 
     fn component(&mut self, node: &ast::Component, system: &mut System) {
@@ -244,12 +268,13 @@ impl Reader {
             if let Some(first) = all.into_iter().find(|first| first.name == name) {
                 self.faults.push(fault::duplicate(span, "phase", &name, first.span));
             }
-            let time = phase.time().map_or(1, |quantity| self.ticks(&quantity, system.tick_ns));
+            let (least, time) = self.durations(&phase, system.tick_ns);
             system.components[index].phases.push(Phase {
                 name,
                 subject: subject.text().to_string(),
                 action,
                 time,
+                least,
                 span,
             });
         }

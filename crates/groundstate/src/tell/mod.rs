@@ -21,7 +21,7 @@ pub use parting::parting;
 pub use review::says;
 pub use run::{Detail, Narrator};
 pub use story::story;
-pub use verdict::{Verdicts, id};
+pub use verdict::{Story, Verdicts, id};
 
 /// A count with its noun.
 pub fn plural(count: usize, word: &str) -> String {

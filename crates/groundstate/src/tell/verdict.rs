@@ -23,14 +23,27 @@ pub struct Verdicts<'a> {
     pub sources: &'a Sources,
     /// Whether the search stopped because its time was up.
     pub timed_out: bool,
+    /// How runs are told, if not as steps of the program.
+    pub story: Option<Story<'a>>,
     /// The initial state that was shown last.
     pub(super) initial: RefCell<Vec<String>>,
+}
+
+/// Tells the run that violates a check, as lines.
+pub struct Story<'a>(pub Box<Teller<'a>>);
+
+type Teller<'a> = dyn Fn(Subject, &Trace) -> String + 'a;
+
+impl std::fmt::Debug for Story<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Story")
+    }
 }
 
 impl<'a> Verdicts<'a> {
     /// Describes the results of a search over a program.
     pub fn new(program: &'a Program, sources: &'a Sources, timed_out: bool) -> Self {
-        Verdicts { program, sources, timed_out, initial: RefCell::default() }
+        Verdicts { program, sources, timed_out, story: None, initial: RefCell::default() }
     }
 }
 
@@ -57,7 +70,11 @@ impl Verdicts<'_> {
 
     /// A violation with its run, as lines.
     pub fn violation(&self, subject: Subject, trace: &Trace) -> String {
-        format!("{}\n{}", self.violated(subject, trace), self.run(trace))
+        let run = match &self.story {
+            Some(Story(told)) => told(subject, trace),
+            None => self.run(trace),
+        };
+        format!("{}\n{run}", self.violated(subject, trace))
     }
 
     /// What is wrong at the end of a violating run, with its place.

@@ -216,9 +216,13 @@ impl Connection {
 }
 
 impl Quantity {
-    /// The number as it is written.
+    /// The number as it is written; of `3..9 ms`, the first one.
     pub fn number(&self) -> Option<SyntaxToken> {
         tokens(self.syntax()).find(|token| matches!(token.kind(), INTEGER | REAL))
+    }
+    /// The second number of `3..9 ms`.
+    pub fn most(&self) -> Option<SyntaxToken> {
+        tokens(self.syntax()).filter(|token| matches!(token.kind(), INTEGER | REAL)).nth(1)
     }
     /// The unit.
     pub fn unit(&self) -> Option<SyntaxToken> {

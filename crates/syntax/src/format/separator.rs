@@ -55,6 +55,7 @@ pub(super) fn part(node: &SyntaxNode, before: SyntaxKind, part: &SyntaxElement) 
         RANGE_TERM if before == COLON || kind == COLON => Space,
         RANGE_TERM => list(before, kind),
         UNARY_TERM if matches!(before, PLUS | MINUS) => Nothing,
+        QUANTITY if before == DOT || kind == DOT => Nothing,
         IF_RULE | LET_RULE | CONDITIONAL_BRANCH if is_short(node) => branching(here, before, kind, true),
         PAR_RULE | SEQ_RULE | ITERATE_RULE | LOCAL_RULE => block(here, kind),
         IF_TERM | SWITCH_TERM | LET_TERM | CASE_BRANCH | CONDITIONAL_BRANCH | IF_RULE | SWITCH_RULE | LET_RULE => {

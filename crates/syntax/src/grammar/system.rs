@@ -46,8 +46,20 @@ fn item(p: &mut Parser<'_>) {
 
 /// `NUMBER UNIT`
 fn quantity(p: &mut Parser<'_>) {
+    length(p, false);
+}
+
+/// `NUMBER UNIT`, or `NUMBER..NUMBER UNIT` if it may vary
+fn length(p: &mut Parser<'_>, varies: bool) {
     p.start(QUANTITY);
-    if p.eat(REAL) || p.expect(INTEGER, "as a length of time") {
+    let number = |p: &mut Parser<'_>| p.eat(REAL) || p.expect(INTEGER, "as a length of time");
+    let mut complete = number(p);
+    if complete && varies && p.at(DOT) && p.peek(1) == DOT {
+        p.bump();
+        p.bump();
+        complete = number(p);
+    }
+    if complete {
         // The next line is another item, and a word that goes on here is not a unit.
         if p.on_new_line() || p.at(EOF) || keyword(p, &[OFFSET_KW, DEADLINE_KW]).is_some() {
             let found = p.missing();
@@ -114,7 +126,7 @@ fn phase(p: &mut Parser<'_>) {
             shape_name(p);
         }
         if p.at(INTEGER) || p.at(REAL) {
-            quantity(p);
+            length(p, true);
         }
         rule_link(p);
     }

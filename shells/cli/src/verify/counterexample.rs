@@ -37,11 +37,7 @@ pub fn write(
     let mut names: Vec<String> = Vec::new();
     let kind = path.extension().and_then(|extension| extension.to_str());
     for (subject, trace) in violated {
-        let name = match subject {
-            Subject::Property(index) => file_name(&program.properties[index].name),
-            subject => id(subject).unwrap_or_default().to_string(),
-        };
-        let name = another(name, &mut names);
+        let name = named(program, subject, &mut names);
         match kind {
             Some("avalla") => {
                 writer.scenario(shell, path, trace, subject, &name)?;
@@ -102,24 +98,16 @@ impl Writer<'_> {
         let name = name.replace('-', "_");
         let text = groundstate::counterexample_scenario(self.program, trace, subject, &name, &model);
         let text = match subject {
-            Subject::Property(index) if index >= self.properties => self.with_invariant(&text, index),
+            Subject::Property(index) if index >= self.properties => {
+                let property = &self.program.properties[index];
+                let is_invariant = property.kind == PropertyKind::Invariant;
+                if is_invariant { with_invariant(&text, &property.name) } else { text }
+            }
             _ => text,
         };
         let mut file = Unfinished::create(path)?;
         file.write_all(text.as_bytes()).map_err(|error| Failure::of_file("write", path, error))?;
         file.finish()
-    }
-
-    /// The scenario, with an invariant added that the model does not have.
-    fn with_invariant(&self, text: &str, index: usize) -> String {
-        let property = &self.program.properties[index];
-        match (property.kind, text.match_indices('\n').nth(1)) {
-            (PropertyKind::Invariant, Some((end, _))) => {
-                let (head, rest) = text.split_at(end + 1);
-                format!("{head}\ninvariant inv_asked: {};\n{rest}", property.name)
-            }
-            _ => text.to_string(),
-        }
     }
 
     fn header(&self, trace: &Trace, subject: Subject) -> Header {
@@ -163,6 +151,26 @@ fn file_name(name: &str) -> String {
         Some(first) if first.is_alphabetic() => joined,
         Some(_) => format!("property_{joined}"),
         None => "property".to_string(),
+    }
+}
+
+/// The name of a counterexample: that of its check, with a number if another check has it already.
+pub fn named(program: &Program, subject: Subject, names: &mut Vec<String>) -> String {
+    let name = match subject {
+        Subject::Property(index) => file_name(&program.properties[index].name),
+        subject => id(subject).unwrap_or_default().to_string(),
+    };
+    another(name, names)
+}
+
+/// The scenario, with an invariant added that the model does not have.
+pub fn with_invariant(text: &str, invariant: &str) -> String {
+    match text.match_indices('\n').nth(1) {
+        Some((end, _)) => {
+            let (head, rest) = text.split_at(end + 1);
+            format!("{head}\ninvariant inv_asked: {invariant};\n{rest}")
+        }
+        None => text.to_string(),
     }
 }
 

@@ -1,4 +1,4 @@
-//! `groundstate verify MODEL`: explores every state; prints a verdict for each check; writes counterexamples as traces
+//! `groundstate verify MODEL|CHART`: explores every state; prints a verdict for each check; writes counterexamples as traces
 //! and scenarios.
 //!
 //! Exit codes: 0 all hold, 1 something is violated, 3 nothing is violated but something is unknown.
@@ -11,6 +11,7 @@ mod counterexample;
 mod disk;
 mod live;
 mod operators;
+mod system;
 mod tell;
 mod watch;
 
@@ -42,7 +43,7 @@ pub use tell::Teller;
 /// Arguments of `verify`.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// The model
+    /// The model, or a chart with a system
     model: PathBuf,
     /// How to explore the states
     #[arg(long, value_enum, default_value_t)]
@@ -179,9 +180,19 @@ const OPTIONS: [&str; 3] = ["--invariant", "--ctl", "--ltl"];
 
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
-    let mut loaded = match load(shell, &arguments.model)? {
-        Ok(loaded) => loaded,
-        Err(exit) => return Ok(exit),
+    let system = match arguments.model.extension().is_some_and(|ending| ending == "chart") {
+        true => match system::load(shell, arguments)? {
+            Ok(system) => Some(system),
+            Err(exit) => return Ok(exit),
+        },
+        false => None,
+    };
+    let mut loaded = match &system {
+        Some(system) => system.loaded.clone(),
+        None => match load(shell, &arguments.model)? {
+            Ok(loaded) => loaded,
+            Err(exit) => return Ok(exit),
+        },
     };
     if loaded.program.main.is_none() {
         return crate::run::no_main(shell, &loaded);
@@ -197,7 +208,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     };
     let [_, ctl, ltl] = &beside.properties;
     let (ctl, ltl) = (!arguments.ctl.is_empty() || !ctl.is_empty(), !arguments.ltl.is_empty() || !ltl.is_empty());
-    loaded = operators::import(shell, loaded, ctl, ltl);
+    if system.is_none() {
+        loaded = operators::import(shell, loaded, ctl, ltl);
+    }
     let mut asked = loaded.overlay();
     let Some(beside) = bounded.beside(shell, &loaded.program, &mut asked.sources, &arguments.model)? else {
         return Ok(Exit::World);
@@ -282,6 +295,11 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         None => None,
     };
     let mut teller = Teller::new(&program, &sources, false);
+    if let Some(system) = &system {
+        let limits = shell.global.limits.uninterrupted();
+        teller.words.story = Some(system::story(system, limits, (&program, &sources)));
+        system::about(shell)?;
+    }
     teller.assumed(shell, &assumed)?;
     let mut live = Live::new(shell, &teller, watch);
     let job = job::verify(request, Cancel::from(interrupt::request().clone()), solver, checkpoint, live::impatience());
@@ -303,9 +321,13 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     };
     report.unreachable.retain(|span| span.file == root || (arguments.imports && users(span.file)));
     teller.report(shell, &report, &told)?;
-    if let Some(path) = &arguments.counterexample {
-        let model = (arguments.model.as_path(), fingerprint.as_str());
-        counterexample::write(shell, path, model, &asked, &report)?;
+    match (&arguments.counterexample, &system) {
+        (Some(path), Some(system)) => system::write(shell, path, &arguments.model, system, &asked, &report)?,
+        (Some(path), None) => {
+            let model = (arguments.model.as_path(), fingerprint.as_str());
+            counterexample::write(shell, path, model, &asked, &report)?;
+        }
+        (None, _) => {}
     }
     checkpoint.map_or(Ok(()), Checkpoint::done)?;
     folder.map_or(Ok(()), |folder| folder.done())?;

@@ -1,0 +1,229 @@
+//! The model that verifies a chart's system, ready for `verify`, and its counterexamples as runs of the ground model.
+//!
+//! In: a chart's text and a [`Loader`]. Out: two loaded models: the verified one, which is made of the chart alone, and the ground
+//! model that `chart build` makes, which is what the verdicts are about. INVARIANT: both use the same modules of the pattern library,
+//! those that the chart imports; and nothing of a user's elaborations is part of either, so that no property can speak of what is not
+//! computed.
+
+use std::fmt::Write;
+
+use chart::{Chart, Known};
+use conform::{Event, Events};
+use machine::{Choice, Closed, Environment, Limits, Location, LocationRef, TimeUnit, Value};
+use model::Loader;
+use program::{DomainId, Program, PropertyKind};
+use syntax::{FileId, Parse, SourceFile, Sources, Stop};
+use verify::{Subject, Trace};
+
+use crate::build::Located;
+use crate::{Loaded, has_errors, load, patterns};
+
+/// A system to verify.
+#[derive(Debug)]
+pub struct VerifiedSystem {
+    /// The chart.
+    pub chart: Chart,
+    /// The model to search.
+    pub loaded: Loaded,
+    /// The ground model of the same chart, without what elaborations compute.
+    pub ground: Loaded,
+}
+
+const VERIFICATION: &str = "verification/";
+
+/// Makes the model that verifies the system of a chart. Its formulas may use the operators of these `libraries`, besides those of CTL.
+///
+/// # Errors
+/// The faults of the chart and of its imports, grouped by their texts. At least one of them is an error.
+pub fn verified_system(
+    root: SourceFile,
+    libraries: &[&str],
+    loader: &mut dyn Loader,
+) -> Result<Box<VerifiedSystem>, Vec<Located>> {
+    let chart::Loaded { sources, mut chart, diagnostics } = chart::load(root.clone(), loader);
+    if has_errors(&diagnostics) {
+        return Err(vec![(sources, diagnostics)]);
+    }
+    let folder = root.name.rfind(['/', '\\']).map_or("", |end| &root.name[..=end]).to_string();
+    let known = match Known::completed(&mut chart, &format!("{folder}Imports.asm"), loader) {
+        Ok(known) => known,
+        Err(unknown) => return Err(vec![(sources, unknown.imports), (unknown.checked.sources, unknown.modules)]),
+    };
+    let unverified = chart::unverified(&chart, &known);
+    if has_errors(&unverified) {
+        return Err(vec![(sources, unverified)]);
+    }
+    let (Some(library), Some(text)) = (chart::library(&chart), chart::verified(&chart, libraries)) else {
+        unreachable!("what has no system or no library was reported above")
+    };
+    let ground = match chart::build(&chart::communication(&chart), &known, None) {
+        Ok(built) => built.text,
+        Err(faults) => return Err(vec![(Sources::default(), faults)]),
+    };
+    let mut load_as = |name: String, text: String| {
+        let root = SourceFile::new(name, text);
+        let mut loader = Libraries { root: root.name.clone(), library: &library, loader };
+        load(root, &mut loader).map_err(|faulty| vec![(faulty.sources, faulty.diagnostics)])
+    };
+    let loaded = load_as(format!("{folder}{}InTicks.asm", chart.name), text)?;
+    let ground = load_as(format!("{folder}{}.asm", chart.name), ground)?;
+    Ok(Box::new(VerifiedSystem { chart, loaded, ground }))
+}
+
+/// The libraries of a verified model: the verification library is the built-in one, the pattern library that of the chart.
+struct Libraries<'a> {
+    /// The name of the verified model.
+    root: String,
+    /// The folder of the pattern library, as the chart's imports write it.
+    library: &'a str,
+    loader: &'a mut dyn Loader,
+}
+
+impl Loader for Libraries<'_> {
+    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        let within = importer.name.starts_with("<verification>/");
+        if let Some(module) = path.strip_prefix("../patterns/").filter(|_| within) {
+            let root = SourceFile::new(self.root.as_str(), "");
+            return self.loader.load(&root, &format!("{}{module}", self.library));
+        }
+        let own = importer.name == self.root && path.starts_with(VERIFICATION);
+        match patterns::pattern(&importer.name, path).filter(|_| within || own) {
+            Some(file) => Ok(file),
+            None => self.loader.load(importer, path),
+        }
+    }
+
+    fn parse(&mut self, file: FileId, source: &SourceFile) -> Parse {
+        self.loader.parse(file, source)
+    }
+
+    fn stop(&self) -> Stop {
+        self.loader.stop()
+    }
+}
+
+/// A counterexample as a run of the ground model.
+#[derive(Debug)]
+pub struct GroundRun {
+    /// What happens: the tick, the task, the event.
+    pub events: Vec<(u64, String, Event)>,
+    /// Whether the last state violates the property, too; none if the ground model has no words for it.
+    pub violates: Option<bool>,
+}
+
+impl VerifiedSystem {
+    /// Makes the run of a counterexample on the ground model. `asked` is the verified model with the properties that were asked about.
+    ///
+    /// # Errors
+    /// The ground model does not make the run, in words.
+    pub fn ground_run(
+        &self,
+        limits: Limits,
+        asked: (&Program, &Sources),
+        subject: Subject,
+        trace: &Trace,
+    ) -> Result<GroundRun, String> {
+        let mut ground = self.ground.overlay();
+        let formula = invariant(asked, subject).and_then(|text| ground.ask("invariant", text.as_str()).ok());
+        let mut given = Given { program: asked.0, inputs: &trace.start.inputs };
+        let mut run = Events::start(&ground.program, limits, &mut given)?;
+        let mut events = Vec::new();
+        for (tick, step) in (0..).zip(&trace.steps) {
+            given.inputs = &step.inputs;
+            events.extend(run.step(&mut given)?.into_iter().map(|(task, event)| (tick, task, event)));
+        }
+        let violates = match formula {
+            None => None,
+            Some(formula) => {
+                let holds = run.machine().evaluate(&formula, &mut Closed);
+                Some(holds.map_err(|fault| fault.show(&ground.program).to_string())? != Value::Boolean(true))
+            }
+        };
+        Ok(GroundRun { events, violates })
+    }
+
+    /// The run of a counterexample as lines: what the tasks do, and when.
+    ///
+    /// # Errors
+    /// The ground model does not make the run, in words.
+    pub fn tell_run(
+        &self,
+        limits: Limits,
+        asked: (&Program, &Sources),
+        subject: Subject,
+        trace: &Trace,
+    ) -> Result<String, String> {
+        let GroundRun { events, violates } = self.ground_run(limits, asked, subject, trace)?;
+        let tick_ns = self.chart.system.as_ref().map_or(1, |system| system.tick_ns);
+        let instant = |tick: u64| chart::system::length(tick as i64, tick_ns);
+        let mut out = String::new();
+        let omitted = events.len().saturating_sub(SHOWN);
+        if omitted > 0 {
+            let _ = writeln!(out, "  \u{2026} {omitted} events before those that follow");
+        }
+        let width = events[omitted..].iter().map(|(_, task, _)| task.len()).max().unwrap_or(0);
+        let mut last = None;
+        for (tick, task, event) in &events[omitted..] {
+            let at = if last == Some(tick) { String::new() } else { instant(*tick) };
+            let _ = writeln!(out, "  {at:>10}  {task:width$}  {}", event.words());
+            last = Some(tick);
+        }
+        let end = instant(trace.steps.len() as u64);
+        let _ = match (violates, trace.turn) {
+            (Some(true), _) => writeln!(out, "  {end:>10}  the property does not hold"),
+            (Some(false), _) => return Err("the ground model keeps the property in the same run".to_string()),
+            (None, Some(turn)) => {
+                writeln!(out, "  {end:>10}  and again from {}, for ever", instant(turn as u64))
+            }
+            (None, None) => writeln!(out, "  {end:>10}  the run ends"),
+        };
+        Ok(out)
+    }
+
+    /// Whether a run of the ground model checks the property by itself.
+    pub fn is_checked(&self, asked: &Program, subject: Subject) -> bool {
+        let Subject::Property(index) = subject else { return false };
+        self.ground.program.properties.iter().any(|own| own.name == asked.properties[index].name)
+    }
+
+    /// The property of a subject as a scenario of the ground model writes it: the ground model's own are checked anyway.
+    pub fn scenario_property(&self, asked: (&Program, &Sources), subject: Subject) -> Option<String> {
+        let text = invariant(asked, subject)?;
+        self.ground.overlay().ask("invariant", text.as_str()).ok().map(|_| text)
+    }
+}
+
+/// LIMIT: the most events that a told run shows.
+const SHOWN: usize = 40;
+
+/// The text of an invariant.
+fn invariant((program, sources): (&Program, &Sources), subject: Subject) -> Option<String> {
+    let Subject::Property(index) = subject else { return None };
+    let property = &program.properties[index];
+    let text = || sources.text(program.term_span(property.formula.body)).to_string();
+    (property.kind == PropertyKind::Invariant).then(text)
+}
+
+/// The inputs of a step, by their names: the programs of both models number their functions differently.
+struct Given<'a> {
+    program: &'a Program,
+    inputs: &'a [(Location, Value)],
+}
+
+impl Environment for Given<'_> {
+    fn monitored(&mut self, program: &Program, location: LocationRef<'_>, codomain: DomainId) -> Result<Value, String> {
+        let name = location.show(program).to_string();
+        match self.inputs.iter().find(|(input, _)| input.show(self.program).to_string() == name) {
+            Some((_, value @ Value::Boolean(_))) => Ok(value.clone()),
+            _ => Closed.monitored(program, location, codomain),
+        }
+    }
+
+    fn choose(&mut self, program: &Program, choice: &Choice<'_>) -> Result<usize, String> {
+        Closed.choose(program, choice)
+    }
+
+    fn time(&mut self, unit: TimeUnit) -> Result<i64, String> {
+        Closed.time(unit)
+    }
+}
