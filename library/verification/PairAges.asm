@@ -9,6 +9,7 @@ import BufferFaults
 import Quotient
 import SystemProperties
 import SystemInTicks
+import Progress
 import ../patterns/tests/PatternPair
 
 signature:

@@ -14,8 +14,8 @@ import ../patterns/ControlTask
 export *
 
 signature:
-	// Ticks longer ago are alike: of data, where the bounds on their ages are far below, and of periods and waitings, where
-	// far less violates what a system has to keep.
+	// Ticks longer ago are alike: of data, where the bounds on their ages are far below, and, with two periods more, of
+	// periods and waitings, where far less violates what a system has to keep.
 	static oldest: Integer
 
 	// The number that was handed over last: a reading has to give just this one.
@@ -126,14 +126,16 @@ definitions:
 		par
 			if task_kind($t) = SYNCHRONOUS then
 				par
-					task_periodStart($t) := stamp(task_periodStart($t))
-					task_timeInWait($t) := min(task_timeInWait($t), oldest)
+					task_periodStart($t) := max(task_periodStart($t) - clock, -(oldest + 2 * task_period($t)))
+					task_timeInWait($t) := min(task_timeInWait($t), oldest + 2 * task_period($t))
 				endpar
 			else
 				task_timeInWait($t) := 0
 			endif
 			task_cycles($t) := 0
 			task_deadlinesMet($t) := 0
+			// one is too many; how many more does not matter
+			task_deadlinesMissed($t) := min(task_deadlinesMissed($t), 1)
 			task_totalWait($t) := 0
 			task_longestWait($t) := 0
 			task_skipped($t) := 0

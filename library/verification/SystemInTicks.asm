@@ -66,6 +66,5 @@ definitions:
 			task_kind($t) = SYNCHRONOUS
 			implies (task_elapsedTimeOfPeriod($t) >= 0 and task_elapsedTimeOfPeriod($t) <= task_period($t)))
 
-	// with no assumption of fairness: whoever asks for a lock gets it or gives up, and everybody begins again and again
+	// with no assumption of fairness: whoever asks for a lock gets it or gives up
 	CTLSPEC ctlSpec_served: (forall $t in Task with ag(af(not isAsking($t))))
-	CTLSPEC ctlSpec_works: (forall $t in Task with ag(af(isBeginning($t)) and af(not isBeginning($t) or isFree($t))))

@@ -8,6 +8,7 @@ import ValueFaults
 import Quotient
 import SystemProperties
 import SystemInTicks
+import Progress
 import ../patterns/tests/ValuePair
 
 signature:

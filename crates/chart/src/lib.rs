@@ -27,7 +27,7 @@ pub mod system;
 mod write;
 pub mod xml;
 
-pub use build::{Built, Known, Unknown, build, communication, library, unbuilt, unverified, verified};
+pub use build::{Built, Known, Lengths, Unknown, build, communication, library, unbuilt, unverified, verified};
 pub use chart::{
     Arrow, Chart, Control, End, Layout, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind,
 };

@@ -46,7 +46,7 @@ pub use fingerprint::fingerprint;
 pub use kind::{Kind, has_ending, model_of};
 pub use overlay::{Overlay, Said};
 pub use test::{SeededChoices, Suite, Tested, own_files};
-pub use verified_system::{VerifiedSystem, verified_system};
+pub use verified_system::{GroundRun, VerifiedSystem, not_kept, verified_system};
 pub use workspace::Workspace;
 pub use {chart, conform, generate, inputs, machine, model, program, scenario, simulate, solve, syntax, verify};
 

@@ -5,13 +5,14 @@
 //! those that the chart imports; and nothing of a user's elaborations is part of either, so that no property can speak of what is not
 //! computed.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use chart::{Chart, Known};
+use chart::{Chart, Known, Lengths};
 use conform::{Event, Events};
 use machine::{Choice, Closed, Environment, Limits, Location, LocationRef, TimeUnit, Value};
 use model::Loader;
-use program::{DomainId, Program, PropertyKind};
+use program::{DomainId, Expression, FunctionKind, Program, PropertyKind, Term};
 use syntax::{FileId, Parse, SourceFile, Sources, Stop};
 use verify::{Subject, Trace};
 
@@ -25,6 +26,11 @@ pub struct VerifiedSystem {
     pub chart: Chart,
     /// The model to search.
     pub loaded: Loaded,
+    /// The same, with elaborations of asynchronous components that take any time. What holds of it holds of `loaded`, and it has far
+    /// fewer states. None without such elaborations.
+    pub general: Option<Loaded>,
+    /// The warnings of the chart.
+    pub warnings: Located,
     /// The ground model of the same chart, without what elaborations compute.
     pub ground: Loaded,
 }
@@ -53,7 +59,9 @@ pub fn verified_system(
     if has_errors(&unverified) {
         return Err(vec![(sources, unverified)]);
     }
-    let (Some(library), Some(text)) = (chart::library(&chart), chart::verified(&chart, libraries)) else {
+    let text = |lengths| chart::verified(&chart, libraries, lengths);
+    let (Some(library), Some(drawn), Some(any)) = (chart::library(&chart), text(Lengths::AsDrawn), text(Lengths::Any))
+    else {
         unreachable!("what has no system or no library was reported above")
     };
     let ground = match chart::build(&chart::communication(&chart), &known, None) {
@@ -65,9 +73,11 @@ pub fn verified_system(
         let mut loader = Libraries { root: root.name.clone(), library: &library, loader };
         load(root, &mut loader).map_err(|faulty| vec![(faulty.sources, faulty.diagnostics)])
     };
-    let loaded = load_as(format!("{folder}{}InTicks.asm", chart.name), text)?;
+    let name = format!("{folder}{}InTicks.asm", chart.name);
+    let general = if any == drawn { None } else { Some(load_as(name.clone(), any)?) };
+    let loaded = load_as(name, drawn)?;
     let ground = load_as(format!("{folder}{}.asm", chart.name), ground)?;
-    Ok(Box::new(VerifiedSystem { chart, loaded, ground }))
+    Ok(Box::new(VerifiedSystem { chart, loaded, general, warnings: (sources, diagnostics), ground }))
 }
 
 /// The libraries of a verified model: the verification library is the built-in one, the pattern library that of the chart.
@@ -100,6 +110,62 @@ impl Loader for Libraries<'_> {
     fn stop(&self) -> Stop {
         self.loader.stop()
     }
+}
+
+/// What a verified model keeps of the ground model's state: its configuration and what the reduction leaves as it is.
+const KEPT: [&str; 24] = [
+    "action",
+    "dimension",
+    "indexUpdated",
+    "messageQueue",
+    "mq_capacity",
+    "nextPhase",
+    "sb_ctrlState",
+    "sb_fresh",
+    "sb_master",
+    "sb_pending",
+    "scheduler_currentPhase",
+    "scheduler_mainThread",
+    "sem",
+    "sem_illegalPost",
+    "sem_permits",
+    "sem_state",
+    "sem_users",
+    "semaq",
+    "sharedMemory",
+    "sharedValue",
+    "sv_fresh",
+    "task_deadline",
+    "task_kind",
+    "task_period",
+];
+/// What it keeps although the locations behind it change: lengths, what is new, what is due.
+const KEPT_DERIVED: [&str; 6] = ["dataAvailable", "mq_length", "patternsSound", "sv_isNew", "thereIsTime", "trigger"];
+
+/// The functions that a term reads and that a verified model does not keep, or not for every length of an elaboration: what is true of
+/// them there need not be true of the system.
+pub fn not_kept(program: &Program, expression: &Expression) -> Vec<String> {
+    let mut found = BTreeSet::new();
+    let mut entered = BTreeSet::new();
+    let mut open = vec![expression.body];
+    while let Some(id) = open.pop() {
+        if let Term::Read { function, .. } | Term::Define { function, .. } = program.term(id) {
+            let declared = program.function(*function);
+            let name = declared.name.as_str();
+            match &declared.definition {
+                Some(_) if KEPT_DERIVED.contains(&name) => {}
+                Some(definition) => {
+                    if entered.insert(*function) {
+                        open.push(definition.body);
+                    }
+                }
+                None if declared.kind == FunctionKind::Static || KEPT.contains(&name) => {}
+                None => _ = found.insert(name.to_string()),
+            }
+        }
+        program.each_child_of_term(id, &mut |child| open.push(child));
+    }
+    found.into_iter().collect()
 }
 
 /// A counterexample as a run of the ground model.
@@ -200,8 +266,9 @@ const SHOWN: usize = 40;
 fn invariant((program, sources): (&Program, &Sources), subject: Subject) -> Option<String> {
     let Subject::Property(index) = subject else { return None };
     let property = &program.properties[index];
-    let text = || sources.text(program.term_span(property.formula.body)).to_string();
-    (property.kind == PropertyKind::Invariant).then(text)
+    let words =
+        || sources.text(program.term_span(property.formula.body)).split_whitespace().collect::<Vec<_>>().join(" ");
+    (property.kind == PropertyKind::Invariant).then(words)
 }
 
 /// The inputs of a step, by their names: the programs of both models number their functions differently.

@@ -9,6 +9,7 @@ import ../../../library/verification/BufferFaults
 import ../../../library/verification/Quotient
 import ../../../library/verification/SystemProperties
 import ../../../library/verification/SystemInTicks
+import ../../../library/verification/Progress
 import ../VisionTasks
 import ../VisualServoing
 

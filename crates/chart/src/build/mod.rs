@@ -15,7 +15,7 @@ pub(crate) use known::OWNED;
 pub use known::{Known, Unknown};
 pub(crate) use rule::{machine_rule, origin_condition};
 pub(crate) use spelling::{call, function_name, rule_name, state_value};
-pub use system::{busy, late};
+pub use system::{Lengths, busy, late};
 
 use crate::chart::{Chart, Control, Machine, ShapeKind};
 use crate::fault;
@@ -123,8 +123,8 @@ pub fn communication(chart: &Chart) -> Chart {
 /// The text of the model that verifies the system of a chart for which [`unbuilt`] is empty: the ground model with each state reduced
 /// to what its rules can tell apart, so that the states are finitely many. It imports the modules of the pattern library from the
 /// folder of its [`library`], those of the verification library from `verification/`, and further built-in libraries.
-pub fn verified(chart: &Chart, libraries: &[&str]) -> Option<String> {
-    let mut parts = system::verified(chart, chart.system.as_ref()?, &library(chart)?);
+pub fn verified(chart: &Chart, libraries: &[&str], lengths: Lengths) -> Option<String> {
+    let mut parts = system::verified(chart, chart.system.as_ref()?, &library(chart)?, lengths);
     parts.imports.extend(libraries.iter().filter(|name| **name != "CTLLibrary").map(|name| (*name).to_string()));
     let verified = Chart { name: format!("{}InTicks", chart.name), ..chart.clone() };
     let text = module::fresh(&verified, &parts);

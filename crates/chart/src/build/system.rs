@@ -107,8 +107,12 @@ pub(super) fn bare(system: &System) -> System {
 ///
 /// The system's own main rule becomes a tick of the verification library, which forgets after each tick what no rule can tell apart.
 /// What elaborations compute is left out; their times are not. `library` is the path of the pattern library's folder in imports.
-pub(super) fn verified(chart: &Chart, system: &System, library: &str) -> Parts {
-    let system = bare(system);
+pub(super) fn verified(chart: &Chart, system: &System, library: &str, lengths: Lengths) -> Parts {
+    let mut system = bare(system);
+    let free = match lengths {
+        Lengths::AsDrawn => Vec::new(),
+        Lengths::Any => set_free(&mut system),
+    };
     let mut parts = parts(chart, &system, &Known::default());
     let verification = ["Quotient", "SystemProperties", "SystemInTicks"];
     let standard = ["StandardLibrary", "CTLLibrary"].map(str::to_string);
@@ -116,6 +120,11 @@ pub(super) fn verified(chart: &Chart, system: &System, library: &str) -> Parts {
     parts.imports.extend(verification.map(|name| format!("{VERIFICATION}{name}")));
     fixed(&mut parts, "r_system", &format!("// a tick of the system as it is drawn\nrule r_system =\n{TICK}"));
     parts.main = Some("main rule r_Main = r_tick[<<r_system>>]\n".to_string());
+    fixed(&mut parts, "ctlSpec_works", WORKS);
+    let task = |name: &String| format!("JUSTICE not isFree({name}_task)\n");
+    for (name, _) in &free {
+        fixed(&mut parts, &format!("fair {name}"), &task(name));
+    }
     let mut initial = initial(&system);
     let mut define = |function: &str, value: &str| _ = writeln!(initial, "function {function} = {value}");
     define("handedOver($b in SwingingBuffer)", "0");
@@ -124,9 +133,48 @@ pub(super) fn verified(chart: &Chart, system: &System, library: &str) -> Parts {
     define("before_written($b in SwingingBuffer)", "0");
     define("before_phase($c in Scheduler)", "scheduler_currentPhase($c)");
     define("lostSilently($v in SharedValue)", "false");
+    if !free.is_empty() {
+        let is_free = |phase: &String| free.iter().any(|(_, phases)| phases.contains(phase));
+        let all = system
+            .components
+            .iter()
+            .flat_map(|component| component.phases.iter().map(|phase| phase.name.clone()).chain([waiting(component)]));
+        let rows: Vec<_> = all.map(|phase| (phase.clone(), is_free(&phase).to_string())).collect();
+        define("endless($p in SchedulePhase)", &by_case("$p", &rows));
+    }
     parts.init = Some(initial + AGENT);
     parts
 }
+
+/// How long the elaborations of asynchronous components take in the model that verifies a system.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Lengths {
+    /// As long as the chart says.
+    AsDrawn,
+    /// Any time, but not for ever, if the time of any elaboration varies. Each run of the system is such a run, and the states are far
+    /// fewer. If all times are fixed, there is only one run.
+    Any,
+}
+
+/// Lets asynchronous components elaborate for any time; returns these, with their elaborations.
+fn set_free(system: &mut System) -> Vec<(String, Vec<String>)> {
+    let mut free = Vec::new();
+    if system.components.iter().flat_map(|component| &component.phases).all(|phase| phase.least == phase.time) {
+        return free;
+    }
+    for component in system.components.iter_mut().filter(|component| component.timing.period().is_none()) {
+        let elaborations = component.phases.iter_mut().filter(|phase| matches!(phase.action, Action::Elaborate(_)));
+        let phases: Vec<String> = elaborations.map(|phase| (phase.least = 0, phase.name.clone()).1).collect();
+        if !phases.is_empty() {
+            free.push((component.name.clone(), phases));
+        }
+    }
+    free
+}
+
+/// Every task begins its cycle again and again.
+const WORKS: &str =
+    "CTLSPEC ctlSpec_works: (forall $t in Task with ag(af(isBeginning($t)) and af(not isBeginning($t))))\n";
 
 /// The folder of the verification library in imports.
 pub(super) const VERIFICATION: &str = "verification/";

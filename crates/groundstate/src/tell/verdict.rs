@@ -3,6 +3,7 @@
 //! In: a [`Report`] of a verification. Out: words and lines. The lines of a run are in `found`.
 
 use std::cell::RefCell;
+use std::collections::BTreeSet;
 
 use explore::Unbounded;
 use machine::{Location, Show, Value};
@@ -23,6 +24,8 @@ pub struct Verdicts<'a> {
     pub sources: &'a Sources,
     /// Whether the search stopped because its time was up.
     pub timed_out: bool,
+    /// The checks that hold even if asynchronous elaborations take any time.
+    pub general: BTreeSet<Subject>,
     /// How runs are told, if not as steps of the program.
     pub story: Option<Story<'a>>,
     /// The initial state that was shown last.
@@ -43,7 +46,7 @@ impl std::fmt::Debug for Story<'_> {
 impl<'a> Verdicts<'a> {
     /// Describes the results of a search over a program.
     pub fn new(program: &'a Program, sources: &'a Sources, timed_out: bool) -> Self {
-        Verdicts { program, sources, timed_out, story: None, initial: RefCell::default() }
+        Verdicts { program, sources, timed_out, general: BTreeSet::new(), story: None, initial: RefCell::default() }
     }
 }
 
@@ -133,6 +136,9 @@ impl Verdicts<'_> {
 
     /// How a solver proved a check.
     pub fn proof(&self, subject: Subject, report: &Report) -> Option<String> {
+        if self.general.contains(&subject) {
+            return Some("for asynchronous elaborations of any length".to_string());
+        }
         let how = match report.proofs.get(&subject)? {
             Proof::Induction(steps) => format!("k-induction, k = {steps}"),
             Proof::Reachability => "property-directed reachability".to_string(),

@@ -15,17 +15,19 @@ mod system;
 mod tell;
 mod watch;
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
+use groundstate::inputs::verification::Verification;
 use groundstate::job::{self, Cancel};
 use groundstate::verify::solver::Method;
 use groundstate::verify::temporal::fairness::AgentFairness;
 use groundstate::verify::{Disk, NoStart, Options, Outcome, Reason, Report, Request};
-use groundstate::{Said, own_files};
+use groundstate::{Loaded, Overlay, Said, own_files};
 
-use program::PropertyKind;
+use program::{Expression, PropertyKind};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -211,42 +213,8 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     if system.is_none() {
         loaded = operators::import(shell, loaded, ctl, ltl);
     }
-    let mut asked = loaded.overlay();
-    let Some(beside) = bounded.beside(shell, &loaded.program, &mut asked.sources, &arguments.model)? else {
-        return Ok(Exit::World);
-    };
-    // Assumptions of the command line replace those of the file.
-    let assumed: Vec<Said> = match &arguments.assumptions[..] {
-        [] => beside.assumptions.iter().map(Said::from).collect(),
-        said => said.iter().map(Said::from).collect(),
-    };
-    for text in &assumed {
-        if let Err(faults) = asked.property(PropertyKind::Invar, "--assume", *text) {
-            shell.diagnostics(&asked.sources, &faults)?;
-            return Ok(Exit::World);
-        }
-    }
-    let said = [&arguments.invariants, &arguments.ctl, &arguments.ltl];
-    let kinds = [PropertyKind::Invariant, PropertyKind::Ctl, PropertyKind::Ltl];
-    for (((kind, option), said), beside) in kinds.into_iter().zip(OPTIONS).zip(said).zip(&beside.properties) {
-        for text in beside.iter().map(Said::from).chain(said.iter().map(Said::from)) {
-            if let Err(faults) = asked.property(kind, option, text) {
-                shell.diagnostics(&asked.sources, &faults)?;
-                return Ok(Exit::World);
-            }
-        }
-    }
-    let terminal = arguments.terminal.as_ref().map(Said::from).or(beside.terminal.as_ref().map(Said::from));
-    let terminal = match terminal {
-        None => None,
-        Some(text) => match asked.ask("--terminal", text) {
-            Ok(term) => Some(term),
-            Err(faults) => {
-                shell.diagnostics(&asked.sources, &faults)?;
-                return Ok(Exit::World);
-            }
-        },
-    };
+    let Some((asked, beside, terminal)) = ask(shell, arguments, &loaded)? else { return Ok(Exit::World) };
+    let assumed = assumed(arguments, &beside);
     let (program, sources) = (Arc::clone(&asked.program), asked.sources.clone());
     let (root, users) = (loaded.model.root, own_files(&sources));
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
@@ -259,11 +227,12 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Some(path) => Some(Folder::new(path)?),
         None => None,
     };
+    let workers = arguments.workers.map_or(processors, |workers| workers as usize);
     let options = Options {
         engine: arguments.engine.chosen(),
-        workers: arguments.workers.map_or(processors, |workers| workers as usize),
+        workers,
         first: arguments.first,
-        terminal,
+        terminal: terminal.clone(),
         forgetful: arguments.forgetful,
         storage: match arguments.storage {
             Storage::Exact => groundstate::verify::Storage::Exact,
@@ -287,6 +256,18 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Fair::Weak => AgentFairness::Weak,
         Fair::Strong => AgentFairness::Strong,
     });
+    let (general, watch) = match &system {
+        Some(system) => {
+            system::refuse(&asked, loaded.program.properties.len(), terminal.as_ref())?;
+            system::about(shell)?;
+            let sought = system::Sought { arguments, options: &options, agents };
+            match system::general(shell, system, &sought, watch)? {
+                system::General::Decided(exit) => return Ok(exit),
+                system::General::Open(proved, watch) => (proved, watch),
+            }
+        }
+        None => (BTreeSet::new(), watch),
+    };
     let request = Request::of(&program, options).fair(agents).kept(arguments.checkpoint.is_some()).build();
     let request = request.map_err(conflict::conflict)?;
     let solver = Process::find(arguments.solver.as_deref());
@@ -298,7 +279,6 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     if let Some(system) = &system {
         let limits = shell.global.limits.uninterrupted();
         teller.words.story = Some(system::story(system, limits, (&program, &sources)));
-        system::about(shell)?;
     }
     teller.assumed(shell, &assumed)?;
     let mut live = Live::new(shell, &teller, watch);
@@ -319,6 +299,12 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         }
         Err(trouble) => return no_start(shell, &teller, trouble),
     };
+    for verdict in &mut report.verdicts {
+        if matches!(verdict.outcome, Outcome::Unknown(_)) && general.contains(&teller.words.name(verdict.subject)) {
+            verdict.outcome = Outcome::Holds;
+            teller.words.general.insert(verdict.subject);
+        }
+    }
     report.unreachable.retain(|span| span.file == root || (arguments.imports && users(span.file)));
     teller.report(shell, &report, &told)?;
     match (&arguments.counterexample, &system) {
@@ -332,6 +318,51 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     checkpoint.map_or(Ok(()), Checkpoint::done)?;
     folder.map_or(Ok(()), |folder| folder.done())?;
     Ok(exit(&report))
+}
+
+/// A model with what is asked about it; what stands beside it; and the states that are no deadlocks.
+type Asked = (Overlay, Verification, Option<Expression>);
+
+/// Adds the properties and assumptions of the command line, and of the file beside the model. If they have faults, shows them and
+/// returns `None`.
+fn ask(shell: &mut Shell, arguments: &Arguments, loaded: &Loaded) -> Result<Option<Asked>, Failure> {
+    let mut asked = loaded.overlay();
+    let beside = arguments.bounded.beside(shell, &loaded.program, &mut asked.sources, &arguments.model)?;
+    let Some(beside) = beside else { return Ok(None) };
+    for text in assumed(arguments, &beside) {
+        if let Err(faults) = asked.property(PropertyKind::Invar, "--assume", text) {
+            shell.diagnostics(&asked.sources, &faults)?;
+            return Ok(None);
+        }
+    }
+    let said = [&arguments.invariants, &arguments.ctl, &arguments.ltl];
+    let kinds = [PropertyKind::Invariant, PropertyKind::Ctl, PropertyKind::Ltl];
+    for (((kind, option), said), beside) in kinds.into_iter().zip(OPTIONS).zip(said).zip(&beside.properties) {
+        for text in beside.iter().map(Said::from).chain(said.iter().map(Said::from)) {
+            if let Err(faults) = asked.property(kind, option, text) {
+                shell.diagnostics(&asked.sources, &faults)?;
+                return Ok(None);
+            }
+        }
+    }
+    let terminal = arguments.terminal.as_ref().map(Said::from).or(beside.terminal.as_ref().map(Said::from));
+    let terminal = match terminal.map(|text| asked.ask("--terminal", text)) {
+        None => None,
+        Some(Ok(term)) => Some(term),
+        Some(Err(faults)) => {
+            shell.diagnostics(&asked.sources, &faults)?;
+            return Ok(None);
+        }
+    };
+    Ok(Some((asked, beside, terminal)))
+}
+
+/// The assumptions: those of the command line replace those of the file.
+fn assumed<'a>(arguments: &'a Arguments, beside: &'a Verification) -> Vec<Said<'a>> {
+    match &arguments.assumptions[..] {
+        [] => beside.assumptions.iter().map(Said::from).collect(),
+        said => said.iter().map(Said::from).collect(),
+    }
 }
 
 /// Reports why there is no initial state.

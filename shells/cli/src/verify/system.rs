@@ -2,21 +2,28 @@
 //!
 //! In: a chart. Out: the model to search; counterexamples told as what the tasks do, and written as scenarios of the ground model.
 
+use std::collections::BTreeSet;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use groundstate::tell::Story;
-use groundstate::verify::{Outcome, Report, Subject};
+use groundstate::job::{self, Cancel, VerifyEvent};
+use groundstate::tell::{Story, Verdicts};
+use groundstate::verify::temporal::fairness::AgentFairness;
+use groundstate::verify::{NoSolvers, Options, Outcome, Report, Request, Subject};
 use groundstate::{Overlay, VerifiedSystem};
 use machine::Limits;
-use program::Program;
+use program::{Expression, Program, PropertyKind};
 use syntax::Sources;
 
-use super::Arguments;
 use super::counterexample::{named, relative, with_invariant};
+use super::tell::Teller;
+use super::watch::Watch;
+use super::{Arguments, Engine, Storage, conflict};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::write_text;
+use crate::interrupt;
 use crate::shell::Shell;
 
 /// Loads a system. If it has errors, shows them and returns the exit code.
@@ -25,7 +32,11 @@ pub fn load(shell: &mut Shell, arguments: &Arguments) -> Result<Result<Box<Verif
     let root = disk.root(&arguments.model)?;
     let libraries: &[&str] = if arguments.ltl.is_empty() { &[] } else { &["LTLLibrary"] };
     match groundstate::verified_system(root, libraries, &mut disk) {
-        Ok(system) => Ok(Ok(system)),
+        Ok(system) => {
+            let (sources, warnings) = &system.warnings;
+            shell.diagnostics(sources, warnings)?;
+            Ok(Ok(system))
+        }
         Err(faults) => {
             for (sources, faults) in &faults {
                 shell.diagnostics(sources, faults)?;
@@ -44,6 +55,121 @@ pub fn about(shell: &mut Shell) -> Result<(), Failure> {
         writeln!(shell.out(), "of times, locks and channels as drawn; what elaborations compute is left out")?;
     }
     Ok(())
+}
+
+/// Refuses what is asked about functions that a verified model does not keep.
+pub fn refuse(asked: &Overlay, own: usize, terminal: Option<&Expression>) -> Result<(), Failure> {
+    let properties = asked.program.properties[own..].iter().map(|property| (property.name.as_str(), &property.formula));
+    for (name, formula) in properties.chain(terminal.map(|term| ("--terminal", term))) {
+        let read = groundstate::not_kept(&asked.program, formula);
+        if !read.is_empty() {
+            let help =
+                "ask about phases, locks, what is pending or fresh, deadlines; or verify the model of `chart build`";
+            let message = format!("`{name}` reads {}, which is not kept from tick to tick", read.join(", "));
+            return Err(Failure::usage_with_help(message, help));
+        }
+    }
+    Ok(())
+}
+
+/// What is sought.
+pub struct Sought<'a> {
+    pub arguments: &'a Arguments,
+    pub options: &'a Options,
+    pub agents: Option<AgentFairness>,
+}
+
+/// What came of the search in which asynchronous elaborations take any time.
+pub enum General {
+    /// Everything holds, or the user has had enough.
+    Decided(Exit),
+    /// These checks hold; the others are still to be decided.
+    Open(BTreeSet<String>, Watch),
+}
+
+/// Lets asynchronous elaborations take any time: what holds then holds, and the states are far fewer.
+pub fn general(
+    shell: &mut Shell,
+    system: &VerifiedSystem,
+    sought: &Sought<'_>,
+    mut watch: Watch,
+) -> Result<General, Failure> {
+    let Sought { arguments, options, agents } = sought;
+    let plain = matches!((arguments.engine, arguments.storage), (Engine::Auto, Storage::Exact))
+        && arguments.checkpoint.is_none()
+        && arguments.disk.is_none()
+        && arguments.bounded.depth.is_none();
+    let Some(general) = system.general.as_ref().filter(|_| plain) else {
+        return Ok(General::Open(BTreeSet::new(), watch));
+    };
+    let Some((mut asked, _, terminal)) = super::ask(shell, arguments, general)? else {
+        return Ok(General::Decided(Exit::World));
+    };
+    let options = Options { terminal, ..(*options).clone() };
+    let own = general.program.properties.len();
+    let mut violated = search(&asked.program, &options, *agents, &mut watch)?;
+    // What was asked may need the times as they are drawn; the rest may not.
+    if matches!(violated, Searched::Violated(Subject::Property(index)) if index >= own) {
+        Arc::make_mut(&mut asked.program).properties.retain({
+            let mut index = 0;
+            move |property| (index < own || property.kind == PropertyKind::Invar, index += 1).0
+        });
+        violated = search(&asked.program, &options, *agents, &mut watch)?;
+    }
+    let Searched::Complete(mut report) = violated else { return Ok(General::Open(BTreeSet::new(), watch)) };
+    let words = Verdicts::new(&asked.program, &asked.sources, false);
+    let hold = report.verdicts.iter().filter(|verdict| matches!(verdict.outcome, Outcome::Holds));
+    let proved: BTreeSet<String> = hold.map(|verdict| words.name(verdict.subject)).collect();
+    let all = own + arguments.invariants.len() + arguments.ctl.len() + arguments.ltl.len();
+    let is_all = asked.program.properties.iter().filter(|property| property.kind != PropertyKind::Invar).count() >= all;
+    if proved.len() < report.verdicts.len() || !is_all {
+        watch.hide();
+        return Ok(General::Open(proved, watch));
+    }
+    watch.done();
+    report.unreachable.clear();
+    if shell.talks() {
+        writeln!(shell.out(), "proved for asynchronous elaborations of any length")?;
+    }
+    Teller::new(&asked.program, &asked.sources, false).report(shell, &report, &BTreeSet::new())?;
+    Ok(General::Decided(Exit::Good))
+}
+
+/// What came of a search.
+enum Searched {
+    Complete(Box<Report>),
+    Violated(Subject),
+    Not,
+}
+
+/// Searches until a check is violated.
+fn search(
+    program: &Arc<Program>,
+    options: &Options,
+    agents: Option<AgentFairness>,
+    watch: &mut Watch,
+) -> Result<Searched, Failure> {
+    let request = Request::of(program, options.clone()).fair(agents).build().map_err(conflict::conflict)?;
+    // A handle of its own: another search follows.
+    let job = job::verify(request, Cancel::new(), NoSolvers, job::NO_KEEPER, || true);
+    let job = job.map_err(|error| Failure::usage(format!("the search cannot be started: {error}")))?;
+    let mut violated = None;
+    while let Some(event) = job.next_event() {
+        match event {
+            VerifyEvent::Progress(progress) if watch.at(&progress) && !interrupt::request().is_raised() => {}
+            VerifyEvent::Progress(_) => job.cancel().cancel(),
+            VerifyEvent::Violated(subject, _) => {
+                violated = Some(subject);
+                job.cancel().cancel();
+            }
+        }
+    }
+    let (outcome, _) = job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0));
+    Ok(match (violated, outcome) {
+        (Some(subject), _) => Searched::Violated(subject),
+        (None, Ok(report)) => Searched::Complete(Box::new(report)),
+        (None, Err(_)) => Searched::Not,
+    })
 }
 
 /// Tells a run as what the tasks do.
@@ -76,7 +202,8 @@ pub fn write(
         let file = if one { path.to_path_buf() } else { path.join(format!("{name}.avalla")) };
         let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
-        let loaded = relative(&model, folder);
+        // The model need not be there yet; the chart is.
+        let loaded = PathBuf::from(relative(chart, folder)).with_extension("asm").display().to_string();
         let scenario = name.replace('-', "_");
         let text = groundstate::counterexample_scenario(program, trace, verdict.subject, &scenario, &loaded);
         let text = match system.scenario_property((program, &asked.sources), verdict.subject) {
