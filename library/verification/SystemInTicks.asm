@@ -59,7 +59,7 @@ definitions:
 	invariant inv_watchdog over task_timeInWait:
 		(forall $t in Task with
 			task_kind($t) = SYNCHRONOUS
-			implies task_timeInWait($t) <= task_timeAllowed($t) - task_timeForElaboration($t))
+			implies task_timeInWait($t) <= max(task_timeAllowed($t) - task_timeForElaboration($t), 0))
 	// it begins each cycle at the tick at which the period before ends
 	invariant inv_periods over task_periodStart:
 		(forall $t in Task with

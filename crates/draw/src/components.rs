@@ -55,7 +55,7 @@ fn about(component: &Component, system: &System) -> Vec<Detail> {
         let what = match phase.action {
             Action::Read(channel) => format!("read {}", system.channels[channel].name),
             Action::Write(channel) => format!("write {}", system.channels[channel].name),
-            Action::Elaborate(_) => "elaborate".to_string(),
+            Action::Elaborate(_) => format!("elaborate {}", phase.subject),
         };
         let id = Some(format!("{}/{}", component.name, phase.name));
         lines.push(Detail { id, text: what, right: Some(words::duration(phase, system.tick_ns)) });

@@ -251,8 +251,12 @@ pub(crate) fn made_twice(span: Span, what: &str, name: &str, first: Span) -> Dia
 }
 
 /// A cycle that takes too long, with its parts.
-pub(crate) fn long_cycle(span: Span, name: &str, sum: &str, until: &str) -> Diagnostic {
-    Diagnostic::warning("long-cycle", span, format!("every cycle of `{name}` misses {until}: it takes {sum}"))
+pub(crate) fn long_cycle(span: Span, name: &str, always: bool, sum: &str, until: &str) -> Diagnostic {
+    let message = match always {
+        true => format!("every cycle of `{name}` misses {until}: it takes {sum}"),
+        false => format!("a long cycle of `{name}` misses {until}: it takes up to {sum}"),
+    };
+    Diagnostic::warning("long-cycle", span, message)
         .here("the phases take longer than the available time")
         .with_help("shorten its phases, or give it more time")
 }

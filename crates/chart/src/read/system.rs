@@ -84,9 +84,9 @@ impl Reader {
     fn long_cycles(&mut self, system: &System) {
         for component in &system.components {
             let Timing::Synchronous { period, deadline, .. } = component.timing else { continue };
-            let (until, word) = if deadline < period { (deadline, "deadline") } else { (period, "period") };
+            let (time_until, word) = if deadline < period { (deadline, "deadline") } else { (period, "period") };
             let whole = busy(system, component);
-            if whole <= until {
+            if whole <= time_until {
                 continue;
             }
             let shown = |ticks: u64| length(ticks as i64, system.tick_ns);
@@ -99,8 +99,10 @@ impl Reader {
                 [one] => one.clone(),
                 several => format!("{} = {}", several.join(" + "), shown(whole)),
             };
-            let until = format!("its {word} of {}", shown(until));
-            self.faults.push(fault::long_cycle(component.span, &component.name, &sum, &until));
+            let until = format!("its {word} of {}", shown(time_until));
+            let spared: u64 = component.phases.iter().map(|phase| phase.time - phase.least).sum();
+            let always = whole - spared > time_until;
+            self.faults.push(fault::long_cycle(component.span, &component.name, always, &sum, &until));
         }
     }
 

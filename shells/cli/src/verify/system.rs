@@ -64,7 +64,7 @@ pub fn refuse(asked: &Overlay, own: usize, terminal: Option<&Expression>) -> Res
         let read = groundstate::not_kept(&asked.program, formula);
         if !read.is_empty() {
             let help =
-                "ask about phases, locks, what is pending or fresh, deadlines; or verify the model of `chart build`";
+                "ask about phases, locks, queues, what is pending or fresh; or verify the model of `chart build`";
             let message = format!("`{name}` reads {}, which is not kept from tick to tick", read.join(", "));
             return Err(Failure::usage_with_help(message, help));
         }
