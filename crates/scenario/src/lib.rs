@@ -9,9 +9,11 @@ mod coverage;
 mod environment;
 mod expand;
 mod explain;
+mod play;
 mod resolve;
 mod run;
 mod script;
+mod stage;
 mod story;
 mod verdict;
 
@@ -19,8 +21,10 @@ pub use coverage::{Branch, Counts, Coverage, Evidence, Forall, Item, Items, Want
 pub use environment::{Choices, FirstCandidate, Made};
 pub use expand::Blocks;
 pub use explain::{Reading, explain};
+pub use play::{Play, Saved};
 pub use resolve::{Parsed, parse, resolve};
-pub use run::{Options, run};
+pub use run::{judged, run};
 pub use script::Script;
+pub use stage::{Moved, Options};
 pub use story::{Passage, PassageKind, Story};
 pub use verdict::{Failure, FailureKind, Judgement, Remark, Verdict};

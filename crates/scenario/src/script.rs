@@ -99,3 +99,31 @@ pub(crate) enum Action {
     Check { strict: bool, formula: Expression, span: Span },
     Exec { procedure: ProcedureId, span: Span },
 }
+
+impl Action {
+    /// Where it is written.
+    pub fn span(&self) -> Span {
+        match self {
+            Action::Check { span, .. } | Action::Exec { span, .. } => *span,
+        }
+    }
+}
+
+impl Script {
+    /// The places of all commands, in the order in which groups are played.
+    pub fn places(&self) -> Vec<Span> {
+        let of_group = |group: &Group| {
+            let parts = &group.parts;
+            let sets = parts.sets.iter().map(|set| set.span);
+            let rest = parts.actions.iter().map(Action::span).chain(parts.picks.iter().map(|pick| pick.span));
+            let step = match &group.step {
+                StepKind::Steps { span, .. } | StepKind::Until { span, .. } | StepKind::Trouble { span, .. } => {
+                    Some(*span)
+                }
+                StepKind::End => None,
+            };
+            sets.chain(rest).chain(step).collect::<Vec<Span>>()
+        };
+        self.groups.iter().flat_map(of_group).collect()
+    }
+}
