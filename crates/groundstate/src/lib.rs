@@ -17,6 +17,7 @@ mod kind;
 mod overlay;
 pub mod patterns;
 pub mod reporting;
+pub mod session;
 pub mod tell;
 mod test;
 pub mod test_generation;

@@ -6,13 +6,14 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use model::Loader;
+use model::{Loader, Model};
 use program::Program;
 use scenario::{Blocks, Choices, Counts, Items, Options, Story, Verdict};
 use simulate::SplitMix;
 use syntax::{Diagnostic, FileId, Severity, SourceFile, Sources};
 
 use crate::fault::scenario::unknown_model;
+use crate::session::Scene;
 use crate::{Faulty, Loaded, diagnose_failure, has_errors, load};
 
 /// Scenarios that share models and coverage.
@@ -93,11 +94,18 @@ pub fn own_files(sources: &Sources) -> impl Fn(FileId) -> bool + '_ {
     }
 }
 
+/// A scenario with the model and the program, both grown by its terms.
+struct Staged {
+    script: scenario::Script,
+    model: Arc<Model>,
+    program: Arc<Program>,
+}
+
 /// A resolved scenario, or its faults.
 struct Ready {
     sources: Sources,
     name: String,
-    script: Option<(scenario::Script, Arc<Program>)>,
+    script: Option<Staged>,
     diagnostics: Vec<Diagnostic>,
     /// The name of the model's root file.
     model: Option<String>,
@@ -115,6 +123,20 @@ impl Suite {
         Tested { sources, name, verdict: None, diagnostics, program: None }
     }
 
+    /// Prepares a scenario and its model for a session.
+    ///
+    /// # Errors
+    /// The scenario or its model has errors.
+    pub fn stage(&mut self, source: SourceFile, loader: &mut dyn Loader) -> Result<Scene, Box<Tested>> {
+        let Ready { sources, name, script, diagnostics, .. } = self.ready(source, loader);
+        match script {
+            Some(Staged { script, model, program }) => {
+                Ok(Scene { sources, model, program, script: Some(Arc::new(script)), diagnostics })
+            }
+            None => Err(Box::new(Tested { sources, name, verdict: None, diagnostics, program: None })),
+        }
+    }
+
     /// Runs a scenario.
     pub fn test(
         &mut self,
@@ -124,7 +146,7 @@ impl Suite {
         choices: &mut dyn Choices,
     ) -> Tested {
         let Ready { sources, name, script, diagnostics, model } = self.ready(source, loader);
-        let Some((script, program)) = script else {
+        let Some(Staged { script, program, .. }) = script else {
             return Tested { sources, name, verdict: None, diagnostics, program: None };
         };
         let covers = options.coverage;
@@ -184,7 +206,8 @@ impl Suite {
             Ok((script, diagnostics)) => {
                 debug_assert!(!has_errors(&diagnostics));
                 let name = if script.name.is_empty() { name } else { script.name.clone() };
-                Ready { sources, name, script: Some((script, program)), diagnostics, model: Some(model_name) }
+                let script = Some(Staged { script, model, program });
+                Ready { sources, name, script, diagnostics, model: Some(model_name) }
             }
             Err(diagnostics) => refused(sources, diagnostics),
         }

@@ -8,8 +8,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
 
+use groundstate::session::Scene;
 use groundstate::workspace::{Absent, Files, Findings, NotLoaded, Outdated, Reads, STOPPED, imported, tidy};
-use groundstate::{Kind, Loaded, Workspace, model_of, patterns};
+use groundstate::{Kind, Loaded, Suite, Workspace, model_of, patterns};
 use model::{Checked, Loader, Model};
 use syntax::ast::{AstNode, ScenarioFile};
 use syntax::{FileId, SourceFile, Sources, Stop, SyntaxNode};
@@ -170,6 +171,17 @@ impl<F: Files> Project<F> {
             NotLoaded::Absent(absent) => absent.told(path),
             NotLoaded::Faulty(_) => format!("{path} has errors: mend them first"),
         })
+    }
+
+    /// The scenario at a path, with its model, ready for a session.
+    ///
+    /// # Errors
+    /// There is none, or one of them has errors; a sentence.
+    pub fn stage(&mut self, path: &str) -> Result<Scene, String> {
+        let source = self.text(path).map_err(|absent| absent.told(path))?;
+        let staged = Suite::new().stage(source, &mut self.workspace.texts());
+        self.not_stopped().map_err(|absent| absent.told(path))?;
+        staged.map_err(|_| format!("{path} or its model has errors: mend them first"))
     }
 
     /// The tree of a file, whatever it means.

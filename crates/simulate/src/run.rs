@@ -301,13 +301,31 @@ impl Run {
         if let End::Quit | End::Interrupted = end {
             return Made::Other(Box::new(self.end(end)));
         }
-        if self.inputs.signal == Some(Signal::Back) {
-            self.inputs.signal = None;
-            return Made::Other(Box::new(self.back(before)));
+        match self.inputs.signal {
+            Some(Signal::Back) => {
+                self.inputs.signal = None;
+                return Made::Other(Box::new(self.back(before)));
+            }
+            Some(Signal::Abandon) => {
+                self.inputs.signal = None;
+                return Made::Other(Box::new(self.abandon(before)));
+            }
+            Some(Signal::Quit) | None => {}
         }
         self.note_inputs(record);
         self.stop_with(end);
         Made::Attempt
+    }
+
+    /// What the environment wrote for the step goes, too.
+    fn abandon(&mut self, before: Option<Box<Snapshot>>) -> Record {
+        self.inputs.grown = true;
+        self.watch.forget();
+        if let Some(snapshot) = before {
+            self.machine.restore(&snapshot);
+        }
+        self.inputs.finish(self.made + 1, true);
+        Record::Back { step: self.made + 1 }
     }
 
     fn back(&mut self, before: Option<Box<Snapshot>>) -> Record {

@@ -5,6 +5,8 @@
 pub enum Signal {
     /// To take the last step back.
     Back,
+    /// To leave the step that is being made, and to be before it again.
+    Abandon,
     /// To end the run.
     Quit,
 }

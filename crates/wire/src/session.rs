@@ -1,4 +1,4 @@
-//! The state at the cursor: what a session on a model tells an editor after each request (docs/editors.md).
+//! The state at the cursor: what a session on a model or a scenario tells an editor after each request (docs/editors.md).
 //!
 //! In: events of a run, and the shell's own way to write a place. Out: [`SessionState`]. Values and locations are written as in
 //! AsmetaL. It must not know the editor's protocol.
@@ -50,10 +50,14 @@ pub struct SessionState<P> {
     pub state: Pairs<String>,
     /// What the last step changed, each with the update that wrote it.
     pub updates: Vec<Written<P>>,
-    /// The declared rules that these updates stand in.
+    /// Updates that the last step made and that changed nothing.
+    pub unchanged: Vec<P>,
+    /// The declared rules that ran in it.
     pub rules: Vec<Named<P>>,
     /// What is wrong: a clash with both updates, a violated invariant, another fault.
     pub faults: Vec<Wrong<P>>,
+    /// Of a scenario: the command that comes next.
+    pub next: Option<P>,
     /// The request could not be carried out; a sentence.
     pub refused: Option<String>,
     /// A text has changed since the session was opened: places are those of the former text.

@@ -508,3 +508,86 @@ default init s0:
     assert_eq!((&made["result"]["stale"], opened["stale"].as_bool()), (&json!(true), Some(false)), "{made}");
     editor.end();
 }
+
+const MEETING: &str = "scenario meeting
+load Lamp.asm
+set pressed := true;
+check light = OFF;
+step
+check light = ON;
+set pressed := false;
+step
+check light = OFF;
+";
+
+#[test]
+fn a_scenario_is_stepped_line_by_line() {
+    let mut editor = Editor::plain("play", &[("Lamp.asm", LAMP), ("Meeting.avalla", MEETING)]);
+    let document = json!({ "textDocument": { "uri": editor.uri("Meeting.avalla") } });
+    let opened = editor.ask("groundstate/session/open", document)["result"].clone();
+    let id = opened["session"].clone();
+    let line = |told: &Value| told["next"]["range"]["start"]["line"].as_u64();
+    assert_eq!((line(&opened), &opened["step"], &opened["waiting"]), (Some(0), &json!(0), &json!("step")), "{opened}");
+    let mut ask = |method: &str, mut params: Value| {
+        params["session"] = id.clone();
+        editor.ask(&format!("groundstate/session/{method}"), params)["result"].clone()
+    };
+    // The initial state has the sets before the first step in it. Checks see the inputs of the step that follows.
+    let mut seen = Vec::new();
+    let mut told = json!(null);
+    for _ in 0..6 {
+        told = ask("step", json!({}));
+        seen.push((line(&told), told["step"].as_u64().unwrap_or_default()));
+    }
+    assert_eq!(seen, [(Some(3), 0), (Some(4), 0), (Some(6), 1), (Some(5), 1), (Some(7), 1), (Some(8), 2)], "{told}");
+    // Nothing was pressed in the second step, so the rule that toggles did not run.
+    assert_eq!((&told["state"]["light"], &told["updates"]), (&json!("ON"), &json!([])), "{told}");
+    let failed = ask("step", json!({}));
+    assert_eq!((&failed["waiting"], &failed["word"]), (&json!("nothing"), &json!("failed")), "{failed}");
+    let fault = &failed["faults"][0];
+    assert_eq!((&fault["id"], &fault["at"]["range"]["start"]["line"]), (&json!("check-failed"), &json!(8)), "{failed}");
+    assert!(fault["at"]["uri"].as_str().is_some_and(|uri| uri.ends_with("Meeting.avalla")), "{failed}");
+    assert!(ask("step", json!({}))["refused"].is_string());
+    // Back, and the same again.
+    let back = ask("back", json!({}));
+    assert_eq!((line(&back), &back["waiting"], &back["faults"]), (Some(8), &json!("step"), &json!([])), "{back}");
+    for _ in 0..4 {
+        told = ask("back", json!({}));
+    }
+    assert_eq!((line(&told), &told["step"], &told["state"]["light"]), (Some(4), &json!(0), &json!("OFF")), "{told}");
+    let made = ask("step", json!({ "steps": 1 }));
+    assert_eq!((&made["updates"][0]["after"], &made["rules"][1]["name"]), (&json!("ON"), &json!("r_Toggle")), "{made}");
+    // Inputs are the scenario's, and what is asked for beyond the end stops there.
+    assert!(ask("set", json!({ "location": "pressed", "value": "true" }))["refused"].is_string());
+    let ended = ask("step", json!({ "steps": 100 }));
+    assert_eq!((&ended["word"], &ended["step"]), (&json!("failed"), &json!(2)), "{ended}");
+    assert_eq!(ask("close", json!({})), Value::Null);
+    let document = json!({ "textDocument": { "uri": editor.uri("Nothing.avalla") } });
+    assert!(editor.ask("groundstate/session/open", document)["error"]["message"].is_string());
+    editor.end();
+}
+
+#[test]
+fn a_step_that_asks_is_abandoned_by_going_back() {
+    let mut editor = Editor::plain("abandon", &[("Lamp.asm", LAMP)]);
+    let document = json!({ "textDocument": { "uri": editor.uri("Lamp.asm") } });
+    let id = editor.ask("groundstate/session/open", document)["result"]["session"].clone();
+    let mut ask = |method: &str, mut params: Value| {
+        params["session"] = id.clone();
+        editor.ask(&format!("groundstate/session/{method}"), params)["result"].clone()
+    };
+    for _ in 0..2 {
+        ask("step", json!({}));
+        ask("answer", json!({ "value": "true" }));
+    }
+    let asks = ask("step", json!({}));
+    assert_eq!((&asks["waiting"], &asks["step"]), (&json!("input"), &json!(2)), "{asks}");
+    let back = ask("back", json!({}));
+    let here = (&json!("step"), &json!(2), &json!("OFF"));
+    assert_eq!((&back["waiting"], &back["step"], &back["state"]["light"]), here, "{back}");
+    // An update that changes nothing is told as such.
+    ask("set", json!({ "location": "pressed", "value": "false" }));
+    let idle = ask("step", json!({}));
+    assert_eq!((&idle["step"], &idle["updates"], &idle["rules"][0]["name"]), (&json!(3), &json!([]), &json!("r_Main")));
+    editor.end();
+}

@@ -1,18 +1,17 @@
-//! The state at the cursor: sessions that run models for an editor, by requests of their own (docs/editors.md).
+//! The state at the cursor: sessions that run models and scenarios for an editor, by requests of their own (docs/editors.md).
 //!
 //! In: `groundstate/session/…` with parameters as JSON. Out: [`SessionState`] as JSON. A session has the texts that it was opened
 //! with, whatever is typed since. LIMIT: so many sessions, steps of a request, and steps that can be taken back; a step that is
 //! longer than [`WORK`] is a fault.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::sync::Arc;
-use std::sync::mpsc::RecvTimeoutError;
 use std::time::Duration;
 
-use groundstate::Loaded;
-use groundstate::job::{Cancel, Command, Remote, RunEvent, RunJob, RunRequest, at_once, run};
-use groundstate::machine::{Limits, Location, Show};
-use groundstate::simulate::{Bounds, Choices, Options, RandomSource, Record, read_location, read_value};
+use groundstate::Kind;
+use groundstate::machine::{Limits, Show};
+use groundstate::session::{Heard, Scene, Session, SessionOptions, Waits};
 use ide::{Encoding, Lines};
 use lsp_server::ErrorCode;
 use lsp_types::{Position, Range};
@@ -36,6 +35,9 @@ const HISTORY: usize = 1_000;
 /// LIMIT: what one step may take.
 const WORK: u64 = 20_000_000;
 
+/// LIMIT: so many candidates of a choice are shown; others can be chosen by their number.
+const OFFERED: usize = 100;
+
 /// How often a request that waits looks whether it was cancelled.
 const LOOK: Duration = Duration::from_millis(20);
 
@@ -49,20 +51,14 @@ type State = SessionState<Place>;
 #[derive(Debug, Default)]
 pub struct Sessions {
     last: u64,
-    open: BTreeMap<u64, Session>,
+    open: BTreeMap<u64, Open>,
 }
 
 #[derive(Debug)]
-struct Session {
-    loaded: Arc<Loaded>,
+struct Open {
+    session: Session,
     texts: Texts,
-    job: RunJob,
-    remote: Remote,
-    /// What is asked for, if an input is.
-    asked: Option<Location>,
-    /// A step was begun and not made: why, comes next.
-    is_ending: bool,
-    told: State,
+    refused: Option<String>,
 }
 
 /// The texts that a session was opened with, and how columns are counted.
@@ -74,6 +70,10 @@ struct Texts {
 
 fn wrong(message: impl Into<String>) -> Refused {
     Refused::new(ErrorCode::InvalidParams, message)
+}
+
+fn failed(message: impl Into<String>) -> Refused {
+    Refused::new(ErrorCode::RequestFailed, message)
 }
 
 /// Answers a request of a session.
@@ -95,263 +95,180 @@ pub fn answer(
         sessions.open.remove(&id);
         return Ok(Value::Null);
     }
-    let mut session = sessions.open.remove(&id).ok_or_else(|| wrong(format!("there is no session {id}")))?;
-    session.told.refused = None;
-    let kept = session.carry_out(method, params, stop);
-    session.told.stale = session
+    let mut open = sessions.open.remove(&id).ok_or_else(|| wrong(format!("there is no session {id}")))?;
+    open.refused = None;
+    let kept = open.carry_out(method, params, stop);
+    let stale = open
         .texts
         .lines
         .iter()
         .any(|(path, lines)| answers.project.text(path).map_or(true, |source| source.text != *lines.text()));
-    let told = serde_json::to_value(&session.told);
+    let told = serde_json::to_value(State { session: id, stale, ..open.told() });
     if kept? {
-        sessions.open.insert(id, session);
+        sessions.open.insert(id, open);
     }
     told.map_err(|error| Refused::new(ErrorCode::InternalError, error.to_string()))
 }
 
 impl Sessions {
-    /// Opens a session on a model.
+    /// Opens a session on a model or a scenario.
     fn open(&mut self, answers: &mut Answers, params: &Value) -> Result<u64, Refused> {
         let uri = params.pointer("/textDocument/uri").and_then(Value::as_str).and_then(|uri| uri.parse().ok());
-        let path = uri.as_ref().and_then(path_of).ok_or_else(|| wrong("`textDocument.uri` is a model"))?;
+        let no_text = || wrong("`textDocument.uri` is a model or a scenario");
+        let path = uri.as_ref().and_then(path_of).ok_or_else(no_text)?;
         if self.open.len() >= SESSIONS {
-            return Err(Refused::new(
-                ErrorCode::RequestFailed,
-                format!("{SESSIONS} sessions are open: close one first"),
-            ));
+            return Err(failed(format!("{SESSIONS} sessions are open: close one first")));
         }
-        let failed = |message: String| Refused::new(ErrorCode::RequestFailed, message);
-        let loaded = answers.project.load(&path).map_err(failed)?;
-        if loaded.program.main.is_none() {
-            return Err(failed("a module has no main rule to run".to_string()));
-        }
-        let seed = params["seed"].as_u64();
-        let request = RunRequest {
-            program: Arc::clone(&loaded.program),
-            limits: Limits { work: WORK, ..Limits::default() },
-            options: Options { steps: None, history: HISTORY, ..Options::default() },
-            inputs: Box::new(move |inputs| match seed {
-                Some(seed) => inputs.with(RandomSource::new(seed, Bounds::default())).choosing(Choices::random(seed)),
-                None => inputs,
-            }),
-            asks_inputs: seed.is_none(),
-            asks_choices: seed.is_none(),
-            paused: true,
-            states: true,
-            due: at_once(),
+        let scene = match Kind::of(Path::new(&path)) {
+            Some(Kind::Scenario) => answers.project.stage(&path).map_err(failed)?,
+            _ => Scene::from(&*answers.project.load(&path).map_err(failed)?),
         };
-        let (job, remote) = run(request, Cancel::new()).map_err(|error| failed(error.to_string()))?;
-        self.last += 1;
-        let id = self.last;
-        let files = loaded.sources.iter().filter(|(_, source)| ide::library_text(&source.name).is_none());
+        if scene.script.is_none() && scene.program.main.is_none() {
+            return Err(failed("a module has no main rule to run"));
+        }
+        let files = scene.sources.iter().filter(|(_, source)| ide::library_text(&source.name).is_none());
         let lines = files.map(|(_, source)| (source.name.clone(), Lines::new(Arc::clone(&source.text)))).collect();
         let texts = Texts { lines, encoding: answers.settings.encoding };
-        let told = State {
-            version: SESSION_VERSION,
-            session: id,
-            step: 0,
-            waiting: Waiting::Step,
-            word: None,
-            offered: Vec::new(),
-            at: None,
-            state: written_state(&[], &loaded.program),
-            updates: Vec::new(),
-            rules: Vec::new(),
-            faults: Vec::new(),
-            refused: None,
-            stale: false,
+        let options = SessionOptions {
+            seed: params["seed"].as_u64(),
+            history: HISTORY,
+            passes_violations: false,
+            limits: Limits { work: WORK, ..Limits::default() },
         };
-        self.open.insert(id, Session { loaded, texts, job, remote, asked: None, is_ending: false, told });
-        Ok(id)
+        let session = Session::open(Arc::new(scene), options).map_err(|error| failed(error.to_string()))?;
+        self.last += 1;
+        self.open.insert(self.last, Open { session, texts, refused: None });
+        Ok(self.last)
     }
 }
 
-impl Session {
+impl Open {
     /// Carries out a request. Out: whether the session goes on.
     fn carry_out(&mut self, method: &str, params: &Value, stop: &Stop) -> Result<bool, Refused> {
-        let is_asking = matches!(self.told.waiting, Waiting::Input | Waiting::Choice);
-        let (command, waits) = match method {
-            "open" => return self.wait(false, stop),
-            "step" if is_asking => return Ok(self.refuse("the step waits for an answer: answer, choose or go back")),
-            "step" if self.told.waiting == Waiting::Nothing => return Ok(self.refuse("the run has ended")),
-            "step" => (Command::Step(params["steps"].as_u64().unwrap_or(1).clamp(1, STEPS)), true),
-            "back" => (Command::Back, true),
+        let is_asking = self.session.is_asking();
+        let value = |value: &Value| match value {
+            Value::Null => Ok(None),
+            Value::String(text) => Ok(Some(text.clone())),
+            _ => Err(wrong("`value` is a text, as AsmetaL writes it, or null")),
+        };
+        let session = &mut self.session;
+        let begun = match method {
+            "open" => Ok(()),
+            "step" => session.step(params["steps"].as_u64().unwrap_or(1).clamp(1, STEPS)),
+            "back" => session.back(),
             "set" => {
-                let text = params["location"].as_str().ok_or_else(|| wrong("`location` is a text"))?;
-                let location = match read_location(&self.loaded.program, text) {
-                    Ok(location) => location,
-                    Err(reason) => return Ok(self.refuse(reason)),
-                };
-                let waits = self.asked.as_ref() == Some(&location) && !params["value"].is_null();
-                match self.value(&location, &params["value"])? {
-                    Ok(Some(value)) => (Command::Set(location, value), waits),
-                    Ok(None) => (Command::Unset(location), false),
-                    Err(reason) => return Ok(self.refuse(reason)),
+                let location = params["location"].as_str().ok_or_else(|| wrong("`location` is a text"))?;
+                let value = value(&params["value"])?;
+                let read = session.read_input(location, value.as_deref());
+                match read.and_then(|(location, value)| session.set(location, value)) {
+                    Ok(true) => Ok(()),
+                    Ok(false) => return Ok(true),
+                    Err(reason) => Err(reason),
                 }
             }
-            "answer" => {
-                let Some(location) = self.asked.clone() else { return Ok(self.refuse("no input is asked for")) };
-                match self.value(&location, &params["value"])? {
-                    Ok(Some(value)) => (Command::Answer(value), true),
-                    Ok(None) => return Err(wrong("`value` is a text")),
-                    Err(reason) => return Ok(self.refuse(reason)),
-                }
-            }
-            "choose" if self.told.waiting != Waiting::Choice => return Ok(self.refuse("no choice is asked for")),
+            "answer" => session.answer(&value(&params["value"])?.ok_or_else(|| wrong("`value` is a text"))?),
             "choose" => {
                 let candidate = params["candidate"].as_u64().ok_or_else(|| wrong("`candidate` is a number from 0"))?;
-                (Command::Choose(usize::try_from(candidate).unwrap_or(usize::MAX)), true)
+                session.choose(usize::try_from(candidate).unwrap_or(usize::MAX))
             }
             "state" => return Ok(true),
             other => return Err(Refused::new(ErrorCode::MethodNotFound, format!("{PREFIX}{other} is not known"))),
         };
-        let goes_back = command == Command::Back;
-        let sent = self.remote.send(command);
-        if waits && sent { self.wait(is_asking && !goes_back, stop) } else { Ok(sent) }
-    }
-
-    fn refuse(&mut self, reason: impl Into<String>) -> bool {
-        self.told.refused = Some(reason.into());
-        true
-    }
-
-    /// A value for a location; none for `null`.
-    fn value(
-        &self,
-        location: &Location,
-        value: &Value,
-    ) -> Result<Result<Option<groundstate::machine::Value>, String>, Refused> {
-        let program = &self.loaded.program;
-        match value {
-            Value::Null => Ok(Ok(None)),
-            Value::String(text) => {
-                Ok(read_value(program, program.function(location.function).codomain, text).map(Some))
+        match begun {
+            Ok(()) => self.wait(is_asking && method != "back", stop),
+            Err(reason) => {
+                self.refused = Some(reason);
+                Ok(true)
             }
-            _ => Err(wrong("`value` is a text, as AsmetaL writes it, or null")),
         }
     }
 
     /// Waits until the run waits. Where it was asking, a refusal leaves it as it was. Out: whether the session goes on.
     fn wait(&mut self, is_asking: bool, stop: &Stop) -> Result<bool, Refused> {
         loop {
-            match self.job.next_event_within(LOOK) {
-                Ok(RunEvent::Refused(reason)) => {
-                    self.told.refused = Some(reason);
+            match self.session.hear(LOOK) {
+                Heard::Waits => return Ok(true),
+                Heard::Refused(reason) => {
+                    self.refused = Some(reason);
                     if is_asking {
                         return Ok(true);
                     }
                 }
-                Ok(event) => {
-                    if self.heed(event) {
-                        return Ok(true);
-                    }
-                }
-                Err(RecvTimeoutError::Timeout) if stop.is_asked() => {
-                    self.job.cancel().cancel();
+                Heard::Nothing if stop.is_asked() => {
+                    self.session.cancel();
                     return Ok(false);
                 }
-                Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => {
-                    return Err(Refused::new(ErrorCode::InternalError, "the run is gone"));
-                }
+                Heard::Nothing => {}
+                Heard::Gone => return Err(Refused::new(ErrorCode::InternalError, "the run is gone")),
             }
         }
     }
 
-    /// Takes in an event. Out: whether the run waits now.
-    fn heed(&mut self, event: RunEvent) -> bool {
-        let program = Arc::clone(&self.loaded.program);
-        match event {
-            RunEvent::Record { record, steps, state, faults } => {
-                self.told.step = steps;
-                if let Some(state) = state {
-                    self.told.state = written_state(&state, &program);
-                }
-                self.record(&record);
-                let place = |span| self.texts.place(&self.loaded, span);
-                self.told.faults.extend(faults.iter().filter_map(|fault| Wrong::new(fault, &place)));
-                return false;
+    /// What is told of the session.
+    fn told(&mut self) -> State {
+        let scene = Arc::clone(self.session.scene());
+        let program = &scene.program;
+        let state = written_state(&self.session.state(), program);
+        let place = |span| self.texts.place(&scene, span);
+        let moment = self.session.moment();
+        let ended = moment.as_ref().and_then(|moment| moment.end);
+        let (waiting, word, offered, at) = match self.session.waits() {
+            Waits::Input { location, values } => {
+                let offered = values.iter().map(|value| value.show(program).to_string()).collect();
+                (Waiting::Input, Some(location.show(program).to_string()), offered, None)
             }
-            RunEvent::Progress(steps) => {
-                self.told.step = steps;
-                return false;
-            }
-            RunEvent::Refused(_) => return false,
-            RunEvent::AsksInput { location, values, .. } => {
-                self.told.waiting = Waiting::Input;
-                self.told.word = Some(location.show(&program).to_string());
-                self.told.offered = values.iter().map(|value| value.show(&program).to_string()).collect();
-                self.told.at = None;
-                self.asked = Some(location);
-            }
-            RunEvent::AsksChoice { span, candidates } => {
-                self.told.waiting = Waiting::Choice;
-                self.told.word = None;
+            Waits::Choice { span, candidates } => {
                 let shown = |values: &Vec<groundstate::machine::Value>| {
-                    values.iter().map(|value| value.show(&program).briefly().to_string()).collect::<Vec<_>>().join(", ")
+                    values.iter().map(|value| value.show(program).briefly().to_string()).collect::<Vec<_>>().join(", ")
                 };
-                self.told.offered = candidates.iter().take(OFFERED).map(shown).collect();
-                self.told.at = self.texts.place(&self.loaded, span);
-                self.asked = None;
+                (Waiting::Choice, None, candidates.iter().take(OFFERED).map(shown).collect(), place(*span))
             }
-            RunEvent::Paused if std::mem::take(&mut self.is_ending) => return !self.remote.send(Command::Step(1)),
-            RunEvent::Paused => {
-                if self.told.waiting != Waiting::Nothing {
-                    self.told.waiting = Waiting::Step;
-                    self.told.word = None;
-                }
-                self.told.offered.clear();
-                self.told.at = None;
-                self.asked = None;
+            Waits::End => (Waiting::Nothing, ended.map(str::to_string), Vec::new(), None),
+            Waits::Step | Waits::Runs => (Waiting::Step, None, Vec::new(), None),
+        };
+        let mut told = State {
+            version: SESSION_VERSION,
+            session: 0,
+            step: 0,
+            waiting,
+            word,
+            offered,
+            at,
+            state,
+            updates: Vec::new(),
+            unchanged: Vec::new(),
+            rules: Vec::new(),
+            faults: Vec::new(),
+            next: None,
+            refused: self.refused.clone(),
+            stale: false,
+        };
+        let Some(moment) = moment else { return told };
+        told.step = moment.step;
+        told.next = moment.next.and_then(place);
+        told.updates = moment
+            .changes
+            .iter()
+            .filter_map(|change| Some(Written::new(change, program, place(change.span)?)))
+            .collect();
+        told.unchanged = moment.idle.iter().filter_map(|span| place(*span)).collect();
+        for rule in &moment.ran {
+            let Some((name, span)) = scene.rule_at(program.rule_span(*rule)) else { continue };
+            let Some(at) = place(span) else { continue };
+            let named = Named { name: name.to_string(), at };
+            if !told.rules.contains(&named) {
+                told.rules.push(named);
             }
         }
-        true
-    }
-
-    fn record(&mut self, record: &Record) {
-        // An end belongs to what came before it.
-        if !matches!(record, Record::End(_)) {
-            self.told.updates.clear();
-            self.told.rules.clear();
-            self.told.faults.clear();
-            self.told.waiting = Waiting::Step;
-            self.told.word = None;
-        }
-        match record {
-            Record::Step(step) => {
-                for change in &step.changes {
-                    let Some(at) = self.texts.place(&self.loaded, change.span) else { continue };
-                    self.told.updates.push(Written::new(change, &self.loaded.program, at));
-                    let rule = self.rule_of(change.span);
-                    self.told.rules.extend(rule.filter(|rule| !self.told.rules.contains(rule)));
-                }
-            }
-            Record::End(end) => {
-                self.is_ending = false;
-                self.told.waiting = Waiting::Nothing;
-                self.told.word = Some(end.word().to_string());
-            }
-            Record::Attempt(_) => self.is_ending = true,
-            Record::Initial { .. } | Record::Back { .. } => {}
-        }
-    }
-
-    /// The declared rule that a place is in.
-    fn rule_of(&self, span: Span) -> Option<Named<Place>> {
-        let holds = |body: Span| body.file == span.file && body.start <= span.start && span.end <= body.end;
-        let rule = self.loaded.model.rules.iter().find(|rule| holds(rule.body.span))?;
-        Some(Named { name: rule.name.clone(), at: self.texts.place(&self.loaded, rule.span)? })
+        told.faults = moment.faults.iter().filter_map(|fault| Wrong::new(fault, &place)).collect();
+        told
     }
 }
 
-/// LIMIT: so many candidates of a choice are shown; others can be chosen by their number.
-const OFFERED: usize = 100;
-
 impl Texts {
     /// A place of the texts; none in a library.
-    fn place(&self, loaded: &Loaded, span: Span) -> Option<Place> {
-        let path = &loaded.sources.file(span.file).name;
+    fn place(&self, scene: &Scene, span: Span) -> Option<Place> {
+        let path = &scene.sources.file(span.file).name;
         let lines = self.lines.get(path)?;
         let at = |offset: u32| {
             let at = lines.position(offset as usize, self.encoding);

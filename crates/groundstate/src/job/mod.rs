@@ -6,6 +6,7 @@
 //! order in which they were sent.
 
 mod conform;
+pub(crate) mod desk;
 mod generate;
 mod generate_tests;
 mod review;
@@ -24,10 +25,11 @@ use machine::{Cause, Interrupt};
 pub use conform::{
     ConformEvent, ConformJob, ConformRequest, Conformed, Events, NoTail, NotConformed, Piece, Tail, conform,
 };
+pub use desk::{Command, Remote, RunEvent};
 pub use generate::{Folder, GenerateEvent, GenerateJob, NotGenerated, generate_model, generate_system};
 pub use generate_tests::{TestsEvent, TestsJob, TestsRequest, generate_tests};
 pub use review::{ReviewEvent, ReviewJob, ReviewRequest, review};
-pub use run::{Command, Remote, RunEvent, RunJob, RunRequest, at_once, report, run};
+pub use run::{RunJob, RunRequest, at_once, report, run};
 pub use test::{TestEvent, test};
 pub use verify::{NO_KEEPER, VerifyEvent, VerifyJob, verify};
 
