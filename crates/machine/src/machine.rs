@@ -38,6 +38,7 @@ pub struct Snapshot {
     store: Store,
     steps: u64,
     initials: Vec<Option<u32>>,
+    epoch: u32,
 }
 
 /// What makes the steps. Both give the same steps and the same faults.
@@ -529,10 +530,15 @@ impl Machine {
 
     /// A copy of the state.
     pub fn snapshot(&self) -> Snapshot {
-        Snapshot { store: self.core.store.clone(), steps: self.steps, initials: self.core.initials.clone() }
+        Snapshot {
+            store: self.core.store.clone(),
+            steps: self.steps,
+            initials: self.core.initials.clone(),
+            epoch: self.core.epoch,
+        }
     }
 
-    /// Goes back to a state copied from this machine.
+    /// Goes back to a state copied from this machine, or from another of the same program; one with more terms is the same, too.
     pub fn restore(&mut self, snapshot: &Snapshot) {
         self.discard();
         self.core.store = snapshot.store.clone();
@@ -541,7 +547,8 @@ impl Machine {
             carrier.fresh = carrier.count;
         }
         self.core.inputs.clear();
-        self.core.epoch += 1;
+        // No input of that state, whichever machine gave it, counts as one of this epoch.
+        self.core.epoch = self.core.epoch.max(snapshot.epoch) + 1;
         self.core.clock = [None; 3];
         self.core.updates.renumbered();
         self.core.memo.changed();

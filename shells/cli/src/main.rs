@@ -16,6 +16,7 @@ mod check;
 mod completions;
 mod conform;
 mod coverage;
+mod dap;
 mod dump;
 mod engine;
 mod exit;
@@ -101,6 +102,8 @@ enum Command {
     Fmt(fmt::Arguments),
     /// Serve an editor: the language server, over stdin and stdout
     Lsp(lsp::Arguments),
+    /// Serve a debugger: the debug adapter, over stdin and stdout
+    Dap(dap::Arguments),
     /// Measure steps per second and memory
     Bench(bench::Arguments),
     /// Write a shell's completion script for this command
@@ -152,6 +155,7 @@ fn work(arguments: Arguments) -> Exit {
         Command::Explain(arguments) => explain::run(&mut shell, &arguments),
         Command::Fmt(arguments) => fmt::run(&mut shell, &arguments),
         Command::Lsp(arguments) => lsp::run(&mut shell, &arguments),
+        Command::Dap(arguments) => dap::run(&mut shell, &arguments),
         Command::Bench(arguments) => bench::run(&mut shell, &arguments),
         Command::New(arguments) => new::run(&mut shell, &arguments),
         Command::Completions(arguments) => completions::run(&mut shell, &arguments, Arguments::command()),

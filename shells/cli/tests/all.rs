@@ -3,6 +3,7 @@
 
 mod bad_input;
 mod bench;
+mod dap;
 mod documented;
 mod first_steps;
 mod fmt;

@@ -133,6 +133,7 @@ impl Sessions {
             seed: params["seed"].as_u64(),
             history: HISTORY,
             passes_violations: false,
+            given: Vec::new(),
             limits: Limits { work: WORK, ..Limits::default() },
         };
         let session = Session::open(Arc::new(scene), options).map_err(|error| failed(error.to_string()))?;

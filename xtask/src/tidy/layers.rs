@@ -20,7 +20,7 @@ const LAYERS: &[&[&str]] = &[
     &["report"],
     &["groundstate"],
     &["ide", "properties", "wire"],
-    &["lsp", "studio", "python"],
+    &["lsp", "dap", "studio", "python"],
     &["cli", "xtask"],
 ];
 

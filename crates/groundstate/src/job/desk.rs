@@ -138,9 +138,18 @@ impl Desk {
         Desk { port, commands, later, given, turn, back: Signal::Back, alone: false }
     }
 
-    /// From now on a step back while something is asked for only abandons the step.
-    pub fn abandons(&mut self) {
+    /// These inputs are given from the beginning on, and a step back while something is asked for only abandons the step.
+    pub fn begin_session(&mut self, given: &[(Location, Value)]) {
+        self.given.extend(given.iter().cloned());
         self.back = Signal::Abandon;
+    }
+
+    /// The step that waits for an answer is left.
+    fn left(&mut self) -> Signal {
+        if self.back == Signal::Abandon {
+            self.turn = Turn::Steps(0);
+        }
+        self.back
     }
 
     /// Says that a command cannot be carried out now, and waits for others.
@@ -269,7 +278,7 @@ impl Source for Asking {
         loop {
             match desk.wait() {
                 Waited::Over | Waited::Command(Command::Stop) => return Err(self.stop(Signal::Quit)),
-                Waited::Command(Command::Back) => return Err(self.stop(desk.back)),
+                Waited::Command(Command::Back) => return Err(self.stop(desk.left())),
                 Waited::Command(Command::Withhold(why)) => return Err(why),
                 Waited::Command(Command::Answer(value)) if ask.admits(&value) => return Ok(Some(value)),
                 Waited::Command(Command::Set(at, value)) if at == location && ask.admits(&value) => {
@@ -319,7 +328,7 @@ impl Chooser for Asking {
         loop {
             match desk.wait() {
                 Waited::Over | Waited::Command(Command::Stop) => return Err(self.stop(Signal::Quit)),
-                Waited::Command(Command::Back) => return Err(self.stop(desk.back)),
+                Waited::Command(Command::Back) => return Err(self.stop(desk.left())),
                 Waited::Command(Command::Choose(index)) if index < of => return Ok(index),
                 Waited::Command(Command::Choose(index)) => {
                     let refused = format!("there are {of} candidates, none is number {}", index + 1);

@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use machine::{Choice, Environment, Limits, Location, LocationRef, Machine, TimeUnit, Value};
-use model::Model;
-use program::{DomainId, Expression, Program};
+use model::{Basic, Model};
+use program::{DomainId, DomainKind, Expression, Program};
 use syntax::ast::{AstNode, TermFile};
 use syntax::{Diagnostic, Severity, SourceFile, Sources};
 
@@ -30,6 +30,8 @@ pub struct Evaluator {
     model: Arc<Model>,
     program: Arc<Program>,
     known: BTreeMap<String, Result<Expression, String>>,
+    /// Terms that were given out stay terms of the program.
+    keeps: bool,
     /// The inputs of the initial state.
     initial: Vec<(Location, Value)>,
     player: Player,
@@ -45,9 +47,16 @@ impl Evaluator {
             model,
             program,
             known: BTreeMap::new(),
+            keeps: false,
             initial: Vec::new(),
             player: Player::new(limits),
         }
+    }
+
+    /// From now on what was read stays a term of the program.
+    pub(crate) fn keep(mut self) -> Evaluator {
+        self.keeps = true;
+        self
     }
 
     /// These inputs were given for the initial state.
@@ -71,6 +80,9 @@ impl Evaluator {
         if text.len() > BYTES {
             return Err(format!("a term of more than {BYTES} bytes is not evaluated"));
         }
+        if self.known.len() >= KEPT && self.keeps {
+            return Err(format!("{KEPT} conditions are kept: open a new session for others"));
+        }
         if self.known.len() >= KEPT {
             let (sources, model, program) = self.begun.clone();
             (self.sources, self.model, self.program) = (sources, model, program);
@@ -79,6 +91,18 @@ impl Evaluator {
         let read = self.read(text);
         self.known.insert(text.to_string(), read.clone());
         read
+    }
+
+    /// A text as a condition: a term that is true or false.
+    ///
+    /// # Errors
+    /// A sentence: it is none.
+    pub fn condition(&mut self, text: &str) -> Result<Expression, String> {
+        let term = self.term(text)?;
+        match self.program.domain(self.program.term_domains[term.body.0 as usize]).kind {
+            DomainKind::Basic(Basic::Boolean) => Ok(term),
+            _ => Err(format!("`{text}` is no condition: its value is not true or false")),
+        }
     }
 
     fn read(&mut self, text: &str) -> Result<Expression, String> {

@@ -21,8 +21,8 @@ use std::time::Duration;
 
 use ::scenario::Script;
 use machine::{Limits, Location, Show, Value};
-use program::{DomainId, FunctionKind};
-use simulate::{read_location, read_value};
+use program::DomainId;
+use simulate::read_value;
 use syntax::Span;
 
 use crate::job::desk::{Desk, Turn};
@@ -45,6 +45,8 @@ pub struct SessionOptions {
     pub history: usize,
     /// A model's run goes on after a violated invariant.
     pub passes_violations: bool,
+    /// Inputs that are set from the beginning on.
+    pub given: Vec<(Location, Value)>,
     /// The machine's limits.
     pub limits: Limits,
 }
@@ -96,9 +98,12 @@ pub struct Session {
     remote: Remote,
     shared: Arc<Shared>,
     waits: Waits,
+    /// What it asked for before it was answered.
+    asked: Waits,
     /// The inputs that are set from now on.
     given: BTreeMap<Location, Value>,
     evaluator: Evaluator,
+    conditions: Evaluator,
 }
 
 impl Session {
@@ -112,6 +117,9 @@ impl Session {
         let interrupt = cancel.interrupt().clone();
         let shared = Arc::new(Shared::default());
         let evaluator = Evaluator::new(&scene.sources, &scene.model, &scene.program, options.limits.clone());
+        let limits = options.limits.clone();
+        let conditions = Evaluator::new(&scene.sources, &scene.model, &scene.program, limits).keep();
+        let given: BTreeMap<Location, Value> = options.given.iter().cloned().collect();
         let (theirs, played) = (Arc::clone(&shared), Arc::clone(&scene));
         let job = Job::start("session", cancel, move |port| {
             let desk = Desk::new(Rc::new(port), commands, Turn::Steps(0));
@@ -122,15 +130,8 @@ impl Session {
                 None => model::run(&played, &options, &desk, interrupt, &theirs),
             }
         })?;
-        Ok(Session {
-            scene,
-            job,
-            remote: Remote(sender),
-            shared,
-            waits: Waits::Runs,
-            given: BTreeMap::new(),
-            evaluator,
-        })
+        let (waits, asked, remote) = (Waits::Runs, Waits::Runs, Remote(sender));
+        Ok(Session { scene, job, remote, shared, waits, asked, given, evaluator, conditions })
     }
 
     /// What it is about.
@@ -166,7 +167,12 @@ impl Session {
     /// Waits at most this long for news.
     pub fn hear(&mut self, time: Duration) -> Heard {
         match self.job.next_event_within(time) {
-            Ok(RunEvent::Refused(reason)) => Heard::Refused(reason),
+            Ok(RunEvent::Refused(reason)) => {
+                if matches!(self.asked, Waits::Input { .. } | Waits::Choice { .. }) {
+                    self.waits = std::mem::take(&mut self.asked);
+                }
+                Heard::Refused(reason)
+            }
             Ok(RunEvent::AsksInput { location, values, .. }) => {
                 self.waits = Waits::Input { location, values };
                 Heard::Waits
@@ -252,7 +258,7 @@ impl Session {
     fn go(&mut self, command: Command) -> Result<(), String> {
         match self.remote.send(command) {
             true => {
-                self.waits = Waits::Runs;
+                self.asked = std::mem::take(&mut self.waits);
                 Ok(())
             }
             false => Err("the run is gone".to_string()),
@@ -264,16 +270,12 @@ impl Session {
     /// # Errors
     /// A sentence: there is no such input or no such value.
     pub fn read_input(&mut self, location: &str, value: Option<&str>) -> Result<(Location, Option<Value>), String> {
-        let program = Arc::clone(&self.scene.program);
-        let location = read_location(&program, location)?;
-        let function = program.function(location.function);
         if self.scene.script.is_some() {
             return Err("the scenario gives the inputs: change its text".to_string());
         }
-        if !matches!(function.kind, FunctionKind::Monitored | FunctionKind::Shared) {
-            let name = &function.name;
-            return Err(format!("`{name}` is written by the machine: only monitored and shared functions take inputs"));
-        }
+        let program = Arc::clone(&self.scene.program);
+        let location = self.scene.input(location)?;
+        let function = program.function(location.function);
         let value = value.map(|value| read_value(&program, function.codomain, value)).transpose()?;
         if let (Some(value), Some(moment)) = (&value, self.moment())
             && !self.evaluator.contains(function.codomain, value, &moment)
@@ -332,9 +334,9 @@ impl Session {
         self.go(Command::Choose(candidate))
     }
 
-    /// Reads terms, such as conditions of breaks.
-    pub fn evaluator(&mut self) -> &mut Evaluator {
-        &mut self.evaluator
+    /// Reads the conditions of breaks.
+    pub fn conditions(&mut self) -> &mut Evaluator {
+        &mut self.conditions
     }
 
     /// The inputs that are set from now on.

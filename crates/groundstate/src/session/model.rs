@@ -27,7 +27,7 @@ pub(crate) fn run(
     interrupt: Interrupt,
     shared: &Shared,
 ) {
-    desk.borrow_mut().abandons();
+    desk.borrow_mut().begin_session(&options.given);
     let inputs = Inputs::new().with(Given(Rc::clone(desk)));
     let inputs = match options.seed {
         Some(seed) => inputs.with(RandomSource::new(seed, Bounds::default())).choosing(Choices::random(seed)),
@@ -107,6 +107,7 @@ impl Thread<'_> {
             Record::Attempt(step) => {
                 violated = !step.violations.is_empty();
                 let mut moment = self.made(step, run);
+                moment.idle.clear();
                 // Why it was not made comes next.
                 if let Some(end) = run.advance() {
                     faults.extend(diagnose_record(&end, run));

@@ -15,6 +15,8 @@ use crate::session::breaks::{Breaks, Hit};
 pub struct Moment {
     /// How many steps have been made.
     pub step: u64,
+    /// Something ran to get here; else a command of a scenario was made that runs nothing, and the last step is as before.
+    pub ran_now: bool,
     /// What the last step changed.
     pub changes: Vec<Change>,
     /// Updates that ran in it and changed nothing, in the order of the program.
@@ -44,6 +46,7 @@ impl Moment {
     pub(crate) fn new(snapshot: Snapshot) -> Moment {
         Moment {
             step: 0,
+            ran_now: true,
             changes: Vec::new(),
             idle: Vec::new(),
             ran: Vec::new(),

@@ -102,6 +102,7 @@ fn take_in(moment: &mut Moment, former: &Moment, play: &Play<'_>, script: &Scrip
     moment.next = play.next_place();
     let now = ran.since(play.machine().coverage());
     let moved = play.moved();
+    moment.ran_now = moved.ran;
     if moved.ran {
         moment.changes.clone_from(&moved.changes);
         moment.choices = moved.choices.iter().map(|made| (made.span, made.values.clone())).collect();
@@ -144,8 +145,8 @@ fn judge(moment: &mut Moment, shared: &Shared, player: &mut Player) {
     let violated = |fault: &&Diagnostic| fault.id == "invariant-violated";
     let violations = moment.faults.iter().filter(violated).count();
     let happened = Happened {
-        ran: &moment.ran,
-        changes: &moment.changes,
+        ran: if moment.ran_now { &moment.ran } else { &[] },
+        changes: if moment.ran_now { &moment.changes } else { &[] },
         next: moment.next,
         faults: moment.faults.len() > violations,
         violations: violations > 0,

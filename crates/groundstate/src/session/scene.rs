@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
+use machine::{Location, Value};
 use model::Model;
-use program::Program;
+use program::{Function, FunctionKind, Program};
 use scenario::Script;
+use simulate::{read_location, read_value};
 use syntax::{Diagnostic, Sources, Span};
 
 use crate::Loaded;
@@ -38,6 +40,29 @@ impl From<&Loaded> for Scene {
 }
 
 impl Scene {
+    /// Reads an input and its value.
+    ///
+    /// # Errors
+    /// A sentence: there is no such input or no such value.
+    pub fn read_input(&self, location: &str, value: &str) -> Result<(Location, Value), String> {
+        let location = self.input(location)?;
+        let value = read_value(&self.program, self.program.function(location.function).codomain, value)?;
+        Ok((location, value))
+    }
+
+    /// Reads a location that takes inputs.
+    ///
+    /// # Errors
+    /// A sentence: it is none.
+    pub(crate) fn input(&self, text: &str) -> Result<Location, String> {
+        let location = read_location(&self.program, text)?;
+        let Function { name, kind, .. } = self.program.function(location.function);
+        match kind {
+            FunctionKind::Monitored | FunctionKind::Shared => Ok(location),
+            _ => Err(format!("`{name}` is written by the machine: only monitored and shared functions take inputs")),
+        }
+    }
+
     /// The declared rule that a place is in: its name, and where that is.
     pub fn rule_at(&self, span: Span) -> Option<(&str, Span)> {
         let holds = |body: Span| body.file == span.file && body.start <= span.start && span.end <= body.end;
