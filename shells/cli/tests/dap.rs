@@ -231,6 +231,7 @@ fn a_model_is_stepped_forth_and_back() {
     assert_eq!(controlled, ["floor = 0", "door = SHUT", "visits = (Floor) → Integer"]);
     let (_, derived) = debugger.scope("Derived");
     assert_eq!(derived, ["top = false"]);
+    assert_eq!(debugger.scope("Monitored").1, ["called = ?"]);
     // A step asks for the input. It goes on only when there is one, and it is checked.
     assert_eq!(debugger.go("next"), "input");
     assert!(debugger.refused("next", json!({ "threadId": 1 })).contains("called is asked for"));

@@ -67,6 +67,8 @@ pub struct Adapter<F> {
     pub(crate) target: Option<Target>,
     pub(crate) breakpoints: Breakpoints,
     variables: Variables,
+    /// The debugger can be told that variables have changed.
+    hears_invalidated: bool,
     /// Why it runs; none while it stops.
     pub(crate) going: Option<Going>,
     pub(crate) paused: bool,
@@ -92,6 +94,7 @@ impl<F: Files> Adapter<F> {
             target: None,
             breakpoints: Breakpoints::new(),
             variables: Variables::default(),
+            hears_invalidated: false,
             going: None,
             paused: false,
             answer: None,
@@ -379,6 +382,7 @@ impl<F: Files> Adapter<F> {
         }
         let from = |name: &str| u32::from(arguments[name].as_bool().unwrap_or(true));
         self.counting = Counting { lines: from("linesStartAt1"), columns: from("columnsStartAt1") };
+        self.hears_invalidated = arguments["supportsInvalidatedEvent"] == true;
         self.phase = Phase::Initialized;
         Ok(json!({
             "supportsConfigurationDoneRequest": true,
@@ -513,14 +517,17 @@ impl<F: Files> Adapter<F> {
         let text = arguments["expression"].as_str().ok_or("`expression` is a text")?;
         self.is_stopped()?;
         let result = |mut told: Value| {
-            told["result"] = told["value"].take();
+            let value = told.as_object_mut().and_then(|told| told.remove("value"));
+            told["result"] = value.unwrap_or_default();
             told
         };
         if arguments["context"] == "repl" {
             match typed(text) {
                 Typed::Set(location, value) => {
                     let told = self.set(location, value).map(result)?;
-                    self.event("invalidated", json!({ "areas": ["variables"] }));
+                    if self.hears_invalidated {
+                        self.event("invalidated", json!({ "areas": ["variables"] }));
+                    }
                     return Ok(told);
                 }
                 Typed::Choose(candidate) => return self.choose(candidate).map(result),

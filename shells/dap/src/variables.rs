@@ -1,13 +1,14 @@
 //! What can be looked at in a stop: the functions by their kinds, the last updates, what is asked for.
 //!
 //! In: the session at a stop. Out: scopes and variables. A reference is good until the run goes on. LIMIT: so many variables of one
-//! list; a derived function with arguments has those of its domains' first elements.
+//! list; a derived function with arguments is shown
+//! for the first elements of its domains.
 
 use std::collections::BTreeMap;
 
 use groundstate::machine::{Location, Show, Value as Term};
 use groundstate::session::Waits;
-use program::{FunctionId, FunctionKind};
+use program::{DomainId, FunctionId, FunctionKind};
 use serde_json::{Value, json};
 
 use crate::target::Target;
@@ -125,7 +126,7 @@ impl Variables {
                 FunctionKind::Derived | FunctionKind::Static => target.session.evaluate(&function.name),
                 _ => {
                     let location = Location { function: id, arguments: Vec::new() };
-                    Ok(self.state(target).get(&location).cloned().unwrap_or(Term::Undef))
+                    self.read(target, &location, kind)
                 }
             };
             return self.variable(target, &function.name, value, kind);
@@ -143,31 +144,38 @@ impl Variables {
         let program = target.scene.program.clone();
         let function = program.function(id);
         let kind = function.kind;
-        if !matches!(kind, FunctionKind::Derived | FunctionKind::Static) {
-            let found = self.state(target).iter().filter(|(location, _)| location.function == id).take(MANY);
-            let found: Vec<(String, Term)> =
-                found.map(|(location, value)| (location.show(&program).to_string(), value.clone())).collect();
-            return found.into_iter().map(|(name, value)| self.variable(target, &name, Ok(value), kind)).collect();
+        let computed = matches!(kind, FunctionKind::Derived | FunctionKind::Static);
+        let mut shown: Vec<Location> = Vec::new();
+        if !computed {
+            shown = self.state(target).keys().filter(|location| location.function == id).take(MANY).cloned().collect();
         }
-        let mut tuples: Vec<Vec<String>> = vec![Vec::new()];
-        for domain in &function.parameters {
-            let Ok(elements) = target.session.elements(*domain) else { return Vec::new() };
-            let texts: Vec<String> =
-                elements.iter().take(TUPLES).map(|value| value.show(&program).to_string()).collect();
-            let longer = |tuple: &Vec<String>| {
-                texts.iter().map(|text| [tuple.clone(), vec![text.clone()]].concat()).collect::<Vec<_>>()
+        // Inputs can be set before they are asked for.
+        if computed || kind == FunctionKind::Monitored {
+            let tuples = tuples(target, &function.parameters);
+            let locations = tuples.into_iter().map(|arguments| Location { function: id, arguments });
+            shown.extend(locations);
+            shown.sort();
+            shown.dedup();
+        }
+        let mut told = Vec::new();
+        for location in shown {
+            let name = location.show(&program).to_string();
+            let value = match computed {
+                true => target.session.evaluate(&name),
+                false => self.read(target, &location, kind),
             };
-            tuples = tuples.iter().flat_map(longer).take(TUPLES).collect();
+            told.push(self.variable(target, &name, value, kind));
         }
-        let names = tuples.iter().map(|tuple| format!("{}({})", function.name, tuple.join(", ")));
-        let names: Vec<String> = names.collect();
-        names
-            .into_iter()
-            .map(|name| {
-                let value = target.session.evaluate(&name);
-                self.variable(target, &name, value, kind)
-            })
-            .collect()
+        told
+    }
+
+    /// The value of a location; an input that nobody gave has none.
+    fn read(&mut self, target: &mut Target, location: &Location, kind: FunctionKind) -> Result<Term, String> {
+        match self.state(target).get(location) {
+            Some(value) => Ok(value.clone()),
+            None if kind == FunctionKind::Monitored => Err("?".to_string()),
+            None => Ok(Term::Undef),
+        }
     }
 
     fn variable(&mut self, target: &Target, name: &str, value: Result<Term, String>, kind: FunctionKind) -> Value {
@@ -195,6 +203,7 @@ impl Variables {
                 let reference = if has_elements { self.reference(Handle::Elements(value)) } else { 0 };
                 json!({ "value": text, "variablesReference": reference })
             }
+            Err(reason) if reason == "?" => json!({ "value": "?", "variablesReference": 0 }),
             Err(reason) => json!({ "value": format!("({reason})"), "variablesReference": 0 }),
         }
     }
@@ -228,6 +237,20 @@ impl Variables {
             })
             .collect()
     }
+}
+
+/// The first arguments that domains have elements for.
+fn tuples(target: &mut Target, domains: &[DomainId]) -> Vec<Vec<Term>> {
+    let mut tuples: Vec<Vec<Term>> = vec![Vec::new()];
+    for domain in domains {
+        let Ok(elements) = target.session.elements(*domain) else { return Vec::new() };
+        let longer = |tuple: &Vec<Term>| {
+            let with = |element: &Term| [tuple.as_slice(), std::slice::from_ref(element)].concat();
+            elements.iter().take(TUPLES).map(with).collect::<Vec<_>>()
+        };
+        tuples = tuples.iter().flat_map(longer).take(TUPLES).collect();
+    }
+    tuples
 }
 
 /// The user's functions of a kind.
