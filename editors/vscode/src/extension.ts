@@ -1,16 +1,20 @@
-// Starts `groundstate lsp` for models, scenarios and charts, and runs the commands that it offers above them.
+// Starts `groundstate lsp` for models, scenarios and charts, and what is built on the program: debugger, tests, views, tasks.
 //
-// All that is known of the languages is in the server; this file knows where the program is, and terminals.
+// All that is known of the languages is in the program. What needs no VS Code is in pure/, and tested in Node.
 
 import * as path from "node:path";
 import { commands, env, type ExtensionContext, Uri, window, workspace } from "vscode";
 import { LanguageClient, type LanguageClientOptions, type ServerOptions } from "vscode-languageclient/node";
 
-let client: LanguageClient | undefined;
+import { registerCharts } from "./chart";
+import { registerDebugger } from "./debugging";
+import { program } from "./program";
+import { registerState } from "./state";
+import { registerTasks } from "./tasks";
+import { registerTests } from "./testing";
+import { registerVerification } from "./verification";
 
-function program(): string {
-  return workspace.getConfiguration("groundstate").get<string>("path") || "groundstate";
-}
+let client: LanguageClient | undefined;
 
 async function start(): Promise<void> {
   const server: ServerOptions = { command: program(), args: ["lsp"] };
@@ -63,10 +67,12 @@ export async function activate(context: ExtensionContext): Promise<void> {
   const register = (name: string, words: string[]) =>
     context.subscriptions.push(commands.registerCommand(`groundstate.${name}`, (uri) => run(words, uri)));
   register("run", ["run"]);
-  register("verify", ["verify"]);
   register("test", ["test"]);
-  register("draw", ["chart", "draw"]);
   context.subscriptions.push(
+    // The line above a chart names its file as a text.
+    commands.registerCommand("groundstate.draw", (uri) =>
+      commands.executeCommand("groundstate.preview", typeof uri === "string" ? Uri.parse(uri) : uri),
+    ),
     commands.registerCommand("groundstate.restart", async () => {
       await stop();
       await start();
@@ -78,6 +84,15 @@ export async function activate(context: ExtensionContext): Promise<void> {
       }
     }),
   );
+  registerDebugger(context);
+  registerTests(context);
+  registerCharts(context);
+  registerVerification(context);
+  registerTasks(context);
+  registerState(context, (method, params) => {
+    if (!client) return Promise.reject(new Error("the language server does not run"));
+    return client.sendRequest(method, params);
+  });
   await start();
 }
 
