@@ -12,7 +12,7 @@ import * as esbuild from "esbuild";
 const root = fileURLToPath(new URL("../", import.meta.url));
 const names = fs.readdirSync(path.join(root, "src/pure")).map((name) => name.replace(/\.ts$/, ""));
 const entry = names.map((name) => `export * as ${name} from "./src/pure/${name}";`).join("\n");
-const outfile = path.join(root, "out/pure.mjs");
+const outfile = path.join(root, "out/test/pure.mjs");
 const stdin = { contents: entry, resolveDir: root };
 await esbuild.build({ stdin, bundle: true, platform: "node", format: "esm", outfile, logLevel: "error" });
 const { results, session, launch, page, process: processes } = await import(pathToFileURL(outfile).href);
