@@ -4,6 +4,7 @@
 mod bad_input;
 mod bench;
 mod dap;
+mod dap_disorder;
 mod documented;
 mod first_steps;
 mod fmt;

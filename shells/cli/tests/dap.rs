@@ -8,7 +8,7 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 use serde_json::{Value, json};
 
-const LIFT: &str = "asm Lift
+pub const LIFT: &str = "asm Lift
 import StandardLibrary
 signature:
 	domain Floor subsetof Integer
@@ -50,7 +50,7 @@ default init s0:
 ";
 
 /// A debugger with its adapter.
-struct Debugger {
+pub struct Debugger {
     adapter: Child,
     input: Option<ChildStdin>,
     output: BufReader<ChildStdout>,
@@ -62,7 +62,7 @@ struct Debugger {
 }
 
 impl Debugger {
-    fn start(name: &str, files: &[(&str, &str)]) -> Debugger {
+    pub fn start(name: &str, files: &[(&str, &str)]) -> Debugger {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("dap-{name}"));
         _ = std::fs::remove_dir_all(&folder);
         std::fs::create_dir_all(&folder).expect("a folder");
@@ -81,7 +81,7 @@ impl Debugger {
         Debugger { adapter, input, output, folder, events: Vec::new(), next: 0, sequence: 0 }
     }
 
-    fn path(&self, file: &str) -> String {
+    pub fn path(&self, file: &str) -> String {
         self.folder.join(file).display().to_string()
     }
 
@@ -117,7 +117,7 @@ impl Debugger {
     }
 
     /// Sends a request and waits for its response.
-    fn ask(&mut self, command: &str, arguments: Value) -> Value {
+    pub fn ask(&mut self, command: &str, arguments: Value) -> Value {
         self.next += 1;
         let id = self.next;
         self.send(&json!({ "seq": id, "type": "request", "command": command, "arguments": arguments }));
@@ -215,7 +215,7 @@ impl Debugger {
         body["breakpoints"].as_array().expect("a list").clone()
     }
 
-    fn end(mut self) {
+    pub fn end(mut self) {
         self.body("disconnect", json!({}));
         assert!(self.adapter.wait().expect("it ends").success());
     }
