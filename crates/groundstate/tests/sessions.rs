@@ -9,7 +9,7 @@ use groundstate::session::{Break, Breaks, Heard, Hit, On, Scene, Session, Sessio
 use groundstate::{Suite, load};
 use machine::{Limits, Show};
 use syntax::SourceFile;
-use testkit::{Disk, NoFiles};
+use testkit::{Disk, NoFiles, Texts};
 
 const METER: &str = "asm Meter
 import StandardLibrary
@@ -105,6 +105,24 @@ fn a_scenario_ends_step_by_step_as_it_does_at_once() {
         }
     }
     assert!(played >= 8, "{played} scenarios were played");
+}
+
+#[test]
+fn a_step_that_fails_changes_nothing_and_tells_no_update_that_it_did_not_make() {
+    let model = METER.replace("sum := sum + $n", "par sum := sum + idiv(1, sum) seen := [] endpar");
+    let mut texts = Texts::of([("Meter.asm", model.as_str())]);
+    let source =
+        SourceFile::new("test.avalla", "scenario test load Meter.asm set pulse := false; step set pulse := true; step");
+    let scene = Suite::new().stage(source, &mut texts).unwrap_or_else(|tested| panic!("{:?}", tested.failures()));
+    let mut session = Session::open(Arc::new(scene), options(None)).expect("it starts");
+    wait(&mut session);
+    step(&mut session, 2);
+    let made = session.moment().expect("a moment");
+    assert_eq!((made.step, made.changes.len(), made.ran_now), (1, 1, true));
+    step(&mut session, 2);
+    let failed = session.moment().expect("a moment");
+    assert_eq!((failed.end, failed.step, failed.changes.len(), failed.idle.len()), (Some("failed"), 1, 0, 0));
+    assert!(!failed.ran.is_empty() && failed.faults.len() == 1, "{failed:?}");
 }
 
 #[test]

@@ -40,6 +40,8 @@ impl Default for Options {
 pub struct Moved {
     /// It made a step or executed a rule, or tried to.
     pub ran: bool,
+    /// It did not come to its end: there is no step.
+    pub failed: bool,
     /// What that changed.
     pub changes: Vec<Change>,
     /// Its choices, if they are kept.
@@ -328,7 +330,8 @@ impl<'a> Stage<'a> {
         if self.keeps {
             self.moved.ran = true;
             self.moved.choices.clone_from(&made);
-            if !matches!(kind, PassageKind::Attempt(_)) {
+            self.moved.failed = matches!(kind, PassageKind::Attempt(_));
+            if !self.moved.failed {
                 self.moved.changes = self.machine.changes();
             }
         }

@@ -107,6 +107,9 @@ fn take_in(moment: &mut Moment, former: &Moment, play: &Play<'_>, script: &Scrip
         moment.changes.clone_from(&moved.changes);
         moment.choices = moved.choices.iter().map(|made| (made.span, made.values.clone())).collect();
         moment.note_ran(program, now);
+        if moved.failed {
+            moment.idle.clear();
+        }
     } else {
         // What the last step did is of interest until the next one.
         moment.changes.clone_from(&former.changes);
