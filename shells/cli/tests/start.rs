@@ -156,6 +156,11 @@ fn the_first_ten_minutes_go_as_their_page_says() {
 }
 
 #[test]
+fn the_first_system_goes_as_its_page_says() {
+    check("docs/your-first-system.md");
+}
+
+#[test]
 fn the_model_on_the_readme_is_answered_so() {
     check("README.md");
 }

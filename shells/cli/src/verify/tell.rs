@@ -5,7 +5,7 @@ use std::io::Write;
 
 use groundstate::Said;
 use groundstate::tell::{Extent, Verdicts, explored, hint, why_unreduced};
-use groundstate::verify::{EngineKind, Outcome, Progress, Report, Subject, Trace};
+use groundstate::verify::{EngineKind, Outcome, Progress, Reason, Report, Stop, Subject, Trace, Verdict};
 use program::Program;
 use syntax::Sources;
 use wire::{Assumed, Explored, ExploredLine};
@@ -44,7 +44,10 @@ impl Teller<'_> {
         for span in &report.unreachable {
             shell.diagnostic(self.words.sources, &groundstate::diagnose_unreachable(*span))?;
         }
-        for verdict in &report.verdicts {
+        // A search that was to end at its first violation says nothing about the other checks.
+        let ended = |verdict: &Verdict| matches!(&verdict.outcome, Outcome::Unknown(reasons) if reasons[..] == [Reason::Stopped(Stop::Found)]);
+        let open = if shell.json() { 0 } else { report.verdicts.iter().filter(|verdict| ended(verdict)).count() };
+        for verdict in report.verdicts.iter().filter(|verdict| open < 2 || !ended(verdict)) {
             if told.contains(&verdict.subject) {
                 if matches!(verdict.outcome, Outcome::Violated(_)) && shell.talks() {
                     writeln!(shell.out(), "{}, as shown above", self.words.line(verdict, report))?;
@@ -56,6 +59,10 @@ impl Teller<'_> {
             } else if shell.talks() || !matches!(verdict.outcome, Outcome::Holds) {
                 writeln!(shell.out(), "{}", self.words.line(verdict, report))?;
             }
+        }
+        if open > 1 {
+            let reason = self.words.reason(&Reason::Stopped(Stop::Found));
+            writeln!(shell.out(), "unknown   {open} other checks: {reason}")?;
         }
         if let (EngineKind::Solver(_), false) = (report.engine, shell.json()) {
             if shell.talks() {
