@@ -1,10 +1,12 @@
-//! `groundstate new NAME`: makes a folder with a first model, its scenario, and a page of commands that all work.
+//! `groundstate new NAME`: makes a folder with a first model, its scenario, and a page of commands that all work. The model of
+//! a template that is a chart is built from it.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
+use crate::chart;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::write_text;
@@ -64,7 +66,14 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     }
     std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
     for (file, text) in arguments.template.files() {
-        write_text(&folder.join(file.replace("NAME", name)), &text.replace("NAME", name))?;
+        let path = folder.join(file.replace("NAME", name));
+        write_text(&path, &text.replace("NAME", name))?;
+        if path.extension().is_some_and(|ending| ending == "chart") {
+            let model = path.with_extension("asm");
+            // A template's chart has faults if the name is a word of the language.
+            let Some(built) = chart::build::build(shell, &path, &model, None)? else { return Ok(Exit::Model) };
+            write_text(&model, &built.text)?;
+        }
     }
     if shell.talks() {
         let page = folder.join("README.md");

@@ -35,6 +35,9 @@ fn a_new_folder_does_what_its_page_says() {
         let name = format!("My_{template}1");
         check(above.path(), &["new", &name, "--template", template], 0);
         let folder = above.path().join(&name);
+        let said = check(&folder, &["check", ".", "--strict"], 0);
+        assert_eq!(said.lines().count(), said.matches(": no faults").count(), "{said}");
+        check(&folder, &["test", "."], 0);
         let page = fs::read_to_string(folder.join("README.md")).expect("a page");
         assert!(!page.contains("NAME"), "{page}");
         let commands = commands(&page);
@@ -56,6 +59,18 @@ fn a_new_folder_does_what_its_page_says() {
         let mut command = vec!["fmt", "--check"];
         command.extend(texts.iter().map(String::as_str));
         check(&folder, &command, 0);
+    }
+}
+
+#[test]
+fn a_new_model_is_the_one_that_its_chart_builds() {
+    let above = folder();
+    for (name, template) in [("Axis", "system"), ("Arm", "robot")] {
+        check(above.path(), &["new", name, "--template", template], 0);
+        let (folder, model) = (above.path().join(name), format!("{name}.asm"));
+        let before = fs::read_to_string(folder.join(&model)).expect("the model");
+        check(&folder, &["chart", "build", &format!("{name}.chart")], 0);
+        assert_eq!(fs::read_to_string(folder.join(&model)).expect("the model"), before, "{template}");
     }
 }
 
@@ -142,9 +157,8 @@ fn a_system_says_what_its_report_shows() {
     let above = folder();
     check(above.path(), &["new", "Axis", "--template", "system"], 0);
     let folder = above.path().join("Axis");
-    let said = check(&folder, &["report", "Axis.asm"], 2);
-    assert!(said.contains("there is no file Axis.asm"), "{said}");
-    check(&folder, &["chart", "build", "Axis.chart"], 0);
+    let said = check(&folder, &["report", "Missing.asm"], 2);
+    assert!(said.contains("there is no file Missing.asm"), "{said}");
     let said = check(&folder, &["report", "Axis.asm", "--steps", "100", "-o", "run.html"], 0);
     for word in ["Sensing", "Control", "Drive", "Logger", "Sensing > Control", "20 ms"] {
         assert!(said.contains(word), "{word}: {said}");

@@ -1,6 +1,6 @@
 //! `groundstate chart …`: draws charts, builds models from them, compares the two. One file per subcommand.
 
-mod build;
+pub mod build;
 mod check;
 mod draw;
 mod export;
