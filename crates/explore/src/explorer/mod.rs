@@ -224,7 +224,6 @@ impl Explorer {
     /// # Errors
     /// A successor does not fit.
     pub fn expand(&mut self, state: &[u64], out: &mut Vec<u64>) -> Result<Expansion, Widening> {
-        self.note_state();
         let start = out.len();
         let (mut expansion, mut found) = (Expansion::default(), Successors::new(out));
         match self.steps.make(state, &self.settings.interrupt, &mut expansion, &mut found) {

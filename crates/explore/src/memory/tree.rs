@@ -12,6 +12,7 @@ use rustc_hash::FxBuildHasher;
 
 use crate::alternatives::branches::{Asked, Event};
 use crate::memory::maker::Unmade;
+use crate::memory::record::Record;
 use crate::packed::words::{Bits, Field};
 
 /// The number of an end, given by who keeps what ends mean.
@@ -28,8 +29,6 @@ const END: Link = 1 << 31;
 const WIDE: u8 = 8;
 /// LIMIT: a tree with more links is given up.
 const LINKS: usize = 1 << 25;
-/// LIMIT: so many walks are made before a tree is judged by how often they succeed.
-const TRIAL: u64 = 1 << 14;
 
 #[derive(Debug, Clone, Copy)]
 enum Node {
@@ -50,8 +49,7 @@ pub(crate) struct Tree {
     links: Vec<Link>,
     wide: HashMap<(u32, u32), Link, FxBuildHasher>,
     root: Link,
-    walks: u64,
-    failures: u64,
+    record: Record,
     given_up: bool,
 }
 
@@ -90,6 +88,11 @@ impl Tree {
         !self.given_up
     }
 
+    /// How often it has known the steps of a state.
+    pub fn record(&mut self) -> &mut Record {
+        &mut self.record
+    }
+
     /// Forgets all of it, and learns no more.
     pub fn give_up(&mut self) {
         *self = Tree { given_up: true, ..Tree::default() };
@@ -103,7 +106,7 @@ impl Tree {
     /// Visits the ends of all alternatives of a state, in their order, dead ones left out.
     #[inline]
     pub fn walk(&mut self, words: &[u64], interrupt: &Interrupt, visit: &mut impl FnMut(End)) -> Result<(), Unmade> {
-        self.walks += 1;
+        self.record.walk();
         match self.walk_from(self.root, words, interrupt, visit) {
             Ok(_) => Ok(()),
             Err(Unmade::Unknown) => {
@@ -116,13 +119,9 @@ impl Tree {
 
     #[cold]
     fn fail(&mut self) {
-        self.failures += 1;
-        // Making the steps costs more than what a walk saves where every fourth fails.
-        let poor = self.walks >= TRIAL && self.failures * 4 > self.walks;
-        if poor || self.links.len() + self.wide.len() > LINKS {
+        self.record.miss();
+        if self.record.loses_to_machine() || self.is_crowded() {
             self.give_up();
-        } else if self.walks >= TRIAL {
-            (self.walks, self.failures) = (self.walks / 2, self.failures / 2);
         }
     }
 
