@@ -8,7 +8,7 @@
 
 use std::sync::Arc;
 
-use program::{Builtin, DomainId, DomainKind, FunctionId, Program, RuleId, Term};
+use program::{Builtin, DomainId, DomainKind, FunctionId, RuleId, Term};
 use syntax::Span;
 
 use crate::environment::{Closed, Environment};
@@ -130,13 +130,15 @@ impl Machine {
     pub fn late_initials(&mut self) -> Vec<bool> {
         let program = Arc::clone(self.program());
         let fixed = fixed_functions(&program);
+        let constant = program.constant_domains();
         let mut late = vec![false; program.functions.len()];
         for initial in &program.initials {
             let body = initial.value.body;
             let chooses = matches!(program.term(body), Term::Builtin { builtin: Builtin::ChooseOne, .. });
             let mut locations = 1usize;
             for parameter in &program.function(initial.function).parameters {
-                let count = match is_fixed_domain(&program, *parameter) {
+                let listed = constant[parameter.0 as usize] && program.is_listable(*parameter);
+                let count = match listed {
                     true => self.elements(*parameter).map_or(usize::MAX, |elements| elements.len()),
                     false => usize::MAX,
                 };
@@ -145,19 +147,6 @@ impl Machine {
             late[initial.function.0 as usize] = locations > EAGER && !chooses && is_fixed_term(&program, body, &fixed);
         }
         late
-    }
-}
-
-/// Whether a domain has the same elements in all states.
-pub fn is_fixed_domain(program: &Program, domain: DomainId) -> bool {
-    match &program.domain(domain).kind {
-        DomainKind::Basic(_) | DomainKind::Enum { .. } => true,
-        DomainKind::Abstract { dynamic, .. } => !dynamic,
-        DomainKind::Concrete { dynamic, base, .. } => {
-            !dynamic && !matches!(program.domain(*base).kind, DomainKind::Abstract { dynamic: true, .. })
-        }
-        DomainKind::Prod(parts) => parts.iter().all(|part| is_fixed_domain(program, *part)),
-        _ => false,
     }
 }
 

@@ -285,6 +285,20 @@ fn a_shared_location_that_the_start_has_asked_for_stays() {
     );
 }
 
+#[test]
+fn a_domain_that_the_start_fills_from_inputs_is_part_of_the_states() {
+    let domains = "dynamic domain Few subsetof Integer\ndynamic domain Same subsetof Integer\nmonitored mon: Boolean\n\
+                   controlled x: Integer\n";
+    for over in ["Few", "Same"] {
+        agrees(&format!(
+            "{domains}definitions:\ninvariant inv_a over x: x != 2\ninvariant inv_b over x: x != 1\n\
+             main rule r_Main = if (exist $s in {over} with $s = 2) then x := 2 else x := 1 endif\n\
+             default init s0: domain Few = if mon then {{1}} else {{2, 3}} endif domain Same = {{$n in Few | $n > 0 : $n}}\n\
+             function x = 0"
+        ));
+    }
+}
+
 /// A random model: initial values, guards and properties over inputs, the state, a definition and each other.
 fn random(seed: u64) -> String {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;

@@ -224,7 +224,7 @@ fn all_bounds(program: &Program, encoding: &Encoding, machine: &mut Machine, set
     for (function, declared) in (0..).map(program::FunctionId).zip(&program.functions) {
         if declared.kind == FunctionKind::Monitored
             && !bounds.contains_key(&function)
-            && let Some(values) = finite(program, &encoding.growing, machine, declared.codomain)
+            && let Some(values) = finite(program, &encoding.constant, machine, declared.codomain)
         {
             bounds.insert(function, values);
         }

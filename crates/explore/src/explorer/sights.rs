@@ -6,7 +6,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use machine::inside::is_fixed_domain;
 use machine::{Fault, Location, Observation, Value};
 use rustc_hash::FxHashSet;
 
@@ -60,8 +59,10 @@ impl Explorer {
 
     /// The elements of a domain, as far as they are the same in all states and no more than `most`.
     pub fn elements(&mut self, domain: program::DomainId, most: usize) -> Option<Vec<Value>> {
-        let fixed = is_fixed_domain(&self.program, domain);
-        let elements = if fixed { self.machine.elements(domain).ok()? } else { return None };
+        if !self.encoding.constant[domain.0 as usize] || !self.program.is_listable(domain) {
+            return None;
+        }
+        let elements = self.machine.elements(domain).ok()?;
         (elements.len() <= most).then_some(elements)
     }
 

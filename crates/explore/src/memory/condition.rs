@@ -6,9 +6,9 @@
 
 use std::sync::Arc;
 
-use machine::inside::{extended, is_fixed_domain};
+use machine::inside::extended;
 use machine::{Machine, Value};
-use program::{Builtin, Expression, Program, Quantifier, Slot, Term, TermId};
+use program::{Builtin, DomainId, Expression, Program, Quantifier, Slot, Term, TermId};
 
 use crate::memory::tree::{End, Tree};
 
@@ -63,13 +63,15 @@ impl Condition {
     /// A condition of a formula without parameters.
     pub fn new(program: &Program, machine: &mut Machine, formula: &Expression) -> Condition {
         let mut condition = Condition { parts: Vec::new() };
-        condition.take_apart(program, machine, formula.frame, formula.body, Arc::new([]));
+        let constant = program.constant_domains();
+        condition.take_apart(program, &constant, machine, formula.frame, formula.body, Arc::new([]));
         condition
     }
 
     fn take_apart(
         &mut self,
         program: &Program,
+        constant: &[bool],
         machine: &mut Machine,
         frame: u32,
         term: TermId,
@@ -78,16 +80,17 @@ impl Condition {
         match program.term(term) {
             Term::Builtin { builtin: Builtin::And, arguments } => {
                 for conjunct in program.term_list(*arguments) {
-                    self.take_apart(program, machine, frame, *conjunct, Arc::clone(&bindings));
+                    self.take_apart(program, constant, machine, frame, *conjunct, Arc::clone(&bindings));
                 }
                 return;
             }
             Term::Quantified { quantifier: Quantifier::Forall, binders, condition: Some(body) } => {
                 let binders = program.binder_list(*binders);
+                let is_listed = |domain: DomainId| constant[domain.0 as usize] && program.is_listable(domain);
                 let elements: Option<Vec<Vec<Value>>> = binders
                     .iter()
                     .map(|binder| match program.term(binder.range) {
-                        Term::Domain(domain) if is_fixed_domain(program, *domain) => machine.elements(*domain).ok(),
+                        Term::Domain(domain) if is_listed(*domain) => machine.elements(*domain).ok(),
                         _ => None,
                     })
                     .collect();
@@ -101,7 +104,7 @@ impl Condition {
                         all = extended(all, &column);
                     }
                     for bindings in all {
-                        self.take_apart(program, machine, frame, *body, bindings.into());
+                        self.take_apart(program, constant, machine, frame, *body, bindings.into());
                     }
                     return;
                 }

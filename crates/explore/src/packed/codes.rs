@@ -24,13 +24,13 @@ impl Codes {
     /// The codes of values of a domain and these, of undef where that is possible; and how many bits they need.
     pub fn of<'v>(
         program: &Program,
-        growing: &[bool],
+        constant: &[bool],
         machine: &mut Machine,
         domain: DomainId,
         found: impl Iterator<Item = &'v Value>,
         undefined: bool,
     ) -> (Codes, usize) {
-        let Some(mut values) = finite(program, growing, machine, domain) else { return (Codes::Interned, 32) };
+        let Some(mut values) = finite(program, constant, machine, domain) else { return (Codes::Interned, 32) };
         values.extend(found.cloned());
         values.retain(|value| !value.is_undef());
         values.sort_unstable();
@@ -50,21 +50,16 @@ pub(crate) enum Coding<'e> {
     Numbered,
 }
 
-/// The elements of a domain that is finite and the same in all states; `growing` says by domain whether some rule makes
-/// elements of it.
+/// The elements of a domain that is finite and the same in all states; `constant` says the latter by domain.
 pub(crate) fn finite(
     program: &Program,
-    growing: &[bool],
+    constant: &[bool],
     machine: &mut Machine,
     domain: DomainId,
 ) -> Option<Vec<Value>> {
-    let fixed = match &program.domain(domain).kind {
-        DomainKind::Basic(model::Basic::Boolean) | DomainKind::Enum { .. } => true,
-        DomainKind::Abstract { .. } | DomainKind::Concrete { .. } => !growing[domain.0 as usize],
-        // What is inside of tuples and collections is not checked of an update, so they may hold anything.
-        _ => false,
-    };
-    if !fixed {
+    // What is inside of tuples is not checked of an update, so they may hold anything.
+    let is_tuple = matches!(program.domain(domain).kind, DomainKind::Prod(_));
+    if is_tuple || !constant[domain.0 as usize] || !program.is_listable(domain) {
         return None;
     }
     machine.elements(domain).ok().filter(|elements| elements.len() <= CODES)

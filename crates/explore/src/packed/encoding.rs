@@ -40,9 +40,9 @@ pub(crate) struct Encoding {
     pub words: usize,
     /// By function: its initial values depend on its arguments alone and are evaluated when first read.
     lazy: Vec<bool>,
-    /// By domain, whether some rule makes elements of it.
-    pub growing: Vec<bool>,
-    /// Some domain may grow.
+    /// By domain, whether it has the same elements in all states.
+    pub constant: Vec<bool>,
+    /// Some domain has other elements in other states.
     grows: bool,
     /// The inputs of initial states.
     pub kept: Kept,
@@ -62,7 +62,7 @@ impl Encoding {
         widening: &Widening,
     ) -> Encoding {
         let assigned_undef = assigned_undef(program);
-        let growing = program.growing_domains();
+        let constant = program.constant_domains();
         let mut encoding = Encoding {
             fields: Vec::new(),
             codes: vec![None; program.functions.len()],
@@ -72,8 +72,8 @@ impl Encoding {
             constant_rest: Arc::default(),
             words: 1,
             lazy: machine.late_initials(),
-            grows: growing.contains(&true),
-            growing,
+            grows: constant.contains(&false),
+            constant,
             kept: Kept::default(),
             origin: None,
         };
@@ -91,10 +91,10 @@ impl Encoding {
             if function.library || function.kind == FunctionKind::Shared {
                 continue;
             }
-            let Some(locations) = declared_locations(program, &encoding.growing, machine, id) else { continue };
+            let Some(locations) = declared_locations(program, &encoding.constant, machine, id) else { continue };
             let found = || locations.iter().flat_map(|location| initial.iter().map(|state| &state[*location as usize]));
             let undefined = widening.undefined.contains(&id) || assigned_undef[index] || found().any(Value::is_undef);
-            let (codes, bits) = Codes::of(program, &encoding.growing, machine, function.codomain, found(), undefined);
+            let (codes, bits) = Codes::of(program, &encoding.constant, machine, function.codomain, found(), undefined);
             if used + bits * locations.len() > BITS {
                 continue;
             }
@@ -322,13 +322,13 @@ impl Encoding {
 /// The dense locations whose arguments are in the declared domains, if these are finite.
 fn declared_locations(
     program: &Program,
-    growing: &[bool],
+    constant: &[bool],
     machine: &mut Machine,
     function: FunctionId,
 ) -> Option<Vec<u32>> {
     let mut tuples = vec![Vec::new()];
     for parameter in &program.function(function).parameters {
-        let elements = finite(program, growing, machine, *parameter)?;
+        let elements = finite(program, constant, machine, *parameter)?;
         if tuples.len() * elements.len() > FIELDS_OF_A_FUNCTION {
             return None;
         }

@@ -37,7 +37,7 @@ impl Encoding {
         for (function, locations) in by_function {
             let codomain = program.function(function).codomain;
             let given = initial.iter().flat_map(|state| locations.iter().map(|(_, index)| &state[*index as usize]));
-            let (codes, bits) = Codes::of(program, &self.growing, machine, codomain, given, true);
+            let (codes, bits) = Codes::of(program, &self.constant, machine, codomain, given, true);
             used += bits * locations.len();
             if used > BITS {
                 in_rest.extend(locations.into_iter().map(|(location, _)| location));

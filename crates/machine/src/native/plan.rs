@@ -78,8 +78,8 @@ pub(super) struct Plan {
     pub facts: Facts,
     /// By function: its definition depends on no state.
     fixed: Vec<bool>,
-    /// By domain: some rule may make elements of it.
-    growing: Vec<bool>,
+    /// By domain: it has the same elements in all states.
+    constant: Vec<bool>,
     /// How often each unit is called in the program's text.
     procedure_calls: Vec<u32>,
     definition_calls: Vec<u32>,
@@ -119,7 +119,7 @@ impl Plan {
             constants: Arc::clone(&constants),
             facts: Facts::of(program, core),
             fixed: memo::fixed_functions(program),
-            growing: program.growing_domains(),
+            constant: program.constant_domains(),
             procedure_calls,
             definition_calls,
             units: Vec::new(),
@@ -153,7 +153,7 @@ impl Plan {
     /// The bounds of a domain whose elements are consecutive numbers in every state.
     pub fn numbers(&self, program: &Program, domain: DomainId) -> Option<(i64, i64)> {
         match &program.domain(domain).kind {
-            DomainKind::Abstract { elements, .. } if !self.growing[domain.0 as usize] => {
+            DomainKind::Abstract { elements, .. } if self.constant[domain.0 as usize] => {
                 Some((0, elements.len() as i64 - 1))
             }
             _ => self.facts.contents[domain.0 as usize].as_ref().and_then(|values| consecutive(values)),

@@ -7,6 +7,7 @@
 //!
 //! Domain and function ids are those of the model, so a fault found here can refer to the model.
 
+mod elements;
 mod program;
 mod rule;
 mod specialisation;

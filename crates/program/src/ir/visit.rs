@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 
 use crate::ir::{BinderList, Expression, Program, Rule, RuleId, Term, TermId};
-use model::{DomainId, FunctionId, FunctionKind};
+use model::{FunctionId, FunctionKind};
 
 impl Program {
     /// Calls `visit` with each child of a term: arguments, ranges, conditions, bodies.
@@ -195,35 +195,6 @@ impl Program {
             self.each_child_of_term(id, &mut |child| open.push(child));
         }
         (read.into_iter().collect(), depends_on_more)
-    }
-
-    /// By domain, whether some rule may make elements of it: `extend` over it, over its base, or over a part of the same base.
-    pub fn growing_domains(&self) -> Vec<bool> {
-        let mut bases = BTreeSet::new();
-        for rule in &self.rules {
-            match rule {
-                Rule::Extend { domain, .. } => _ = bases.insert(self.base_domain(*domain)),
-                Rule::Skip
-                | Rule::Update { .. }
-                | Rule::Call { .. }
-                | Rule::TurboCall { .. }
-                | Rule::RunValue { .. }
-                | Rule::RunAgent { .. }
-                | Rule::Par(_)
-                | Rule::Seq(_)
-                | Rule::If { .. }
-                | Rule::Switch { .. }
-                | Rule::Let { .. }
-                | Rule::Choose { .. }
-                | Rule::Forall { .. }
-                | Rule::Iterate(_)
-                | Rule::While { .. }
-                | Rule::RecursiveWhile { .. }
-                | Rule::Return { .. }
-                | Rule::Local { .. } => {}
-            }
-        }
-        (0..self.domains.len() as u32).map(|id| bases.contains(&self.base_domain(DomainId(id)))).collect()
     }
 
     fn each_range(&self, binders: BinderList, visit: &mut dyn FnMut(TermId)) {

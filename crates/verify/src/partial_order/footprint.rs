@@ -116,18 +116,14 @@ impl Walk<'_> {
 
     /// The bindings of a choice, in order: the leftmost varies slowest.
     fn bindings(&mut self, binders: &[Binder]) -> Option<Vec<Vec<Value>>> {
+        let constant = self.program.constant_domains();
         let mut all = vec![Vec::new()];
         for binder in binders {
             let Term::Domain(domain) = self.program.term(binder.range) else { return None };
-            match &self.program.domain(*domain).kind {
-                DomainKind::Basic(model::Basic::Boolean) | DomainKind::Enum { .. } => {}
-                DomainKind::Abstract { dynamic: false, .. } => {}
-                DomainKind::Concrete { dynamic: false, base, .. } => {
-                    if let DomainKind::Abstract { dynamic: true, .. } = self.program.domain(*base).kind {
-                        return None;
-                    }
-                }
-                _ => return None,
+            // The machine may not have started.
+            let is_known = constant[domain.0 as usize] && !self.program.waits_for_start(*domain);
+            if !is_known || !self.program.is_listable(*domain) {
+                return None;
             }
             let elements = self.machine.elements(*domain).ok()?;
             let longer = |values: Vec<Value>| {

@@ -1,10 +1,13 @@
 //! Finds terms that have the same value in every state.
 
 use machine::{Closed, Machine, Show, Value};
-use program::{DomainId, DomainKind, FunctionKind, Program, Slot, Term, TermId};
+use program::{DomainId, FunctionKind, Program, Slot, Term, TermId};
 
 /// Whether a term's value depends only on the values of its variables.
 pub fn is_fixed(program: &Program, term: TermId) -> bool {
+    let constant = std::cell::LazyCell::new(|| program.constant_domains());
+    // Formulas are read before any run starts.
+    let is_known = |domain: DomainId| constant[domain.0 as usize] && !program.waits_for_start(domain);
     let mut entered = vec![false; program.functions.len()];
     let mut open = vec![term];
     while let Some(id) = open.pop() {
@@ -18,7 +21,7 @@ pub fn is_fixed(program: &Program, term: TermId) -> bool {
                     open.extend(declared.definition.as_ref().map(|definition| definition.body));
                 }
             }
-            Term::Domain(domain) if !is_fixed_domain(program, *domain) => return false,
+            Term::Domain(domain) if !is_known(*domain) => return false,
             Term::Builtin { builtin, .. } if !builtin.info().effect.is_none() => return false,
             Term::Constant(_)
             | Term::Slot(_)
@@ -39,28 +42,6 @@ pub fn is_fixed(program: &Program, term: TermId) -> bool {
             | Term::Coerce(_) => {}
         }
         program.each_child_of_term(id, &mut |child| open.push(child));
-    }
-    true
-}
-
-/// Whether a domain has the same elements in every state.
-fn is_fixed_domain(program: &Program, domain: DomainId) -> bool {
-    let mut open = vec![domain];
-    while let Some(domain) = open.pop() {
-        match &program.domain(domain).kind {
-            DomainKind::Abstract { dynamic: true, .. } | DomainKind::Concrete { dynamic: true, .. } => return false,
-            DomainKind::Seq(part) | DomainKind::Powerset(part) | DomainKind::Bag(part) => open.push(*part),
-            DomainKind::Map(from, to) => open.extend([*from, *to]),
-            DomainKind::Prod(parts) => open.extend(parts),
-            // A domain that may not grow keeps its elements, whatever is added to its base domain.
-            DomainKind::Concrete { dynamic: false, .. } => {}
-            DomainKind::Error
-            | DomainKind::Any
-            | DomainKind::Basic(_)
-            | DomainKind::Enum { .. }
-            | DomainKind::Abstract { dynamic: false, .. }
-            | DomainKind::Rule(_) => {}
-        }
     }
     true
 }
