@@ -9,9 +9,10 @@ use std::collections::BTreeSet;
 
 use program::FunctionId;
 
-use crate::model::generator::{Generator, Need};
+use crate::model::generator::Generator;
 use crate::model::members::{carriers, functions, parameters};
 use crate::model::plan::Role;
+use crate::model::reach::Need;
 use crate::model::text::Text;
 
 /// All of them.
@@ -193,7 +194,7 @@ pub(crate) fn initial_state(generator: &Generator<'_>, text: &mut Text) {
 }
 
 fn clock(generator: &Generator<'_>, text: &mut Text) {
-    if !generator.needs.contains(&Need::Clock) {
+    if !generator.reach.needs(Need::Clock) {
         return;
     }
     text.open("\nstd::int64_t Machine::clock(gs::TimeUnit unit) {");

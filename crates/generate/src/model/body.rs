@@ -1,18 +1,20 @@
 //! Generates the bodies of procedures, definitions and initial values, until no body refutes an assumption.
 //!
-//! In: a plan. Out: [`Bodies`], the member functions of the class with their declarations, and everything that they ask
-//! for: places, tables, needs.
+//! In: a plan, and what the class needs. Out: [`Bodies`], the member functions of the class with their declarations, and
+//! what is collected while they are printed: places and tables.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
-use program::{Expression, FunctionId, FunctionKind, ProcedureId, Program, Runs};
+use program::{Expression, FunctionId, ProcedureId, Program};
 use syntax::Diagnostic;
 
+use crate::model::assumptions::Assumptions;
 use crate::model::code::unwrapped;
 use crate::model::form::Form;
-use crate::model::generator::{Assumptions, Generator, Need, Options};
+use crate::model::generator::{Generator, Options};
 use crate::model::interval::Interval;
 use crate::model::plan::{FunctionPlan, Plan, Role};
+use crate::model::reach::{Part, Reach};
 use crate::model::text::Text;
 use crate::model::types::Type;
 use crate::model::writes::Writes;
@@ -50,22 +52,15 @@ pub(crate) fn bodies<'a>(
     plan: &'a Plan,
     writes: &'a Writes,
     forms: &'a [Form],
+    reach: &'a Reach,
     options: &'a Options,
     started: &machine::Machine,
 ) -> Result<Bodies<'a>, Vec<Diagnostic>> {
-    let mut assumed = Assumptions::all(program);
-    assumed.acting = acting(program);
+    let mut assumed = Assumptions::all(program, plan);
     let known = known_values(program, started);
-    // Only functions that no one but the model's rules writes can be assumed to be never undef.
-    for (index, function) in plan.functions.iter().enumerate() {
-        let fitting = function.role == Role::State
-            && function.initial.is_some()
-            && matches!(program.functions[index].kind, FunctionKind::Controlled | FunctionKind::Out);
-        assumed.total[index] &= fitting;
-    }
     let mut round = 0;
     loop {
-        let mut generator = Generator::new(program, plan, writes, forms, options, assumed.clone());
+        let mut generator = Generator::new(program, plan, writes, forms, reach, options, assumed.clone());
         let bodies = once(&mut generator, started, &known);
         if generator.refuted == assumed {
             if !generator.refused.is_empty() {
@@ -92,42 +87,30 @@ fn once(generator: &mut Generator<'_>, started: &machine::Machine, known: &Known
     if !program.agents.is_empty() {
         run_agent(generator, &mut agents);
     }
-    for procedure in program.main.into_iter().chain(program.agents.iter().map(|agent| agent.procedure)) {
-        *generator.calls.entry(procedure).or_default() += 1;
-    }
-    generator.entered.extend(program.main);
     let mut procedures = Vec::new();
     let mut definitions = Vec::new();
     let mut initials = Vec::new();
-    let mut done_procedures = BTreeSet::new();
-    let mut done_functions = BTreeSet::new();
-    // Generating a body may enter further procedures.
-    loop {
-        let next_procedure = generator.entered.iter().find(|id| !done_procedures.contains(*id)).copied();
-        if let Some(id) = next_procedure {
-            done_procedures.insert(id);
-            procedures.push((id, procedure(generator, id)));
-            continue;
-        }
-        let next_function = generator.reached.iter().find(|id| !done_functions.contains(*id)).copied();
-        let Some(id) = next_function else { break };
-        done_functions.insert(id);
-        let role = generator.plan.function(id).role;
-        if role == Role::Definition {
-            definitions.push((id, definition(generator, id)));
-        } else if let Some(initial) = generator.plan.function(id).initial
-            && role != Role::Input
-        {
-            initials.push((id, initial_value(generator, id, initial, known)));
+    let reach = generator.reach;
+    for part in &reach.parts {
+        match *part {
+            Part::Procedure(id) => procedures.push((id, procedure(generator, id))),
+            Part::Function(id) => {
+                let plan = generator.plan.function(id);
+                match (plan.role, plan.initial) {
+                    (Role::Definition, _) => definitions.push((id, definition(generator, id))),
+                    (Role::Input, _) | (_, None) => {}
+                    (_, Some(initial)) => initials.push((id, initial_value(generator, id, initial, known))),
+                }
+            }
         }
     }
-    for id in generator.reached.clone() {
-        let plan = generator.plan.function(id).clone();
+    for id in &reach.functions {
+        let plan = generator.plan.function(*id).clone();
         if matches!(plan.role, Role::Input | Role::Shared) {
             let names: Vec<String> = (0..plan.dimensions.len()).map(crate::model::members::argument_name).collect();
             let asked = format!("environment_.{}({})", plan.name, names.join(", "));
-            let asked = generator.checked(id, asked, Interval::ALL, "site");
-            generator.asked.insert(id, asked);
+            let asked = generator.checked(*id, asked, Interval::ALL, "site");
+            generator.asked.insert(*id, asked);
         }
     }
     let mut whole = Text::default();
@@ -155,10 +138,9 @@ fn procedure(generator: &mut Generator<'_>, id: ProcedureId) -> Member {
     let list = parameters.join(", ");
     let mut text = Text::default();
     text.open_marked(procedure.span, format!("void Machine::{name}({}) {{", silenced(&parameters)));
-    let recursive = is_recursive(program, id);
+    let recursive = generator.reach.is_recursive(id);
     if recursive {
         let site = generator.sites.number(procedure.span);
-        generator.needs.insert(Need::Depth);
         text.line(format!("gs::enter(calls_, {site});"));
     }
     generator.rule(procedure.body, &mut text);
@@ -172,7 +154,7 @@ fn procedure(generator: &mut Generator<'_>, id: ProcedureId) -> Member {
 /// Forces inlining of a procedure that is called at only one place, whatever the compiler estimates. What a step
 /// updates then stays in registers.
 fn inline_once(generator: &Generator<'_>, id: ProcedureId, member: &mut Member) {
-    let once = generator.calls.get(&id) == Some(&1) && !is_recursive(generator.program, id);
+    let once = generator.reach.is_called_once(id) && !generator.reach.is_recursive(id);
     if once && member.definition.plain().lines().count() <= INLINED_LINES {
         member.declaration = format!("[[gnu::always_inline]] {}", member.declaration);
     }
@@ -209,12 +191,11 @@ fn definition(generator: &mut Generator<'_>, id: FunctionId) -> Member {
     let mut text = Text::default();
     text.open_marked(function.span, format!("{result} Machine::{}({}) {{", plan.name, silenced(&parameters)));
     let body = unwrapped(&body);
-    let recursive = reads_itself(program, id);
+    let recursive = generator.reach.reads_itself(id);
     if recursive || !pure {
         generator.refuted.pure[id.0 as usize] = false;
     }
     if recursive {
-        generator.needs.insert(Need::Depth);
         text.line(format!("gs::enter(calls_, {site});"));
         let value = generator.frame.scope.take("value");
         text.marked(program.term_span(expression.body), format!("auto {value} = {body};"));
@@ -274,15 +255,13 @@ fn initial_value(generator: &mut Generator<'_>, id: FunctionId, initial: usize, 
 /// The statements that set the initial state.
 fn start_state(generator: &mut Generator<'_>, started: &machine::Machine, text: &mut Text) {
     let program = generator.program;
-    let (order, cyclic) = initial_order(program);
-    for index in order {
+    for index in generator.reach.initials.iter().copied() {
         let initial = &program.initials[index];
         let plan = generator.plan.function(initial.function).clone();
         if matches!(plan.role, Role::Input | Role::None) {
             continue;
         }
-        generator.reached.insert(initial.function);
-        if cyclic.contains(&index) {
+        if generator.reach.cyclic_initials.contains(&index) {
             generator.refuted.eager[initial.function.0 as usize] = false;
             generator.refuted.values[initial.function.0 as usize] = Interval::ALL;
             set_as_computed(generator, initial.function, &plan, started, text);
@@ -294,7 +273,7 @@ fn start_state(generator: &mut Generator<'_>, started: &machine::Machine, text: 
 
 /// Sets the initial elements of growing domains.
 fn start_carriers(generator: &Generator<'_>, text: &mut Text) {
-    for domain in &generator.carriers {
+    for domain in &generator.reach.carriers {
         let plan = generator.plan.domain(*domain);
         let Some(carrier) = &plan.carrier else { continue };
         match &generator.program.domain(*domain).kind {
@@ -371,43 +350,6 @@ fn set_as_computed(
     }
 }
 
-/// The initial values in an order in which none reads a later one, and those for which there is no such order.
-fn initial_order(program: &Program) -> (Vec<usize>, BTreeSet<usize>) {
-    let mut order = Vec::new();
-    let mut cyclic = BTreeSet::new();
-    let mut state = vec![0u8; program.initials.len()];
-    let of: BTreeMap<FunctionId, usize> =
-        program.initials.iter().enumerate().map(|(index, initial)| (initial.function, index)).collect();
-    fn visit(
-        program: &Program,
-        of: &BTreeMap<FunctionId, usize>,
-        index: usize,
-        state: &mut [u8],
-        order: &mut Vec<usize>,
-        cyclic: &mut BTreeSet<usize>,
-    ) {
-        state[index] = 1;
-        for read in program.all_reads(&program.initials[index].value).0 {
-            let Some(next) = of.get(&read) else { continue };
-            match state[*next] {
-                0 => visit(program, of, *next, state, order, cyclic),
-                1 => {
-                    cyclic.insert(*next);
-                }
-                _ => {}
-            }
-        }
-        state[index] = 2;
-        order.push(index);
-    }
-    for index in 0..program.initials.len() {
-        if state[index] == 0 && of.get(&program.initials[index].function) == Some(&index) {
-            visit(program, &of, index, &mut state, &mut order, &mut cyclic);
-        }
-    }
-    (order, cyclic)
-}
-
 /// Selects an agent's program: that of its most specific domain, which comes first.
 fn run_agent(generator: &mut Generator<'_>, text: &mut Text) {
     let program = generator.program;
@@ -427,7 +369,6 @@ fn run_agent(generator: &mut Generator<'_>, text: &mut Text) {
                 None => continue,
             },
         };
-        generator.entered.insert(procedure);
         text.open(format!("if ({condition}) {{"));
         text.line(format!("return {};", procedure.0));
         text.close("}");
@@ -460,86 +401,4 @@ fn known_values(program: &Program, started: &machine::Machine) -> Known {
         };
     }
     known
-}
-
-/// Whether `self` is read only in agents' programs, so that it is always defined.
-fn acting(program: &Program) -> bool {
-    let Some(own) = program.self_function else { return false };
-    let mut procedures: Vec<ProcedureId> = program.main.into_iter().collect();
-    let mut terms: Vec<_> = program.initials.iter().map(|initial| initial.value.body).collect();
-    let mut entered: BTreeSet<ProcedureId> = procedures.iter().copied().collect();
-    while let Some(procedure) = procedures.pop() {
-        let mut rules = vec![program.procedure(procedure).body];
-        while let Some(rule) = rules.pop() {
-            let called: Vec<ProcedureId> = match program.rule(rule).runs() {
-                Runs::Procedure(procedure) => vec![procedure],
-                Runs::Value { .. } => crate::model::nesting::runnable(program).collect(),
-                // The agent runs its program, so there is a `self`.
-                Runs::Agent | Runs::Nothing => Vec::new(),
-            };
-            procedures.extend(called.into_iter().filter(|called| entered.insert(*called)));
-            program.each_term_of_rule(rule, &mut |term| terms.push(term));
-            program.each_child_of_rule(rule, &mut |child| rules.push(child));
-        }
-    }
-    let mut defined = BTreeSet::new();
-    while let Some(term) = terms.pop() {
-        match program.term(term) {
-            program::Term::Read { function, .. } if *function == own => return false,
-            program::Term::Define { function, .. } if defined.insert(*function) => {
-                terms.extend(program.function(*function).definition.as_ref().map(|definition| definition.body));
-            }
-            _ => {}
-        }
-        program.each_child_of_term(term, &mut |child| terms.push(child));
-    }
-    program.initials.iter().all(|initial| initial.function != own)
-}
-
-/// Whether a procedure calls itself, directly or through others.
-fn is_recursive(program: &Program, id: ProcedureId) -> bool {
-    let mut entered = vec![false; program.procedures.len()];
-    let mut open = vec![id];
-    while let Some(next) = open.pop() {
-        let mut rules = vec![program.procedure(next).body];
-        while let Some(rule) = rules.pop() {
-            let called = match program.rule(rule).runs() {
-                Runs::Procedure(procedure) => vec![procedure],
-                Runs::Value { arguments } => {
-                    let fits = |id: &ProcedureId| program.procedure(*id).parameters.len() == arguments.len as usize;
-                    crate::model::nesting::runnable(program).filter(fits).collect()
-                }
-                Runs::Agent => program.agents.iter().map(|agent| agent.procedure).collect(),
-                Runs::Nothing => Vec::new(),
-            };
-            for procedure in called {
-                if procedure == id {
-                    return true;
-                }
-                if !std::mem::replace(&mut entered[procedure.0 as usize], true) {
-                    open.push(procedure);
-                }
-            }
-            program.each_child_of_rule(rule, &mut |child| rules.push(child));
-        }
-    }
-    false
-}
-
-/// Whether a definition reads itself, directly or through others.
-fn reads_itself(program: &Program, id: FunctionId) -> bool {
-    let mut entered = vec![false; program.functions.len()];
-    let mut open: Vec<_> = program.function(id).definition.iter().map(|definition| definition.body).collect();
-    while let Some(term) = open.pop() {
-        if let program::Term::Define { function, .. } = program.term(term) {
-            if *function == id {
-                return true;
-            }
-            if !std::mem::replace(&mut entered[function.0 as usize], true) {
-                open.extend(program.function(*function).definition.as_ref().map(|definition| definition.body));
-            }
-        }
-        program.each_child_of_term(term, &mut |child| open.push(child));
-    }
-    false
 }

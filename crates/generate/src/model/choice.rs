@@ -4,14 +4,15 @@
 //! Variables that range over all numbers of a kind are drawn.
 
 use model::Basic;
-use program::{Binder, BinderList, DomainKind, RuleId, Term, TermId};
+use program::{Binder, BinderList, DomainId, DomainKind, RuleId, TermId};
 
 use crate::model::code::unwrapped;
 use crate::model::generator::Generator;
 use crate::model::interval::Interval;
-use crate::model::plan::integer;
+use crate::model::plan::{gapless, integer};
+use crate::model::selection::{Selection, drawn, selection};
 use crate::model::text::Text;
-use crate::model::types::type_of;
+use crate::model::types::{Type, type_of};
 
 /// LIMIT: how many candidates are stored in place; more go to the heap.
 const CANDIDATES_IN_PLACE: u64 = 4096;
@@ -20,7 +21,7 @@ impl Generator<'_> {
     /// A choice among the bindings of the binders.
     pub fn choose(
         &mut self,
-        binders: BinderList,
+        list: BinderList,
         condition: Option<TermId>,
         body: RuleId,
         if_none: Option<RuleId>,
@@ -29,28 +30,29 @@ impl Generator<'_> {
     ) {
         let span = self.program.rule_span(id);
         let site = self.sites.number(span);
-        let binders = self.program.binder_list(binders).to_vec();
+        let binders = self.program.binder_list(list).to_vec();
         text.open("{");
-        let listed = self.draws(&binders, condition, site, text);
-        if listed.is_empty() && !binders.is_empty() && condition.is_none_or(|condition| self.is_true(condition)) {
-            // There is one candidate, whose numbers were all drawn; the choice is still made.
-            text.line(format!("(void)choose(1, {site});"));
-            self.rule(body, text);
-            text.close("}");
-            return;
-        }
-        if let ([binder], true) = (&listed[..], condition.is_none_or(|condition| self.is_true(condition)))
-            && let Some(picked) = self.picked(*binder, site)
-        {
-            let Term::Domain(domain) = *self.program.term(binder.range) else { unreachable!("a pick is of a domain") };
-            let ty = type_of(self.program, domain);
-            let name = self.declare(binder.slot, ty, true, self.domain_interval(domain)).name;
-            text.marked(span, format!("[[maybe_unused]] const {} {name} = {picked};", self.plan.cpp(ty, true)));
-            self.rule(body, text);
-            text.close("}");
-            self.frame.scope.release(&name);
-            return;
-        }
+        self.draws(&binders, condition, site, text);
+        let listed = match selection(self.program, self.plan, list, condition) {
+            Selection::Drawn => {
+                // There is one candidate, whose numbers were all drawn; the choice is still made.
+                text.line(format!("(void)choose(1, {site});"));
+                self.rule(body, text);
+                text.close("}");
+                return;
+            }
+            Selection::Picked(binder, domain, count) => {
+                let picked = self.picked(domain, count, site);
+                let ty = type_of(self.program, domain);
+                let name = self.declare(binder.slot, ty, true, self.domain_interval(domain)).name;
+                text.marked(span, format!("[[maybe_unused]] const {} {name} = {picked};", self.plan.cpp(ty, true)));
+                self.rule(body, text);
+                text.close("}");
+                self.frame.scope.release(&name);
+                return;
+            }
+            Selection::Listed(listed) => listed,
+        };
         let candidates = self.fresh("candidates");
         let mut inner = Text::default();
         let mut types: Vec<String> = Vec::new();
@@ -76,8 +78,9 @@ impl Generator<'_> {
             [one] => one.clone(),
             many => format!("std::tuple<{}>", many.join(", ")),
         };
+        let dynamic = variables.iter().any(|variable| variable.ty == Type::Value);
         let place = match size {
-            Some(size) if size <= CANDIDATES_IN_PLACE && !item.contains("gs::Value") => size,
+            Some(size) if size <= CANDIDATES_IN_PLACE && !dynamic => size,
             _ => 0,
         };
         if place == 0 && self.options.bare {
@@ -113,54 +116,25 @@ impl Generator<'_> {
         chosen.iter().chain([&candidates]).for_each(|name| self.frame.scope.release(name));
     }
 
-    /// Picks an element of a domain by its number; `None` if elements cannot be computed from numbers.
-    fn picked(&self, binder: Binder, site: u32) -> Option<String> {
-        let Term::Domain(domain) = *self.program.term(binder.range) else { return None };
+    /// Picks an element of a domain by its number.
+    fn picked(&self, domain: DomainId, count: usize, site: u32) -> String {
         let plan = self.plan.domain(domain);
-        let ordinal = |ty: &str, count: usize| match count {
-            0 => None,
-            _ => Some(format!("gs::from_ordinal<{ty}>(static_cast<std::uint32_t>(choose({count}, {site})))")),
-        };
-        match (&self.program.domain(domain).kind, &plan.contents) {
-            (DomainKind::Basic(Basic::Boolean), _) => ordinal("bool", 2),
-            (DomainKind::Enum { literals }, _) => ordinal(plan.name(), literals.len()),
-            (DomainKind::Abstract { elements, .. }, _) if plan.carrier.is_none() => {
-                ordinal(plan.name(), elements.len())
+        let ordinal = |ty: &str| format!("gs::from_ordinal<{ty}>(static_cast<std::uint32_t>(choose({count}, {site})))");
+        match (&self.program.domain(domain).kind, plan.contents.as_deref().and_then(gapless)) {
+            (DomainKind::Concrete { .. }, Some(Interval { low, .. })) => {
+                let chosen = format!("static_cast<std::int64_t>(choose({count}, {site}))");
+                if low == 0 { chosen } else { format!("{} + {chosen}", integer(low)) }
             }
-            (DomainKind::Concrete { .. }, Some(contents)) if plan.carrier.is_none() => {
-                let Interval { low, .. } = crate::model::plan::gapless(contents)?;
-                let chosen = format!("static_cast<std::int64_t>(choose({}, {site}))", contents.len());
-                Some(if low == 0 { chosen } else { format!("{} + {chosen}", integer(low)) })
-            }
-            _ => None,
+            (DomainKind::Basic(_), _) => ordinal("bool"),
+            _ => ordinal(plan.name()),
         }
     }
 
-    /// Draws the variables that range over all numbers of a kind, if there is no guard; returns the other binders.
-    fn draws(&mut self, binders: &[Binder], condition: Option<TermId>, site: u32, text: &mut Text) -> Vec<Binder> {
-        let guarded = condition.is_some_and(|condition| !self.is_true(condition));
-        let mut listed = Vec::new();
+    /// Draws the variables that range over all numbers of a kind.
+    fn draws(&mut self, binders: &[Binder], condition: Option<TermId>, site: u32, text: &mut Text) {
         for (variable, binder) in binders.iter().enumerate() {
-            let basic = match self.program.term(binder.range) {
-                Term::Domain(domain) => match self.program.domain(*domain).kind {
-                    DomainKind::Basic(basic @ (Basic::Integer | Basic::Natural | Basic::Real)) if !guarded => {
-                        Some(basic)
-                    }
-                    _ => None,
-                },
-                _ => None,
-            };
-            let Some(basic) = basic else {
-                listed.push(*binder);
-                continue;
-            };
-            let ty = type_of(
-                self.program,
-                match self.program.term(binder.range) {
-                    Term::Domain(domain) => *domain,
-                    _ => continue,
-                },
-            );
+            let Some((domain, basic)) = drawn(self.program, binder, condition) else { continue };
+            let ty = type_of(self.program, domain);
             let range = if basic == Basic::Natural { Interval::NATURAL } else { Interval::ALL };
             let name = self.declare(binder.slot, ty, true, range).name;
             let drawn = match basic {
@@ -170,6 +144,5 @@ impl Generator<'_> {
             };
             text.line(format!("[[maybe_unused]] const {} {name} = {drawn};", self.plan.cpp(ty, true)));
         }
-        listed
     }
 }

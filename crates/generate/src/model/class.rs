@@ -7,9 +7,10 @@ use program::{DomainKind, FunctionId, Program};
 
 use crate::model::accessors::{accessors, initial_state, kept_from_start};
 use crate::model::body::Bodies;
-use crate::model::generator::{Generator, Need};
+use crate::model::generator::Generator;
 use crate::model::members::{carriers, counts_steps, functions, logs, parameters, stepped};
 use crate::model::plan::Role;
+use crate::model::reach::Need;
 use crate::model::renamed::{called, literals_called};
 use crate::model::text::{Text, escaped};
 use crate::model::types::Type;
@@ -200,13 +201,13 @@ fn class(bodies: &Bodies<'_>, text: &mut Text) {
     if counts_steps(generator) {
         text.line("std::uint64_t step_ = 1;");
     }
-    if generator.needs.contains(&Need::Rounds) {
+    if generator.reach.needs(Need::Rounds) {
         text.line("std::uint32_t iterations_ = 0;");
     }
-    if generator.needs.contains(&Need::Depth) {
+    if generator.reach.needs(Need::Depth) {
         text.line("std::uint32_t calls_ = 0;");
     }
-    if generator.needs.contains(&Need::Clock) {
+    if generator.reach.needs(Need::Clock) {
         text.line("std::array<gs::Answer<std::int64_t>, 3> clock_{};");
     }
     initial_state(generator, text);
@@ -230,7 +231,7 @@ fn helpers(bodies: &Bodies<'_>, text: &mut Text) {
     text.close("}");
     text.line("return chosen;");
     text.close("}");
-    if generator.needs.contains(&Need::Rounds) {
+    if generator.reach.needs(Need::Rounds) {
         text.line("void iteration(gs::Site site);");
     }
     text.line("void roll_back();");
@@ -239,13 +240,13 @@ fn helpers(bodies: &Bodies<'_>, text: &mut Text) {
         text.line("return gs::chosen_of(set, site, [&](std::size_t candidates) { return choose(candidates, site); });");
         text.close("}");
     }
-    if generator.needs.contains(&Need::Clock) {
+    if generator.reach.needs(Need::Clock) {
         text.line("std::int64_t clock(gs::TimeUnit unit);");
     }
-    if generator.needs.contains(&Need::Names) {
+    if generator.reach.needs(Need::Names) {
         text.line("static const gs::Names& names();");
     }
-    if generator.needs.contains(&Need::AgentProgram) || !generator.program.agents.is_empty() {
+    if generator.reach.needs(Need::AgentProgram) || !generator.program.agents.is_empty() {
         let agent = match generator.program.agents.first() {
             Some(agent) => generator.plan.cpp(Type::Element(generator.program.base_domain(agent.domain)), false),
             None => "gs::Value".to_string(),
@@ -324,7 +325,7 @@ fn frame(bodies: &Bodies<'_>, text: &mut Text) {
     let own: Vec<String> =
         functions(generator, &[Role::Agent]).iter().map(|(_, function)| function.member.clone()).collect();
     text.open("gs::Fault Machine::start() {");
-    if generator.needs.contains(&Need::Depth) {
+    if generator.reach.needs(Need::Depth) {
         text.line("calls_ = 0;");
     }
     text.open("return gs::attempt([&] {");
@@ -339,10 +340,10 @@ fn frame(bodies: &Bodies<'_>, text: &mut Text) {
     text.close("});");
     text.close("}\n");
     text.open("gs::Fault Machine::step() {");
-    if generator.needs.contains(&Need::Rounds) {
+    if generator.reach.needs(Need::Rounds) {
         text.line("iterations_ = 0;");
     }
-    if generator.needs.contains(&Need::Depth) {
+    if generator.reach.needs(Need::Depth) {
         text.line("calls_ = 0;");
     }
     for member in &own {
@@ -385,7 +386,7 @@ fn frame(bodies: &Bodies<'_>, text: &mut Text) {
         text.line(format!("{member}.roll_back();"));
     }
     text.close("}\n");
-    if generator.needs.contains(&Need::Rounds) {
+    if generator.reach.needs(Need::Rounds) {
         text.open("void Machine::iteration(gs::Site site) {");
         text.line("// LIMIT: rounds of loops in one step, as the machine has it.");
         text.open("if (++iterations_ > 1'000'000) {");
@@ -395,7 +396,7 @@ fn frame(bodies: &Bodies<'_>, text: &mut Text) {
     }
     accessors(generator, text);
     agents(bodies, text);
-    if generator.needs.contains(&Need::Names) {
+    if generator.reach.needs(Need::Names) {
         names(generator, text);
     }
 }
@@ -403,7 +404,7 @@ fn frame(bodies: &Bodies<'_>, text: &mut Text) {
 fn agents(bodies: &Bodies<'_>, text: &mut Text) {
     let generator = &bodies.generator;
     let program = generator.program;
-    if program.agents.is_empty() && !generator.needs.contains(&Need::AgentProgram) {
+    if program.agents.is_empty() && !generator.reach.needs(Need::AgentProgram) {
         return;
     }
     let base = program.agents.first().map(|agent| program.base_domain(agent.domain));
@@ -429,7 +430,7 @@ fn agents(bodies: &Bodies<'_>, text: &mut Text) {
     let mut done = std::collections::BTreeSet::new();
     for entry in &program.agents {
         // A domain without elements has no agents that could run the program.
-        if !generator.entered.contains(&entry.procedure) || !done.insert(entry.procedure) {
+        if !generator.reach.procedures.contains(&entry.procedure) || !done.insert(entry.procedure) {
             continue;
         }
         text.line(format!("case {}:", entry.procedure.0));

@@ -22,7 +22,7 @@ pub(crate) fn driver(bodies: &Bodies<'_>, file: &str) -> Text {
     text.line("explicit ReplayEnvironment(gs::Script& script) : script_{script} {}\n");
     for (index, function) in plan.functions.iter().enumerate() {
         let id = FunctionId(index as u32);
-        if !matches!(function.role, Role::Input | Role::Shared) || !generator.reached.contains(&id) {
+        if !matches!(function.role, Role::Input | Role::Shared) || !generator.reach.functions.contains(&id) {
             continue;
         }
         let result = plan.cpp(function.ty, false);

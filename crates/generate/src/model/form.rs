@@ -278,7 +278,8 @@ impl Walk<'_> {
     }
 }
 
-fn is_true(program: &Program, condition: TermId) -> bool {
+/// Whether a condition is the constant true.
+pub(crate) fn is_true(program: &Program, condition: TermId) -> bool {
     match program.term(condition) {
         Term::Constant(index) => program.constants[*index as usize] == Literal::Boolean(true),
         _ => false,

@@ -1,92 +1,27 @@
 //! The state shared by generating terms and rules: the plan, the places, the variables in scope, the assumptions.
 //!
-//! Code is generated under assumptions that make it small, such as: this function is never undef. Code that refutes an
-//! assumption notes it, and everything is generated again without that assumption, until none is refuted. INVARIANT:
-//! the final code refutes none of the assumptions that it was generated under.
+//! What the class needs is known before ([`crate::model::reach`]). Code is generated under assumptions that make it
+//! small, such as: this function is never undef. Code that refutes an assumption notes it, and everything is generated
+//! again without that assumption, until none is refuted. INVARIANT: the final code refutes none of the assumptions that
+//! it was generated under.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use model::Basic;
-use program::{DomainId, DomainKind, FunctionId, ProcedureId, Program, Slot, TermId};
+use program::{DomainId, DomainKind, FunctionId, Program, Slot, TermId};
 use syntax::{Diagnostic, Span};
 
 use crate::fault::no_form;
+use crate::model::assumptions::Assumptions;
 use crate::model::code::Code;
 use crate::model::form::Form;
 use crate::model::interval::Interval;
 use crate::model::plan::{Plan, covers};
+use crate::model::reach::Reach;
 use crate::model::sites::Sites;
 use crate::model::types::Type;
 use crate::model::writes::Writes;
 use crate::names::Scope;
-
-/// Assumptions about a program, by index into its tables.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Assumptions {
-    /// A function's locations are never undef.
-    pub total: Vec<bool>,
-    /// By argument: no location of the function is accessed while that argument is undef.
-    pub inside: Vec<Vec<bool>>,
-    /// Initial values of locations with undef arguments can be computed at the start: they neither fault nor ask the
-    /// environment.
-    pub eager: Vec<bool>,
-    /// No location of the function is accessed with an integer outside of its array.
-    pub covered: Vec<bool>,
-    /// `self` is defined wherever it is read.
-    pub acting: bool,
-    /// No list contains undef.
-    pub solid: bool,
-    /// A definition's value is never undef.
-    pub result: Vec<bool>,
-    /// Evaluating a definition neither faults nor asks the environment.
-    pub pure: Vec<bool>,
-    /// A definition's arguments are never undef.
-    pub arguments: Vec<Vec<bool>>,
-    /// A procedure's arguments are never undef.
-    pub parameters: Vec<Vec<bool>>,
-    /// An interval around the integers among a function's values.
-    pub values: Vec<Interval>,
-    /// Intervals around the integers among a definition's arguments.
-    pub argument_ranges: Vec<Vec<Interval>>,
-    /// Intervals around the integers among a procedure's arguments.
-    pub parameter_ranges: Vec<Vec<Interval>>,
-}
-
-impl Assumptions {
-    /// All assumptions that might hold.
-    pub fn all(program: &Program) -> Assumptions {
-        let functions = program.functions.len();
-        Assumptions {
-            total: vec![true; functions],
-            inside: program.functions.iter().map(|f| vec![true; f.parameters.len()]).collect(),
-            eager: vec![true; functions],
-            covered: vec![true; functions],
-            acting: false,
-            solid: true,
-            result: vec![true; functions],
-            pure: vec![true; functions],
-            arguments: program.functions.iter().map(|f| vec![true; f.parameters.len()]).collect(),
-            parameters: program.procedures.iter().map(|p| vec![true; p.parameters.len()]).collect(),
-            values: vec![Interval::EMPTY; functions],
-            argument_ranges: program.functions.iter().map(|f| vec![Interval::EMPTY; f.parameters.len()]).collect(),
-            parameter_ranges: program.procedures.iter().map(|p| vec![Interval::EMPTY; p.parameters.len()]).collect(),
-        }
-    }
-
-    /// These assumptions, with each interval that grew since `before` widened, so that growth soon ends.
-    pub fn widened(mut self, before: &Assumptions) -> Assumptions {
-        let lists = std::iter::once(&mut self.values)
-            .chain(&mut self.argument_ranges)
-            .chain(&mut self.parameter_ranges)
-            .zip(std::iter::once(&before.values).chain(&before.argument_ranges).chain(&before.parameter_ranges));
-        for (now, before) in lists {
-            for (now, before) in now.iter_mut().zip(before) {
-                *now = now.widened(*before);
-            }
-        }
-        self
-    }
-}
 
 /// Options of the generated code.
 #[derive(Debug, Clone, Default)]
@@ -133,6 +68,7 @@ pub(crate) struct Generator<'a> {
     pub writes: &'a Writes,
     /// By function.
     pub forms: &'a [Form],
+    pub reach: &'a Reach,
     pub options: &'a Options,
     pub assumed: Assumptions,
     pub refuted: Assumptions,
@@ -142,16 +78,6 @@ pub(crate) struct Generator<'a> {
     pub tables: Vec<Table>,
     /// What cannot be generated.
     pub refused: Vec<Diagnostic>,
-    /// Functions whose code is needed.
-    pub reached: BTreeSet<FunctionId>,
-    /// Procedures whose code is needed.
-    pub entered: BTreeSet<ProcedureId>,
-    /// How often the code calls each procedure.
-    pub calls: BTreeMap<ProcedureId, u32>,
-    /// Parts of the class that are generated only if needed.
-    pub needs: BTreeSet<Need>,
-    /// Growing domains whose elements matter.
-    pub carriers: BTreeSet<DomainId>,
     /// By monitored and shared function: the environment's answer, checked against the codomain.
     pub asked: BTreeMap<FunctionId, String>,
     /// Whether a set may be traversed in any order and more than once.
@@ -168,21 +94,6 @@ pub(crate) struct Table {
     pub dynamic: bool,
 }
 
-/// A part of the class that is generated only if needed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Need {
-    /// The names of literals and elements.
-    Names,
-    /// `program(agent)`.
-    AgentProgram,
-    /// The clock.
-    Clock,
-    /// The count of loop rounds.
-    Rounds,
-    /// The depth of nested calls.
-    Depth,
-}
-
 impl<'a> Generator<'a> {
     /// A generator with these assumptions.
     pub fn new(
@@ -190,6 +101,7 @@ impl<'a> Generator<'a> {
         plan: &'a Plan,
         writes: &'a Writes,
         forms: &'a [Form],
+        reach: &'a Reach,
         options: &'a Options,
         assumed: Assumptions,
     ) -> Self {
@@ -199,6 +111,7 @@ impl<'a> Generator<'a> {
             plan,
             writes,
             forms,
+            reach,
             options,
             refuted: assumed.clone(),
             assumed,
@@ -206,11 +119,6 @@ impl<'a> Generator<'a> {
             frame: Frame::default(),
             tables: Vec::new(),
             refused: Vec::new(),
-            reached: BTreeSet::new(),
-            entered: BTreeSet::new(),
-            calls: BTreeMap::new(),
-            needs: BTreeSet::new(),
-            carriers: BTreeSet::new(),
             asked: BTreeMap::new(),
             unordered: false,
         }
@@ -267,10 +175,10 @@ impl<'a> Generator<'a> {
         self.domain_interval(self.program.function(function).codomain)
     }
 
-    /// The member that holds a growing domain; requests that it be generated.
-    pub fn carrier(&mut self, domain: DomainId) -> Option<String> {
+    /// The member that holds a growing domain.
+    pub fn carrier(&self, domain: DomainId) -> Option<String> {
         let carrier = self.plan.domain(domain).carrier.clone()?;
-        self.carriers.insert(domain);
+        assert!(self.reach.carriers.contains(&domain), "the class declares what the code names");
         Some(carrier)
     }
 

@@ -5,15 +5,16 @@
 
 use program::{DomainId, FunctionId};
 
-use crate::model::generator::{Generator, Need};
+use crate::model::generator::Generator;
 use crate::model::plan::{DomainPlan, FunctionPlan, Role};
+use crate::model::reach::Need;
 use crate::model::storage::Updates;
 
 /// The functions with these roles that the code reaches.
 pub(crate) fn functions<'p>(generator: &'p Generator<'_>, roles: &[Role]) -> Vec<(FunctionId, &'p FunctionPlan)> {
     let all = generator.plan.functions.iter().enumerate();
     all.map(|(index, plan)| (FunctionId(index as u32), plan))
-        .filter(|(id, plan)| roles.contains(&plan.role) && generator.reached.contains(id))
+        .filter(|(id, plan)| roles.contains(&plan.role) && generator.reach.functions.contains(id))
         .collect()
 }
 
@@ -38,7 +39,7 @@ pub(crate) fn argument_name(place: usize) -> String {
 
 /// Whether answers of the environment are remembered by step number.
 pub(crate) fn counts_steps(generator: &Generator<'_>) -> bool {
-    generator.needs.contains(&Need::Clock) || !functions(generator, &[Role::Input]).is_empty()
+    generator.reach.needs(Need::Clock) || !functions(generator, &[Role::Input]).is_empty()
 }
 
 /// The functions whose updates of the running step are kept in a `Next`.
@@ -63,6 +64,6 @@ pub(crate) fn logs(generator: &Generator<'_>) -> Vec<String> {
 /// The growing domains that the code ranges over, asks or extends.
 pub(crate) fn carriers<'p>(generator: &'p Generator<'_>) -> Vec<(usize, &'p DomainPlan)> {
     let all = generator.plan.domains.iter().enumerate();
-    all.filter(|(index, plan)| plan.carrier.is_some() && generator.carriers.contains(&DomainId(*index as u32)))
+    all.filter(|(index, plan)| plan.carrier.is_some() && generator.reach.carriers.contains(&DomainId(*index as u32)))
         .collect()
 }

@@ -5,6 +5,7 @@
 //! rules; agreement tests compare the generated code with it step by step. It must not know files or compilers.
 
 mod accessors;
+mod assumptions;
 mod body;
 mod choice;
 mod class;
@@ -20,9 +21,12 @@ mod operation;
 mod plan;
 mod project;
 mod range;
+mod reach;
+mod recursion;
 mod renamed;
 pub mod replay;
 mod rule;
+mod selection;
 mod settle;
 mod sites;
 mod storage;
@@ -75,7 +79,8 @@ pub fn generate(
     let plan = plan::plan(program, started);
     let writes = writes::Writes::new(program);
     let forms = form::forms(program, &writes);
-    let bodies = body::bodies(program, &plan, &writes, &forms, options, started)?;
+    let reach = reach::Reach::new(program, &plan, &writes);
+    let bodies = body::bodies(program, &plan, &writes, &forms, &reach, options, started)?;
     let name = plan.namespace.clone();
     let title = sources.iter().next().map_or(program.name.clone(), |(_, file)| file.name.clone());
     let mut files = Vec::new();

@@ -8,8 +8,9 @@ use program::{Builtin, Cpp, Operands, TermId, TermList};
 use crate::names::{identifier, snake};
 
 use crate::model::code::{Code, beside, between, unwrapped, within};
-use crate::model::generator::{EMPTY, Generator, Need};
+use crate::model::generator::{EMPTY, Generator};
 use crate::model::interval::{Interval, Outcome};
+use crate::model::reach::Need;
 use crate::model::types::{Type, item_type};
 
 /// LIMIT: how many items a list may have; collection_limit of machine/operands.hpp. SYNC(collection)
@@ -28,7 +29,7 @@ impl Generator<'_> {
                 return Code::defined(format!("gs::failed<bool>(gs::FaultKind::temporal, {site})"), Type::Boolean);
             }
             TimeNanoseconds | TimeMilliseconds | TimeSeconds => {
-                self.needs.insert(Need::Clock);
+                self.reach.expect_need(Need::Clock);
                 let unit = match builtin {
                     TimeNanoseconds => "nanoseconds",
                     TimeMilliseconds => "milliseconds",
@@ -85,11 +86,11 @@ impl Generator<'_> {
         let text = match builtin {
             ChooseOne => format!("choose_one({list}, {site})"),
             Program => {
-                self.needs.insert(Need::AgentProgram);
+                self.reach.expect_need(Need::AgentProgram);
                 format!("agent_program({list})")
             }
             ToString | AgentId | GetAgent => {
-                self.needs.insert(Need::Names);
+                self.reach.expect_need(Need::Names);
                 format!("gs::{}({list}, names(), {site})", function_of(builtin))
             }
             Component(index) => format!("gs::component({index}, {list}, {site})"),

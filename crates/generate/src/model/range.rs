@@ -273,10 +273,7 @@ impl<'a> Generator<'a> {
             }
             Value::Element(domain, number) if dynamic => format!("gs::Value::element({}, {number})", domain.0),
             Value::Element(domain, number) => format!("{}{{{number}}}", self.plan.domain(*domain).name()),
-            Value::Rule(procedure) => {
-                self.entered.insert(*procedure);
-                format!("gs::Value::rule({})", procedure.0)
-            }
+            Value::Rule(procedure) => format!("gs::Value::rule({})", procedure.0),
             Value::Complex(parts) => format!("gs::Value::complex({}, {})", real(parts.0.get()), real(parts.1.get())),
             Value::String(text) => crate::model::term::string(text),
             Value::Seq(items) if matches!(ty, Type::List(_)) => {

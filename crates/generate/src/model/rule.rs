@@ -7,15 +7,16 @@ use std::collections::BTreeSet;
 
 use model::Basic;
 use program::{
-    DomainId, DomainKind, FunctionId, FunctionKind, Literal, ProcedureId, Rule, RuleId, RuleList, Slot, Term, TermId,
-    TermList,
+    DomainId, DomainKind, FunctionId, FunctionKind, ProcedureId, Rule, RuleId, RuleList, Slot, TermId, TermList,
 };
 
 use crate::model::code::{CALLED, Code, listed, unwrapped};
-use crate::model::generator::{Generator, Need};
+use crate::model::form::is_true;
+use crate::model::generator::Generator;
 use crate::model::interval::Interval;
 use crate::model::nesting::runnable;
 use crate::model::plan::{Role, integer};
+use crate::model::reach::{Need, Part};
 use crate::model::storage::Updates;
 use crate::model::text::Text;
 use crate::model::types::{Type, type_of};
@@ -47,7 +48,7 @@ impl Generator<'_> {
             }
             Rule::RunValue { rule, arguments } => self.run_value(*rule, *arguments, id, text),
             Rule::RunAgent { agent } => {
-                self.needs.insert(Need::AgentProgram);
+                self.reach.expect_need(Need::AgentProgram);
                 let code = self.term(*agent);
                 let agent = self.agent(code, site);
                 text.marked(span, format!("run_agent(next, {agent}, {site});"));
@@ -128,10 +129,7 @@ impl Generator<'_> {
     }
 
     pub fn is_true(&self, condition: TermId) -> bool {
-        match self.program.term(condition) {
-            Term::Constant(index) => self.program.constants[*index as usize] == Literal::Boolean(true),
-            _ => false,
-        }
+        is_true(self.program, condition)
     }
 
     /// `function(arguments) := value`
@@ -140,7 +138,7 @@ impl Generator<'_> {
         let site = self.sites.number(span);
         let plan = self.plan.function(function).clone();
         let index = function.0 as usize;
-        self.reached.insert(function);
+        self.reach.expect(Part::Function(function));
         let value = self.cast(value, plan.ty, site);
         if !value.defined {
             self.refuted.total[index] = false;
@@ -216,8 +214,7 @@ impl Generator<'_> {
     }
 
     fn call_with(&mut self, procedure: ProcedureId, arguments: Vec<(Code, u32)>) -> String {
-        self.entered.insert(procedure);
-        *self.calls.entry(procedure).or_default() += 1;
+        self.reach.expect(Part::Procedure(procedure));
         let index = procedure.0 as usize;
         let parameters = self.program.procedure(procedure).parameters.clone();
         let assumed = self.assumed.parameters[index].clone();
@@ -288,7 +285,7 @@ impl Generator<'_> {
     fn looped(&mut self, condition: Option<TermId>, body: RuleId, ends_idle: bool, id: RuleId, text: &mut Text) {
         let span = self.program.rule_span(id);
         let site = self.sites.number(span);
-        self.needs.insert(Need::Rounds);
+        self.reach.expect_need(Need::Rounds);
         self.sequence(id, text, &mut |this, name, text| {
             match condition.map(|condition| this.guard(condition)) {
                 Some(guard) => text.open_marked(span, format!("while ({}) {{", unwrapped(&guard))),
@@ -321,7 +318,6 @@ impl Generator<'_> {
         let mut targets = self.writes.procedure(procedure).clone();
         let result = self.program.result_function.filter(|result| targets.remove(&Target::Function(*result)));
         let Some(result) = result else { return self.unit(&targets, &call, id, text) };
-        self.reached.insert(result);
         // A turbo rule may not write its result.
         self.refuted.total[result.0 as usize] = false;
         let range = self.assumed.values[result.0 as usize];
@@ -449,7 +445,6 @@ impl Generator<'_> {
     }
 
     fn local(&mut self, locals: &[FunctionId], initialisations: RuleList, body: RuleId, id: RuleId, text: &mut Text) {
-        self.reached.extend(locals);
         // A local function is undef until it is written.
         locals.iter().for_each(|local| self.refuted.total[local.0 as usize] = false);
         let mut targets = self.writes.of(self.program, id);

@@ -10,6 +10,7 @@ use crate::model::form::Form;
 use crate::model::generator::Generator;
 use crate::model::interval::Interval;
 use crate::model::plan::{Dimension, Role, integer};
+use crate::model::reach::Part;
 use crate::model::text::escaped;
 use crate::model::types::{Type, result_type};
 
@@ -92,7 +93,7 @@ impl Generator<'_> {
             }
             Term::Rule(procedure) => {
                 self.needs_values(span, "a rule as a value");
-                self.entered.insert(*procedure);
+                self.reach.expect(Part::Procedure(*procedure));
                 Code::value(format!("gs::Value::rule({})", procedure.0)).pure()
             }
             Term::Unbound => self.failing("unbound", id),
@@ -203,7 +204,7 @@ impl Generator<'_> {
             let name = self.plan.domain(domain).name();
             return Code::defined(format!("{name}{{{number}}}"), plan.ty).pure();
         }
-        self.reached.insert(function);
+        self.reach.expect(Part::Function(function));
         let site = self.site(id);
         let codes = self.arguments(function, arguments);
         let pure = codes.iter().all(|code| code.pure);
@@ -307,7 +308,7 @@ impl Generator<'_> {
         if plan.role != Role::Definition {
             return self.failing("no_definition", id);
         }
-        self.reached.insert(function);
+        self.reach.expect(Part::Function(function));
         let parameters = self.program.function(function).parameters.clone();
         let assumed = self.assumed.arguments[function.0 as usize].clone();
         let terms = self.program.term_list(arguments).to_vec();
