@@ -91,7 +91,7 @@ impl Executor<'_> {
         let program = self.program;
         let span = program.rule_span(id);
         let mut bindings = 0u64;
-        // Bindings are counted rather than gone through where that can be: each is an alternative, and gets here.
+        // Bindings are counted instead of visited if possible: each is an alternative that comes through here.
         let (grid, counted) = match self.grid(binders) {
             Some(Ok(grid)) => {
                 bindings = grid.len;

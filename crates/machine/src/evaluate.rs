@@ -165,7 +165,7 @@ impl<'a> Executor<'a> {
     fn evaluate_definition(&mut self, function: FunctionId, arguments: TermList, id: TermId) -> Outcome<Value> {
         let program = self.program;
         let (start, place) = match program.term_list(arguments) {
-            // One argument need not stand on the stack to be looked up.
+            // A single argument can be looked up without being put on the stack.
             [argument] => {
                 let argument = self.evaluate(*argument)?;
                 let place = self.core.memo.place(function, std::slice::from_ref(&argument));
@@ -207,7 +207,7 @@ impl<'a> Executor<'a> {
     ) -> Outcome<Value> {
         let program = self.program;
         let mut elements = Vec::new();
-        // Sorting compares what is shared again and again: its size is held against the limit before.
+        // Sorting compares shared parts again and again, so the size is checked against the limit before.
         let mut leaves = 0u64;
         let _ = self.for_each_binding(program.binder_list(binders), &mut |this| {
             if match condition {
@@ -273,7 +273,7 @@ impl<'a> Executor<'a> {
             (_, [left, right]) => {
                 let left = self.evaluate(*left)?;
                 let right = self.evaluate(*right)?;
-                // The operations that most models spend their time in.
+                // Most models spend their time in these operations.
                 match (builtin, &left, &right) {
                     (Builtin::Eq | Builtin::Neq, a, b) => {
                         self.work_of_comparing(a, b, self.program.term_span(id))?;

@@ -293,7 +293,7 @@ impl Executor<'_> {
             return self.read_initial(function, arguments, span);
         }
         let codomain = self.program.function(function).codomain;
-        // Also while an initial value that comes up late is evaluated, which explores nothing by itself.
+        // This also holds while a late initial value is evaluated, which by itself explores nothing.
         let given = if self.environment.alternatives().is_some() {
             self.ask_among(location)
         } else {

@@ -207,7 +207,7 @@ impl Machine {
     /// fault may depend on their order [`Machine::order_mattered`] tells. Empty: none are.
     pub fn set_unordered(&mut self, ranges: Arc<[bool]>) {
         self.core.unordered = ranges;
-        // Kept values may come from quantifiers that read more elements, or fewer.
+        // Remembered values may come from quantifiers that read more elements, or fewer.
         self.core.memo.forget();
     }
 

@@ -149,7 +149,7 @@ impl Machine {
     pub fn start(&mut self, environment: &mut dyn Environment) -> Result<(), Fault> {
         let (coverage, exploring, unset) = (self.core.coverage.take(), self.core.exploring, self.core.unset);
         self.core = Core::new(&self.program, &self.limits);
-        // A state from before may still be gone back to, with what was set to undef in it.
+        // The caller may still return to an earlier state, in which locations were set to undef.
         (self.core.coverage, self.core.exploring, self.core.unset) = (coverage, exploring, unset);
         self.steps = 0;
         self.settled = false;
@@ -162,7 +162,7 @@ impl Machine {
     /// An initial value that cannot be evaluated.
     pub fn start_from(&mut self, blank: &Snapshot, environment: &mut dyn Environment) -> Result<(), Fault> {
         self.restore(blank);
-        // What is given now is of the initial state, in which values that come up later are evaluated.
+        // Inputs given now belong to the initial state, in which late initial values are evaluated.
         self.core.epoch = AT_START;
         self.core.origin = None;
         (self.core.compacted, self.core.iterations) = (0, 0);
@@ -449,7 +449,7 @@ impl Machine {
         let span = self.program.function(*function).span;
         let kind = self.program.function(*function).kind;
         if value.is_undef() && !self.core.unset && matches!(kind, FunctionKind::Controlled | FunctionKind::Out) {
-            // Compiled code may rely on what the program by itself never makes undef.
+            // Compiled code relies on locations that the program itself never sets to undef.
             self.core.unset = true;
             self.use_engine(self.engine.choice);
         }

@@ -132,7 +132,7 @@ impl<'a> Executor<'a> {
     fn update(&mut self, function: FunctionId, arguments: TermList, value: Value, id: RuleId) -> Outcome<()> {
         let start = self.gather(arguments)?;
         if self.core.observations.is_some() {
-            // Whether the update is trivial depends on what stands there.
+            // Whether the update is trivial depends on the present value.
             let found = self.core.store.find(function, &self.core.frames[start..]);
             self.note_look(function, found);
         }
@@ -142,8 +142,8 @@ impl<'a> Executor<'a> {
                 self.note_write(function, found);
             }
             if found.is_none_or(|index| self.core.store.given[index as usize] == 0) {
-                // An initial value that is due only when read must be there before it is overwritten. Who only writes the location
-                // does not need it: where it cannot be evaluated, whoever reads it before it is written is told.
+                // A late initial value must be there before it is overwritten. An update does not need it, so a fault in it is
+                // reported only to a rule that reads the location first.
                 let arguments = self.core.frames[start..].to_vec();
                 if let Err(fault) = self.read(function, &arguments, self.program.rule_span(id))
                     && (value.is_undef() || !fault.kind.is_of_the_model())
@@ -244,7 +244,7 @@ impl<'a> Executor<'a> {
         let joined = self.core.updates.join(unit, result);
         // The target replaces `result`: if nothing writes to that, the target stays as it is.
         match self.consistent(joined)? {
-            // What a monitored location holds is the environment's affair: the value is lost.
+            // The environment alone decides the value of a monitored location, so this one is lost.
             Some(_) if self.program.function(function).kind == FunctionKind::Monitored => Ok(()),
             Some(value) => self.update(function, target, value, id),
             None => Ok(()),

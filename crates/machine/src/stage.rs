@@ -91,7 +91,7 @@ impl Core {
             }
         }
         self.inputs.clear();
-        // Numbers are handed out afresh here, where nothing holds one.
+        // Locations can be numbered anew here, because nothing holds a number.
         let crowded = self.store.sparse_len() > 2 * self.compacted + 4096;
         if crowded {
             self.compact(program);

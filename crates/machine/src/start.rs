@@ -204,7 +204,7 @@ impl<'a> Executor<'a> {
         std::mem::swap(&mut self.core.store, &mut origin);
         let epoch = std::mem::replace(&mut self.core.epoch, AT_START);
         self.core.memo.changed();
-        // What is read of the initial state is no part of this one.
+        // Reads of the initial state are not reads of the present one.
         let exploring = std::mem::take(&mut self.core.exploring);
         let outcome = body(self);
         self.core.exploring = exploring;

@@ -116,7 +116,7 @@ impl Branches {
     /// Begins with these answers; where they end, with the first alternatives.
     pub(crate) fn follow(&mut self, picks: &[u32]) {
         self.asked.clear();
-        // What there is to choose among is known only when it is asked for.
+        // The candidates of a choice are known only when it is made.
         self.asked.extend(picks.iter().map(|taken| Asked {
             taken: *taken,
             of: u32::MAX,

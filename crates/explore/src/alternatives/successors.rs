@@ -51,7 +51,7 @@ impl<'o> Successors<'o> {
             }
         }
         out.truncate(end);
-        // Looking again pays once as many have come as there are.
+        // Looking for duplicates again pays once the list has doubled.
         *most = end + (end - *start).max(PIECE);
     }
 }

@@ -36,7 +36,7 @@ impl Explorer {
 
     /// Leaves out initial states whose inputs an assumption rules out: no run has them.
     pub(super) fn leave_out_starts(&mut self) {
-        // Those of another explorer were left out there.
+        // Starts that were taken over from another explorer were left out there.
         if self.encoding.kept.is_empty() || Arc::get_mut(&mut self.starts).is_none() {
             return;
         }

@@ -29,7 +29,7 @@ impl Explorer {
     #[cold]
     fn truth_from(&mut self, condition: usize, part: usize, first: Truth, state: &[u64]) -> Truth {
         let (mut whole, mut others) = (first, part + 1..self.conditions[condition].parts.len());
-        // What comes after an undefined conjunct may still make the whole false.
+        // A conjunct after an undefined one may still make the whole false.
         while whole == Truth::Undef
             && let Some(part) = others.next()
         {
@@ -39,7 +39,7 @@ impl Explorer {
             };
         }
         if !self.settings.unordered.is_empty() {
-            // Whether a part after the one that decides would have decided otherwise.
+            // A part after the deciding one might have decided otherwise.
             for part in others {
                 let other = self.truth_of_part(condition, part, state);
                 if matches!(other, Truth::False | Truth::Fault | Truth::Unknown) && other != whole {

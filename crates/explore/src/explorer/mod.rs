@@ -106,7 +106,7 @@ impl Explorer {
         machine.explore();
         let mut branches = Branches::new(Arc::clone(&settings.bounds));
         let (blank, mut begun) = (machine.snapshot(), Begun::default());
-        // One alone is soon made, and whoever has the others relies on it.
+        // A single start is made quickly, and the explorer that has the others relies on it.
         let interrupt = match known {
             Some(_) => Interrupt::default(),
             None => settings.interrupt.clone(),
@@ -145,7 +145,7 @@ impl Explorer {
                 Arc::new(starts)
             }
         };
-        // Nothing that was asked for belongs to the state, but where it is kept.
+        // Answers of the environment do not belong to the state, unless they are kept.
         let state = machine.snapshot();
         machine.restore(&state);
         branches.chosen.clear();

@@ -128,7 +128,7 @@ impl Orbits {
         for (class, elements) in classes.iter().enumerate() {
             orbits.places.extend(elements.iter().enumerate().map(|(at, value)| (value.clone(), (class, at as u32))));
         }
-        // By function and arguments, in which an element stands for its class.
+        // The key is a function and its arguments; an element in them stands for its class.
         let mut templates: BTreeMap<(FunctionId, Template), BTreeMap<Vec<u32>, Field>> = BTreeMap::new();
         for (index, field) in encoding.fields.iter().enumerate() {
             if encoding.rest == Some(index as u32) {
@@ -152,7 +152,7 @@ impl Orbits {
             let held = if holds(function) { orbits.held(encoding.coding(function))? } else { Held::Plain };
             orbits.add(coordinates, fields.into_values().collect(), held, encoding.coding(function));
         }
-        // What is the same in all states has no field that a permutation could move.
+        // A location with the same value in all states has no field that a permutation could move.
         let same = |permutation: &Permutation| {
             orbits.rest_image(&encoding.constant_rest, permutation) == *encoding.constant_rest
         };
@@ -172,7 +172,7 @@ impl Orbits {
         }
         let code = |value: &Value| values.binary_search(value).map_or(NONE, |code| code as u32);
         let codes: Vec<Vec<u32>> = self.classes.iter().map(|class| class.iter().map(code).collect()).collect();
-        // Of a class all are there, or none.
+        // Either all elements of a class have codes, or none has.
         let whole = |codes: &Vec<u32>| codes.iter().all(|code| *code == NONE) || !codes.contains(&NONE);
         codes.iter().all(whole).then_some(Held::Elements(which, codes))
     }
@@ -405,7 +405,7 @@ impl Orbits {
 
     fn normalised(&self, state: &[u64], encoding: &Encoding, view: &mut View) -> (Box<[u64]>, Permutation) {
         let (mut orders, mut ties) = self.sorted(state, encoding, view);
-        // Where an exchange of neighbours changes nothing no order does.
+        // If no exchange of neighbours changes the state, no other order does.
         ties.retain(|Tie { class, begin, end }| {
             let mut neighbours = orders[*class][*begin..*end].windows(2);
             neighbours
@@ -439,7 +439,7 @@ impl Orbits {
 fn next_order(orders: &mut [Vec<u32>], ties: &[Tie]) -> bool {
     for Tie { class, begin, end } in ties {
         let tied = &mut orders[*class][*begin..*end];
-        // The next in the order of words; after the last the first, and the next tie goes on.
+        // Take the next permutation in lexicographic order. After the last one, start over and advance the next tie.
         let Some(falls) = tied.windows(2).rposition(|pair| pair[0] < pair[1]) else {
             tied.sort_unstable();
             continue;

@@ -210,7 +210,7 @@ impl Explorer {
         for part in 0..self.conditions[condition].parts.len() {
             let mut ends: Vec<(Truth, S::Set)> = Vec::new();
             self.truths_from(condition, part, Place::Root, sets, open.clone(), &mut ends)?;
-            // Of several answers the worst counts.
+            // If there are several answers, the worst one counts.
             ends.sort_by_key(|(truth, _)| std::cmp::Reverse(*truth));
             let mut worse: Option<S::Set> = None;
             for (truth, states) in ends {
@@ -222,7 +222,7 @@ impl Explorer {
                 if truth == Truth::True || sets.is_empty(&new) {
                     continue;
                 }
-                // What comes after an undefined part may still make the whole false.
+                // A part after an undefined one may still make the whole false.
                 if truth != Truth::Undef {
                     open = sets.minus(&open, &new)?;
                 }

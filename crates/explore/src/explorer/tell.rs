@@ -45,7 +45,7 @@ impl Explorer {
         let (answers, mut left) = self.starts.way_to(start);
         branches.follow(answers);
         let mut told = Told::default();
-        // It was made before, without trouble.
+        // The starts were made before without a fault.
         let _ = each_start(&mut machine, &blank, &mut branches, &Interrupt::default(), &mut |machine, branches| {
             if left > 0 {
                 left -= 1;

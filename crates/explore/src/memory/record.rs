@@ -71,7 +71,7 @@ impl Record {
         if self.against_code.misses < due {
             return false;
         }
-        // One in two at first, when there is much to learn, and rarer ones as it goes on.
+        // One in two is tolerated at first, when there is much to learn; later only rarer misses are.
         let loses = self.against_code.misses_one_in((2 * due / PATIENCE).min(RARELY));
         (self.against_code, self.due) = (Count::default(), due * 2);
         loses

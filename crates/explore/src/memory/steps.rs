@@ -37,7 +37,7 @@ pub(crate) struct Steps {
 
 impl Default for Steps {
     fn default() -> Self {
-        // The first end is that of the dead.
+        // The first end stands for dead alternatives.
         let dead = Effect { kind: AlternativeKind::Excluded, failed: false, first: 0, len: 0 };
         Steps { tree: Tree::default(), effects: vec![dead], overwrites: Vec::new(), failures: HashMap::default() }
     }

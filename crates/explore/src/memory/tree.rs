@@ -152,7 +152,7 @@ impl Tree {
                     let code = (words[word as usize] >> shift & ((1 << bits) - 1)) as u32;
                     link = self.wide.get(&(index, code)).copied().unwrap_or(0);
                 }
-                // The alternatives of one state may be many, where questions multiply.
+                // Questions multiply, so that one state may have many alternatives.
                 Node::Ask { .. } | Node::Guarded { .. } if interrupt.is_raised() => return Err(Unmade::Interrupted),
                 Node::Ask { base, of } => {
                     let mut alive = false;

@@ -57,7 +57,7 @@ pub(crate) fn finite(
     machine: &mut Machine,
     domain: DomainId,
 ) -> Option<Vec<Value>> {
-    // What is inside of tuples is not checked of an update, so they may hold anything.
+    // An update does not check the components of a tuple, so they may be anything.
     let is_tuple = matches!(program.domain(domain).kind, DomainKind::Prod(_));
     if is_tuple || !constant[domain.0 as usize] || !program.is_listable(domain) {
         return None;

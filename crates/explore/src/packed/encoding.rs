@@ -77,7 +77,7 @@ impl Encoding {
             kept: Kept::default(),
             origin: None,
         };
-        // What is sparse has other numbers in other states.
+        // Sparse locations have different numbers in different states.
         let mut of_location = vec![NOWHERE; machine.store().dense_len()];
         let mut used = 0usize;
         for (index, function) in program.functions.iter().enumerate() {
@@ -126,13 +126,13 @@ impl Encoding {
     }
 
     pub fn add_field(&mut self, location: u32, function: FunctionId, bits: usize) -> u32 {
-        // What needs no bits stands nowhere in particular; after a full word there would be no place for it.
+        // A field without bits has no place of its own: after a full word there would be none.
         let last = self.fields.iter().rev().find(|field| field.bits > 0).filter(|_| bits > 0);
         let (mut word, mut shift) = match last {
             Some(last) => (last.word, u32::from(last.shift + last.bits)),
             None => (0, 0),
         };
-        // A state of one word leaves its highest bit to the table it stands in.
+        // In a state of one word, the highest bit belongs to the table that stores it.
         let room = if word == 0 { 63 } else { 64 };
         if shift as usize + bits > room {
             (word, shift) = (word + 1, 0);
@@ -270,7 +270,7 @@ impl Encoding {
                 continue;
             }
             let has_initial = machine.has_initial(location.function);
-            // Undef says something only where it keeps an initial value or a question away.
+            // Undef matters only if it replaces an initial value or an answer of the environment.
             if value.is_undef() && !has_initial && kind != FunctionKind::Shared {
                 continue;
             }

@@ -36,7 +36,7 @@ impl Kept {
                 into.insert(location.clone());
             }
         }
-        // Where undef is a value no field could say that there is none.
+        // If undef is a value, a field could not say that there is none.
         kept.in_fields.retain(|location| !kept.in_rest.contains(location));
         kept
     }
