@@ -34,10 +34,8 @@ signature:
 	// Configuration of a scheduler and its phases
 	controlled scheduler_mainThread: Scheduler -> Task
 	controlled action: SchedulePhase -> PhaseAction
-	// ticks the action takes, without the waiting for a lock; the most ticks if its length varies
+	// ticks the action takes, without the waiting for a lock
 	controlled time: SchedulePhase -> Integer
-	// the least ticks of an action whose length varies; undef: it takes just `time`
-	controlled timeAtLeast: SchedulePhase -> Integer
 	controlled nextPhase: SchedulePhase -> SchedulePhase
 	// buffer, queue or value worked on; for a waiting phase of an asynchronous task: the one whose data it awaits
 	controlled sharedMemory: SchedulePhase -> SwingingBuffer
@@ -53,15 +51,11 @@ signature:
 	controlled scheduler_actionStart: Scheduler -> Integer
 	controlled sb_ctrlState: SchedulePhase -> PatternState
 
-	// The action of the current phase ends now; asked only while its length varies and it may.
-	monitored endsNow: Scheduler -> Boolean
-
 	derived syncPriority: SchedulePhase -> SyncPriority
 	derived scheduler_currentScheduleTime: Scheduler -> Integer
 	derived dataAvailable: SchedulePhase -> Boolean
 	derived trigger: Scheduler -> Boolean
 	derived tElapsed: Scheduler -> Boolean
-	derived endsSooner: Scheduler -> Boolean
 	derived outsidePatternMachine: Scheduler -> Boolean
 	derived lockGranted: Scheduler -> Boolean
 	derived swingingBufferManaged: Scheduler -> Boolean
@@ -97,14 +91,7 @@ definitions:
 		endif
 
 	function tElapsed($c in Scheduler) =
-		if scheduler_currentScheduleTime($c) >= time(scheduler_currentPhase($c)) then true else endsSooner($c) endif
-
-	function endsSooner($c in Scheduler) =
-		if isUndef(timeAtLeast(scheduler_currentPhase($c))) then
-			false
-		else
-			if scheduler_currentScheduleTime($c) < timeAtLeast(scheduler_currentPhase($c)) then false else endsNow($c) endif
-		endif
+		scheduler_currentScheduleTime($c) >= time(scheduler_currentPhase($c))
 
 	function outsidePatternMachine($c in Scheduler) =
 		isUndef(sb_ctrlState(scheduler_currentPhase($c)))

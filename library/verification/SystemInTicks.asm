@@ -7,6 +7,7 @@ module SystemInTicks
 import ../std/StandardLibrary
 import ../std/CTLLibrary
 import ../patterns/ControlTask
+import ../patterns/VaryingTimes
 import Quotient
 import SystemProperties
 
@@ -15,6 +16,8 @@ export *
 signature:
 	// The action may last for ever; it varies from no ticks on.
 	controlled endless: SchedulePhase -> Boolean
+	// the time of a phase that ends in this tick; undef between two ticks
+	controlled fullTime: SchedulePhase -> Integer
 
 	// the datum that the consumer works with is at most so many ticks old
 	derived isWithin: Prod(SwingingBuffer, Integer) -> Boolean
@@ -40,6 +43,23 @@ definitions:
 	function isFree($t in Task) =
 		(exists $c in Scheduler with scheduler_mainThread($c) = $t and isEndless($c))
 
+	// Whatever rules a system has, an action whose time is over ends.
+	rule r_setTimes =
+		forall $c in Scheduler with mayEnd($c) do
+			if endsNow($c) then
+				par
+					fullTime(scheduler_currentPhase($c)) := time(scheduler_currentPhase($c))
+					time(scheduler_currentPhase($c)) := 0
+				endpar
+			endif
+
+	rule r_resetTimes =
+		forall $c in Scheduler with isDef(fullTime(before_phase($c))) do
+			par
+				time(before_phase($c)) := fullTime(before_phase($c))
+				fullTime(before_phase($c)) := undef
+			endpar
+
 	// How long it has lasted does not matter.
 	rule r_stopEndless =
 		forall $c in Scheduler with isEndless($c) do
@@ -48,8 +68,10 @@ definitions:
 	// A tick of the system; its main rule is the parameter.
 	rule r_tick($main in Rule) =
 		seq
+			r_setTimes[]
 			$main[]
 			r_observe[]
+			r_resetTimes[]
 			r_forget[]
 			r_stopEndless[]
 			r_remember[]

@@ -40,6 +40,7 @@ const PATTERNS: Library = Library {
         "SharedValue.asm",
         "SwingingBuffer.asm",
         "Task.asm",
+        "VaryingTimes.asm",
     ],
 };
 

@@ -71,13 +71,28 @@ pub(super) fn parts(chart: &Chart, system: &System, known: &Known) -> Parts {
         "r_controlTask",
         "// what each task does when it is its turn\nrule r_controlTask = r_scheduler_execute[self]\n",
     );
+    if varies(system) {
+        let library = super::library(chart).unwrap_or_else(|| "patterns/".to_string());
+        parts.imports.push(format!("{library}VaryingTimes"));
+        fixed(
+            &mut parts,
+            "r_varyingTask",
+            "// the same where times vary\nrule r_varyingTask = r_scheduler_executeVarying[self]\n",
+        );
+    }
     fixed(&mut parts, "inv_patterns", "invariant inv_patterns over sem_state, indexRead: patternsSound\n");
     let deadlines =
         "invariant inv_deadlines over task_deadlinesMissed: (forall $t in Task with task_deadlinesMissed($t) = 0)\n";
     fixed(&mut parts, "inv_deadlines", deadlines);
     parts.main = Some(format!("main rule r_Main =\n{TICK}"));
-    parts.init = Some(initial(system) + AGENT);
+    let agent = if varies(system) { VARYING_AGENT } else { AGENT };
+    parts.init = Some(initial(system) + agent);
     parts
+}
+
+/// Whether the time of some elaboration varies.
+fn varies(system: &System) -> bool {
+    system.components.iter().flat_map(|component| &component.phases).any(|phase| phase.least < phase.time)
 }
 
 fn fixed(parts: &mut Parts, name: &str, text: &str) {
@@ -114,6 +129,8 @@ pub(super) fn verified(chart: &Chart, system: &System, library: &str, lengths: L
         Lengths::Any => set_free(&mut system),
     };
     let mut parts = parts(chart, &system, &Known::default());
+    // The tick lets actions end, whatever the tasks' rule.
+    parts.definitions.retain(|item| item.name != "r_varyingTask");
     let verification = ["Quotient", "SystemProperties", "SystemInTicks"];
     let standard = ["StandardLibrary", "CTLLibrary"].map(str::to_string);
     parts.imports = standard.into_iter().chain([format!("{library}ControlTask")]).collect();
@@ -159,7 +176,7 @@ pub enum Lengths {
 /// Lets asynchronous components elaborate for any time; returns these, with their elaborations.
 fn set_free(system: &mut System) -> Vec<(String, Vec<String>)> {
     let mut free = Vec::new();
-    if system.components.iter().flat_map(|component| &component.phases).all(|phase| phase.least == phase.time) {
+    if !varies(system) {
         return free;
     }
     for component in system.components.iter_mut().filter(|component| component.timing.period().is_none()) {
@@ -180,6 +197,7 @@ const WORKS: &str =
 pub(super) const VERIFICATION: &str = "verification/";
 
 const AGENT: &str = "agent Scheduler: r_controlTask[]\n";
+const VARYING_AGENT: &str = "agent Scheduler: r_varyingTask[]\n";
 
 fn task(component: &Component) -> String {
     format!("{}_task", component.name)
