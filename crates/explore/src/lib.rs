@@ -6,6 +6,7 @@
 //! [`machine`]; what comes out does not depend on what was remembered.
 
 mod alternatives;
+mod assumed;
 mod compiled;
 mod explorer;
 mod memory;
@@ -17,6 +18,7 @@ pub use alternatives::branches::{Unbounded, UnboundedKind};
 pub use alternatives::expansion::Expansion;
 pub use alternatives::kind::AlternativeKind;
 pub use alternatives::told::{ChoiceTaken, Told};
+pub use assumed::assumed_bounds;
 pub use explorer::Explorer;
 pub use explorer::orbit::{Orbits, Permutation};
 pub use explorer::paths::{Outcome, Path};

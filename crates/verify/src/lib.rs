@@ -4,7 +4,6 @@
 //! this crate decides which steps are made and what is stored. It must not know files, clocks or wire formats.
 
 mod again;
-mod assumed;
 mod check;
 mod checkpoint;
 mod choose;

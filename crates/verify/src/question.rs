@@ -6,10 +6,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use explore::Settings;
+use explore::{Settings, assumed_bounds};
 use program::{Program, PropertyKind};
 
-use crate::assumed::assumed_bounds;
 use crate::options::Options;
 use crate::plan::Plan;
 use crate::target::Target;

@@ -21,7 +21,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use machine::{EngineChoice, Fault, FaultClass, Interrupt, Location, Machine, Observation, Value};
-use program::{Expression, Program};
+use program::{Expression, Program, Slot};
 use rustc_hash::FxHashSet;
 use syntax::Span;
 
@@ -427,6 +427,17 @@ impl Explorer {
         self.branches.first();
         self.load(state);
         self.machine.evaluate(formula, &mut self.branches)
+    }
+
+    /// Evaluates a term with parameters in a state.
+    ///
+    /// # Errors
+    /// What evaluation meets.
+    pub fn evaluate_with(&mut self, formula: &Expression, arguments: &[Value], state: &[u64]) -> Result<Value, Fault> {
+        self.branches.first();
+        self.load(state);
+        let bindings: Vec<(Slot, Value)> = (0..).map(Slot).zip(arguments.iter().cloned()).collect();
+        self.machine.evaluate_with(formula.body, formula.frame, &bindings, &mut self.branches)
     }
 
     /// The locations of a state that have a value, in canonical order.

@@ -4,7 +4,7 @@
 
 use std::ops::ControlFlow;
 
-use machine::Fault;
+use machine::{Fault, Location, Value};
 
 use crate::alternatives::branches::Unbounded;
 use crate::alternatives::kind::AlternativeKind;
@@ -37,6 +37,8 @@ pub struct Path {
     pub failed: Vec<u32>,
     /// What was chosen.
     pub choices: Vec<ChoiceTaken>,
+    /// The inputs given, in the order asked.
+    pub inputs: Vec<(Location, Value)>,
 }
 
 impl Explorer {
@@ -78,7 +80,8 @@ impl Explorer {
                     _ => Outcome::Excluded,
                 };
                 let choices = std::mem::take(&mut self.branches.chosen);
-                if visit(Path { picks, outcome, failed: attempt.failed, choices }).is_break() {
+                let inputs = self.machine.inputs();
+                if visit(Path { picks, outcome, failed: attempt.failed, choices, inputs }).is_break() {
                     return Ok(true);
                 }
             }

@@ -1,0 +1,479 @@
+//! Makes a [`Coupling`] from the statements of a file.
+//!
+//! In: what the file says, the joint model. Out: the coupling and the faults of the file. Terms are checked in the joint model
+//! ([`crate::joint`]) as if the file were blank around them, so that faults stand at their places.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use machine::{Limits, Machine};
+use program::{DomainKind, Expression, FunctionId, FunctionKind, Program, Slot, Term, TermList};
+use syntax::ast::{AstNode, TermFile};
+use syntax::{Diagnostic, Severity, SourceFile, Span};
+
+use crate::coupling::{Conjunct, Coupling, start};
+use crate::diagram::Diagrams;
+use crate::fault::{bad_coupling, input_not_coupled, vacuous};
+use crate::joint::{Joint, described, joint_name};
+use crate::written::{Part, Written};
+use crate::{ABSTRACT, CONCRETE, SIDES};
+
+/// Reads the statements.
+pub(crate) struct Builder {
+    pub coupling: Coupling,
+    source: SourceFile,
+    limits: Limits,
+    pub faults: Vec<Diagnostic>,
+}
+
+impl Builder {
+    /// For a file that says nothing yet.
+    pub fn new(programs: [&Arc<Program>; 2], mut joint: Joint, source: SourceFile, limits: &Limits) -> Builder {
+        let file = joint.sources.add(source.clone());
+        let coupling = Coupling {
+            programs: programs.map(Arc::clone),
+            joint,
+            conjuncts: Vec::new(),
+            segment: None,
+            diagrams: Diagrams::usual(false),
+            shared: Default::default(),
+            given: Vec::new(),
+            readers: Default::default(),
+            same: Vec::new(),
+            free: Vec::new(),
+            inputs: Vec::new(),
+            file,
+        };
+        Builder { coupling, source, limits: limits.clone(), faults: Vec::new() }
+    }
+
+    fn fault(&mut self, fault: impl Into<Box<Diagnostic>>) {
+        self.faults.push(*fault.into());
+    }
+
+    fn place(&self, part: &Part) -> Span {
+        Span { file: self.coupling.file, ..part.span }
+    }
+
+    /// Reads all statements.
+    pub fn read(&mut self, written: &Written) {
+        let usual = Diagrams::usual(written.segment.is_some());
+        self.coupling.diagrams = written.diagrams.clone().unwrap_or(usual);
+        if written.same.is_empty() && written.couples.is_empty() {
+            self.same_by_default();
+        }
+        for part in &written.same {
+            self.same(part);
+        }
+        let mut looked_at = [!self.coupling.same.is_empty(); 2];
+        for part in &written.couples {
+            let Some(formula) = self.condition(part) else { continue };
+            for (side, looked) in looked_at.iter_mut().enumerate() {
+                *looked |= !self.functions_of(&formula, side).is_empty();
+            }
+            self.coupling.conjuncts.push(Conjunct::Term { text: part.text.clone(), formula });
+        }
+        if let Some(part) = &written.segment
+            && let Some(formula) = self.condition(part)
+        {
+            self.concrete_only(&formula, part, "a segment ends");
+            self.coupling.segment = Some(formula);
+        }
+        self.inputs(written);
+        if !self.faults.is_empty() {
+            return;
+        }
+        if let Some(side) = looked_at.iter().position(|looked| !looked) {
+            let message =
+                format!("nothing is observed: the coupling looks at no function of the {} machine", SIDES[side]);
+            let place = written.couples.first().map_or(start(self.coupling.file), |part| self.place(part));
+            let help = "no function has the same name and the same domains in both: say with `couple` what corresponds";
+            let fault = vacuous(place, message);
+            self.faults.push(if written.couples.is_empty() { fault.with_help(help) } else { fault });
+        }
+    }
+
+    /// Couples all functions of equal names and domains.
+    fn same_by_default(&mut self) {
+        let [one, other] = self.coupling.programs.clone();
+        let mut names = BTreeSet::new();
+        for function in one.functions.iter().filter(|function| is_state(function)) {
+            let Some(there) = other.find_function(&function.name, function.parameters.len()) else { continue };
+            let Some(here) = one.find_function(&function.name, function.parameters.len()) else { continue };
+            if is_state(other.function(there)) && self.same_domains(here, there) {
+                names.insert((function.name.clone(), [here, there]));
+            }
+        }
+        for (name, functions) in names {
+            self.add_same(name, functions);
+        }
+    }
+
+    fn same_domains(&self, here: FunctionId, there: FunctionId) -> bool {
+        let [one, other] = &self.coupling.programs;
+        let domains = |program: &Program, function: FunctionId| -> Vec<String> {
+            let function = program.function(function);
+            let all = function.parameters.iter().chain([&function.codomain]);
+            all.map(|domain| described(program, &self.limits, *domain)).collect()
+        };
+        domains(one, here) == domains(other, there)
+    }
+
+    fn same(&mut self, part: &Part) {
+        let place = self.place(part);
+        let [one, other] = self.coupling.programs.clone();
+        let of = |program: &Program| -> Vec<FunctionId> {
+            let all = (0..).map(FunctionId).zip(&program.functions);
+            all.filter(|(_, function)| function.name == part.text && !function.library).map(|(id, _)| id).collect()
+        };
+        let (here, there) = (of(&one), of(&other));
+        for (found, side) in [(&here, ABSTRACT), (&there, CONCRETE)] {
+            if found.is_empty() {
+                let message = format!("the {} machine has no function `{}`", SIDES[side], part.text);
+                return self.fault(bad_coupling(place, message));
+            }
+        }
+        let arity = |program: &Program, id: FunctionId| program.function(id).parameters.len();
+        let mut pairs = Vec::new();
+        for here in here {
+            pairs.extend(
+                there.iter().filter(|there| arity(&one, here) == arity(&other, **there)).map(|there| [here, *there]),
+            );
+        }
+        if pairs.is_empty() {
+            let message = format!("`{}` has different numbers of arguments in the two machines", part.text);
+            return self.fault(bad_coupling(place, message));
+        }
+        for [here, there] in pairs {
+            for (side, id) in [(ABSTRACT, here), (CONCRETE, there)] {
+                let reader = self.reader(side, id);
+                if self.coupling.programs[side].reads_monitored(&reader) {
+                    let message = format!("`{}` is an input, or depends on one; a coupling relates states", part.text);
+                    return self.fault(bad_coupling(place, message));
+                }
+            }
+            self.add_same(part.text.clone(), [here, there]);
+        }
+    }
+
+    fn add_same(&mut self, name: String, functions: [FunctionId; 2]) {
+        for (side, function) in functions.into_iter().enumerate() {
+            self.reader(side, function);
+        }
+        let joint = joint_name(ABSTRACT, &name);
+        let arity = self.coupling.programs[ABSTRACT].function(functions[ABSTRACT]).parameters.len();
+        let arguments = self.arguments(&joint, arity).or_else(|| (arity == 0).then(|| vec![Vec::new()]));
+        if arguments.is_none() {
+            let of_state = |side: usize| is_state(self.coupling.programs[side].function(functions[side]));
+            let begun = |side: usize| {
+                self.coupling.programs[side].initials.iter().any(|initial| initial.function == functions[side])
+            };
+            if (0..2).any(|side| !of_state(side) || begun(side)) {
+                let message =
+                    format!("`{name}` has values at infinitely many arguments: say with `couple` which are compared");
+                return self.fault(bad_coupling(start(self.coupling.file), message));
+            }
+        }
+        self.coupling.same.push(name.clone());
+        self.coupling.conjuncts.push(Conjunct::Same { name, functions, arguments });
+    }
+
+    /// All arguments of a function of the joint model, if they can be listed.
+    fn arguments(&self, name: &str, arity: usize) -> Option<Vec<Vec<machine::Value>>> {
+        let program = &self.coupling.joint.program;
+        let function = program.function(program.find_function(name, arity)?);
+        let mut machine = Machine::new(Arc::new(program.clone()), self.limits.clone());
+        let mut all = vec![Vec::new()];
+        for domain in &function.parameters {
+            let mut fixed = *domain;
+            while let DomainKind::Concrete { base, contents: None, .. } = program.domain(fixed).kind {
+                fixed = base;
+            }
+            let elements = machine.elements(fixed).ok()?;
+            all = all
+                .iter()
+                .flat_map(|arguments: &Vec<machine::Value>| {
+                    elements.iter().map(|element| [&arguments[..], std::slice::from_ref(element)].concat())
+                })
+                .collect();
+            if all.len() > 1 << 16 {
+                return None;
+            }
+        }
+        Some(all)
+    }
+
+    /// A term of the program that reads a function at its parameters.
+    fn reader(&mut self, side: usize, function: FunctionId) -> Expression {
+        if let Some(known) = self.coupling.readers[side].get(&function) {
+            return known.clone();
+        }
+        let program = Arc::make_mut(&mut self.coupling.programs[side]);
+        let declared = program.function(function).clone();
+        let push = |program: &mut Program, term: Term, domain| {
+            program.terms.push(term);
+            program.term_domains.push(domain);
+            program.term_spans.push(declared.span);
+            program::TermId(program.terms.len() as u32 - 1)
+        };
+        let mut slots = Vec::new();
+        for (slot, domain) in declared.parameters.iter().enumerate() {
+            slots.push(push(program, Term::Slot(Slot(slot as u32)), *domain));
+        }
+        let arguments = TermList { start: program.term_lists.len() as u32, len: slots.len() as u32 };
+        program.term_lists.extend(slots);
+        let term = match declared.definition {
+            Some(_) => Term::Define { function, arguments },
+            None => Term::Read { function, arguments },
+        };
+        let body = push(program, term, declared.codomain);
+        let names = (0..declared.parameters.len()).map(|slot| format!("${slot}")).collect();
+        let frame = declared.parameters.len() as u32;
+        let reader = Expression { parameters: declared.parameters, frame, names, body };
+        self.coupling.readers[side].insert(function, reader.clone());
+        reader
+    }
+
+    /// A part of the file as a text in which all else is blank, and names of functions are those of the joint model.
+    fn masked(&self, part: &Part) -> String {
+        let blank = |text: &str| -> String {
+            text.chars().map(|c| if c == '\n' { "\n".to_string() } else { " ".repeat(c.len_utf8()) }).collect()
+        };
+        let (start, end) = (part.span.start as usize, part.span.end as usize);
+        let (before, term, after) =
+            (&self.source.text[..start], &self.source.text[start..end], &self.source.text[end..]);
+        let mut own = String::with_capacity(term.len());
+        let mut rest = term;
+        while let Some(next) = rest.chars().next() {
+            let inside = own.ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == '$');
+            let side = SIDES.iter().find(|side| !inside && rest.starts_with(&format!("{side}.")));
+            let taken = match side {
+                Some(side) => {
+                    own.push_str(&joint_name(usize::from(**side == *SIDES[CONCRETE]), ""));
+                    side.len() + 1
+                }
+                None => {
+                    own.push(next);
+                    next.len_utf8()
+                }
+            };
+            rest = &rest[taken..];
+        }
+        format!("{}{own}{}", blank(before), blank(after))
+    }
+
+    /// The faults of a term, with names as the file has them.
+    fn told(&mut self, faults: Vec<Diagnostic>) {
+        let plain = |text: &mut String| {
+            for (side, word) in SIDES.iter().enumerate() {
+                *text = text.replace(&joint_name(side, ""), &format!("{word}."));
+            }
+        };
+        for mut fault in faults {
+            plain(&mut fault.message);
+            plain(&mut fault.primary.text);
+            fault.help.iter_mut().for_each(plain);
+            // The joint model is nowhere that a user could look.
+            let file = self.coupling.file;
+            fault.secondary.retain(|label| label.span.file == file);
+            fault.secondary.iter_mut().for_each(|label| plain(&mut label.text));
+            self.faults.push(fault);
+        }
+    }
+
+    fn term(&mut self, part: &Part, domain: Option<model::DomainId>) -> Option<Expression> {
+        let file = self.coupling.file;
+        let parsed = syntax::parse_term(file, &self.masked(part));
+        if parsed.diagnostics.iter().any(|fault| fault.severity == Severity::Error) {
+            self.told(parsed.diagnostics);
+            return None;
+        }
+        let Some(term) = TermFile::cast(parsed.syntax()).and_then(|file| file.term()) else {
+            let place = self.place(part);
+            self.fault(bad_coupling(place, "a term is expected"));
+            return None;
+        };
+        let joint = &mut self.coupling.joint;
+        let fragment = match domain {
+            None => joint.model.check_condition(file, &term, "a coupling"),
+            Some(domain) => joint.model.check_value(file, &term, domain, "the input"),
+        };
+        if fragment.diagnostics.iter().any(|fault| fault.severity == Severity::Error) {
+            self.told(fragment.diagnostics);
+            return None;
+        }
+        match program::lower_term(&mut joint.program, &joint.model, &fragment.item, &fragment.variables) {
+            Ok(formula) => Some(formula),
+            Err(faults) => {
+                self.told(faults);
+                None
+            }
+        }
+    }
+
+    /// A condition over states.
+    fn condition(&mut self, part: &Part) -> Option<Expression> {
+        let formula = self.term(part, None)?;
+        self.over_states(&formula, part).then_some(formula)
+    }
+
+    /// Whether a term reads no input of either machine; it can be evaluated then.
+    fn over_states(&mut self, formula: &Expression, part: &Part) -> bool {
+        for side in [ABSTRACT, CONCRETE] {
+            for function in self.functions_of(formula, side) {
+                let reader = self.reader(side, function);
+                let program = &self.coupling.programs[side];
+                if program.reads_monitored(&reader) {
+                    let name = program.function(function).name.clone();
+                    let message =
+                        format!("{}.{name} is an input, or depends on one; a coupling relates states", SIDES[side]);
+                    let place = self.place(part);
+                    self.fault(bad_coupling(place, message));
+                    return false;
+                }
+            }
+        }
+        true
+    }
+
+    fn concrete_only(&mut self, formula: &Expression, part: &Part, what: &str) {
+        if !self.functions_of(formula, ABSTRACT).is_empty() {
+            let place = self.place(part);
+            self.fault(bad_coupling(place, format!("{what} by the concrete machine's state alone")));
+        }
+    }
+
+    /// The functions of a side that a term of the joint model reads.
+    fn functions_of(&self, formula: &Expression, side: usize) -> BTreeSet<FunctionId> {
+        let Joint { program, of, .. } = &self.coupling.joint;
+        let mut open = vec![formula.body];
+        let mut found = BTreeSet::new();
+        while let Some(id) = open.pop() {
+            if let Term::Read { function, .. } = program.term(id)
+                && let Some((there, function)) = of.get(function)
+                && *there == side
+            {
+                found.insert(*function);
+            }
+            program.each_child_of_term(id, &mut |child| open.push(child));
+        }
+        found
+    }
+
+    /// Which inputs of the abstract machine have which values.
+    fn inputs(&mut self, written: &Written) {
+        let [one, other] = self.coupling.programs.clone();
+        let mut left: Vec<FunctionId> = (0..)
+            .map(FunctionId)
+            .zip(&one.functions)
+            .filter(|(_, function)| is_input(function))
+            .map(|(id, _)| id)
+            .collect();
+        let mut take = |name: &str| {
+            let taken: Vec<FunctionId> = left.iter().copied().filter(|id| one.function(*id).name == name).collect();
+            left.retain(|id| !taken.contains(id));
+            taken
+        };
+        for part in &written.free {
+            match take(&part.text)[..] {
+                [] => self.no_input(part, &one),
+                _ => self.coupling.free.push(part.text.clone()),
+            }
+        }
+        for mapped in &written.inputs {
+            match take(&mapped.input.text)[..] {
+                [input] => self.mapped(mapped, input),
+                [] => self.no_input(&mapped.input, &one),
+                _ => {
+                    let message =
+                        format!("there are several inputs `{}`: only `free` can name them", mapped.input.text);
+                    let place = self.place(&mapped.input);
+                    self.fault(bad_coupling(place, message));
+                }
+            }
+        }
+        for id in left {
+            let function = one.function(id);
+            let (name, arity) = (&function.name, function.parameters.len());
+            let there = other.find_function(name, arity).filter(|there| is_input(other.function(*there)));
+            let read = one.terms.iter().any(|term| matches!(term, Term::Read { function, .. } if *function == id));
+            let Some(there) = there else {
+                if read {
+                    let fault =
+                        input_not_coupled(start(self.coupling.file), name, "is no input of the concrete machine");
+                    self.faults.push(fault);
+                }
+                continue;
+            };
+            if !self.same_domains(id, there) {
+                let why = "has other domains in the concrete machine";
+                self.faults.push(input_not_coupled(start(self.coupling.file), name, why));
+                continue;
+            }
+            self.share(id, there);
+        }
+    }
+
+    fn share(&mut self, input: FunctionId, there: FunctionId) {
+        self.coupling.shared[ABSTRACT].entry(input).or_default().push(input.0);
+        self.coupling.shared[CONCRETE].entry(there).or_default().push(input.0);
+        self.coupling.inputs.push(self.coupling.programs[ABSTRACT].function(input).name.clone());
+    }
+
+    fn no_input(&mut self, part: &Part, program: &Program) {
+        let place = self.place(part);
+        let known: Vec<&str> =
+            program.functions.iter().filter(|function| is_input(function)).map(|function| &*function.name).collect();
+        let fault = bad_coupling(place, format!("the abstract machine has no input `{}` left to speak of", part.text));
+        let help = match known[..] {
+            [] => "it has no inputs".to_string(),
+            _ => format!("its inputs are: {}; each is said once", known.join(", ")),
+        };
+        self.faults.push(fault.with_help(help));
+    }
+
+    /// `input abstract.f = TERM;`
+    fn mapped(&mut self, mapped: &crate::written::Mapped, input: FunctionId) {
+        let [one, other] = self.coupling.programs.clone();
+        let arity = one.function(input).parameters.len();
+        let renamed = mapped.term.text.strip_prefix("concrete.");
+        let renamed = renamed.and_then(|name| other.find_function(name, arity));
+        if let Some(there) = renamed.filter(|there| is_input(other.function(*there))) {
+            let values = |program: &Program, id: FunctionId| {
+                let function = program.function(id);
+                let all = function.parameters.iter().chain([&function.codomain]);
+                all.map(|domain| described(program, &self.limits, *domain)).collect::<Vec<_>>()
+            };
+            if values(&one, input) != values(&other, there) {
+                let message = "the two inputs have different domains";
+                let place = self.place(&mapped.term);
+                return self.fault(bad_coupling(place, message));
+            }
+            return self.share(input, there);
+        }
+        if arity > 0 {
+            let message = "an input with arguments can only be another input: input abstract.f = concrete.g;";
+            let place = self.place(&mapped.term);
+            return self.fault(bad_coupling(place, message));
+        }
+        let joint = &self.coupling.joint.program;
+        let Some(id) = joint.find_function(&joint_name(ABSTRACT, &mapped.input.text), 0) else { return };
+        let domain = joint.function(id).codomain;
+        let Some(formula) = self.term(&mapped.term, Some(domain)) else { return };
+        if self.over_states(&formula, &mapped.term) {
+            self.concrete_only(&formula, &mapped.term, "the input is given");
+            self.coupling.shared[ABSTRACT].entry(input).or_default().push(input.0);
+            self.coupling.given.push((input.0, formula));
+        }
+    }
+}
+
+/// Whether a function is part of the state between steps.
+fn is_state(function: &program::Function) -> bool {
+    use FunctionKind::{Controlled, Out, Shared};
+    !function.library && matches!(function.kind, Controlled | Out | Shared)
+}
+
+fn is_input(function: &program::Function) -> bool {
+    !function.library && function.kind == FunctionKind::Monitored
+}

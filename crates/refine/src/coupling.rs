@@ -1,0 +1,125 @@
+//! The coupling of two machines: which pairs of states correspond, which inputs are the same, where segments end.
+//!
+//! In: two programs, the statements of a coupling file. Out: a [`Coupling`], or the faults of the file. Terms are checked in the joint
+//! model ([`crate::joint`]) as if the file were blank around them, so that faults stand at their places. INVARIANT: a coupling relates
+//! states alone, never inputs; each input that the abstract machine reads has a counterpart, a value, or is free.
+
+use std::sync::Arc;
+
+use machine::Limits;
+use program::{Expression, FunctionId, Program};
+use rustc_hash::FxHashMap;
+use syntax::{Diagnostic, FileId, SourceFile, Sources, Span};
+
+use crate::build::Builder;
+use crate::diagram::Diagrams;
+use crate::fault::bad_coupling;
+use crate::joint::{Joint, join};
+use crate::written::read;
+
+/// A part of the coupling relation.
+#[derive(Debug, Clone)]
+pub(crate) enum Conjunct {
+    /// A function of both machines that has the same values in both.
+    Same {
+        name: String,
+        functions: [FunctionId; 2],
+        /// The arguments, in the joint model, if they can be listed.
+        arguments: Option<Vec<Vec<machine::Value>>>,
+    },
+    /// A term.
+    Term { text: String, formula: Expression },
+}
+
+/// Why a text is no coupling of two machines.
+#[derive(Debug)]
+pub struct Faulty {
+    /// The texts that the faults stand in.
+    pub sources: Sources,
+    /// At least one.
+    pub faults: Vec<Diagnostic>,
+}
+
+/// See the module.
+pub struct Coupling {
+    /// The two programs, with terms that read what the coupling reads.
+    pub(crate) programs: [Arc<Program>; 2],
+    pub(crate) joint: Joint,
+    pub(crate) conjuncts: Vec<Conjunct>,
+    pub(crate) segment: Option<Expression>,
+    /// The diagrams that are allowed.
+    pub diagrams: Diagrams,
+    /// By side and input: the inputs of the abstract machine that have its value.
+    pub(crate) shared: [FxHashMap<FunctionId, Vec<u32>>; 2],
+    /// Inputs of the abstract machine that are terms over the concrete state.
+    pub(crate) given: Vec<(u32, Expression)>,
+    pub(crate) readers: [FxHashMap<FunctionId, Expression>; 2],
+    /// The functions that have equal values by default or by `same`.
+    pub same: Vec<String>,
+    /// Inputs that are free, and inputs that have the same value in both.
+    pub free: Vec<String>,
+    /// The inputs that have the same value in both machines.
+    pub inputs: Vec<String>,
+    /// The file, which faults of the whole point to.
+    pub file: FileId,
+}
+
+impl std::fmt::Debug for Coupling {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Coupling").field("conjuncts", &self.conjuncts).finish_non_exhaustive()
+    }
+}
+
+impl Coupling {
+    /// The coupling that a text says, or the default one if there is none.
+    ///
+    /// # Errors
+    /// The faults of the text.
+    pub fn new(
+        programs: [&Arc<Program>; 2],
+        text: Option<SourceFile>,
+        limits: &Limits,
+    ) -> Result<Coupling, Box<Faulty>> {
+        let source = text.unwrap_or_else(|| SourceFile::new("<default coupling>", ""));
+        let alone = |fault: Diagnostic| {
+            let mut sources = Sources::default();
+            let file = sources.add(source.clone());
+            let mut fault = fault;
+            fault.primary.span.file = file;
+            Box::new(Faulty { sources, faults: vec![fault] })
+        };
+        let written = read(FileId(0), &source.text).map_err(|fault| alone(*fault))?;
+        let joint = join([&**programs[0], &**programs[1]], limits);
+        let joint = joint.map_err(|message| alone(*bad_coupling(start(FileId(0)), message)))?;
+        let mut builder = Builder::new(programs, joint, source, limits);
+        builder.read(&written);
+        let Builder { coupling, faults, .. } = builder;
+        match faults.is_empty() {
+            true => Ok(coupling),
+            false => Err(Box::new(Faulty { sources: coupling.joint.sources, faults })),
+        }
+    }
+
+    /// The texts that faults of the coupling stand in.
+    pub fn sources(&self) -> &Sources {
+        &self.joint.sources
+    }
+
+    /// A conjunct of the relation as a user would write it.
+    pub fn conjunct(&self, index: usize) -> String {
+        match &self.conjuncts[index] {
+            Conjunct::Same { name, .. } => format!("abstract.{name} = concrete.{name}"),
+            Conjunct::Term { text, .. } => text.split_whitespace().collect::<Vec<_>>().join(" "),
+        }
+    }
+
+    /// How many conjuncts there are.
+    pub fn conjuncts(&self) -> usize {
+        self.conjuncts.len()
+    }
+}
+
+/// The beginning of a file.
+pub(crate) fn start(file: FileId) -> Span {
+    Span { file, start: 0, end: 0 }
+}

@@ -1,0 +1,342 @@
+//! What shows a verdict: both runs side by side to the first step that nothing matches, or the diagrams that the answers use.
+//!
+//! In: a solved game. Out: a [`Refutation`]. The concrete machine plays so that it wins soonest, the abstract one so that it loses latest.
+//! INVARIANT: both runs are runs of their machines, and the states at the ends of the diagrams told correspond.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use explore::Told;
+use machine::{Location, Show, Value};
+
+use crate::game::{Lost, Solution};
+use crate::product::{Answers, Deed, Node, NodeId, PairId, Product};
+use crate::side::{Move, StateId};
+use crate::{ABSTRACT, CONCRETE};
+
+/// LIMIT: so many of the best candidates are told.
+const TRIED: usize = 3;
+
+/// A run of one machine.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Run {
+    /// The inputs and choices of the initial state.
+    pub start: Told,
+    /// The initial state.
+    pub values: Vec<(Location, Value)>,
+    /// The steps; of a fault the last one cannot be made.
+    pub steps: Vec<Told>,
+}
+
+/// A diagram of the runs: so many steps of each machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Segment {
+    /// Of the abstract machine.
+    pub m: usize,
+    /// Of the concrete machine.
+    pub n: usize,
+}
+
+/// A part of the coupling that does not hold.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Part {
+    /// As the coupling says it.
+    pub text: String,
+    /// What it looks at, with the values.
+    pub values: Differs,
+    /// Why it is neither true nor false.
+    pub trouble: Option<String>,
+}
+
+/// Names with values.
+pub type Differs = Vec<(String, String)>;
+
+/// What the abstract machine could have done.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Tried {
+    /// Its steps.
+    pub steps: Vec<Told>,
+    /// The parts of the coupling that do not hold then; none if it comes too late: a diagram may not have so many steps.
+    pub parts: Vec<Part>,
+}
+
+/// How the runs end.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Ended {
+    /// No run of the abstract machine matches the concrete steps behind the last diagram.
+    Unmatched {
+        /// Inputs at which the concrete machine did not look.
+        inputs: Differs,
+        /// The best candidates.
+        tried: Vec<Tried>,
+        /// Why steps of the abstract machine cannot be made.
+        faults: Vec<String>,
+    },
+    /// The concrete machine's last step cannot be made.
+    Fault,
+    /// The concrete machine goes on for ever from the diagram of this index, and the abstract one makes no step.
+    Waits(usize),
+}
+
+/// Why the concrete machine does not refine the abstract one.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Refutation {
+    /// The abstract and the concrete run.
+    pub runs: [Run; 2],
+    /// Their diagrams, in order; concrete steps behind the last of them are those that nothing matches.
+    pub segments: Vec<Segment>,
+    /// How they end.
+    pub ended: Ended,
+}
+
+/// What decides whether a pair counts as alive.
+type Alive<'a> = &'a dyn Fn(PairId, u32) -> bool;
+
+/// How long the abstract machine survives from a node that it loses; none if it wins.
+fn survival(product: &Product<'_>, solution: &Solution, node: NodeId, alive: Alive<'_>) -> Option<u32> {
+    if solution.wins(product, node, alive) {
+        return None;
+    }
+    match &product.nodes[node as usize] {
+        Node::Deeds(deeds) => deeds.iter().filter_map(|(_, node)| survival(product, solution, *node, alive)).min(),
+        Node::Choice(ways) => ways.iter().filter_map(|node| survival(product, solution, *node, alive)).max(),
+        Node::Answers(end) => {
+            let rank = |(pair, _): &(PairId, u32)| solution.lost[*pair as usize].map_or(u32::MAX, |lost| lost.rank);
+            Some(end.answers.iter().map(rank).max().unwrap_or(0))
+        }
+        Node::Fault | Node::Open(_) => Some(0),
+    }
+}
+
+/// What the concrete machine does from a node that it wins: its steps, and where the diagram ends if it does.
+struct Play<'p> {
+    start: Option<explore::Start>,
+    steps: Vec<(StateId, Move)>,
+    end: Option<&'p Answers>,
+}
+
+fn play<'p>(product: &'p Product<'_>, solution: &Solution, node: NodeId, alive: Alive<'_>) -> Play<'p> {
+    let mut play = Play { start: None, steps: Vec::new(), end: None };
+    let mut at = node;
+    loop {
+        let of = |node: NodeId| survival(product, solution, node, alive);
+        match &product.nodes[at as usize] {
+            Node::Deeds(deeds) => {
+                let best = deeds.iter().filter_map(|(deed, node)| Some((of(*node)?, deed, *node)));
+                let Some((_, deed, next)) = best.min_by_key(|(survives, ..)| *survives) else { return play };
+                match deed {
+                    Deed::Begin(start) => play.start = Some(*start),
+                    Deed::Step(from, made) => play.steps.push((*from, made.clone())),
+                    Deed::Inputs => {}
+                }
+                at = next;
+            }
+            Node::Choice(ways) => {
+                // The last of equals goes on.
+                let best = ways.iter().filter_map(|node| Some((of(*node)?, *node)));
+                let Some((_, next)) = best.max_by_key(|(survives, _)| *survives) else { return play };
+                at = next;
+            }
+            Node::Answers(end) => {
+                play.end = Some(end);
+                return play;
+            }
+            Node::Fault | Node::Open(_) => return play,
+        }
+    }
+}
+
+/// Both runs as they are made.
+struct Telling<'r, 'c> {
+    product: &'r mut Product<'c>,
+    runs: [Run; 2],
+    segments: Vec<Segment>,
+}
+
+impl Telling<'_, '_> {
+    fn begin(&mut self, side: usize, state: StateId, start: explore::Start) {
+        let of = &mut self.product.sides[side];
+        let packed = of.packed(state);
+        self.runs[side].start = of.explorer.told_of_start(start);
+        self.runs[side].values = of.explorer.values(&packed);
+    }
+
+    fn step(&mut self, side: usize, from: StateId, made: &Move) {
+        self.runs[side].steps.extend(tell(self.product, side, from, made));
+    }
+}
+
+fn tell(product: &mut Product<'_>, side: usize, from: StateId, made: &Move) -> Option<Told> {
+    let given = if side == CONCRETE { product.given(from) } else { Vec::new() };
+    let bridge = &product.judge.coupling.joint.bridges[side];
+    product.sides[side].told(from, made, &given, &mut product.inputs, bridge)
+}
+
+/// The runs that show why the game is lost.
+pub(crate) fn refutation(product: &mut Product<'_>, solution: &Solution) -> Refutation {
+    let mut telling = Telling { product, runs: Default::default(), segments: Vec::new() };
+    // The pairs at the ends of diagrams, from the first.
+    let mut visited: Vec<PairId> = Vec::new();
+    let mut at: Option<PairId> = None;
+    loop {
+        let product = &*telling.product;
+        let lost = at.and_then(|pair| solution.lost[pair as usize]);
+        let survives = |pair: PairId, m: u32| match lost {
+            None => solution.lost[pair as usize].is_none(),
+            Some(lost) => solution.outlives(pair, m, lost),
+        };
+        let node = match at {
+            None => product.root,
+            Some(pair) => product.trees[pair as usize].unwrap_or(product.root),
+        };
+        let play = play(product, solution, node, &survives);
+        let (start, steps, end) = (play.start, play.steps, play.end.cloned());
+        if let Some(start) = start {
+            let begun = telling.product.begun.iter().find(|(_, _, other)| *other == start);
+            let state = begun.map_or(0, |(_, state, _)| *state);
+            telling.begin(CONCRETE, state, start);
+        }
+        for (from, made) in &steps {
+            telling.step(CONCRETE, *from, made);
+        }
+        let Some(end) = end else {
+            let Telling { runs, segments, .. } = telling;
+            return Refutation { runs, segments, ended: Ended::Fault };
+        };
+        let Some((pair, m)) = best(solution, &end, lost) else {
+            let ended = unmatched(telling.product, &end);
+            let Telling { mut runs, segments, .. } = telling;
+            if end.from.is_none() {
+                runs[ABSTRACT] = Run::default();
+            }
+            return Refutation { runs, segments, ended };
+        };
+        let (state, _) = telling.product.pairs[pair as usize];
+        match end.from {
+            None => {
+                let fitting = telling.product.initial.iter().find(|(_, other, _)| *other == state).cloned();
+                if let Some((_, state, start)) = fitting {
+                    telling.begin(ABSTRACT, state, start);
+                }
+            }
+            Some(from) => {
+                for (from, made) in telling.product.abstract_way(from, state, m, &end.reads) {
+                    telling.step(ABSTRACT, from, &made);
+                }
+                telling.segments.push(Segment { m: m as usize, n: steps.len() });
+            }
+        }
+        if let Some(turn) = visited.iter().position(|other| *other == pair) {
+            let Telling { runs, segments, .. } = telling;
+            return Refutation { runs, segments, ended: Ended::Waits(turn) };
+        }
+        visited.push(pair);
+        at = Some(pair);
+    }
+}
+
+/// The answer that survives longest; where the abstract machine waits for ever, one that waits on.
+fn best(solution: &Solution, end: &Answers, lost: Option<Lost>) -> Option<(PairId, u32)> {
+    let rank = |pair: PairId| solution.lost[pair as usize].map_or(u32::MAX, |lost| lost.rank);
+    let waits = |(pair, m): &&(PairId, u32)| {
+        let other = solution.lost[*pair as usize];
+        *m == 0 && lost.is_some_and(|lost| lost.waits && other == Some(lost))
+    };
+    let waiting = end.answers.iter().find(waits);
+    waiting.or_else(|| end.answers.iter().max_by_key(|(pair, _)| rank(*pair))).copied()
+}
+
+/// What the abstract machine could have done, none of which matches.
+fn unmatched(product: &mut Product<'_>, end: &Answers) -> Ended {
+    let mut inputs = Vec::new();
+    let mut tried = Vec::new();
+    let mut faults = Vec::new();
+    let candidates: Vec<(StateId, u32)> = match end.from {
+        None => product.initial.iter().map(|(_, state, _)| (*state, 0)).collect(),
+        Some(from) => {
+            let most = product.judge.coupling.diagrams.most_abstract(end.n).unwrap_or(1);
+            match product.abstract_runs(from, &end.reads, most) {
+                Ok(found) => {
+                    faults.extend(found.faults);
+                    let free = found.runs.into_iter().filter(|run| run.needs.is_empty());
+                    free.map(|run| (run.to, run.m)).collect()
+                }
+                Err(_) => Vec::new(),
+            }
+        }
+    };
+    let mut judged: Vec<(usize, u32, StateId, Vec<usize>)> = Vec::new();
+    for (state, m) in candidates {
+        if judged.iter().any(|(_, _, other, _)| *other == state) {
+            continue;
+        }
+        let failing = product.judge.failing(&mut product.sides, [state, end.to]);
+        judged.push((failing.len(), m, state, failing));
+    }
+    // The fewest parts fail; of equals an abstract step is a better try than none.
+    judged.sort_by_key(|(count, m, ..)| (*count, *m == 0, *m));
+    judged.truncate(TRIED);
+    for (_, m, state, failing) in judged {
+        let mut steps = Vec::new();
+        if let Some(from) = end.from {
+            for (from, made) in product.abstract_way(from, state, m, &end.reads) {
+                steps.extend(tell(product, ABSTRACT, from, &made));
+            }
+        }
+        let parts = failing.into_iter().map(|index| {
+            let (values, trouble) = product.judge.why(&mut product.sides, index, [state, end.to]);
+            Part { text: product.judge.coupling.conjunct(index), values, trouble }
+        });
+        tried.push(Tried { steps, parts: parts.collect() });
+    }
+    let program = &product.judge.coupling.joint.program;
+    for (location, values) in end.reads.iter() {
+        let (input, arguments) = &product.inputs.told[*location as usize];
+        let name = &product.judge.coupling.programs[ABSTRACT].functions[*input as usize].name;
+        let shown: Vec<String> = arguments.iter().map(|value| value.show(program).to_string()).collect();
+        let shown = if shown.is_empty() { name.clone() } else { format!("{name}({})", shown.join(",")) };
+        let values: Vec<String> =
+            values.iter().map(|value| product.inputs.told_values[*value as usize].show(program).to_string()).collect();
+        inputs.push((shown, values.join(" or ")));
+    }
+    Ended::Unmatched { inputs, tried, faults }
+}
+
+/// Why no initial states correspond.
+pub(crate) fn no_initial_pair(product: &mut Product<'_>) -> Refutation {
+    let (_, state, start) = product.begun[0].clone();
+    let end = Answers { from: None, to: state, reads: Default::default(), n: 0, answers: Vec::new(), unclear: None };
+    let ended = unmatched(product, &end);
+    let mut telling = Telling { product, runs: Default::default(), segments: Vec::new() };
+    telling.begin(CONCRETE, state, start);
+    if let Some((_, state, start)) = telling.product.initial.first().cloned() {
+        telling.begin(ABSTRACT, state, start);
+    }
+    let Telling { runs, segments, .. } = telling;
+    Refutation { runs, segments, ended }
+}
+
+/// How often the answers found use each diagram.
+pub(crate) fn used(product: &Product<'_>, solution: &Solution) -> BTreeMap<(u32, u32), u64> {
+    let alive = |pair: PairId, _: u32| solution.lost[pair as usize].is_none();
+    let mut used = BTreeMap::new();
+    let mut seen = vec![false; product.pairs.len()];
+    let mut queue = VecDeque::from([product.root]);
+    while let Some(node) = queue.pop_front() {
+        match &product.nodes[node as usize] {
+            Node::Deeds(deeds) => queue.extend(deeds.iter().map(|(_, node)| *node)),
+            Node::Choice(ways) => queue.extend(ways.iter().find(|node| solution.wins(product, **node, &alive))),
+            Node::Answers(end) => {
+                let fit = end.answers.iter().filter(|(pair, m)| alive(*pair, *m));
+                let Some((pair, m)) = fit.min_by_key(|(_, m)| (*m == 0, *m)) else { continue };
+                if end.from.is_some() {
+                    *used.entry((*m, end.n)).or_default() += 1;
+                }
+                if !std::mem::replace(&mut seen[*pair as usize], true) {
+                    queue.extend(product.trees[*pair as usize]);
+                }
+            }
+            Node::Fault | Node::Open(_) => {}
+        }
+    }
+    used
+}

@@ -1,0 +1,36 @@
+//! Refinement: whether every run of a concrete machine corresponds to a run of an abstract one.
+//!
+//! In: two programs and a coupling file's text. Out: a [`Report`]: the concrete machine refines the abstract one, or does not, with both
+//! runs side by side to the first step that nothing matches, or it is not known. Theory: E. Börger, *The ASM refinement method* (2003);
+//! G. Schellhorn, *Verification of ASM refinements using generalized forward simulation* (2001). Decided by a game on pairs of states,
+//! docs/adr/0022. It must not know files or how results are told.
+
+mod build;
+mod coupling;
+mod diagram;
+mod evidence;
+mod fault;
+mod game;
+mod joint;
+mod judge;
+mod product;
+mod refine;
+mod report;
+mod side;
+mod written;
+
+pub use coupling::{Coupling, Faulty};
+pub use diagram::{Diagram, Diagrams};
+pub use evidence::{Differs, Ended, Part, Refutation, Run, Segment, Tried};
+pub use fault::IDS;
+pub use refine::{Options, Progress, Trouble, refine};
+pub use report::{Assumed, Report, Vacuous, Verdict, Why};
+pub use side::Extent;
+pub use written::{Mapped, Part as WrittenPart, Written, read};
+
+/// The abstract machine's place in a pair.
+pub const ABSTRACT: usize = 0;
+/// The concrete machine's place in a pair.
+pub const CONCRETE: usize = 1;
+/// What the machines are called in a coupling.
+pub const SIDES: [&str; 2] = ["abstract", "concrete"];

@@ -1,0 +1,426 @@
+//! The pairs of states that the game is played on, and for each pair what may happen from it.
+//!
+//! In: two sides and a [`Judge`]. Out: a [`Product`]: pairs of corresponding states, each with a tree of what the concrete machine does
+//! and how the abstract one may answer. A tree ends in pairs. INVARIANT: a pair is in the coupling relation; a pair without a tree has
+//! not been looked at.
+//!
+//! Inputs that both machines have are those of one environment. In a diagram an abstract step sees a value that the input had at some
+//! concrete step of the diagram; an input at which no concrete step looked has any value, one for the whole diagram, and each must be
+//! answered.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
+
+use explore::{Start, Unbounded};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use crate::judge::Judge;
+use crate::side::{Goal, Inputs, Label, Move, Side, StateId, Stopped};
+use crate::{ABSTRACT, CONCRETE};
+
+/// The number of a pair.
+pub(crate) type PairId = u32;
+/// The number of a node.
+pub(crate) type NodeId = u32;
+
+/// LIMIT: so many values of inputs that the concrete machine did not look at are tried in one place.
+const VALUATIONS: usize = 1 << 12;
+
+/// By location of an input the values that it had in a diagram.
+pub(crate) type Reads = Rc<BTreeMap<u32, BTreeSet<u32>>>;
+
+/// Why it is not known what happens.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Unclear {
+    /// A step of a side cannot be gone through.
+    Unbounded(usize, Unbounded),
+    /// A segment has more steps than a diagram may have.
+    Long,
+    /// There are too many values of inputs.
+    Valuations,
+}
+
+/// What the concrete machine does, or its environment.
+#[derive(Debug, Clone)]
+pub(crate) enum Deed {
+    /// It begins.
+    Begin(Start),
+    /// It makes a step.
+    Step(StateId, Move),
+    /// The inputs that it did not look at have these values.
+    Inputs,
+}
+
+/// What may happen.
+#[derive(Debug, Clone)]
+pub(crate) enum Node {
+    /// Each of these may be done, and must be answered.
+    Deeds(Vec<(Deed, NodeId)>),
+    /// The diagram may end here, or go on.
+    Choice(Vec<NodeId>),
+    /// The diagram ends after `n` concrete steps; each answer leads to a pair, after so many abstract steps.
+    Answers(Box<Answers>),
+    /// The concrete machine cannot make its step.
+    Fault,
+    /// Not known.
+    Open(Unclear),
+}
+
+/// See [`Node::Answers`].
+#[derive(Debug, Clone)]
+pub(crate) struct Answers {
+    /// The abstract state that the diagram began in; none at the beginning of the runs.
+    pub from: Option<StateId>,
+    /// The concrete state that it ends in.
+    pub to: StateId,
+    pub reads: Reads,
+    pub n: u32,
+    pub answers: Vec<(PairId, u32)>,
+    /// There may be more.
+    pub unclear: Option<Unclear>,
+}
+
+/// A run of the abstract machine within a diagram.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(crate) struct AbstractRun {
+    pub to: StateId,
+    pub m: u32,
+    /// The values of inputs that it needs and that the concrete machine did not look at.
+    pub needs: Vec<(u32, u32)>,
+}
+
+/// All runs of the abstract machine within a diagram.
+#[derive(Debug, Default)]
+pub(crate) struct AbstractRuns {
+    pub runs: Vec<AbstractRun>,
+    pub unclear: Option<Unclear>,
+    /// By input that was not looked at, the values that it may have.
+    values: BTreeMap<u32, BTreeSet<u32>>,
+    /// Why steps cannot be made.
+    pub faults: BTreeSet<String>,
+}
+
+/// See the module.
+pub(crate) struct Product<'c> {
+    pub sides: [Side; 2],
+    pub judge: Judge<'c>,
+    pub inputs: Inputs,
+    pub pairs: Vec<(StateId, StateId)>,
+    numbers: FxHashMap<(StateId, StateId), PairId>,
+    pub trees: Vec<Option<NodeId>>,
+    pub nodes: Vec<Node>,
+    pub root: NodeId,
+    /// The abstract machine's initial states.
+    pub initial: Vec<(Label, StateId, Start)>,
+    /// The concrete machine's initial states.
+    pub begun: Vec<(Label, StateId, Start)>,
+}
+
+/// A state, the place of the one before it, and the step between them.
+type Reached = (StateId, usize, Option<(StateId, Move)>);
+
+type Memo = FxHashMap<(StateId, Reads, u32), NodeId>;
+
+impl<'c> Product<'c> {
+    /// The initial pairs.
+    pub fn new(mut sides: [Side; 2], judge: Judge<'c>) -> Product<'c> {
+        let mut inputs = Inputs::default();
+        let bridges = &judge.coupling.joint.bridges;
+        let initial = sides[ABSTRACT].initial(&mut inputs, &bridges[ABSTRACT]);
+        let begun = sides[CONCRETE].initial(&mut inputs, &bridges[CONCRETE]);
+        let mut product = Product {
+            sides,
+            judge,
+            inputs,
+            pairs: Vec::new(),
+            numbers: FxHashMap::default(),
+            trees: Vec::new(),
+            nodes: Vec::new(),
+            root: 0,
+            initial,
+            begun,
+        };
+        let mut deeds = Vec::new();
+        for (label, state, start) in product.begun.clone() {
+            let reads = with_label(&Reads::default(), &label);
+            let runs = product.initial_runs(&reads);
+            let node = product.end(None, state, &reads, 0, runs);
+            deeds.push((Deed::Begin(start), node));
+        }
+        product.root = product.node(Node::Deeds(deeds));
+        product
+    }
+
+    fn node(&mut self, node: Node) -> NodeId {
+        self.nodes.push(node);
+        self.nodes.len() as NodeId - 1
+    }
+
+    fn pair(&mut self, pair: (StateId, StateId)) -> PairId {
+        let next = self.pairs.len() as PairId;
+        let number = *self.numbers.entry(pair).or_insert(next);
+        if number == next {
+            self.pairs.push(pair);
+            self.trees.push(None);
+        }
+        number
+    }
+
+    /// Looks at a pair.
+    pub fn explore(&mut self, pair: PairId) -> Result<(), Stopped> {
+        let (one, other) = self.pairs[pair as usize];
+        let tree = self.go_on(one, other, &Reads::default(), 0, &mut Memo::default())?;
+        self.trees[pair as usize] = Some(tree);
+        Ok(())
+    }
+
+    /// The inputs of the abstract machine that a concrete state determines.
+    pub fn given(&mut self, state: StateId) -> Vec<(u32, u32)> {
+        let coupling = self.judge.coupling;
+        let mut given = Vec::new();
+        for (input, formula) in &coupling.given {
+            // What cannot be evaluated is a value that no abstract step reads.
+            let (value, _) = self.judge.evaluate(&mut self.sides, formula, [0, state]);
+            let value = value.unwrap_or_else(machine::Value::string);
+            given.push(self.inputs.number(*input, Vec::new(), value));
+        }
+        given
+    }
+
+    /// The steps of a concrete state.
+    pub fn concrete_moves(&mut self, state: StateId) -> Result<Rc<[Move]>, Stopped> {
+        let given = self.given(state);
+        let bridge = &self.judge.coupling.joint.bridges[CONCRETE];
+        self.sides[CONCRETE].moves(state, &given, &mut self.inputs, bridge)
+    }
+
+    /// The steps of an abstract state.
+    pub fn abstract_moves(&mut self, state: StateId) -> Result<Rc<[Move]>, Stopped> {
+        let bridge = &self.judge.coupling.joint.bridges[ABSTRACT];
+        self.sides[ABSTRACT].moves(state, &[], &mut self.inputs, bridge)
+    }
+
+    /// The concrete machine goes on in a diagram that has `n` steps already.
+    fn go_on(
+        &mut self,
+        from: StateId,
+        state: StateId,
+        reads: &Reads,
+        n: u32,
+        memo: &mut Memo,
+    ) -> Result<NodeId, Stopped> {
+        let mut deeds = Vec::new();
+        for made in self.concrete_moves(state)?.iter() {
+            let node = match &made.goal {
+                Goal::Fault(_) => self.node(Node::Fault),
+                Goal::Open(unbounded) => self.node(Node::Open(Unclear::Unbounded(CONCRETE, *unbounded))),
+                Goal::State(next) => {
+                    let reads = with_label(reads, &made.label);
+                    let key = (*next, Rc::clone(&reads), n + 1);
+                    match memo.get(&key) {
+                        Some(node) => *node,
+                        None => {
+                            let node = self.reached(from, *next, &reads, n + 1, memo)?;
+                            memo.insert(key, node);
+                            node
+                        }
+                    }
+                }
+            };
+            deeds.push((Deed::Step(state, made.clone()), node));
+        }
+        Ok(self.node(Node::Deeds(deeds)))
+    }
+
+    /// The concrete machine has reached a state in a diagram.
+    fn reached(
+        &mut self,
+        from: StateId,
+        state: StateId,
+        reads: &Reads,
+        n: u32,
+        memo: &mut Memo,
+    ) -> Result<NodeId, Stopped> {
+        let coupling = self.judge.coupling;
+        let (most, has_end) = (coupling.diagrams.most_concrete(), coupling.segment.is_some());
+        let ends = self.judge.ends(&mut self.sides, state);
+        let mut ways = Vec::new();
+        if ends && let Some(longest) = coupling.diagrams.most_abstract(n) {
+            let runs = self.abstract_runs(from, reads, longest)?;
+            ways.push(self.end(Some(from), state, reads, n, runs));
+        }
+        if n < most && !(has_end && ends) {
+            ways.push(self.go_on(from, state, reads, n, memo)?);
+        } else if !ends {
+            ways.push(self.node(Node::Open(Unclear::Long)));
+        }
+        Ok(match ways[..] {
+            [only] => only,
+            _ => self.node(Node::Choice(ways)),
+        })
+    }
+
+    /// The diagram ends: what the abstract machine may have come to.
+    fn end(&mut self, from: Option<StateId>, to: StateId, reads: &Reads, n: u32, runs: AbstractRuns) -> NodeId {
+        let allowed = |m: u32, judge: &Judge<'_>| from.is_none() || judge.coupling.diagrams.allows(m, n);
+        let mut matching = Vec::new();
+        for run in &runs.runs {
+            if allowed(run.m, &self.judge) && self.judge.coupled(&mut self.sides, [run.to, to]) {
+                matching.push(run.clone());
+            }
+        }
+        let asked: BTreeSet<u32> = matching.iter().flat_map(|run| &run.needs).map(|(location, _)| *location).collect();
+        let mut valuations: Vec<BTreeMap<u32, u32>> = vec![BTreeMap::new()];
+        for location in asked {
+            let values = &runs.values[&location];
+            if valuations.len() * values.len() > VALUATIONS {
+                return self.node(Node::Open(Unclear::Valuations));
+            }
+            valuations = valuations
+                .iter()
+                .flat_map(|before| {
+                    values.iter().map(|value| {
+                        let mut with = before.clone();
+                        with.insert(location, *value);
+                        with
+                    })
+                })
+                .collect();
+        }
+        let mut deeds = Vec::new();
+        let mut seen = FxHashSet::default();
+        for valuation in valuations {
+            let fits =
+                |run: &&AbstractRun| run.needs.iter().all(|(location, value)| valuation.get(location) == Some(value));
+            let mut answers: Vec<(PairId, u32)> = Vec::new();
+            for run in matching.iter().filter(fits) {
+                let pair = self.pair((run.to, to));
+                if !answers.iter().any(|(other, m)| *other == pair && (*m == 0) == (run.m == 0)) {
+                    answers.push((pair, run.m));
+                }
+            }
+            if !seen.insert(answers.clone()) {
+                continue;
+            }
+            let mut reads = reads.as_ref().clone();
+            reads.extend(valuation.iter().map(|(location, value)| (*location, BTreeSet::from([*value]))));
+            let node = Answers { from, to, reads: Rc::new(reads), n, answers, unclear: runs.unclear };
+            let node = self.node(Node::Answers(Box::new(node)));
+            deeds.push((Deed::Inputs, node));
+        }
+        match deeds[..] {
+            [(_, only)] => only,
+            _ => self.node(Node::Deeds(deeds)),
+        }
+    }
+
+    fn initial_runs(&mut self, reads: &Reads) -> AbstractRuns {
+        let mut found = AbstractRuns::default();
+        for (label, state, _) in self.initial.clone() {
+            if let Some(needs) = fitting(&label, reads, &[], &mut found.values) {
+                found.runs.push(AbstractRun { to: state, m: 0, needs });
+            }
+        }
+        found
+    }
+
+    /// The runs of the abstract machine in a diagram, of at most so many steps.
+    pub fn abstract_runs(&mut self, from: StateId, reads: &Reads, most: u32) -> Result<AbstractRuns, Stopped> {
+        let mut found = AbstractRuns::default();
+        let mut last = vec![AbstractRun { to: from, m: 0, needs: Vec::new() }];
+        found.runs.extend(last.clone());
+        for m in 1..=most {
+            let mut next = Vec::new();
+            let mut seen = FxHashSet::default();
+            for run in last {
+                for made in self.abstract_moves(run.to)?.iter() {
+                    let Some(needs) = fitting(&made.label, reads, &run.needs, &mut found.values) else { continue };
+                    match &made.goal {
+                        Goal::State(to) => {
+                            let run = AbstractRun { to: *to, m, needs };
+                            if seen.insert(run.clone()) {
+                                next.push(run);
+                            }
+                        }
+                        Goal::Fault(fault) => {
+                            found.faults.insert(fault.clone());
+                        }
+                        Goal::Open(unbounded) => found.unclear = Some(Unclear::Unbounded(ABSTRACT, *unbounded)),
+                    }
+                }
+            }
+            found.runs.extend(next.clone());
+            last = next;
+        }
+        Ok(found)
+    }
+
+    /// The steps of the abstract machine from one state to another in a diagram with these inputs.
+    pub fn abstract_way(&mut self, from: StateId, to: StateId, m: u32, reads: &Reads) -> Vec<(StateId, Move)> {
+        let mut layers: Vec<Vec<Reached>> = vec![vec![(from, 0, None)]];
+        for _ in 0..m {
+            let mut next: Vec<Reached> = Vec::new();
+            for (place, (state, ..)) in layers[layers.len() - 1].clone().into_iter().enumerate() {
+                let Ok(moves) = self.abstract_moves(state) else { return Vec::new() };
+                for made in moves.iter() {
+                    let fits =
+                        fitting(&made.label, reads, &[], &mut BTreeMap::new()).is_some_and(|needs| needs.is_empty());
+                    if let Goal::State(there) = &made.goal
+                        && fits
+                        && !next.iter().any(|(other, ..)| other == there)
+                    {
+                        next.push((*there, place, Some((state, made.clone()))));
+                    }
+                }
+            }
+            layers.push(next);
+        }
+        let mut way = Vec::new();
+        let last = layers.len() - 1;
+        let Some(mut place) = layers[last].iter().position(|(state, ..)| *state == to) else { return way };
+        for layer in layers.iter().rev() {
+            let (_, before, made) = &layer[place];
+            way.extend(made.clone());
+            place = *before;
+        }
+        way.reverse();
+        way
+    }
+}
+
+/// What was read before and in a step.
+fn with_label(reads: &Reads, label: &Label) -> Reads {
+    if label.is_empty() {
+        return Rc::clone(reads);
+    }
+    let mut all = reads.as_ref().clone();
+    for (location, value) in label.iter() {
+        all.entry(*location).or_default().insert(*value);
+    }
+    Rc::new(all)
+}
+
+/// What an abstract step needs besides what it needed before, if its inputs can have these values.
+fn fitting(
+    label: &Label,
+    reads: &Reads,
+    before: &[(u32, u32)],
+    values: &mut BTreeMap<u32, BTreeSet<u32>>,
+) -> Option<Vec<(u32, u32)>> {
+    let mut needs = before.to_vec();
+    let mut fits = true;
+    for (location, value) in label.iter() {
+        match reads.get(location) {
+            Some(had) => fits &= had.contains(value),
+            None => {
+                values.entry(*location).or_default().insert(*value);
+                match needs.iter().find(|(other, _)| other == location) {
+                    Some((_, other)) => fits &= other == value,
+                    None => needs.push((*location, *value)),
+                }
+            }
+        }
+    }
+    needs.sort_unstable();
+    fits.then_some(needs)
+}

@@ -1,0 +1,255 @@
+//! The whole question: explores the pairs, decides the game, reports.
+//!
+//! In: a [`Coupling`] and [`Options`]. Out: a [`Report`]. The search goes breadth-first; a limit ends it, and then only a refutation
+//! that needs nothing of what was not looked at is told. INVARIANT: *refines* is said only if every pair that the answers use was looked
+//! at; *does not refine* only if the concrete machine wins whatever was not looked at.
+
+use explore::{Unbounded, Widening};
+use machine::{Cause, Fault};
+use program::PropertyKind;
+
+use crate::coupling::Coupling;
+use crate::evidence;
+use crate::game::solve;
+use crate::judge::Judge;
+use crate::product::{Node, NodeId, Product, Unclear};
+use crate::report::{Assumed, Report, Vacuous, Verdict, Why};
+use crate::side::{Extent, Side, Stopped};
+use crate::{ABSTRACT, CONCRETE};
+
+/// LIMIT: so many pairs of states are compared to find out whether the relation says anything.
+const COMPARED: usize = 1 << 12;
+
+/// Options of a refinement check.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// How the two machines are explored.
+    pub extents: [Extent; 2],
+    /// The most pairs of states.
+    pub max_pairs: u64,
+}
+
+impl Default for Options {
+    fn default() -> Options {
+        Options { extents: Default::default(), max_pairs: u64::MAX }
+    }
+}
+
+/// How far the search is.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Progress {
+    /// Pairs found.
+    pub pairs: u64,
+    /// Pairs that have to be looked at.
+    pub queue: u64,
+    /// States of the abstract and of the concrete machine.
+    pub states: [u64; 2],
+    /// Different steps of the abstract and of the concrete machine.
+    pub steps: [u64; 2],
+}
+
+/// Why nothing can be said.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Trouble {
+    /// An initial state of a machine cannot be made.
+    Fault(usize, Box<Fault>),
+    /// The initial states of a machine cannot be gone through.
+    Unbounded(usize, Unbounded),
+    /// Whoever waits has had enough before the initial states were made.
+    Stopped(Cause),
+}
+
+/// Whether the concrete machine refines the abstract one. `watch` receives progress and tells whether to go on.
+///
+/// # Errors
+/// A machine has no initial states.
+pub fn refine(
+    coupling: &Coupling,
+    options: &Options,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Report, Trouble> {
+    let mut widenings: [Widening; 2] = Default::default();
+    loop {
+        match attempt(coupling, options, &widenings, watch)? {
+            Ok(report) => return Ok(report),
+            Err((side, widening)) => widenings[side].merge(&widening),
+        }
+    }
+}
+
+/// Reasons, each once.
+#[derive(Default)]
+struct Whys(Vec<Why>);
+
+impl Whys {
+    fn add(&mut self, why: Why) {
+        if !self.0.contains(&why) {
+            self.0.push(why);
+        }
+    }
+}
+
+type Attempt = Result<Report, (usize, Widening)>;
+
+fn attempt(
+    coupling: &Coupling,
+    options: &Options,
+    widenings: &[Widening; 2],
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Attempt, Trouble> {
+    let mut sides = Vec::new();
+    for side in [ABSTRACT, CONCRETE] {
+        let (program, readers) = (&coupling.programs[side], coupling.readers[side].clone());
+        let mut made = match Side::new(side, program, &options.extents[side], &widenings[side], readers) {
+            Ok(made) => made,
+            Err(explore::Trouble::TooNarrow(widening)) => return Ok(Err((side, widening))),
+            Err(explore::Trouble::Fault(fault)) => return Err(Trouble::Fault(side, fault)),
+            Err(explore::Trouble::Unbounded(unbounded)) => return Err(Trouble::Unbounded(side, unbounded)),
+            Err(explore::Trouble::Interrupted(cause)) => return Err(Trouble::Stopped(cause)),
+        };
+        made.shared = coupling.shared[side].clone();
+        sides.push(made);
+    }
+    let Ok(sides) = <[Side; 2]>::try_from(sides) else { unreachable!("there are two sides") };
+    let judge = Judge::new(coupling, &options.extents[CONCRETE].limits);
+    let mut product = Product::new(sides, judge);
+    let progress_of = |product: &Product<'_>, queue: usize| Progress {
+        pairs: product.pairs.len() as u64,
+        queue: queue as u64,
+        states: [ABSTRACT, CONCRETE].map(|side| product.sides[side].count() as u64),
+        steps: [ABSTRACT, CONCRETE].map(|side| product.sides[side].steps.0),
+    };
+    let mut whys = Whys::default();
+    let mut next = 0;
+    while next < product.pairs.len() {
+        if next as u64 >= options.max_pairs {
+            whys.add(Why::Pairs(options.max_pairs));
+            break;
+        }
+        if next.is_multiple_of(64) && !watch(&progress_of(&product, product.pairs.len() - next)) {
+            whys.add(Why::Stopped(Cause::Asked));
+            break;
+        }
+        let asked = |side: usize| options.extents[side].interrupt.cause();
+        match asked(ABSTRACT).or(asked(CONCRETE)) {
+            Some(cause) => {
+                whys.add(Why::Stopped(cause));
+                break;
+            }
+            None => match product.explore(next as u32) {
+                Ok(()) => next += 1,
+                Err(Stopped::Narrow(side, widening)) => return Ok(Err((side, widening))),
+                Err(Stopped::Interrupted) => {
+                    whys.add(Why::Stopped(asked(ABSTRACT).or(asked(CONCRETE)).unwrap_or(Cause::Asked)));
+                    break;
+                }
+            },
+        }
+    }
+    let progress = progress_of(&product, product.pairs.len() - next);
+    for side in &mut product.sides {
+        side.explorer.ignore_interrupts();
+    }
+    let is_complete = whys.0.is_empty();
+    let mut diagrams = Default::default();
+    let verdict = match vacuous(&mut product, is_complete) {
+        Some(vacuous) => Verdict::Vacuous(vacuous),
+        None => {
+            let hopeful = solve(&product, true);
+            let of_free = |input: &program::FunctionId| !coupling.shared[ABSTRACT].contains_key(input);
+            if !hopeful.won && options.extents[ABSTRACT].bounds.keys().any(of_free) {
+                // With other values of its own inputs it might have had an answer.
+                Verdict::Unknown(vec![Why::Bounded(ABSTRACT)])
+            } else if !hopeful.won {
+                Verdict::DoesNot(Box::new(evidence::refutation(&mut product, &hopeful)))
+            } else {
+                let sure = solve(&product, false);
+                for side in [ABSTRACT, CONCRETE] {
+                    if !options.extents[side].bounds.is_empty() {
+                        whys.add(Why::Bounded(side));
+                    }
+                }
+                let bounded = whys.0.iter().copied().filter(|why| matches!(why, Why::Bounded(_))).collect::<Vec<_>>();
+                if sure.won {
+                    diagrams = evidence::used(&product, &sure);
+                }
+                match sure.won {
+                    true if bounded.is_empty() => Verdict::Refines,
+                    true => Verdict::Unknown(bounded),
+                    false => {
+                        unclear(&product, &mut whys);
+                        Verdict::Unknown(whys.0)
+                    }
+                }
+            }
+        }
+    };
+    let mut assumed = Vec::new();
+    for side in [ABSTRACT, CONCRETE] {
+        let properties = &coupling.programs[side].properties;
+        let invars = properties.iter().filter(|property| property.kind == PropertyKind::Invar);
+        assumed.extend(invars.map(|property| Assumed { side, name: property.name.clone() }));
+    }
+    let idle = product.sides[ABSTRACT].steps.1 == 0;
+    Ok(Ok(Report { verdict, progress, diagrams, assumed, idle }))
+}
+
+/// What was not clear anywhere that matters.
+fn unclear(product: &Product<'_>, whys: &mut Whys) {
+    let mut seen = vec![false; product.nodes.len()];
+    let mut open: Vec<NodeId> = vec![product.root];
+    open.extend(product.trees.iter().flatten());
+    while let Some(node) = open.pop() {
+        if std::mem::replace(&mut seen[node as usize], true) {
+            continue;
+        }
+        let unclear = match &product.nodes[node as usize] {
+            Node::Deeds(deeds) => {
+                open.extend(deeds.iter().map(|(_, node)| *node));
+                None
+            }
+            Node::Choice(ways) => {
+                open.extend(ways);
+                None
+            }
+            Node::Answers(end) => end.unclear,
+            Node::Open(unclear) => Some(*unclear),
+            Node::Fault => None,
+        };
+        match unclear {
+            None => {}
+            Some(Unclear::Unbounded(side, unbounded)) => whys.add(Why::Unbounded(side, unbounded)),
+            Some(Unclear::Long) => whys.add(Why::Long(product.judge.coupling.diagrams.most_concrete())),
+            Some(Unclear::Valuations) => whys.add(Why::Valuations),
+        }
+    }
+}
+
+/// Why the answer would say nothing.
+fn vacuous(product: &mut Product<'_>, is_complete: bool) -> Option<Vacuous> {
+    for (side, none) in [(ABSTRACT, product.initial.is_empty()), (CONCRETE, product.begun.is_empty())] {
+        if none {
+            return Some(Vacuous::NoStart(side));
+        }
+    }
+    if product.pairs.is_empty() {
+        return Some(Vacuous::NoInitialPair(Box::new(evidence::no_initial_pair(product))));
+    }
+    if is_complete && product.sides[CONCRETE].steps.1 == 0 {
+        return Some(Vacuous::NoStep);
+    }
+    if product.judge.distinguishes {
+        return None;
+    }
+    let [one, other] = [ABSTRACT, CONCRETE].map(|side| product.sides[side].count());
+    let mut compared = 0;
+    for state in 0..one as u32 {
+        for there in 0..other as u32 {
+            compared += 1;
+            if compared > COMPARED || !product.judge.coupled(&mut product.sides, [state, there]) {
+                return None;
+            }
+        }
+    }
+    (one > 1 && other > 1 && is_complete).then_some(Vacuous::Total)
+}

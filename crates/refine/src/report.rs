@@ -1,0 +1,76 @@
+//! What is said of a refinement: the verdict, how far the search came, what was assumed.
+
+use std::collections::BTreeMap;
+
+use explore::Unbounded;
+use machine::Cause;
+
+use crate::evidence::Refutation;
+use crate::refine::Progress;
+
+/// Why it is not known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Why {
+    /// The limit of pairs was reached.
+    Pairs(u64),
+    /// The caller asked to stop, or memory is full.
+    Stopped(Cause),
+    /// A step of a machine cannot be gone through.
+    Unbounded(usize, Unbounded),
+    /// A segment has more steps than diagrams may have.
+    Long(u32),
+    /// An input that the concrete machine does not look at has too many values.
+    Valuations,
+    /// Inputs of a machine had only the values that were given as bounds.
+    Bounded(usize),
+}
+
+/// Why the answer would say nothing.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Vacuous {
+    /// No initial states correspond; the parts of the relation that fail of the best pair.
+    NoInitialPair(Box<Refutation>),
+    /// The concrete machine makes no step that changes its state.
+    NoStep,
+    /// The relation holds of every two states.
+    Total,
+    /// A machine has no initial state that its assumptions admit.
+    NoStart(usize),
+}
+
+/// The verdict.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Verdict {
+    /// Every run of the concrete machine corresponds to one of the abstract machine.
+    Refines,
+    /// It does not, by this relation and these diagrams.
+    DoesNot(Box<Refutation>),
+    /// Not known.
+    Unknown(Vec<Why>),
+    /// The question says nothing.
+    Vacuous(Vacuous),
+}
+
+/// What the verdict relies on that the models say.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Assumed {
+    /// The machine.
+    pub side: usize,
+    /// The name of the INVAR.
+    pub name: String,
+}
+
+/// See the module.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Report {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// How far the search came.
+    pub progress: Progress,
+    /// How often each diagram, of so many abstract and concrete steps, was used by the answers found.
+    pub diagrams: BTreeMap<(u32, u32), u64>,
+    /// The assumptions.
+    pub assumed: Vec<Assumed>,
+    /// The abstract machine makes no step that changes its state.
+    pub idle: bool,
+}

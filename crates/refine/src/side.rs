@@ -1,0 +1,319 @@
+//! One of the two machines: its states, each once, and the steps of each, made when they are asked for.
+//!
+//! In: a program and its bounds. Out: numbers of states, and the [`Move`]s from each. A move knows which values the inputs had that
+//! both machines share, so that they can be compared. INVARIANT: a state's moves are all of them, in the order of its alternatives, or
+//! the state has none and [`Stopped`] says why.
+
+use std::hash::{Hash, Hasher};
+use std::rc::Rc;
+use std::sync::Arc;
+
+use explore::{
+    Explorer, Interner, Outcome, Settings, Start, Told, Trouble, Truth, Unbounded, Widening, assumed_bounds,
+};
+use machine::{Bounds, Fault, FaultKind, Interrupt, Limits, Location, Value};
+use program::{Expression, FunctionId, Program, PropertyKind};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use crate::joint::Bridge;
+
+/// The number of a state of one machine.
+pub type StateId = u32;
+
+/// The inputs that a step read and that both machines have: numbers of locations with numbers of values, ascending.
+pub(crate) type Label = Rc<[(u32, u32)]>;
+
+/// Numbers for the locations and values of inputs, in the joint model.
+#[derive(Debug, Default)]
+pub(crate) struct Inputs {
+    locations: FxHashMap<(u32, Vec<Value>), u32>,
+    values: FxHashMap<Value, u32>,
+    /// By number, for telling.
+    pub told: Vec<(u32, Vec<Value>)>,
+    pub told_values: Vec<Value>,
+}
+
+impl Inputs {
+    /// The numbers of an input's location and value.
+    pub fn number(&mut self, input: u32, arguments: Vec<Value>, value: Value) -> (u32, u32) {
+        let next = self.locations.len() as u32;
+        let location = *self.locations.entry((input, arguments.clone())).or_insert(next);
+        if location == next {
+            self.told.push((input, arguments));
+        }
+        let next = self.values.len() as u32;
+        let number = *self.values.entry(value.clone()).or_insert(next);
+        if number == next {
+            self.told_values.push(value);
+        }
+        (location, number)
+    }
+}
+
+/// Where a step leads.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Goal {
+    /// To a state.
+    State(StateId),
+    /// It cannot be made.
+    Fault(String),
+    /// What it comes to cannot be gone through.
+    Open(Unbounded),
+}
+
+impl Hash for Goal {
+    fn hash<H: Hasher>(&self, hasher: &mut H) {
+        match self {
+            Goal::State(state) => state.hash(hasher),
+            Goal::Fault(fault) => fault.hash(hasher),
+            Goal::Open(unbounded) => unbounded.span.start.hash(hasher),
+        }
+    }
+}
+
+/// A step.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(crate) struct Move {
+    pub label: Label,
+    pub goal: Goal,
+}
+
+/// Why there are no moves.
+#[derive(Debug)]
+pub(crate) enum Stopped {
+    /// States need more room: begin again with this.
+    Narrow(usize, Widening),
+    /// Whoever waits has had enough.
+    Interrupted,
+}
+
+/// One of the two machines.
+pub(crate) struct Side {
+    /// Which of the two it is.
+    place: usize,
+    pub program: Arc<Program>,
+    pub explorer: Explorer,
+    /// By input of the program: the inputs of the abstract machine that have its value.
+    pub shared: FxHashMap<FunctionId, Vec<u32>>,
+    /// Conditions that states which count satisfy.
+    assumed: usize,
+    states: Vec<Box<[u64]>>,
+    numbers: FxHashMap<Box<[u64]>, StateId>,
+    moves: Vec<Option<Rc<[Move]>>>,
+    reads: Vec<FxHashMap<(FunctionId, Vec<Value>), Value>>,
+    /// By function, the term that reads it.
+    readers: FxHashMap<FunctionId, Expression>,
+    /// How many different steps there are, and how many change the state.
+    pub steps: (u64, u64),
+}
+
+/// What a machine is explored with.
+#[derive(Debug, Clone, Default)]
+pub struct Extent {
+    /// The machine's limits.
+    pub limits: Limits,
+    /// The values to try for inputs, if not all of their domains.
+    pub bounds: Bounds,
+    /// Ends the search when raised.
+    pub interrupt: Interrupt,
+}
+
+impl Side {
+    /// A machine whose program has `readers` for the functions that a coupling reads.
+    pub fn new(
+        place: usize,
+        program: &Arc<Program>,
+        extent: &Extent,
+        widening: &Widening,
+        readers: FxHashMap<FunctionId, Expression>,
+    ) -> Result<Side, Trouble> {
+        let mut bounds = assumed_bounds(program);
+        bounds.extend(extent.bounds.iter().map(|(function, values)| (*function, values.clone())));
+        let mut settings = Settings { limits: extent.limits.clone(), bounds: Arc::new(bounds), ..Settings::default() };
+        settings.interrupt = extent.interrupt.clone();
+        for property in program.properties.iter().filter(|property| property.kind == PropertyKind::Invar) {
+            match property.reads_monitored {
+                true => settings.step_conditions.push((property.formula.clone(), true)),
+                false => settings.conditions.push(property.formula.clone()),
+            }
+        }
+        let assumed = settings.conditions.len();
+        let explorer = Explorer::new(program, settings, widening, &Arc::<Interner>::default())?;
+        Ok(Side {
+            place,
+            program: Arc::clone(program),
+            explorer,
+            shared: FxHashMap::default(),
+            assumed,
+            states: Vec::new(),
+            numbers: FxHashMap::default(),
+            moves: Vec::new(),
+            reads: Vec::new(),
+            readers,
+            steps: (0, 0),
+        })
+    }
+
+    /// How many states there are.
+    pub fn count(&self) -> usize {
+        self.states.len()
+    }
+
+    /// The packed state of a number.
+    pub fn packed(&self, state: StateId) -> Box<[u64]> {
+        self.states[state as usize].clone()
+    }
+
+    fn number(&mut self, state: Box<[u64]>) -> StateId {
+        if let Some(known) = self.numbers.get(&state) {
+            return *known;
+        }
+        let number = self.states.len() as StateId;
+        self.states.push(state.clone());
+        self.numbers.insert(state, number);
+        self.moves.push(None);
+        self.reads.push(FxHashMap::default());
+        number
+    }
+
+    fn is_assumed(&mut self, state: &[u64]) -> bool {
+        (0..self.assumed).all(|condition| self.explorer.truth(condition, state) != Truth::False)
+    }
+
+    /// The initial states, each with the inputs that it read.
+    pub fn initial(&mut self, inputs: &mut Inputs, bridge: &Bridge) -> Vec<(Label, StateId, Start)> {
+        let starts: Vec<(Box<[u64]>, Start)> = self.explorer.initial().to_vec();
+        let mut found = Vec::new();
+        let mut seen = FxHashSet::default();
+        for (state, start) in starts {
+            if !self.is_assumed(&state) {
+                continue;
+            }
+            let told = match self.shared.is_empty() {
+                true => Told::default(),
+                false => self.explorer.told_of_start(start),
+            };
+            let label = self.label(&told.inputs, inputs, bridge);
+            let state = self.number(state);
+            if seen.insert((Rc::clone(&label), state)) {
+                found.push((label, state, start));
+            }
+        }
+        found
+    }
+
+    /// What both machines have of the inputs that a step read.
+    pub fn label(&self, read: &[(Location, Value)], inputs: &mut Inputs, bridge: &Bridge) -> Label {
+        let mut label: Vec<(u32, u32)> = Vec::new();
+        for (location, value) in read {
+            let Some(named) = self.shared.get(&location.function) else { continue };
+            let arguments: Option<Vec<Value>> = location.arguments.iter().map(|value| bridge.over(value)).collect();
+            // What has no name in the joint model is a value that the other machine never has.
+            let Some((arguments, value)) = arguments.zip(bridge.over(value)) else { continue };
+            label.extend(named.iter().map(|input| inputs.number(*input, arguments.clone(), value.clone())));
+        }
+        label.sort_unstable();
+        label.into()
+    }
+
+    /// The steps of a state; `given` are the inputs of the abstract machine that this state determines.
+    pub fn moves(
+        &mut self,
+        state: StateId,
+        given: &[(u32, u32)],
+        inputs: &mut Inputs,
+        bridge: &Bridge,
+    ) -> Result<Rc<[Move]>, Stopped> {
+        if let Some(known) = &self.moves[state as usize] {
+            return Ok(Rc::clone(known));
+        }
+        let packed = self.packed(state);
+        let mut paths = Vec::new();
+        let whole = self.explorer.paths(&packed, &mut |path| paths.push((path.inputs, path.outcome)));
+        match whole {
+            Err(widening) => return Err(Stopped::Narrow(self.place, widening)),
+            Ok(false) => return Err(Stopped::Interrupted),
+            Ok(true) => {}
+        }
+        let mut moves = Vec::new();
+        let mut seen = FxHashSet::default();
+        for (read, outcome) in paths {
+            let mut label = self.label(&read, inputs, bridge);
+            if !given.is_empty() {
+                let mut all: Vec<(u32, u32)> = label.iter().chain(given).copied().collect();
+                all.sort_unstable();
+                label = all.into();
+            }
+            let goal = match outcome {
+                Outcome::Next(next) => {
+                    if !self.is_assumed(&next) {
+                        continue;
+                    }
+                    Goal::State(self.number(next))
+                }
+                Outcome::Fault(fault) if matches!(fault.kind, FaultKind::Interrupted(_)) => {
+                    return Err(Stopped::Interrupted);
+                }
+                Outcome::Fault(fault) => Goal::Fault(fault.show(&self.program).to_string()),
+                Outcome::Unbounded(unbounded) => Goal::Open(unbounded),
+                Outcome::Excluded => continue,
+            };
+            let made = Move { label, goal };
+            if seen.insert(made.clone()) {
+                self.steps.0 += 1;
+                self.steps.1 += u64::from(made.goal != Goal::State(state));
+                moves.push(made);
+            }
+        }
+        let moves: Rc<[Move]> = moves.into();
+        self.moves[state as usize] = Some(Rc::clone(&moves));
+        Ok(moves)
+    }
+
+    /// The value of a function in a state.
+    ///
+    /// # Errors
+    /// What evaluation meets.
+    pub fn read(&mut self, state: StateId, function: FunctionId, arguments: &[Value]) -> Result<Value, Box<Fault>> {
+        let key = (function, arguments.to_vec());
+        if let Some(known) = self.reads[state as usize].get(&key) {
+            return Ok(known.clone());
+        }
+        let Side { explorer, readers, states, .. } = self;
+        let value = explorer.evaluate_with(&readers[&function], arguments, &states[state as usize])?;
+        self.reads[state as usize].insert(key, value.clone());
+        Ok(value)
+    }
+
+    /// The locations of a function that have a value in a state, in canonical order.
+    pub fn located(&mut self, state: StateId, function: FunctionId) -> Vec<(Vec<Value>, Value)> {
+        let values = self.explorer.values(&self.states[state as usize]);
+        let of = values.into_iter().filter(|(location, _)| location.function == function);
+        of.map(|(location, value)| (location.arguments, value)).collect()
+    }
+
+    /// All there is to say of a step from one state to another with this label; none if there is no such step.
+    pub fn told(
+        &mut self,
+        from: StateId,
+        wanted: &Move,
+        given: &[(u32, u32)],
+        inputs: &mut Inputs,
+        bridge: &Bridge,
+    ) -> Option<Told> {
+        let packed = self.packed(from);
+        let mut paths = Vec::new();
+        let _ = self.explorer.paths(&packed, &mut |path| paths.push(path));
+        let wanted_label: Vec<(u32, u32)> =
+            wanted.label.iter().filter(|entry| !given.contains(entry)).copied().collect();
+        let path = paths.into_iter().find(|path| {
+            let leads = match (&path.outcome, &wanted.goal) {
+                (Outcome::Next(next), Goal::State(to)) => **next == *self.states[*to as usize],
+                (Outcome::Fault(fault), Goal::Fault(text)) => fault.show(&self.program).to_string() == *text,
+                _ => false,
+            };
+            leads && *self.label(&path.inputs, inputs, bridge) == wanted_label[..]
+        })?;
+        Some(self.explorer.tell(&packed, &path.picks))
+    }
+}

@@ -1,0 +1,3 @@
+//! The tests of `refine` as one program. Each file of this folder is a module here.
+
+mod small;

@@ -1,0 +1,175 @@
+//! Small couples of machines, one for each thing that a refinement may be or lack.
+
+use std::sync::Arc;
+
+use program::Program;
+use refine::{Coupling, Ended, Options, Report, Vacuous, Verdict, refine};
+use syntax::SourceFile;
+use testkit::NoFiles;
+
+pub fn program(name: &str, text: &str) -> Arc<Program> {
+    let checked = model::check(SourceFile::new(format!("{name}.asm"), text), &mut NoFiles);
+    let wrong: Vec<_> = checked.diagnostics.iter().map(|fault| (&fault.message, fault.primary.span)).collect();
+    assert!(wrong.is_empty(), "{wrong:?}");
+    Arc::new(program::lower(&checked.model).expect("it is lowered"))
+}
+
+/// A machine with this signature, main rule and initial state.
+fn machine(signature: &str, rule: &str, init: &str) -> Arc<Program> {
+    let text = format!(
+        "asm M\nimport StandardLibrary\nsignature:\n{signature}\ndefinitions:\n{rule}\ndefault init s0:\n{init}\n"
+    );
+    program("M", &text)
+}
+
+pub fn report(one: &Arc<Program>, other: &Arc<Program>, coupling: Option<&str>) -> Report {
+    let text = coupling.map(|text| SourceFile::new("c.refine", text));
+    let coupling = Coupling::new([one, other], text, &machine::Limits::default());
+    let coupling = coupling.unwrap_or_else(|faulty| panic!("{:#?}", faulty.faults));
+    refine(&coupling, &Options::default(), &mut |_| true).expect("it begins")
+}
+
+fn refuted(report: Report) -> refine::Refutation {
+    match report.verdict {
+        Verdict::DoesNot(refutation) => *refutation,
+        other => panic!("{other:?}"),
+    }
+}
+
+const COUNTER: &str = "domain N subsetof Integer controlled n: N";
+
+fn counter(rule: &str) -> Arc<Program> {
+    machine(COUNTER, &format!("domain N = {{0:3}}\nmain rule r_Main = {rule}"), "function n = 0")
+}
+
+#[test]
+fn a_machine_refines_itself() {
+    let one = counter("n := (n + 1) mod 4");
+    let report = report(&one, &one, None);
+    assert_eq!(report.verdict, Verdict::Refines);
+    assert_eq!(report.progress.pairs, 4);
+    assert_eq!(report.diagrams.into_iter().collect::<Vec<_>>(), [((1, 1), 4)]);
+}
+
+#[test]
+fn fewer_choices_refine_and_more_do_not() {
+    let free = counter("choose $x in N with true do n := $x");
+    let one = counter("n := (n + 1) mod 4");
+    assert_eq!(report(&free, &one, None).verdict, Verdict::Refines);
+    let refutation = refuted(report(&one, &free, None));
+    assert_eq!((refutation.segments.len(), refutation.runs[1].steps.len()), (0, 1));
+    let Ended::Unmatched { tried, .. } = refutation.ended else { panic!() };
+    assert_eq!(tried[0].parts[0].text, "abstract.n = concrete.n");
+    let values: Vec<String> = tried[0].parts[0].values.iter().map(|(name, value)| format!("{name} {value}")).collect();
+    assert_eq!(values, ["abstract.n 1", "concrete.n 2"]);
+}
+
+#[test]
+fn two_steps_for_one() {
+    let one = counter("n := (n + 2) mod 4");
+    let two = counter("n := (n + 1) mod 4");
+    refuted(report(&one, &two, None));
+    let longer = "same n; diagrams 1:1..2;";
+    assert_eq!(report(&one, &two, Some(longer)).verdict, Verdict::Refines);
+    let segment = "same n; segment concrete.n mod 2 = 0;";
+    let found = report(&one, &two, Some(segment));
+    assert_eq!(found.verdict, Verdict::Refines);
+    assert_eq!(found.diagrams.into_iter().collect::<Vec<_>>(), [((1, 2), 2)]);
+    // A step of the concrete machine is two of the abstract one.
+    assert_eq!(report(&two, &one, Some("same n; diagrams 2:1;")).verdict, Verdict::Refines);
+}
+
+#[test]
+fn waiting_for_ever_is_no_refinement() {
+    let signature = "domain N subsetof Integer controlled n: N controlled hidden: Boolean";
+    let with = |rule: &str| {
+        let init = "function n = 0 function hidden = false";
+        machine(signature, &format!("domain N = {{0:3}}\nmain rule r_Main = {rule}"), init)
+    };
+    let one = counter("n := (n + 1) mod 4");
+    let slow = with("if hidden then par n := (n + 1) mod 4 hidden := false endpar else hidden := true endif");
+    assert_eq!(report(&one, &slow, None).verdict, Verdict::Refines);
+    let stuck = with("if hidden and n < 2 then par n := n + 1 hidden := false endpar else hidden := not hidden endif");
+    let refutation = refuted(report(&one, &stuck, None));
+    assert!(matches!(refutation.ended, Ended::Waits(_)), "{:?}", refutation.ended);
+    // What stops where the abstract machine goes on does not refine it either.
+    let stops = counter("if n < 2 then n := n + 1 endif");
+    let refutation = refuted(report(&one, &stops, None));
+    assert!(matches!(refutation.ended, Ended::Waits(2)), "{:?}", refutation.ended);
+}
+
+fn lamp(rule: &str) -> Arc<Program> {
+    let signature = "monitored pressed: Boolean controlled on: Boolean";
+    machine(signature, &format!("main rule r_Main = {rule}"), "function on = false")
+}
+
+#[test]
+fn an_input_may_not_be_ignored() {
+    let one = lamp("if pressed then on := not on endif");
+    let same = lamp("if not pressed then skip else on := not on endif");
+    assert_eq!(report(&one, &same, None).verdict, Verdict::Refines);
+    let deaf = lamp("on := not on");
+    let refutation = refuted(report(&one, &deaf, None));
+    let Ended::Unmatched { inputs, .. } = refutation.ended else { panic!() };
+    assert_eq!(inputs, [("pressed".to_string(), "false".to_string())]);
+    // The other way round the abstract machine does what it wants anyway, and the concrete one only when asked.
+    refuted(report(&deaf, &one, None));
+    let free = "same on; free abstract.pressed;";
+    assert_eq!(report(&one, &deaf, Some(free)).verdict, Verdict::Refines);
+}
+
+#[test]
+fn inputs_may_come_from_the_concrete_state() {
+    let one = lamp("if pressed then on := not on endif");
+    let button = machine(
+        "controlled held: Boolean controlled on: Boolean",
+        "main rule r_Main = par held := not held if held then on := not on endif endpar",
+        "function on = false function held = false",
+    );
+    let coupling = "same on; input abstract.pressed = concrete.held;";
+    assert_eq!(report(&one, &button, Some(coupling)).verdict, Verdict::Refines);
+    refuted(report(&one, &button, Some("same on; input abstract.pressed = not concrete.held;")));
+}
+
+#[test]
+fn a_fault_of_the_concrete_machine_is_the_verdict() {
+    let one = counter("n := (n + 1) mod 4");
+    let clashes = counter("if n = 2 then par n := 3 n := 1 endpar else n := n + 1 endif");
+    let refutation = refuted(report(&one, &clashes, None));
+    assert_eq!(refutation.ended, Ended::Fault);
+    assert_eq!((refutation.runs[1].steps.len(), refutation.segments.len()), (3, 2));
+    assert!(refutation.runs[1].steps[2].fault.is_some());
+}
+
+#[test]
+fn terms_over_both() {
+    let one = counter("n := (n + 1) mod 4");
+    let flags = machine(
+        "enum domain Bit = {LOW | HIGH} domain Place subsetof Integer controlled bit: Place -> Bit",
+        "domain Place = {0:1}
+         main rule r_Main = par
+             bit(0) := if bit(0) = LOW then HIGH else LOW endif
+             if bit(0) = HIGH then bit(1) := if bit(1) = LOW then HIGH else LOW endif endif
+         endpar",
+        "function bit($p in Place) = LOW",
+    );
+    let coupling = "couple abstract.n = (if concrete.bit(0) = HIGH then 1 else 0 endif)
+                        + (if concrete.bit(1) = HIGH then 2 else 0 endif);";
+    let found = report(&one, &flags, Some(coupling));
+    assert_eq!(found.verdict, Verdict::Refines);
+    let every = "couple (forall $p in Place with concrete.bit($p) = LOW) implies abstract.n = 0;";
+    refuted(report(&one, &flags, Some("couple abstract.n = 0 iff concrete.bit(0) = LOW; diagrams 1:1;")));
+    // It says so little that waiting would do.
+    assert_eq!(report(&one, &flags, Some(every)).verdict, Verdict::Refines);
+}
+
+#[test]
+fn a_question_that_says_nothing() {
+    let one = counter("n := (n + 1) mod 4");
+    let idle = counter("skip");
+    assert_eq!(report(&idle, &idle, None).verdict, Verdict::Vacuous(Vacuous::NoStep));
+    let late = machine(COUNTER, "domain N = {0:3}\nmain rule r_Main = n := (n + 1) mod 4", "function n = 1");
+    assert!(matches!(report(&one, &late, None).verdict, Verdict::Vacuous(Vacuous::NoInitialPair(_))));
+    let total = "couple abstract.n >= 0 and concrete.n >= 0;";
+    assert_eq!(report(&one, &one, Some(total)).verdict, Verdict::Vacuous(Vacuous::Total));
+}
