@@ -196,8 +196,8 @@ impl<'c> Judge<'c> {
                     (format!("{}.{plain}", SIDES[side]), value.show(program).to_string())
                 });
                 let trouble = match value {
-                    Err(fault) => Some(format!("it cannot be evaluated: {fault}")),
-                    Ok(Value::Undef) => Some("it is undef".to_string()),
+                    Err(fault) => Some(format!("cannot be evaluated ({fault})")),
+                    Ok(Value::Undef) => Some("is undef".to_string()),
                     Ok(_) => None,
                 };
                 (shown.collect(), trouble)

@@ -1,3 +1,4 @@
 //! The tests of `refine` as one program. Each file of this folder is a module here.
 
+mod naive;
 mod small;

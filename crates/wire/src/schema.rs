@@ -49,6 +49,7 @@ fn the_schema_of_the_output() {
             all.subschema_for::<Measured>(),
             all.subschema_for::<MetaProperty>(),
             all.subschema_for::<ProgramReported<'_>>(),
+            all.subschema_for::<Refinement>(),
             all.subschema_for::<ReportMade<'_>>(),
             all.subschema_for::<ScenarioResult<'_>>(),
             all.subschema_for::<Verdict>(),

@@ -109,7 +109,12 @@ pub struct RunStep {
 impl RunStep {
     /// The initial state and the steps of a run.
     pub fn all(words: &Verdicts<'_>, trace: &Trace) -> Vec<RunStep> {
-        let steps = words.steps(trace).into_iter().enumerate();
+        RunStep::of(words.steps(trace))
+    }
+
+    /// Steps in words, numbered from 0.
+    pub fn of(steps: Vec<FoundStep>) -> Vec<RunStep> {
+        let steps = steps.into_iter().enumerate();
         let line = |(step, FoundStep { values, inputs, choices, changes, fault })| {
             let change = |FoundChange { location, from, to, by }| RunChange { location, from, to, by };
             let changes = changes.into_iter().map(change).collect();

@@ -35,6 +35,7 @@ mod man;
 mod new;
 mod overwrite;
 mod progress;
+mod refine;
 mod render;
 mod replay;
 mod report;
@@ -80,6 +81,8 @@ enum Command {
     Test(test::Arguments),
     /// Explore every state of a model: find what always holds, what is violated and how, what is unknown
     Verify(Box<verify::Arguments>),
+    /// Prove or refute that every run of a concrete model corresponds to a run of an abstract one
+    Refine(Box<refine::Arguments>),
     /// Look for oddities in a model: rules that never run, values never taken, forgotten cases
     Review(review::Arguments),
     /// Write scenarios that reach the rules, branches, updates, conditions and transitions of a model
@@ -144,6 +147,7 @@ fn work(arguments: Arguments) -> Exit {
         Command::Run(arguments) => run::run(&mut shell, &arguments),
         Command::Test(arguments) => test::run(&mut shell, &arguments),
         Command::Verify(arguments) => verify::run(&mut shell, &arguments),
+        Command::Refine(arguments) => refine::run(&mut shell, &arguments),
         Command::Review(arguments) => review::run(&mut shell, &arguments),
         Command::GenerateTests(arguments) => generate_tests::run(&mut shell, &arguments),
         Command::Replay(arguments) => replay::run(&mut shell, &arguments),

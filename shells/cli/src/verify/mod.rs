@@ -13,7 +13,7 @@ mod live;
 mod operators;
 mod system;
 mod tell;
-mod watch;
+pub mod watch;
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;

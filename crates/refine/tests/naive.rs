@@ -1,0 +1,285 @@
+//! On random pairs of small machines the verdict is that of an independent judge.
+//!
+//! The judge runs a machine on its own, with an odometer for inputs and choices, until it has both graphs whole. It then looks for the
+//! largest relation by going over all pairs again and again, until nothing changes: each concrete step must be matched by one step, or by
+//! none, of an abstract machine with the same inputs, and it counts how long it may still wait. `GROUNDSTATE_FULL` takes 2000 pairs.
+
+#![allow(clippy::disallowed_methods, reason = "a test reads the environment")]
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use machine::{Choice, Environment, Limits, LocationRef, Machine, TimeUnit, Value};
+use program::{DomainId, Program};
+use refine::{Ended, Verdict};
+
+use crate::small::{program, report};
+
+/// A small linear congruential generator, so that a seed gives the same machines everywhere.
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, most: u64) -> u64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) % most
+    }
+}
+
+/// A random machine over `n` in 0..2, which is observed, a hidden flag and an input: the text of its main rule.
+fn rule(random: &mut Random) -> String {
+    let update = |random: &mut Random| -> String {
+        match random.below(8) {
+            0 => "skip".to_string(),
+            1 => "h := not h".to_string(),
+            2 => "choose $x in N with true do n := $x".to_string(),
+            3 => format!("choose $x in N with $x != {} do n := $x", random.below(3)),
+            4 => "par n := (n + 1) mod 3 h := not h endpar".to_string(),
+            5 => format!("par n := {} h := true endpar", random.below(3)),
+            6 => "n := (n + 1) mod 3".to_string(),
+            _ => format!("n := {}", random.below(3)),
+        }
+    };
+    let guard = |random: &mut Random| match random.below(6) {
+        0 => "go".to_string(),
+        1 => "h".to_string(),
+        2 => "go and h".to_string(),
+        3 => format!("n = {}", random.below(3)),
+        4 => format!("n != {} or go", random.below(3)),
+        _ => format!("not h and n < {}", random.below(3)),
+    };
+    let mut text = update(random);
+    for _ in 0..random.below(3) + 1 {
+        let (guard, then) = (guard(random), update(random));
+        text = format!("if {guard} then {then} else {text} endif");
+    }
+    text
+}
+
+/// The same rule with one word changed: often a refinement still, often just not.
+fn changed(random: &mut Random, rule: &str) -> String {
+    let swaps = [
+        ("n := 1", "n := 2"),
+        ("go and h", "go"),
+        ("not h and", "h and"),
+        ("h := true", "h := not h"),
+        ("$x != 0", "true"),
+        ("with true", "with $x != 1"),
+        ("h := not h", "skip"),
+        ("if go", "if h"),
+        ("mod 3 h := not h", "mod 3 h := false"),
+        ("skip", "h := not h"),
+    ];
+    let (from, to) = swaps[random.below(swaps.len() as u64) as usize];
+    rule.replacen(from, to, 1)
+}
+
+fn machine_of(rule: &str) -> Arc<Program> {
+    let text = format!(
+        "asm M\nimport StandardLibrary\nsignature:\ndomain N subsetof Integer\nmonitored go: Boolean\ncontrolled n: N\n\
+         controlled h: Boolean\ndefinitions:\ndomain N = {{0:2}}\nmain rule r_Main = {rule}\n\
+         default init s0: function n = 0 function h = false\n"
+    );
+    program("M", &text)
+}
+
+/// Gives the answers that it has noted, then the first ones.
+#[derive(Default)]
+struct Odometer {
+    answers: Vec<(usize, usize)>,
+    at: usize,
+    go: Option<bool>,
+}
+
+impl Odometer {
+    fn ask(&mut self, of: usize) -> usize {
+        if self.at == self.answers.len() {
+            self.answers.push((0, of));
+        }
+        self.at += 1;
+        self.answers[self.at - 1].0
+    }
+
+    fn next(&mut self) -> bool {
+        (self.at, self.go) = (0, None);
+        while let Some((taken, of)) = self.answers.pop() {
+            if taken + 1 < of {
+                self.answers.push((taken + 1, of));
+                return true;
+            }
+        }
+        false
+    }
+}
+
+impl Environment for Odometer {
+    fn monitored(&mut self, _: &Program, _: LocationRef<'_>, _: DomainId) -> Result<Value, String> {
+        let go = self.ask(2) == 1;
+        self.go = Some(go);
+        Ok(Value::Boolean(go))
+    }
+
+    fn choose(&mut self, _: &Program, choice: &Choice<'_>) -> Result<usize, String> {
+        Ok(self.ask(choice.candidates()))
+    }
+
+    fn time(&mut self, _: TimeUnit) -> Result<i64, String> {
+        Err("no clock".to_string())
+    }
+}
+
+type State = (i64, bool);
+
+/// By state and value of the input, where steps lead.
+type Graph = BTreeMap<(State, bool), BTreeSet<State>>;
+
+fn state(machine: &Machine) -> State {
+    let of = |name: &str| {
+        let function = machine.find_function(name, 0).expect("it is declared");
+        machine.value(&machine::Location { function, arguments: Vec::new() })
+    };
+    match (of("n"), of("h")) {
+        (Value::Integer(n), Value::Boolean(h)) => (n, h),
+        other => panic!("{other:?}"),
+    }
+}
+
+fn graph(program: &Arc<Program>) -> (State, Graph) {
+    let mut machine = Machine::new(Arc::clone(program), Limits::default());
+    machine.start(&mut machine::Closed).expect("it begins");
+    let (first, begun) = (state(&machine), machine.snapshot());
+    let mut graph = Graph::new();
+    let mut open = vec![(first, begun)];
+    let mut seen = BTreeSet::from([first]);
+    while let Some((from, snapshot)) = open.pop() {
+        let mut odometer = Odometer::default();
+        loop {
+            machine.restore(&snapshot);
+            machine.step(&mut odometer).expect("no step is a fault");
+            let to = state(&machine);
+            // An input that was not looked at may have had either value.
+            let inputs = odometer.go.map_or(vec![false, true], |go| vec![go]);
+            for go in inputs {
+                graph.entry((from, go)).or_default().insert(to);
+            }
+            if seen.insert(to) {
+                open.push((to, machine.snapshot()));
+            }
+            if !odometer.next() {
+                break;
+            }
+        }
+    }
+    (first, graph)
+}
+
+/// Whether the concrete graph is simulated: one step by one or none, with finitely many waits between steps.
+fn simulated(one: &(State, Graph), other: &(State, Graph)) -> bool {
+    let states = |graph: &Graph| graph.keys().map(|(state, _)| *state).collect::<BTreeSet<_>>();
+    let mut related: BTreeSet<(State, State)> = BTreeSet::new();
+    for a in states(&one.1) {
+        related.extend(states(&other.1).into_iter().filter(|c| c.0 == a.0).map(|c| (a, c)));
+    }
+    loop {
+        // By pair, how many waits may still be needed: grown from none.
+        let mut waits: BTreeMap<(State, State), usize> = BTreeMap::new();
+        for round in 0..=related.len() {
+            for pair in &related {
+                if waits.contains_key(pair) {
+                    continue;
+                }
+                let (a, c) = *pair;
+                let good = [false, true].into_iter().all(|go| {
+                    other.1[&(c, go)].iter().all(|next| {
+                        let steps = one.1[&(a, go)].iter().any(|there| related.contains(&(*there, *next)));
+                        steps || waits.get(&(a, *next)).is_some_and(|most| *most < round)
+                    })
+                });
+                if good {
+                    waits.insert(*pair, round);
+                }
+            }
+        }
+        let kept: BTreeSet<(State, State)> = waits.into_keys().collect();
+        if kept == related {
+            return related.contains(&(one.0, other.0));
+        }
+        related = kept;
+    }
+}
+
+/// Makes a run again; returns the states that it goes through.
+fn again(program: &Arc<Program>, run: &refine::Run) -> Vec<State> {
+    struct Given<'t>(&'t explore::Told, usize);
+    impl Environment for Given<'_> {
+        fn monitored(&mut self, _: &Program, at: LocationRef<'_>, _: DomainId) -> Result<Value, String> {
+            let found = self.0.inputs.iter().find(|(location, _)| location.borrowed() == at);
+            found.map(|(_, value)| value.clone()).ok_or_else(|| "not given".to_string())
+        }
+        fn choose(&mut self, _: &Program, choice: &Choice<'_>) -> Result<usize, String> {
+            let wanted = self.0.choices.get(self.1).ok_or("not made")?;
+            self.1 += 1;
+            (0..choice.candidates()).find(|at| choice.candidate(*at) == wanted.values).ok_or("none".to_string())
+        }
+        fn time(&mut self, _: TimeUnit) -> Result<i64, String> {
+            Err("no clock".to_string())
+        }
+    }
+    let mut machine = Machine::new(Arc::clone(program), Limits::default());
+    machine.start(&mut Given(&run.start, 0)).expect("it begins");
+    let mut states = vec![state(&machine)];
+    for told in &run.steps {
+        machine.step(&mut Given(told, 0)).expect("the step is made again");
+        states.push(state(&machine));
+    }
+    states
+}
+
+#[test]
+fn the_verdict_is_that_of_a_naive_judge() {
+    let cases = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 2000 } else { 150 };
+    let mut counts = [0; 3];
+    for seed in 0..cases {
+        let mut random = Random(seed * 7919 + 1);
+        let abstractly = rule(&mut random);
+        let concretely = match random.below(3) {
+            0 => rule(&mut random),
+            _ => changed(&mut random, &abstractly),
+        };
+        let (one, other) = (machine_of(&abstractly), machine_of(&concretely));
+        let of = |what: &str| format!("seed {seed}: {what}\nabstract {abstractly}\nconcrete {concretely}");
+        let (graph_one, graph_other) = (graph(&one), graph(&other));
+        let expected = simulated(&graph_one, &graph_other);
+        let found = report(&one, &other, Some("same n;"));
+        match found.verdict {
+            Verdict::Refines => {
+                assert!(expected, "{}", of("the judge says no"));
+                counts[0] += 1;
+            }
+            Verdict::DoesNot(refutation) => {
+                assert!(!expected, "{}", of("the judge says yes"));
+                counts[1] += 1;
+                // Both runs are made again, and are equal in `n` where diagrams end.
+                let [a, c] = [again(&one, &refutation.runs[0]), again(&other, &refutation.runs[1])];
+                let (mut at, mut there) = (0, 0);
+                assert_eq!(a[0].0, c[0].0, "{}", of("the beginnings differ"));
+                for segment in &refutation.segments {
+                    (at, there) = (at + segment.m, there + segment.n);
+                    assert_eq!(a[at].0, c[there].0, "{}", of("a diagram's ends differ"));
+                }
+                match refutation.ended {
+                    Ended::Unmatched { .. } => assert_eq!(there + 1, c.len() - 1, "{}", of("one step is left")),
+                    Ended::Waits(turn) => {
+                        let steps: usize = refutation.segments[..turn].iter().map(|segment| segment.n).sum();
+                        assert_eq!(c[steps], c[c.len() - 1], "{}", of("it does not come back"));
+                        assert!(refutation.segments[turn..].iter().all(|segment| segment.m == 0), "{}", of("no wait"));
+                    }
+                    Ended::Fault => panic!("{}", of("there is no fault")),
+                }
+            }
+            Verdict::Vacuous(_) => counts[2] += 1,
+            Verdict::Unknown(why) => panic!("{}", of(&format!("{why:?}"))),
+        }
+    }
+    // A sample in which nothing happens would say nothing.
+    assert!(counts[0] * 5 > cases && counts[1] * 5 > cases && counts[2] * 5 < cases, "{counts:?}");
+}

@@ -1,0 +1,186 @@
+//! The result of a refinement check, as a JSON object.
+//!
+//! In: a report with the words for its runs. Out: [`Refinement`]: the verdict, the extent, where it fails both runs with their diagrams.
+
+use groundstate::refine::{ABSTRACT, CONCRETE, Ended, Refutation, Report, SIDES, Vacuous, Verdict};
+use groundstate::tell::Refinements;
+use serde::Serialize;
+
+use crate::RunStep;
+
+/// `{"type":"refinement",…}`
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Refinement {
+    #[cfg_attr(test, schemars(extend("const" = "refinement")))]
+    r#type: &'static str,
+    /// `refines`, `does-not-refine`, `unknown` or `vacuous`.
+    verdict: &'static str,
+    /// Why it does not refine or is unknown.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    reasons: Vec<String>,
+    /// The parts of the coupling relation.
+    coupling: Vec<String>,
+    /// How often answers of the abstract machine use each diagram.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    diagrams: Vec<DiagramLine>,
+    /// Assumptions of the models.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    assumed: Vec<AssumedLine>,
+    pairs: u64,
+    /// Pairs that were found and not looked at.
+    open_pairs: u64,
+    abstract_states: u64,
+    concrete_states: u64,
+    abstract_steps: u64,
+    concrete_steps: u64,
+    /// Both runs, where it does not refine.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    runs: Option<RunPair>,
+}
+
+/// A diagram.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct DiagramLine {
+    r#abstract: u64,
+    concrete: u64,
+    /// In how many places it is used.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    places: Option<u64>,
+}
+
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct AssumedLine {
+    model: &'static str,
+    name: String,
+}
+
+/// Both runs to the first step that nothing matches.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct RunPair {
+    r#abstract: Vec<RunStep>,
+    concrete: Vec<RunStep>,
+    /// The diagrams of the two runs; concrete steps behind them are those that nothing matches.
+    diagrams: Vec<DiagramLine>,
+    /// `unmatched`, `fault` or `waits`.
+    ended: &'static str,
+    /// The diagram, from 0, to which the concrete run returns for ever.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    again_from: Option<usize>,
+    /// The values of inputs in the last concrete steps.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    inputs: Vec<(String, String)>,
+    /// What the abstract machine could have done.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    tried: Vec<TriedLine>,
+}
+
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct TriedLine {
+    steps: Vec<RunStep>,
+    fails: Vec<FailingPart>,
+}
+
+/// A part of the coupling that does not hold.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct FailingPart {
+    part: String,
+    values: Vec<(String, String)>,
+    /// Why it is neither true nor false.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    trouble: Option<String>,
+}
+
+impl Refinement {
+    /// The result of a check.
+    pub fn new(words: &Refinements<'_>, report: &Report) -> Refinement {
+        let (verdict, reasons, refutation) = match &report.verdict {
+            Verdict::Refines => ("refines", Vec::new(), None),
+            Verdict::DoesNot(refutation) => {
+                ("does-not-refine", vec![words.headline(refutation)], Some(refutation.as_ref()))
+            }
+            Verdict::Unknown(whys) => ("unknown", whys.iter().map(|why| words.why(why)).collect(), None),
+            Verdict::Vacuous(vacuous) => {
+                let runs = match vacuous {
+                    Vacuous::NoInitialPair(refutation) => Some(refutation.as_ref()),
+                    Vacuous::NoStep | Vacuous::Total | Vacuous::NoStart(_) => None,
+                };
+                ("vacuous", vec![words.vacuous(vacuous).message], runs)
+            }
+        };
+        let progress = &report.progress;
+        let diagram = |((m, n), places): (&(u32, u32), &u64)| DiagramLine {
+            r#abstract: u64::from(*m),
+            concrete: u64::from(*n),
+            places: Some(*places),
+        };
+        Refinement {
+            r#type: "refinement",
+            verdict,
+            reasons,
+            coupling: (0..words.coupling.conjuncts()).map(|index| words.coupling.conjunct(index)).collect(),
+            diagrams: report.diagrams.iter().map(diagram).collect(),
+            assumed: report
+                .assumed
+                .iter()
+                .map(|assumed| AssumedLine { model: SIDES[assumed.side], name: assumed.name.clone() })
+                .collect(),
+            pairs: progress.pairs,
+            open_pairs: progress.queue,
+            abstract_states: progress.states[ABSTRACT],
+            concrete_states: progress.states[CONCRETE],
+            abstract_steps: progress.steps[ABSTRACT],
+            concrete_steps: progress.steps[CONCRETE],
+            runs: refutation.map(|refutation| RunPair::new(words, refutation)),
+        }
+    }
+}
+
+impl RunPair {
+    fn new(words: &Refinements<'_>, refutation: &Refutation) -> RunPair {
+        let run = |side: usize| RunStep::of(words.steps(side, &refutation.runs[side]));
+        let diagrams = refutation.segments.iter().map(|segment| DiagramLine {
+            r#abstract: segment.m as u64,
+            concrete: segment.n as u64,
+            places: None,
+        });
+        let mut pair = RunPair {
+            r#abstract: run(ABSTRACT),
+            concrete: run(CONCRETE),
+            diagrams: diagrams.collect(),
+            ended: "fault",
+            again_from: None,
+            inputs: Vec::new(),
+            tried: Vec::new(),
+        };
+        match &refutation.ended {
+            Ended::Fault => {}
+            Ended::Waits(turn) => (pair.ended, pair.again_from) = ("waits", Some(*turn)),
+            Ended::Unmatched { inputs, tried, .. } => {
+                pair.ended = "unmatched";
+                pair.inputs.clone_from(inputs);
+                pair.tried = tried
+                    .iter()
+                    .map(|tried| TriedLine {
+                        steps: RunStep::of(words.tried(&tried.steps)),
+                        fails: tried
+                            .parts
+                            .iter()
+                            .map(|part| FailingPart {
+                                part: part.text.clone(),
+                                values: part.values.clone(),
+                                trouble: part.trouble.clone(),
+                            })
+                            .collect(),
+                    })
+                    .collect();
+            }
+        }
+        pair
+    }
+}

@@ -1,0 +1,231 @@
+//! `groundstate refine ABSTRACT CONCRETE`: proves or refutes that every run of the concrete model corresponds to a run of the abstract
+//! one.
+//!
+//! Exit codes: 0 it refines, 1 it does not, or the question says nothing, 2 the coupling cannot be used, 3 not known.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use groundstate::inputs::bound;
+use groundstate::job::{self, Cancel, RefineEvent};
+use groundstate::refine::{ABSTRACT, CONCRETE, Coupling, Extent, Options, Report, SIDES, Trouble, Verdict, read};
+use groundstate::tell::{Refinements, no_start, trace_of};
+use groundstate::verify::{Progress, Subject};
+use groundstate::{Loaded, refine};
+use syntax::{FileId, SourceFile, Sources};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::files::{read_source, write_text};
+use crate::interrupt;
+use crate::load::load;
+use crate::shell::Shell;
+use crate::verify::relative;
+use crate::verify::watch::Watch;
+
+/// Arguments of `refine`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The abstract and the concrete model; or one coupling file that names both
+    #[arg(num_args = 1..=2, required = true, value_name = "MODEL")]
+    models: Vec<PathBuf>,
+    /// How they correspond (NAME.refine). Default: functions of equal names and domains are equal after every step
+    #[arg(long, value_name = "FILE")]
+    with: Option<PathBuf>,
+    /// The values to try for an input of either model, as NAME=LOW..HIGH or NAME=VALUE,VALUE; may be repeated
+    #[arg(long = "bound", value_name = "BOUND")]
+    bounds: Vec<String>,
+    /// The most pairs of states
+    #[arg(long, value_name = "N", value_parser = crate::limits::count)]
+    max_states: Option<u64>,
+    /// The most memory that the program may take, in MiB
+    #[arg(long, value_name = "MIB", default_value_t = 8192)]
+    max_memory: u64,
+    /// The most time, in seconds
+    #[arg(long, value_name = "SECONDS", value_parser = crate::limits::count)]
+    time: Option<u64>,
+    /// Write both runs of a refutation into this folder, as abstract.avalla and concrete.avalla
+    #[arg(long, value_name = "FOLDER")]
+    counterexample: Option<PathBuf>,
+}
+
+/// What is asked: the paths of the models, and the coupling's text.
+struct Question {
+    models: [PathBuf; 2],
+    coupling: Option<SourceFile>,
+}
+
+/// Runs the command.
+pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    let question = match question(shell, arguments)? {
+        Ok(question) => question,
+        Err(exit) => return Ok(exit),
+    };
+    let mut models = Vec::new();
+    for path in &question.models {
+        let loaded = match load(shell, path)? {
+            Ok(loaded) => loaded,
+            Err(exit) => return Ok(exit),
+        };
+        if loaded.program.main.is_none() {
+            return crate::run::no_main(shell, &loaded);
+        }
+        models.push(loaded);
+    }
+    let Ok(models) = <[Loaded; 2]>::try_from(models) else { unreachable!("there are two models") };
+    let programs = [&models[0].program, &models[1].program];
+    let limits = shell.global.limits.uninterrupted();
+    let coupling = match Coupling::new(programs, question.coupling, &limits) {
+        Ok(coupling) => coupling,
+        Err(faulty) => {
+            shell.diagnostics(&faulty.sources, &faulty.faults)?;
+            return Ok(Exit::World);
+        }
+    };
+    let mut options = Options { max_pairs: arguments.max_states.unwrap_or(u64::MAX), ..Options::default() };
+    for (side, model) in models.iter().enumerate() {
+        options.extents[side] = Extent { limits: limits.clone(), ..Extent::default() };
+        for text in &arguments.bounds {
+            let text = std::slice::from_ref(text);
+            match (bound::read(&model.program, text), bound::read(&models[1 - side].program, text)) {
+                (Ok(bounds), _) => options.extents[side].bounds.extend(bounds),
+                (Err(_), Ok(_)) => {}
+                (Err(refused), Err(_)) => {
+                    return Err(Failure::usage_with_help(format!("--bound {refused}"), bound::HELP));
+                }
+            }
+        }
+    }
+    interrupt::listen();
+    interrupt::bound_memory(arguments.max_memory);
+    let mut watch = Watch::new(arguments.time, shell.global.quiet || shell.json());
+    let started = job::refine(coupling, options, Cancel::from(interrupt::request().clone()));
+    let job = started.map_err(|error| Failure::usage(format!("the search cannot be started: {error}")))?;
+    while let Some(RefineEvent(progress)) = job.next_event() {
+        let shown = Progress { states: progress.pairs, queue: progress.queue, ..Progress::default() };
+        if !watch.at(&shown) {
+            job.cancel().cancel();
+        }
+    }
+    let (outcome, coupling) = job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0));
+    let timed_out = watch.done();
+    let words = Refinements { models: [&models[0], &models[1]], coupling: &coupling, timed_out };
+    let report = match outcome {
+        Ok(report) => report,
+        Err(trouble) => return no_report(shell, &trouble, [&models[0], &models[1]]),
+    };
+    tell(shell, &words, &report)?;
+    if let (Some(folder), Verdict::DoesNot(refutation)) = (&arguments.counterexample, &report.verdict) {
+        write_scenarios(shell, folder, &question.models, &words, refutation)?;
+    }
+    Ok(match report.verdict {
+        Verdict::Refines => Exit::Good,
+        Verdict::DoesNot(_) | Verdict::Vacuous(_) => Exit::Model,
+        Verdict::Unknown(_) => Exit::Unknown,
+    })
+}
+
+/// The models and the coupling; the exit code if the coupling file is at fault.
+fn question(shell: &mut Shell, arguments: &Arguments) -> Result<Result<Question, Exit>, Failure> {
+    let limit = shell.global.limits.max_file_size;
+    let is_coupling = |path: &Path| path.extension().is_some_and(|extension| extension == "refine");
+    let (path, models) = match &arguments.models[..] {
+        [one] if is_coupling(one) => {
+            if arguments.with.is_some() {
+                return Err(Failure::usage("two coupling files are named: one of them is enough"));
+            }
+            (one, None)
+        }
+        [one] => {
+            let help =
+                "write `groundstate refine ABSTRACT.asm CONCRETE.asm`, or name a file NAME.refine that names both";
+            return Err(Failure::usage_with_help(format!("{} alone has nothing to refine", one.display()), help));
+        }
+        [one, other] => {
+            if let Some(path) = [one, other].into_iter().find(|path| is_coupling(path)) {
+                let help = format!("write --with {}", path.display());
+                return Err(Failure::usage_with_help(format!("{} is a coupling file", path.display()), help));
+            }
+            let models = [one.clone(), other.clone()];
+            match &arguments.with {
+                None => return Ok(Ok(Question { models, coupling: None })),
+                Some(path) => (path, Some(models)),
+            }
+        }
+        _ => unreachable!("one or two are required"),
+    };
+    let file = read_source(path, limit)?;
+    let models = match models {
+        Some(models) => models,
+        None => {
+            let mut sources = Sources::default();
+            sources.add(file.clone());
+            let written = match read(FileId(0), &file.text) {
+                Ok(written) => written,
+                Err(fault) => {
+                    shell.diagnostic(&sources, &fault)?;
+                    return Ok(Err(Exit::World));
+                }
+            };
+            let folder = path.parent().unwrap_or(Path::new(""));
+            let mut named = Vec::new();
+            for (side, model) in written.models.iter().enumerate() {
+                let Some(model) = model else {
+                    let word = SIDES[side];
+                    let help = format!("write `{word} \"Model.asm\";` in it, or name both models before --with");
+                    let message = format!("{} does not name the {word} model", path.display());
+                    return Err(Failure::usage_with_help(message, help));
+                };
+                named.push(folder.join(&model.text));
+            }
+            let Ok(named) = <[PathBuf; 2]>::try_from(named) else { unreachable!("there are two sides") };
+            named
+        }
+    };
+    Ok(Ok(Question { models, coupling: Some(file) }))
+}
+
+fn no_report(shell: &mut Shell, trouble: &Trouble, models: [&Loaded; 2]) -> Result<Exit, Failure> {
+    if let Some((side, fault)) = no_start(trouble, models) {
+        shell.diagnostic(&models[side].sources, &fault)?;
+    } else {
+        shell.note("not known: stopped before all initial states were found")?;
+    }
+    Ok(if matches!(trouble, Trouble::Fault(..)) { Exit::Model } else { Exit::Unknown })
+}
+
+fn tell(shell: &mut Shell, words: &Refinements<'_>, report: &Report) -> Result<(), Failure> {
+    if let Verdict::Vacuous(vacuous) = &report.verdict {
+        shell.diagnostic(words.coupling.sources(), &words.vacuous(vacuous))?;
+    }
+    if shell.json() {
+        return shell.object(&wire::Refinement::new(words, report));
+    }
+    if shell.talks() || !matches!(report.verdict, Verdict::Refines) {
+        write!(shell.out(), "{}", words.report(report))?;
+    }
+    Ok(())
+}
+
+/// Writes both runs as scenarios.
+fn write_scenarios(
+    shell: &mut Shell,
+    folder: &Path,
+    models: &[PathBuf; 2],
+    words: &Refinements<'_>,
+    refutation: &refine::Refutation,
+) -> Result<(), Failure> {
+    std::fs::create_dir_all(folder).map_err(|error| Failure::of_file("write", folder, error))?;
+    for side in [ABSTRACT, CONCRETE] {
+        let file = folder.join(format!("{}.avalla", SIDES[side]));
+        let (program, model) = (&words.models[side].program, relative(&models[side], folder));
+        let (trace, name) = (trace_of(&refutation.runs[side]), format!("{}_run", SIDES[side]));
+        let text = groundstate::counterexample_scenario(program, &trace, Subject::Consistent, &name, &model);
+        write_text(&file, &text)?;
+        if shell.talks() {
+            writeln!(shell.out(), "wrote {}", file.display())?;
+        }
+    }
+    Ok(())
+}
