@@ -9,26 +9,60 @@ use std::sync::Arc;
 use machine::{Limits, Machine};
 use program::{DomainKind, Expression, FunctionId, FunctionKind, Program, Slot, Term, TermList};
 use syntax::ast::{AstNode, TermFile};
-use syntax::{Diagnostic, Severity, SourceFile, Span};
+use syntax::{Diagnostic, FileId, Severity, SourceFile, Sources, Span};
 
-use crate::coupling::{Conjunct, Coupling, start};
+use crate::coupling::{Conjunct, Coupling, Faulty, start};
 use crate::diagram::Diagrams;
 use crate::fault::{bad_coupling, input_not_coupled, vacuous};
-use crate::joint::{Joint, described, joint_name};
-use crate::written::{Part, Written};
+use crate::joint::{Joint, described, join, joint_name};
+use crate::written::{Part, Written, read};
 use crate::{ABSTRACT, CONCRETE, SIDES};
 
+/// What stands for a file if there is none.
+const DEFAULT: &str = "// no coupling file: functions of equal names and domains are equal\n";
+
+impl Coupling {
+    /// The coupling that a text says, or the default one if there is none.
+    ///
+    /// # Errors
+    /// The faults of the text.
+    pub fn new(
+        programs: [&Arc<Program>; 2],
+        text: Option<SourceFile>,
+        limits: &Limits,
+    ) -> Result<Coupling, Box<Faulty>> {
+        let source = text.unwrap_or_else(|| SourceFile::new("<default coupling>", DEFAULT));
+        let alone = |fault: Diagnostic| {
+            let mut sources = Sources::default();
+            let file = sources.add(source.clone());
+            let mut fault = fault;
+            fault.primary.span.file = file;
+            Box::new(Faulty { sources, faults: vec![fault] })
+        };
+        let written = read(FileId(0), &source.text).map_err(|fault| alone(*fault))?;
+        let joint = join([&**programs[0], &**programs[1]], limits);
+        let joint = joint.map_err(|message| alone(*bad_coupling(start(FileId(0)), message)))?;
+        let mut builder = Builder::new(programs, joint, source, limits);
+        builder.read(&written);
+        let Builder { coupling, faults, .. } = builder;
+        match faults.is_empty() {
+            true => Ok(coupling),
+            false => Err(Box::new(Faulty { sources: coupling.joint.sources, faults })),
+        }
+    }
+}
+
 /// Reads the statements.
-pub(crate) struct Builder {
-    pub coupling: Coupling,
+struct Builder {
+    coupling: Coupling,
     source: SourceFile,
     limits: Limits,
-    pub faults: Vec<Diagnostic>,
+    faults: Vec<Diagnostic>,
 }
 
 impl Builder {
     /// For a file that says nothing yet.
-    pub fn new(programs: [&Arc<Program>; 2], mut joint: Joint, source: SourceFile, limits: &Limits) -> Builder {
+    fn new(programs: [&Arc<Program>; 2], mut joint: Joint, source: SourceFile, limits: &Limits) -> Builder {
         let file = joint.sources.add(source.clone());
         let coupling = Coupling {
             programs: programs.map(Arc::clone),
@@ -56,7 +90,7 @@ impl Builder {
     }
 
     /// Reads all statements.
-    pub fn read(&mut self, written: &Written) {
+    fn read(&mut self, written: &Written) {
         let usual = Diagrams::usual(written.segment.is_some());
         self.coupling.diagrams = written.diagrams.clone().unwrap_or(usual);
         if written.same.is_empty() && written.couples.is_empty() {

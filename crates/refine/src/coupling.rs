@@ -6,16 +6,12 @@
 
 use std::sync::Arc;
 
-use machine::Limits;
 use program::{Expression, FunctionId, Program};
 use rustc_hash::FxHashMap;
-use syntax::{Diagnostic, FileId, SourceFile, Sources, Span};
+use syntax::{Diagnostic, FileId, Sources, Span};
 
-use crate::build::Builder;
 use crate::diagram::Diagrams;
-use crate::fault::bad_coupling;
-use crate::joint::{Joint, join};
-use crate::written::read;
+use crate::joint::Joint;
 
 /// A part of the coupling relation.
 #[derive(Debug, Clone)]
@@ -71,35 +67,6 @@ impl std::fmt::Debug for Coupling {
 }
 
 impl Coupling {
-    /// The coupling that a text says, or the default one if there is none.
-    ///
-    /// # Errors
-    /// The faults of the text.
-    pub fn new(
-        programs: [&Arc<Program>; 2],
-        text: Option<SourceFile>,
-        limits: &Limits,
-    ) -> Result<Coupling, Box<Faulty>> {
-        let source = text.unwrap_or_else(|| SourceFile::new("<default coupling>", ""));
-        let alone = |fault: Diagnostic| {
-            let mut sources = Sources::default();
-            let file = sources.add(source.clone());
-            let mut fault = fault;
-            fault.primary.span.file = file;
-            Box::new(Faulty { sources, faults: vec![fault] })
-        };
-        let written = read(FileId(0), &source.text).map_err(|fault| alone(*fault))?;
-        let joint = join([&**programs[0], &**programs[1]], limits);
-        let joint = joint.map_err(|message| alone(*bad_coupling(start(FileId(0)), message)))?;
-        let mut builder = Builder::new(programs, joint, source, limits);
-        builder.read(&written);
-        let Builder { coupling, faults, .. } = builder;
-        match faults.is_empty() {
-            true => Ok(coupling),
-            false => Err(Box::new(Faulty { sources: coupling.joint.sources, faults })),
-        }
-    }
-
     /// The texts that faults of the coupling stand in.
     pub fn sources(&self) -> &Sources {
         &self.joint.sources

@@ -23,8 +23,8 @@ pub use coupling::{Coupling, Faulty};
 pub use diagram::{Diagram, Diagrams};
 pub use evidence::{Differs, Ended, Part, Refutation, Run, Segment, Tried};
 pub use fault::IDS;
-pub use refine::{Options, Progress, Trouble, refine};
-pub use report::{Assumed, Report, Vacuous, Verdict, Why};
+pub use refine::{Options, Trouble, refine};
+pub use report::{Assumed, Progress, Report, Vacuous, Verdict, Why};
 pub use side::Extent;
 pub use written::{Mapped, Part as WrittenPart, Written, read};
 

@@ -13,7 +13,7 @@ use crate::evidence;
 use crate::game::solve;
 use crate::judge::Judge;
 use crate::product::{Node, NodeId, Product, Unclear};
-use crate::report::{Assumed, Report, Vacuous, Verdict, Why};
+use crate::report::{Assumed, Progress, Report, Vacuous, Verdict, Why};
 use crate::side::{Extent, Side, Stopped};
 use crate::{ABSTRACT, CONCRETE};
 
@@ -33,19 +33,6 @@ impl Default for Options {
     fn default() -> Options {
         Options { extents: Default::default(), max_pairs: u64::MAX }
     }
-}
-
-/// How far the search is.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Progress {
-    /// Pairs found.
-    pub pairs: u64,
-    /// Pairs that have to be looked at.
-    pub queue: u64,
-    /// States of the abstract and of the concrete machine.
-    pub states: [u64; 2],
-    /// Different steps of the abstract and of the concrete machine.
-    pub steps: [u64; 2],
 }
 
 /// Why nothing can be said.

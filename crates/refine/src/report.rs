@@ -6,7 +6,19 @@ use explore::Unbounded;
 use machine::Cause;
 
 use crate::evidence::Refutation;
-use crate::refine::Progress;
+
+/// How far the search is.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Progress {
+    /// Pairs found.
+    pub pairs: u64,
+    /// Pairs that have to be looked at.
+    pub queue: u64,
+    /// States of the abstract and of the concrete machine.
+    pub states: [u64; 2],
+    /// Different steps of the abstract and of the concrete machine.
+    pub steps: [u64; 2],
+}
 
 /// Why it is not known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

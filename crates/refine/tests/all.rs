@@ -1,4 +1,6 @@
 //! The tests of `refine` as one program. Each file of this folder is a module here.
 
+mod broken;
 mod naive;
 mod small;
+mod spec;

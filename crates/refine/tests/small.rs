@@ -14,6 +14,11 @@ pub fn program(name: &str, text: &str) -> Arc<Program> {
     Arc::new(program::lower(&checked.model).expect("it is lowered"))
 }
 
+/// The program of a text that begins with `asm NAME`.
+pub fn example(text: &str) -> Arc<Program> {
+    program(text.split_whitespace().nth(1).expect("a name"), text)
+}
+
 /// A machine with this signature, main rule and initial state.
 fn machine(signature: &str, rule: &str, init: &str) -> Arc<Program> {
     let text = format!(

@@ -11,6 +11,7 @@ mod fmt;
 mod input_pages;
 mod interrupts;
 mod lsp;
+mod refinements;
 mod schema;
 mod start;
 mod transcripts;

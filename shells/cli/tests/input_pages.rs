@@ -1,4 +1,4 @@
-//! Each kind of fault in a file beside the model (inputs, report specification, verification specification) has a page
+//! Each kind of fault in a file beside the model (inputs, report specification, verification specification, coupling) has a page
 //! in spec/faults/, whose example shows it.
 
 #![allow(clippy::disallowed_methods, reason = "the pages are files, and so is what is given to the command")]
@@ -32,6 +32,33 @@ fn every_fault_has_a_page_that_shows_it() {
         write("file.yaml", block(&page, "yaml fault"));
         let output = Command::new(env!("CARGO_BIN_EXE_groundstate"))
             .args(arguments)
+            .current_dir(folder.path())
+            .output()
+            .expect("it starts");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(said.contains(&format!("error[{id}]")), "{id}: {said}");
+        assert_eq!(output.status.code(), Some(2));
+    }
+}
+
+#[test]
+fn every_fault_of_a_coupling_has_a_page_that_shows_it() {
+    for id in ["bad-coupling", "input-not-coupled", "vacuous-refinement"] {
+        let path = format!("{}/../../spec/faults/{id}.md", env!("CARGO_MANIFEST_DIR"));
+        let page = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let write = |name: &str, text| std::fs::write(folder.path().join(name), text).expect("a file");
+        let abstractly = block(&page, "asmetal");
+        let concrete = page.contains("```asmetal concrete");
+        let concretely = if concrete { block(&page, "asmetal concrete") } else { abstractly };
+        let [one, other] = [abstractly, concretely].map(|text| {
+            let name = format!("{}.asm", text.split_whitespace().nth(1).expect("a name"));
+            write(&name, text);
+            name
+        });
+        write("file.refine", block(&page, "refine fault"));
+        let output = Command::new(env!("CARGO_BIN_EXE_groundstate"))
+            .args(["refine", &one, &other, "--with", "file.refine"])
             .current_dir(folder.path())
             .output()
             .expect("it starts");

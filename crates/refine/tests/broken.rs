@@ -1,0 +1,47 @@
+//! Half of a coupling's text is missing, changed or out of order: there is a fault at a place in it, or a verdict, and no panic.
+
+use refine::{Coupling, IDS, Options, refine};
+use syntax::SourceFile;
+use testkit::Page;
+
+use crate::small::example;
+
+#[test]
+fn every_kind_of_fault_has_a_page() {
+    assert!(IDS.is_sorted());
+    IDS.iter().for_each(|id| drop(Page::fault(id)));
+}
+
+#[test]
+fn broken_couplings_have_faults_at_their_places() {
+    let page = Page::spec("refine");
+    let models: Vec<&str> =
+        page.blocks().into_iter().filter(|block| block.info.starts_with("asmetal")).map(|block| block.text).collect();
+    let texts: Vec<&str> =
+        page.blocks().into_iter().filter(|block| block.info.starts_with("refine")).map(|block| block.text).collect();
+    let (one, other) = (example(models[2]), example(models[3]));
+    let check = |text: &str| {
+        let file = SourceFile::new("c.refine", text);
+        match Coupling::new([&one, &other], Some(file), &machine::Limits::default()) {
+            Err(faulty) => {
+                for fault in &faulty.faults {
+                    let span = fault.primary.span;
+                    assert_eq!(faulty.sources.file(span.file).name, "c.refine", "{text:?}: {}", fault.message);
+                    assert!(text.get(span.range()).is_some(), "{text:?}: {}", fault.message);
+                    assert!(!fault.message.contains("abstract_"), "{text:?}: {}", fault.message);
+                }
+                assert!(!faulty.faults.is_empty());
+            }
+            Ok(coupling) => drop(refine(&coupling, &Options { max_pairs: 100, ..Options::default() }, &mut |_| true)),
+        }
+    };
+    for text in texts {
+        for at in (0..text.len()).step_by(3) {
+            check(&text[..at]);
+            check(&text[at..]);
+            check(&format!("{}{}", &text[at..], &text[..at]));
+            check(&format!("{}§{}", &text[..at], &text[at..]));
+            check(&format!("{}{}", &text[..at], &text[(at + 5).min(text.len())..]));
+        }
+    }
+}

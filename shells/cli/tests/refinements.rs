@@ -1,0 +1,62 @@
+//! The refinements of the library: each is proved, each wrong sibling is refuted, and both runs of a refutation are made again by scenarios.
+
+#![allow(clippy::disallowed_methods, reason = "a test runs the command on files")]
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../library/refinement").canonicalize().expect("the folder")
+}
+
+fn check(arguments: &[&str], code: i32, says: &str) {
+    let output = Command::new(env!("CARGO_BIN_EXE_groundstate")).args(arguments).current_dir(folder()).output();
+    let output = output.expect("it starts");
+    let said = format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {said}");
+    assert!(said.contains(says), "{arguments:?}: {said}");
+}
+
+#[test]
+fn each_refinement_is_proved() {
+    check(&["refine", "Permit.refine"], 0, "\n89370 pairs of 13 abstract states and 89370 concrete states");
+    check(&["refine", "Queue.refine"], 0, "\n6252 pairs of 12 abstract states and 6242 concrete states");
+    check(&["refine", "Manage.refine"], 0, "\n130 pairs of 112 abstract states and 130 concrete states");
+}
+
+#[test]
+fn each_wrong_sibling_is_refuted_and_its_runs_are_made_again() {
+    let runs = tempfile::tempdir().expect("a temporary folder");
+    let siblings: [(&str, &[&str], &str, i32, &str); 3] = [
+        (
+            "Permit",
+            &["Permit.asm", "../verification/PermitLineFaulty.asm"],
+            "0:1 again and again",
+            1,
+            "inv_noLostWakeUp",
+        ),
+        (
+            "Queue",
+            &["Queue.asm", "../verification/QueueStepsFaulty.asm", "--bound", "fault=PUBLISHES_FIRST"],
+            "nothing matches step",
+            0,
+            "2 passed",
+        ),
+        (
+            "Manage",
+            &["ManageAtOnce.asm", "ManageEarly.asm"],
+            "`abstract.index = concrete.index` is false",
+            0,
+            "2 passed",
+        ),
+    ];
+    for (name, models, says, code, again) in siblings {
+        let (coupling, into) = (format!("{name}.refine"), runs.path().join(name).display().to_string());
+        let mut arguments = vec!["refine"];
+        arguments.extend(models);
+        arguments.extend(["--with", &coupling, "--counterexample", &into]);
+        check(&arguments, 1, says);
+        // The model's own invariant ends the run of the semaphore sooner than it goes round.
+        check(&["test", &into], code, again);
+    }
+}
