@@ -73,6 +73,7 @@ impl Builder {
             shared: Default::default(),
             given: Vec::new(),
             readers: Default::default(),
+            waiting: false,
             same: Vec::new(),
             free: Vec::new(),
             inputs: Vec::new(),
@@ -93,6 +94,7 @@ impl Builder {
     fn read(&mut self, written: &Written) {
         let usual = Diagrams::usual(written.segment.is_some());
         self.coupling.diagrams = written.diagrams.clone().unwrap_or(usual);
+        self.coupling.waiting = written.waiting;
         if written.same.is_empty() && written.couples.is_empty() {
             self.same_by_default();
         }

@@ -50,6 +50,8 @@ pub struct Coupling {
     /// Inputs of the abstract machine that are terms over the concrete state.
     pub(crate) given: Vec<(u32, Expression)>,
     pub(crate) readers: [FxHashMap<FunctionId, Expression>; 2],
+    /// The concrete machine may go on for ever without a step of the abstract one.
+    pub waiting: bool,
     /// The functions that have equal values by default or by `same`.
     pub same: Vec<String>,
     /// Inputs that are free, and inputs that have the same value in both.

@@ -106,7 +106,7 @@ pub(crate) fn solve(product: &Product<'_>, hopeful: bool) -> Solution {
                 }
             }
         }
-        let waiting = match ever_waits {
+        let waiting = match ever_waits && !product.judge.coupling.waiting {
             true => waiting(product, hopeful, &lost, &parents),
             false => Vec::new(),
         };

@@ -256,6 +256,8 @@ impl<'c> Product<'c> {
         }
         Ok(match ways[..] {
             [only] => only,
+            // A segment ends where no diagram does.
+            [] => self.end(Some(from), state, reads, n, AbstractRuns::default()),
             _ => self.node(Node::Choice(ways)),
         })
     }

@@ -45,16 +45,19 @@ pub struct Written {
     pub inputs: Vec<Mapped>,
     /// Inputs that the abstract machine takes as it likes.
     pub free: Vec<Part>,
+    /// The concrete machine may go on for ever without a step of the abstract one.
+    pub waiting: bool,
 }
 
 /// The words that statements begin with.
-const WORDS: [&str; 8] = ["abstract", "concrete", "couple", "diagrams", "free", "input", "same", "segment"];
+const WORDS: [&str; 9] = ["abstract", "allow", "concrete", "couple", "diagrams", "free", "input", "same", "segment"];
 
 impl Written {
     /// A file that says nothing: the default coupling.
     pub fn nothing(file: FileId) -> Written {
         let (models, same, couples) = ([None, None], Vec::new(), Vec::new());
-        Written { file, models, same, couples, segment: None, diagrams: None, inputs: Vec::new(), free: Vec::new() }
+        let (segment, diagrams, inputs, free) = (None, None, Vec::new(), Vec::new());
+        Written { file, models, same, couples, segment, diagrams, inputs, free, waiting: false }
     }
 }
 
@@ -211,6 +214,13 @@ impl<'t> Reader<'t> {
                     written.same.push(name);
                 }
             }
+            "allow" => {
+                again(written.waiting)?;
+                if body.text != "waiting" {
+                    return Err(bad_coupling(body.span, "only waiting can be allowed: allow waiting;"));
+                }
+                written.waiting = true;
+            }
             "free" => {
                 for (from, to) in split(&body.text, ',') {
                     written.free.push(self.abstract_input(start + from, start + to)?);
@@ -302,6 +312,7 @@ mod tests {
         check("abstract A.asm;", 9, "the path of a model is expected: abstract \"Model.asm\";");
         check("segment a; segment b;", 11, "`segment` is said twice");
         check("diagrams 1:0;", 9, "a diagram has at least one step of the concrete machine: `m:n` with n from 1");
+        check("allow faults;", 6, "only waiting can be allowed: allow waiting;");
         check("/* a", 0, "this comment does not end");
         check("€;", 0, "`€` begins no statement");
     }

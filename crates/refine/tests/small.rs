@@ -178,3 +178,91 @@ fn a_question_that_says_nothing() {
     let total = "couple abstract.n >= 0 and concrete.n >= 0;";
     assert_eq!(report(&one, &one, Some(total)).verdict, Verdict::Vacuous(Vacuous::Total));
 }
+
+#[test]
+fn a_segment_that_no_diagram_has_is_refuted() {
+    let one = counter("n := (n + 1) mod 4");
+    let refutation = refuted(report(&one, &one, Some("same n; segment true; diagrams 1:2;")));
+    assert!(matches!(refutation.ended, Ended::Unmatched { .. }), "{:?}", refutation.ended);
+    let found = report(&one, &one, Some("same n; segment concrete.n = 7;"));
+    assert_eq!(found.verdict, Verdict::Unknown(vec![refine::Why::Long(16)]));
+}
+
+#[test]
+fn inputs_of_initial_states_are_those_of_one_environment() {
+    let signature = "domain N subsetof Integer monitored given: N monitored other: N controlled n: N";
+    let with = |init: &str| {
+        machine(signature, "domain N = {0:3}\nmain rule r_Main = n := (n + 1) mod 4", &format!("function n = {init}"))
+    };
+    assert_eq!(report(&with("given"), &with("given"), None).verdict, Verdict::Refines);
+    assert_eq!(report(&with("given"), &with("(given + 4) mod 4"), None).verdict, Verdict::Refines);
+    // Some initial states of the concrete machine have no match: those with other inputs.
+    refuted(report(&with("given"), &with("other"), None));
+    refuted(report(&with("given"), &with("1"), None));
+    assert_eq!(report(&with("given"), &with("1"), Some("same n; free abstract.given;")).verdict, Verdict::Refines);
+}
+
+#[test]
+fn each_input_that_is_not_looked_at_has_every_value() {
+    let signature = "monitored a: Boolean monitored b: Boolean controlled on: Boolean";
+    let with = |rule: &str| machine(signature, &format!("main rule r_Main = {rule}"), "function on = false");
+    let both = with("if a and b then on := true endif");
+    let either = with("choose $x in Boolean with ($x or a or b) do on := $x or on");
+    let one = with("if a then on := true endif");
+    let never = with("par on := on and a if a and b and on then on := on endif endpar");
+    refuted(report(&both, &one, None));
+    assert_eq!(report(&either, &with("on := true"), None).verdict, Verdict::Refines);
+    assert!(!matches!(report(&both, &never, None).verdict, Verdict::Refines));
+}
+
+#[test]
+fn in_a_long_diagram_an_input_has_a_value_that_it_had_in_it() {
+    let one = lamp("if pressed then on := not on endif");
+    let late = machine(
+        "monitored pressed: Boolean controlled on: Boolean controlled heard: Boolean controlled busy: Boolean",
+        "main rule r_Main = if busy then par busy := false if heard then on := not on endif endpar
+                            else par busy := true heard := pressed endpar endif",
+        "function on = false function heard = false function busy = false",
+    );
+    assert_eq!(report(&one, &late, Some("same on; segment not concrete.busy;")).verdict, Verdict::Refines);
+    // It looks at nothing where it does something.
+    refuted(report(&one, &late, Some("same on; diagrams 0..1:1;")));
+}
+
+#[test]
+fn limits_leave_it_open_and_do_not_hide_a_refutation() {
+    let endless =
+        |rule: &str| machine("controlled n: Integer", &format!("main rule r_Main = {rule}"), "function n = 0");
+    let check = |one: &Arc<Program>, other: &Arc<Program>| {
+        let coupling = Coupling::new([one, other], None, &machine::Limits::default()).expect("a coupling");
+        refine(&coupling, &Options { max_pairs: 10, ..Options::default() }, &mut |_| true).expect("it begins").verdict
+    };
+    let one = endless("n := n + 1");
+    assert_eq!(check(&one, &one), Verdict::Unknown(vec![refine::Why::Pairs(10)]));
+    assert!(matches!(check(&one, &endless("if n = 4 then n := 0 else n := n + 1 endif")), Verdict::DoesNot(_)));
+    let input = machine("monitored x: Integer controlled n: Integer", "main rule r_Main = n := x", "function n = 0");
+    let found = report(&input, &input, None);
+    assert!(
+        matches!(&found.verdict, Verdict::Unknown(why) if matches!(why[..], [refine::Why::Unbounded(..)])),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn functions_over_infinite_domains_and_other_enumerations() {
+    let with = |literals: &str, rule: &str| {
+        machine(
+            &format!(
+                "enum domain Mode = {{{literals}}} controlled mode: Mode controlled seen: Integer -> Mode controlled n: Integer"
+            ),
+            &format!("main rule r_Main = par {rule} n := (n + 1) mod 3 seen(n) := mode endpar"),
+            "function mode = IDLE function n = 0",
+        )
+    };
+    let one = with("IDLE | BUSY", "mode := if mode = IDLE then BUSY else IDLE endif");
+    let other = with("BUSY | IDLE | GONE", "mode := if mode = IDLE then BUSY else IDLE endif");
+    assert_eq!(report(&one, &one, Some("same seen, mode;")).verdict, Verdict::Refines);
+    assert_eq!(report(&one, &other, Some("same seen, mode;")).verdict, Verdict::Refines);
+    let gone = with("BUSY | IDLE | GONE", "mode := if mode = IDLE then BUSY else GONE endif");
+    refuted(report(&one, &gone, Some("couple abstract.mode = concrete.mode;")));
+}

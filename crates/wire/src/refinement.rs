@@ -21,6 +21,9 @@ pub struct Refinement {
     reasons: Vec<String>,
     /// The parts of the coupling relation.
     coupling: Vec<String>,
+    /// Whether it is assumed that the concrete machine does not go on for ever without a step of the abstract one.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    waiting_allowed: bool,
     /// How often answers of the abstract machine use each diagram.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     diagrams: Vec<DiagramLine>,
@@ -124,6 +127,7 @@ impl Refinement {
             verdict,
             reasons,
             coupling: (0..words.coupling.conjuncts()).map(|index| words.coupling.conjunct(index)).collect(),
+            waiting_allowed: words.coupling.waiting,
             diagrams: report.diagrams.iter().map(diagram).collect(),
             assumed: report
                 .assumed

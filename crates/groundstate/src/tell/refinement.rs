@@ -140,6 +140,10 @@ impl Refinements<'_> {
                 lines.push(format!("  {word} {}", names.join(", ")));
             }
         }
+        if self.coupling.waiting {
+            let what = "the concrete machine does not go on for ever while the abstract one makes no step";
+            lines.push(format!("  assumed    {what}"));
+        }
         for assumed in &report.assumed {
             lines.push(format!("  assumed    {} ({})", assumed.name, SIDES[assumed.side]));
         }
@@ -222,6 +226,9 @@ impl Refinements<'_> {
             Ended::Waits(turn) => {
                 let from = refutation.segments[..*turn].iter().map(|segment| segment.n).sum::<usize>();
                 lines.push(format!("  and again from step {} of the concrete machine, for ever", from + 1));
+                lines.push(
+                    "  if something outside the models ends this, write `allow waiting;` into the coupling".to_string(),
+                );
             }
             Ended::Unmatched { inputs, tried, faults } => {
                 for (name, value) in inputs {
