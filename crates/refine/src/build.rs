@@ -72,6 +72,7 @@ impl Builder {
             diagrams: Diagrams::usual(false),
             shared: Default::default(),
             given: Vec::new(),
+            watched: Vec::new(),
             readers: Default::default(),
             waiting: false,
             same: Vec::new(),
@@ -309,6 +310,10 @@ impl Builder {
             plain(&mut fault.message);
             plain(&mut fault.primary.text);
             fault.help.iter_mut().for_each(plain);
+            if fault.id == "unknown-function" {
+                let help = "write `abstract.NAME` or `concrete.NAME`, with the name of a function of that machine";
+                fault.help = Some(help.to_string());
+            }
             // The joint model is nowhere that a user could look.
             let file = self.coupling.file;
             fault.secondary.retain(|label| label.span.file == file);
@@ -486,6 +491,18 @@ impl Builder {
                 return self.fault(bad_coupling(place, message));
             }
             return self.share(input, there);
+        }
+        // LIMIT: such a function is evaluated in every step; if that is a fault, so is the step.
+        let is_boolean = |program: &Program, id: FunctionId| {
+            program.domain(program.function(id).codomain).kind == DomainKind::Basic(model::Basic::Boolean)
+        };
+        if let Some(there) = renamed.filter(|there| arity == 0 && is_boolean(&other, *there) && is_boolean(&one, input))
+        {
+            let formula = self.reader(CONCRETE, there);
+            if self.coupling.programs[CONCRETE].reads_monitored(&formula) {
+                self.coupling.shared[ABSTRACT].entry(input).or_default().push(input.0);
+                return self.coupling.watched.push((input.0, formula));
+            }
         }
         if arity > 0 {
             let message = "an input with arguments can only be another input: input abstract.f = concrete.g;";

@@ -87,7 +87,8 @@ fn attempt(
     let mut sides = Vec::new();
     for side in [ABSTRACT, CONCRETE] {
         let (program, readers) = (&coupling.programs[side], coupling.readers[side].clone());
-        let mut made = match Side::new(side, program, &options.extents[side], &widenings[side], readers) {
+        let watched = if side == CONCRETE { &coupling.watched[..] } else { &[] };
+        let mut made = match Side::new(side, program, &options.extents[side], &widenings[side], readers, watched) {
             Ok(made) => made,
             Err(explore::Trouble::TooNarrow(widening)) => return Ok(Err((side, widening))),
             Err(explore::Trouble::Fault(fault)) => return Err(Trouble::Fault(side, fault)),

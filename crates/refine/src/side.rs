@@ -95,6 +95,8 @@ pub(crate) struct Side {
     pub explorer: Explorer,
     /// By input of the program: the inputs of the abstract machine that have its value.
     pub shared: FxHashMap<FunctionId, Vec<u32>>,
+    /// Inputs of the abstract machine that say whether a condition on this machine's steps holds, by its number.
+    watched: Vec<(u32, u32)>,
     /// Conditions that states which count satisfy.
     assumed: usize,
     states: Vec<Box<[u64]>>,
@@ -126,6 +128,7 @@ impl Side {
         extent: &Extent,
         widening: &Widening,
         readers: FxHashMap<FunctionId, Expression>,
+        watched: &[(u32, Expression)],
     ) -> Result<Side, Trouble> {
         let mut bounds = assumed_bounds(program);
         bounds.extend(extent.bounds.iter().map(|(function, values)| (*function, values.clone())));
@@ -138,12 +141,18 @@ impl Side {
             }
         }
         let assumed = settings.conditions.len();
+        let mut conditions = Vec::new();
+        for (input, formula) in watched {
+            conditions.push((*input, settings.step_conditions.len() as u32));
+            settings.step_conditions.push((formula.clone(), false));
+        }
         let explorer = Explorer::new(program, settings, widening, &Arc::<Interner>::default())?;
         Ok(Side {
             place,
             program: Arc::clone(program),
             explorer,
             shared: FxHashMap::default(),
+            watched: conditions,
             assumed,
             states: Vec::new(),
             numbers: FxHashMap::default(),
@@ -193,7 +202,7 @@ impl Side {
                 true => Told::default(),
                 false => self.explorer.told_of_start(start),
             };
-            let label = self.label(&told.inputs, inputs, bridge);
+            let label = self.label_of_inputs(&told.inputs, inputs, bridge);
             let state = self.number(state);
             if seen.insert((Rc::clone(&label), state)) {
                 found.push((label, state, start));
@@ -202,8 +211,22 @@ impl Side {
         found
     }
 
-    /// What both machines have of the inputs that a step read.
-    pub fn label(&self, read: &[(Location, Value)], inputs: &mut Inputs, bridge: &Bridge) -> Label {
+    /// What both machines have of the inputs that a step read, given the conditions on it that do not hold.
+    fn label(&self, read: &[(Location, Value)], failed: &[u32], inputs: &mut Inputs, bridge: &Bridge) -> Label {
+        let label = self.label_of_inputs(read, inputs, bridge);
+        if self.watched.is_empty() {
+            return label;
+        }
+        let holds = |(input, condition): &(u32, u32)| {
+            inputs.number(*input, Vec::new(), Value::Boolean(!failed.contains(condition)))
+        };
+        let mut all: Vec<(u32, u32)> = self.watched.iter().map(holds).collect();
+        all.extend(label.iter());
+        all.sort_unstable();
+        all.into()
+    }
+
+    fn label_of_inputs(&self, read: &[(Location, Value)], inputs: &mut Inputs, bridge: &Bridge) -> Label {
         let mut label: Vec<(u32, u32)> = Vec::new();
         for (location, value) in read {
             let Some(named) = self.shared.get(&location.function) else { continue };
@@ -229,7 +252,7 @@ impl Side {
         }
         let packed = self.packed(state);
         let mut paths = Vec::new();
-        let whole = self.explorer.paths(&packed, &mut |path| paths.push((path.inputs, path.outcome)));
+        let whole = self.explorer.paths(&packed, &mut |path| paths.push((path.inputs, path.failed, path.outcome)));
         match whole {
             Err(widening) => return Err(Stopped::Narrow(self.place, widening)),
             Ok(false) => return Err(Stopped::Interrupted),
@@ -237,8 +260,8 @@ impl Side {
         }
         let mut moves = Vec::new();
         let mut seen = FxHashSet::default();
-        for (read, outcome) in paths {
-            let mut label = self.label(&read, inputs, bridge);
+        for (read, failed, outcome) in paths {
+            let mut label = self.label(&read, &failed, inputs, bridge);
             if !given.is_empty() {
                 let mut all: Vec<(u32, u32)> = label.iter().chain(given).copied().collect();
                 all.sort_unstable();
@@ -312,7 +335,7 @@ impl Side {
                 (Outcome::Fault(fault), Goal::Fault(text)) => fault.show(&self.program).to_string() == *text,
                 _ => false,
             };
-            leads && *self.label(&path.inputs, inputs, bridge) == wanted_label[..]
+            leads && *self.label(&path.inputs, &path.failed, inputs, bridge) == wanted_label[..]
         })?;
         Some(self.explorer.tell(&packed, &path.picks))
     }

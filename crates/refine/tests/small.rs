@@ -266,3 +266,20 @@ fn functions_over_infinite_domains_and_other_enumerations() {
     let gone = with("BUSY | IDLE | GONE", "mode := if mode = IDLE then BUSY else GONE endif");
     refuted(report(&one, &gone, Some("couple abstract.mode = concrete.mode;")));
 }
+
+#[test]
+fn an_input_may_be_derived_from_several() {
+    let one = lamp("if pressed then on := not on endif");
+    let three = |rule: &str| {
+        machine(
+            "domain Key subsetof Integer monitored key: Key -> Boolean derived all: Boolean controlled on: Boolean",
+            &format!("domain Key = {{0:2}} function all = (forall $k in Key with key($k)) main rule r_Main = {rule}"),
+            "function on = false",
+        )
+    };
+    let coupling = Some("same on; input abstract.pressed = concrete.all;");
+    assert_eq!(report(&one, &three("if all then on := not on endif"), coupling).verdict, Verdict::Refines);
+    assert_eq!(report(&one, &three("if key(0) and all then on := not on endif"), coupling).verdict, Verdict::Refines);
+    refuted(report(&one, &three("if key(0) and key(1) then on := not on endif"), coupling));
+    refuted(report(&one, &three("on := not on"), coupling));
+}
