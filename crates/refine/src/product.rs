@@ -144,7 +144,7 @@ impl<'c> Product<'c> {
         for (label, state, start) in product.begun.clone() {
             let reads = with_label(&Reads::default(), &label);
             let runs = product.initial_runs(&reads);
-            let node = product.end(None, state, &reads, 0, runs);
+            let Ok(node) = product.end(None, state, &reads, 0, &runs, None) else { unreachable!("no step is made") };
             deeds.push((Deed::Begin(start), node));
         }
         product.root = product.node(Node::Deeds(deeds));
@@ -244,26 +244,31 @@ impl<'c> Product<'c> {
         let coupling = self.judge.coupling;
         let (most, has_end) = (coupling.diagrams.most_concrete(), coupling.segment.is_some());
         let ends = self.judge.ends(&mut self.sides, state);
-        let mut ways = Vec::new();
-        if ends && let Some(longest) = coupling.diagrams.most_abstract(n) {
-            let runs = self.abstract_runs(from, reads, longest)?;
-            ways.push(self.end(Some(from), state, reads, n, runs));
-        }
-        if n < most && !(has_end && ends) {
-            ways.push(self.go_on(from, state, reads, n, memo)?);
-        } else if !ends {
-            ways.push(self.node(Node::Open(Unclear::Long)));
-        }
-        Ok(match ways[..] {
-            [only] => only,
+        let longest = coupling.diagrams.most_abstract(n).filter(|_| ends);
+        let goes_on = n < most && !(has_end && ends);
+        match longest {
+            Some(longest) => {
+                let runs = self.abstract_runs(from, reads, longest)?;
+                self.end(Some(from), state, reads, n, &runs, goes_on.then_some(memo))
+            }
+            None if goes_on => self.go_on(from, state, reads, n, memo),
+            None if !ends => Ok(self.node(Node::Open(Unclear::Long))),
             // A segment ends where no diagram does.
-            [] => self.end(Some(from), state, reads, n, AbstractRuns::default()),
-            _ => self.node(Node::Choice(ways)),
-        })
+            None => self.end(Some(from), state, reads, n, &AbstractRuns::default(), None),
+        }
     }
 
-    /// The diagram ends: what the abstract machine may have come to.
-    fn end(&mut self, from: Option<StateId>, to: StateId, reads: &Reads, n: u32, runs: AbstractRuns) -> NodeId {
+    /// The diagram may end: what the abstract machine may have come to. With `memo` it may go on as well; the abstract machine decides
+    /// when it knows the inputs.
+    fn end(
+        &mut self,
+        from: Option<StateId>,
+        to: StateId,
+        reads: &Reads,
+        n: u32,
+        runs: &AbstractRuns,
+        mut memo: Option<&mut Memo>,
+    ) -> Result<NodeId, Stopped> {
         let allowed = |m: u32, judge: &Judge<'_>| from.is_none() || judge.coupling.diagrams.allows(m, n);
         let mut matching = Vec::new();
         for run in &runs.runs {
@@ -276,7 +281,7 @@ impl<'c> Product<'c> {
         for location in asked {
             let values = &runs.values[&location];
             if valuations.len() * values.len() > VALUATIONS {
-                return self.node(Node::Open(Unclear::Valuations));
+                return Ok(self.node(Node::Open(Unclear::Valuations)));
             }
             valuations = valuations
                 .iter()
@@ -301,19 +306,25 @@ impl<'c> Product<'c> {
                     answers.push((pair, run.m));
                 }
             }
-            if !seen.insert(answers.clone()) {
+            // Where the diagram may go on, what comes then depends on the values, too.
+            if !seen.insert(answers.clone()) && memo.is_none() {
                 continue;
             }
             let mut reads = reads.as_ref().clone();
             reads.extend(valuation.iter().map(|(location, value)| (*location, BTreeSet::from([*value]))));
-            let node = Answers { from, to, reads: Rc::new(reads), n, answers, unclear: runs.unclear };
-            let node = self.node(Node::Answers(Box::new(node)));
+            let reads = Rc::new(reads);
+            let node = Answers { from, to, reads: Rc::clone(&reads), n, answers, unclear: runs.unclear };
+            let mut node = self.node(Node::Answers(Box::new(node)));
+            if let (Some(from), Some(memo)) = (from, memo.as_deref_mut()) {
+                let further = self.go_on(from, to, &reads, n, memo)?;
+                node = self.node(Node::Choice(vec![node, further]));
+            }
             deeds.push((Deed::Inputs, node));
         }
-        match deeds[..] {
+        Ok(match deeds[..] {
             [(_, only)] => only,
             _ => self.node(Node::Deeds(deeds)),
-        }
+        })
     }
 
     fn initial_runs(&mut self, reads: &Reads) -> AbstractRuns {

@@ -172,8 +172,19 @@ fn graph(program: &Arc<Program>) -> (State, Graph) {
     (first, graph)
 }
 
-/// Whether the concrete graph is simulated: one step by one or none, with finitely many waits between steps.
-fn simulated(one: &(State, Graph), other: &(State, Graph)) -> bool {
+/// The states that one or two steps lead to, each with one of these inputs.
+fn steps(graph: &Graph, from: State, inputs: &[bool], most: usize) -> BTreeSet<State> {
+    let mut last = BTreeSet::from([from]);
+    let mut all = BTreeSet::new();
+    for _ in 0..most {
+        last = last.iter().flat_map(|at| inputs.iter().flat_map(|go| graph[&(*at, *go)].clone())).collect();
+        all.extend(last.clone());
+    }
+    all
+}
+
+/// Whether the concrete graph is simulated: one step, or one or two, by at most as many, with finitely many waits between steps.
+fn simulated(one: &(State, Graph), other: &(State, Graph), most: usize) -> bool {
     let states = |graph: &Graph| graph.keys().map(|(state, _)| *state).collect::<BTreeSet<_>>();
     let mut related: BTreeSet<(State, State)> = BTreeSet::new();
     for a in states(&one.1) {
@@ -188,10 +199,18 @@ fn simulated(one: &(State, Graph), other: &(State, Graph)) -> bool {
                     continue;
                 }
                 let (a, c) = *pair;
+                let ends = |inputs: &[bool], next: State| {
+                    let there = steps(&one.1, a, inputs, most);
+                    there.into_iter().any(|there| related.contains(&(there, next)))
+                        || waits.get(&(a, next)).is_some_and(|most| *most < round)
+                };
                 let good = [false, true].into_iter().all(|go| {
                     other.1[&(c, go)].iter().all(|next| {
-                        let steps = one.1[&(a, go)].iter().any(|there| related.contains(&(*there, *next)));
-                        steps || waits.get(&(a, *next)).is_some_and(|most| *most < round)
+                        let again = |further: bool| {
+                            let mut after = other.1[&(*next, further)].iter();
+                            after.all(|last| ends(&[go, further], *last))
+                        };
+                        ends(&[go], *next) || (most > 1 && [false, true].into_iter().all(again))
                     })
                 });
                 if good {
@@ -236,6 +255,16 @@ fn again(program: &Arc<Program>, run: &refine::Run) -> Vec<State> {
 
 #[test]
 fn the_verdict_is_that_of_a_naive_judge() {
+    agree(1, "same n;");
+}
+
+#[test]
+fn so_it_is_where_diagrams_have_two_steps() {
+    agree(2, "same n; diagrams 0..2:1..2;");
+}
+
+/// With diagrams of at most so many steps.
+fn agree(most: usize, coupling: &str) {
     let cases = if std::env::var_os("GROUNDSTATE_FULL").is_some() { 2000 } else { 150 };
     let mut counts = [0; 3];
     for seed in 0..cases {
@@ -248,8 +277,8 @@ fn the_verdict_is_that_of_a_naive_judge() {
         let (one, other) = (machine_of(&abstractly), machine_of(&concretely));
         let of = |what: &str| format!("seed {seed}: {what}\nabstract {abstractly}\nconcrete {concretely}");
         let (graph_one, graph_other) = (graph(&one), graph(&other));
-        let expected = simulated(&graph_one, &graph_other);
-        let found = report(&one, &other, Some("same n;"));
+        let expected = simulated(&graph_one, &graph_other, most);
+        let found = report(&one, &other, Some(coupling));
         match found.verdict {
             Verdict::Refines => {
                 assert!(expected, "{}", of("the judge says no"));
@@ -267,7 +296,10 @@ fn the_verdict_is_that_of_a_naive_judge() {
                     assert_eq!(a[at].0, c[there].0, "{}", of("a diagram's ends differ"));
                 }
                 match refutation.ended {
-                    Ended::Unmatched { .. } => assert_eq!(there + 1, c.len() - 1, "{}", of("one step is left")),
+                    Ended::Unmatched { .. } => {
+                        let left = c.len() - 1 - there;
+                        assert!((1..=most).contains(&left), "{}", of("one diagram is left"));
+                    }
                     Ended::Waits(turn) => {
                         let steps: usize = refutation.segments[..turn].iter().map(|segment| segment.n).sum();
                         assert_eq!(c[steps], c[c.len() - 1], "{}", of("it does not come back"));
@@ -281,5 +313,5 @@ fn the_verdict_is_that_of_a_naive_judge() {
         }
     }
     // A sample in which nothing happens would say nothing.
-    assert!(counts[0] * 5 > cases && counts[1] * 5 > cases && counts[2] * 5 < cases, "{counts:?}");
+    assert!(counts[0] * 5 > cases && counts[1] * 10 > cases && counts[2] * 5 < cases, "{counts:?}");
 }
