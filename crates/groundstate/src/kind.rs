@@ -17,15 +17,17 @@ pub enum Kind {
     Report,
     /// `.verify.yaml`: what to verify in a model.
     Verification,
+    /// `.refine`: how two models correspond.
+    Coupling,
 }
 
 impl Kind {
     /// The endings, without the leading dot.
-    pub const ENDINGS: [&str; 5] = ["asm", "avalla", "chart", "report.yaml", "verify.yaml"];
+    pub const ENDINGS: [&str; 6] = ["asm", "avalla", "chart", "report.yaml", "verify.yaml", "refine"];
 
     /// The kind of a file by its name; `None` if the ending is unknown.
     pub fn of(path: &Path) -> Option<Kind> {
-        let kinds = [Kind::Model, Kind::Scenario, Kind::Chart, Kind::Report, Kind::Verification];
+        let kinds = [Kind::Model, Kind::Scenario, Kind::Chart, Kind::Report, Kind::Verification, Kind::Coupling];
         let found = Kind::ENDINGS.iter().position(|ending| has_ending(path, ending))?;
         Some(kinds[found])
     }
@@ -52,6 +54,7 @@ mod tests {
         check("a.b/Lamp.asm", Some(Kind::Model));
         check("Lamp.report.yaml", Some(Kind::Report));
         check("Lamp.verify.yaml", Some(Kind::Verification));
+        check("Lamp.refine", Some(Kind::Coupling));
         for path in ["Lamp.yaml", "report.yaml", ".asm", "asm", "Lamp.asm.txt", "Lamp.report.yml"] {
             check(path, None);
         }

@@ -6,6 +6,7 @@
 
 mod avalla;
 mod build;
+mod check_coupling;
 mod check_specification;
 mod check_verification;
 mod counterexample;
@@ -33,6 +34,7 @@ use syntax::ast::AstNode;
 use syntax::{Diagnostic, Severity, SourceFile, Sources, Span};
 
 pub use build::{BuiltChart, Located, build_chart};
+pub use check_coupling::check_coupling;
 pub use check_specification::check_specification;
 pub use check_verification::check_verification;
 pub use counterexample::{counterexample_run, counterexample_scenario};

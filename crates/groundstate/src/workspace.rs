@@ -14,7 +14,8 @@ use model::{Checked, Loader};
 use syntax::{Diagnostic, FileId, Parse, SourceFile, Stop};
 
 use crate::{
-    BuiltChart, Faulty, Kind, Loaded, Located, Suite, build_chart, check, check_specification, load, model_of, patterns,
+    BuiltChart, Faulty, Kind, Loaded, Located, Suite, build_chart, check, check_coupling, check_specification, load,
+    model_of, patterns,
 };
 
 /// Reads texts by their path.
@@ -179,7 +180,7 @@ impl<F: Files> Workspace<F> {
     }
 
     /// Checks the file at a path: a model (`.asm`), a scenario (`.avalla`), a chart (`.chart`), a report specification
-    /// (`.report.yaml`) or a verification specification (`.verify.yaml`).
+    /// (`.report.yaml`), a verification specification (`.verify.yaml`) or a coupling (`.refine`).
     ///
     /// # Errors
     /// There is no such file.
@@ -204,6 +205,7 @@ impl<F: Files> Workspace<F> {
             }
             Some(Kind::Model) => Findings::of(check(root, loader)),
             Some(Kind::Report | Kind::Verification) => specification(&root, loader),
+            Some(Kind::Coupling) => check_coupling(&root, loader),
             None => {
                 let ending = path.rsplit('.').next().unwrap_or_default();
                 Findings::not_checked(format!("the ending .{ending} is unknown"))

@@ -113,7 +113,7 @@ pub fn lenses<F: Files>(project: &mut Project<F>, path: &str) -> Vec<Lens> {
             }
             Some(Kind::Scenario) => &[("Test", Action::Test)],
             Some(Kind::Chart) => &[("Draw", Action::Draw)],
-            Some(Kind::Model | Kind::Report | Kind::Verification) | None => &[],
+            Some(Kind::Model | Kind::Report | Kind::Verification | Kind::Coupling) | None => &[],
         };
         found.extend(actions.iter().map(|(title, action)| Lens {
             range,

@@ -86,7 +86,7 @@ fn parsed(path: &str, text: &str) -> Option<Parse> {
         Kind::Model => Some(syntax::parse_asmetal(FileId(0), text)),
         Kind::Scenario => Some(syntax::parse_avalla(FileId(0), text)),
         Kind::Chart => Some(syntax::parse_chart(FileId(0), text)),
-        Kind::Report | Kind::Verification => None,
+        Kind::Report | Kind::Verification | Kind::Coupling => None,
     }
 }
 

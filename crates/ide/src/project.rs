@@ -191,7 +191,7 @@ impl<F: Files> Project<F> {
             Kind::Model => self.workspace.texts().parse(FileId(0), &source).syntax(),
             Kind::Scenario => syntax::parse_avalla(FileId(0), &source.text).syntax(),
             Kind::Chart => syntax::parse_chart(FileId(0), &source.text).syntax(),
-            Kind::Report | Kind::Verification => return None,
+            Kind::Report | Kind::Verification | Kind::Coupling => return None,
         })
     }
 
@@ -230,7 +230,8 @@ impl<F: Files> Project<F> {
                 let model = model_of(Path::new(&source.name));
                 self.over_model(source, model.file_name().map(|name| name.to_string_lossy().into_owned()))
             }
-            None => {
+            // LIMIT: nothing is known of a coupling's names.
+            Some(Kind::Coupling) | None => {
                 self.workspace.reading(|workspace| {
                     // The text is what the answers depend on.
                     _ = workspace.text(&path);

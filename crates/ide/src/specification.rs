@@ -28,7 +28,7 @@ pub(crate) fn names(model: &mut Model, file: FileId, source: &SourceFile, kind: 
         match kind {
             Kind::Report => walk.report(Fields(entries)),
             Kind::Verification => walk.bounds(Fields(entries)),
-            Kind::Model | Kind::Scenario | Kind::Chart => {}
+            Kind::Model | Kind::Scenario | Kind::Chart | Kind::Coupling => {}
         }
     }
     let mut names = walk.names;

@@ -7,6 +7,7 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use groundstate::has_ending;
 use syntax::{FileId, Parse, Severity, SourceFile, Sources};
 use wire::Answer;
 
@@ -73,6 +74,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
 }
 
 fn one(shell: &mut Shell, path: &Path, check: bool, counts: &mut Counts) -> Result<(), Failure> {
+    if has_ending(path, "refine") {
+        return Err(Failure::usage(format!("{} is a coupling, which has no layout of its own", path.display())));
+    }
     let source = read_source(path, shell.global.limits.max_file_size)?;
     let name = source.name.clone();
     let layout = layout(shell, source)?;

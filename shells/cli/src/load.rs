@@ -16,6 +16,7 @@ use crate::shell::Shell;
 pub fn load(shell: &mut Shell, path: &Path) -> Result<Result<Loaded, Exit>, Failure> {
     match path.extension().and_then(|extension| extension.to_str()) {
         Some("avalla") => return Err(another(path, "scenario", "`groundstate test` runs scenarios")),
+        Some("refine") => return Err(another(path, "coupling", "`groundstate refine` decides what it says")),
         Some("chart") => return Err(another(path, "chart", "`groundstate chart build` writes the model of a chart")),
         _ => {}
     }

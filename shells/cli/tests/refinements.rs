@@ -25,6 +25,13 @@ fn each_refinement_is_proved() {
 }
 
 #[test]
+fn couplings_are_checked_and_are_nothing_else() {
+    check(&["check", "Permit.refine", "Queue.refine", "Manage.refine"], 0, "Manage.refine: no faults");
+    check(&["run", "Manage.refine"], 2, "Manage.refine is a coupling");
+    check(&["fmt", "--check", "Manage.refine"], 2, "Manage.refine is a coupling");
+}
+
+#[test]
 fn each_wrong_sibling_is_refuted_and_its_runs_are_made_again() {
     let runs = tempfile::tempdir().expect("a temporary folder");
     let siblings: [(&str, &[&str], &str, i32, &str); 3] = [

@@ -1,6 +1,6 @@
 //! `groundstate check PATH…`: reports faults only, for every kind of file in a project.
 //!
-//! The ending tells what a file is: a model, a scenario, a chart, a report specification, a verification specification.
+//! The ending tells what a file is: a model, a scenario, a chart, a report specification, a verification specification, a coupling.
 //! INVARIANT: *no faults* is printed only for files that were checked completely. If a part could not be checked, that
 //! is printed instead, and the command ends with *not known*.
 
@@ -12,6 +12,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use groundstate::workspace::Findings;
 use groundstate::{Kind, Located, Suite, has_ending};
 use model::Model;
 use syntax::{Diagnostic, Severity, SourceFile, Sources};
@@ -27,7 +28,7 @@ use crate::shell::Shell;
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// Models (.asm), scenarios (.avalla), charts (.chart), specifications of reports (.report.yaml) or of
-    /// verifications (.verify.yaml), or folders of them
+    /// verifications (.verify.yaml), couplings (.refine), or folders of them
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
     /// Treat warnings as errors
@@ -90,6 +91,10 @@ fn look(shell: &Shell, path: &Path, root: SourceFile, suite: &mut Suite) -> Resu
         }
         Some(Kind::Chart) => return chart::look(path, root, &mut disk),
         Some(Kind::Report | Kind::Verification) => return specification::look(path, &root, &mut disk),
+        Some(Kind::Coupling) => {
+            let Findings { faults, open } = groundstate::check_coupling(&root, &mut disk);
+            return Ok(Seen { faults, open, ..Seen::default() });
+        }
         None if has_ending(path, "yaml") || has_ending(path, "yml") => return Err(specification::unnamed(path)),
         Some(Kind::Model) | None => {}
     }

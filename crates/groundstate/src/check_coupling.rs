@@ -1,0 +1,44 @@
+//! Checks a coupling file (`NAME.refine`), for `check` and for editors: its form, and if it names both models what it says of them.
+//!
+//! In: the file's text and a [`Loader`] for the models. Out: [`Findings`]. The faults of the models are theirs, and are not told here.
+
+use std::sync::Arc;
+
+use machine::Limits;
+use model::Loader;
+use program::Program;
+use refine::{Coupling, SIDES, read};
+use syntax::{FileId, SourceFile, Sources};
+
+use crate::load;
+use crate::workspace::Findings;
+
+/// Checks a coupling.
+pub fn check_coupling(root: &SourceFile, loader: &mut dyn Loader) -> Findings {
+    let written = match read(FileId(0), &root.text) {
+        Ok(written) => written,
+        Err(fault) => {
+            let mut sources = Sources::default();
+            sources.add(root.clone());
+            return Findings { faults: vec![(sources, vec![*fault])], open: None };
+        }
+    };
+    let mut programs: Vec<Arc<Program>> = Vec::new();
+    for (side, named) in written.models.iter().enumerate() {
+        let Some(named) = named else {
+            return Findings::not_checked(format!("it does not name the {} model", SIDES[side]));
+        };
+        let source = match loader.load(root, &named.text) {
+            Ok(source) => source,
+            Err(reason) => return Findings::not_checked(format!("{}: {reason}", named.text)),
+        };
+        match load(source, loader) {
+            Ok(loaded) => programs.push(loaded.program),
+            Err(_) => return Findings::not_checked(format!("{} has faults", named.text)),
+        }
+    }
+    match Coupling::new([&programs[0], &programs[1]], Some(root.clone()), &Limits::default()) {
+        Ok(_) => Findings { faults: Vec::new(), open: None },
+        Err(faulty) => Findings { faults: vec![(faulty.sources, faulty.faults)], open: None },
+    }
+}
