@@ -136,7 +136,7 @@ fn attempt(
     }
     let progress = progress_of(&product, product.pairs.len() - next);
     for side in &mut product.sides {
-        side.explorer.ignore_interrupts();
+        side.ignore_interrupts();
     }
     let is_complete = whys.0.is_empty();
     let mut diagrams = Default::default();

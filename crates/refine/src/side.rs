@@ -93,6 +93,8 @@ pub(crate) struct Side {
     place: usize,
     pub program: Arc<Program>,
     pub explorer: Explorer,
+    /// Looked at between states: diagrams may go through known ones for long.
+    interrupt: Interrupt,
     /// By input of the program: the inputs of the abstract machine that have its value.
     pub shared: FxHashMap<FunctionId, Vec<u32>>,
     /// Inputs of the abstract machine that say whether a condition on this machine's steps holds, by its number.
@@ -151,6 +153,7 @@ impl Side {
             place,
             program: Arc::clone(program),
             explorer,
+            interrupt: extent.interrupt.clone(),
             shared: FxHashMap::default(),
             watched: conditions,
             assumed,
@@ -161,6 +164,12 @@ impl Side {
             readers,
             steps: (0, 0),
         })
+    }
+
+    /// From now on nothing is interrupted; for telling what was found.
+    pub fn ignore_interrupts(&mut self) {
+        self.interrupt = Interrupt::default();
+        self.explorer.ignore_interrupts();
     }
 
     /// How many states there are.
@@ -247,6 +256,9 @@ impl Side {
         inputs: &mut Inputs,
         bridge: &Bridge,
     ) -> Result<Rc<[Move]>, Stopped> {
+        if self.interrupt.is_raised() {
+            return Err(Stopped::Interrupted);
+        }
         if let Some(known) = &self.moves[state as usize] {
             return Ok(Rc::clone(known));
         }

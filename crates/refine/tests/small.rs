@@ -283,3 +283,19 @@ fn an_input_may_be_derived_from_several() {
     refuted(report(&one, &three("if key(0) and key(1) then on := not on endif"), coupling));
     refuted(report(&one, &three("on := not on"), coupling));
 }
+
+#[test]
+fn a_search_that_nobody_waits_for_ends() {
+    let free = counter("choose $x in N with true do n := $x");
+    let text = SourceFile::new("c.refine", "same n; diagrams 1:1..40;");
+    let coupling = Coupling::new([&free, &free], Some(text), &machine::Limits::default()).expect("a coupling");
+    let mut options = Options::default();
+    let interrupt = machine::Interrupt::new();
+    options.extents.iter_mut().for_each(|extent| extent.interrupt = interrupt.clone());
+    let mut watch = |_: &refine::Progress| {
+        interrupt.raise(machine::Cause::Asked);
+        true
+    };
+    let found = refine(&coupling, &options, &mut watch).expect("it begins");
+    assert_eq!(found.verdict, Verdict::Unknown(vec![refine::Why::Stopped(machine::Cause::Asked)]));
+}
