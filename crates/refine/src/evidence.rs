@@ -7,6 +7,7 @@ use std::collections::{BTreeMap, VecDeque};
 
 use explore::Told;
 use machine::{Location, Show, Value};
+use rustc_hash::FxHashMap;
 
 use crate::game::{Lost, Solution};
 use crate::product::{Answers, Deed, Node, NodeId, PairId, Product};
@@ -92,19 +93,33 @@ pub struct Refutation {
 type Alive<'a> = &'a dyn Fn(PairId, u32) -> bool;
 
 /// How long the abstract machine survives from a node that it loses; none if it wins.
-fn survival(product: &Product<'_>, solution: &Solution, node: NodeId, alive: Alive<'_>) -> Option<u32> {
+fn survival(
+    product: &Product<'_>,
+    solution: &Solution,
+    node: NodeId,
+    alive: Alive<'_>,
+    known: &mut FxHashMap<NodeId, Option<u32>>,
+) -> Option<u32> {
+    if let Some(known) = known.get(&node) {
+        return *known;
+    }
     if solution.wins(product, node, alive) {
+        known.insert(node, None);
         return None;
     }
-    match &product.nodes[node as usize] {
-        Node::Deeds(deeds) => deeds.iter().filter_map(|(_, node)| survival(product, solution, *node, alive)).min(),
-        Node::Choice(ways) => ways.iter().filter_map(|node| survival(product, solution, *node, alive)).max(),
+    let survives = match &product.nodes[node as usize] {
+        Node::Deeds(deeds) => {
+            deeds.iter().filter_map(|(_, node)| survival(product, solution, *node, alive, known)).min()
+        }
+        Node::Choice(ways) => ways.iter().filter_map(|node| survival(product, solution, *node, alive, known)).max(),
         Node::Answers(end) => {
             let rank = |(pair, _): &(PairId, u32)| solution.lost[*pair as usize].map_or(u32::MAX, |lost| lost.rank);
             Some(end.answers.iter().map(rank).max().unwrap_or(0))
         }
         Node::Fault | Node::Open(_) => Some(0),
-    }
+    };
+    known.insert(node, survives);
+    survives
 }
 
 /// What the concrete machine does from a node that it wins: its steps, and where the diagram ends if it does.
@@ -117,8 +132,9 @@ struct Play<'p> {
 fn play<'p>(product: &'p Product<'_>, solution: &Solution, node: NodeId, alive: Alive<'_>) -> Play<'p> {
     let mut play = Play { start: None, steps: Vec::new(), end: None };
     let mut at = node;
+    let mut known = FxHashMap::default();
     loop {
-        let of = |node: NodeId| survival(product, solution, node, alive);
+        let mut of = |node: NodeId| survival(product, solution, node, alive, &mut known);
         match &product.nodes[at as usize] {
             Node::Deeds(deeds) => {
                 let best = deeds.iter().filter_map(|(deed, node)| Some((of(*node)?, deed, *node)));
@@ -321,7 +337,11 @@ pub(crate) fn used(product: &Product<'_>, solution: &Solution) -> BTreeMap<(u32,
     let mut used = BTreeMap::new();
     let mut seen = vec![false; product.pairs.len()];
     let mut queue = VecDeque::from([product.root]);
+    let mut met = vec![false; product.nodes.len()];
     while let Some(node) = queue.pop_front() {
+        if std::mem::replace(&mut met[node as usize], true) {
+            continue;
+        }
         match &product.nodes[node as usize] {
             Node::Deeds(deeds) => queue.extend(deeds.iter().map(|(_, node)| *node)),
             Node::Choice(ways) => queue.extend(ways.iter().find(|node| solution.wins(product, **node, &alive))),

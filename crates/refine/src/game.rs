@@ -7,6 +7,8 @@
 
 use std::collections::VecDeque;
 
+use rustc_hash::{FxHashMap, FxHashSet};
+
 use crate::product::{Node, NodeId, PairId, Product};
 
 /// How a pair was lost.
@@ -32,7 +34,7 @@ pub(crate) struct Solution {
 impl Solution {
     /// Whether a node is won, given which pairs are: after so many abstract steps.
     pub fn wins(&self, product: &Product<'_>, node: NodeId, alive: &dyn Fn(PairId, u32) -> bool) -> bool {
-        wins(product, node, self.hopeful, alive)
+        wins(product, node, self.hopeful, alive, &mut Known::default())
     }
 
     /// Whether a pair was still alive when this one was lost.
@@ -45,25 +47,48 @@ impl Solution {
     }
 }
 
-fn wins(product: &Product<'_>, node: NodeId, hopeful: bool, alive: &dyn Fn(PairId, u32) -> bool) -> bool {
-    match &product.nodes[node as usize] {
-        Node::Deeds(deeds) => deeds.iter().all(|(_, node)| wins(product, *node, hopeful, alive)),
-        Node::Choice(ways) => ways.iter().any(|node| wins(product, *node, hopeful, alive)),
+/// What nodes of long diagrams came to: several ways may lead to one.
+type Known = FxHashMap<NodeId, bool>;
+
+fn wins(
+    product: &Product<'_>,
+    node: NodeId,
+    hopeful: bool,
+    alive: &dyn Fn(PairId, u32) -> bool,
+    known: &mut Known,
+) -> bool {
+    if let Some(known) = known.get(&node) {
+        return *known;
+    }
+    let won = match &product.nodes[node as usize] {
+        Node::Deeds(deeds) => deeds.iter().all(|(_, node)| wins(product, *node, hopeful, alive, known)),
+        Node::Choice(ways) => ways.iter().any(|node| wins(product, *node, hopeful, alive, known)),
         Node::Answers(end) => {
             end.answers.iter().any(|(pair, m)| alive(*pair, *m)) || (hopeful && end.unclear.is_some())
         }
         Node::Fault => false,
         Node::Open(_) => hopeful,
+    };
+    if matches!(product.nodes[node as usize], Node::Deeds(_) | Node::Choice(_)) {
+        known.insert(node, won);
     }
+    won
 }
 
 /// Calls `visit` with each pair that a node ends in.
-pub(crate) fn each_answer(product: &Product<'_>, node: NodeId, visit: &mut dyn FnMut(PairId, u32)) {
-    match &product.nodes[node as usize] {
-        Node::Deeds(deeds) => deeds.iter().for_each(|(_, node)| each_answer(product, *node, visit)),
-        Node::Choice(ways) => ways.iter().for_each(|node| each_answer(product, *node, visit)),
-        Node::Answers(end) => end.answers.iter().for_each(|(pair, m)| visit(*pair, *m)),
-        Node::Fault | Node::Open(_) => {}
+fn each_answer(product: &Product<'_>, node: NodeId, visit: &mut dyn FnMut(PairId, u32)) {
+    let mut open = vec![node];
+    let mut seen = FxHashSet::default();
+    while let Some(node) = open.pop() {
+        if !seen.insert(node) {
+            continue;
+        }
+        match &product.nodes[node as usize] {
+            Node::Deeds(deeds) => open.extend(deeds.iter().map(|(_, node)| *node)),
+            Node::Choice(ways) => open.extend(ways),
+            Node::Answers(end) => end.answers.iter().for_each(|(pair, m)| visit(*pair, *m)),
+            Node::Fault | Node::Open(_) => {}
+        }
     }
 }
 
@@ -93,7 +118,9 @@ pub(crate) fn solve(product: &Product<'_>, hopeful: bool) -> Solution {
                 continue;
             }
             let won = match product.trees[pair as usize] {
-                Some(tree) => wins(product, tree, hopeful, &|pair, _| lost[pair as usize].is_none()),
+                Some(tree) => {
+                    wins(product, tree, hopeful, &|pair, _| lost[pair as usize].is_none(), &mut Known::default())
+                }
                 None => hopeful,
             };
             if !won {
@@ -123,7 +150,7 @@ pub(crate) fn solve(product: &Product<'_>, hopeful: bool) -> Solution {
             }
         }
     }
-    let won = wins(product, product.root, hopeful, &|pair, _| lost[pair as usize].is_none());
+    let won = wins(product, product.root, hopeful, &|pair, _| lost[pair as usize].is_none(), &mut Known::default());
     Solution { lost, won, hopeful }
 }
 
@@ -138,10 +165,13 @@ fn waiting(product: &Product<'_>, hopeful: bool, lost: &[Option<Lost>], parents:
         }
         let won = match product.trees[pair as usize] {
             None => true,
-            Some(tree) => wins(product, tree, hopeful, &|pair, m| match m {
-                0 => moves[pair as usize],
-                _ => lost[pair as usize].is_none(),
-            }),
+            Some(tree) => {
+                let alive = |pair: PairId, m: u32| match m {
+                    0 => moves[pair as usize],
+                    _ => lost[pair as usize].is_none(),
+                };
+                wins(product, tree, hopeful, &alive, &mut Known::default())
+            }
         };
         if won {
             moves[pair as usize] = true;
