@@ -3,7 +3,7 @@
 //! In: two programs and a coupling file's text. Out: a [`Report`]: the concrete machine refines the abstract one, or does not, with both
 //! runs side by side to the first step that nothing matches, or it is not known. Theory: E. Börger, *The ASM refinement method* (2003);
 //! G. Schellhorn, *Verification of ASM refinements using generalized forward simulation* (2001). Decided by a game on pairs of states,
-//! docs/adr/0022. It must not know files or how results are told.
+//! docs/adr/0023. It must not know files or how results are told.
 
 mod build;
 mod coupling;

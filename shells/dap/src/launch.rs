@@ -123,7 +123,7 @@ impl Launch {
             Some(Kind::Chart) => {
                 Err(format!("{path} is a chart: debug the model that `groundstate chart build` makes of it").into())
             }
-            Some(Kind::Report | Kind::Verification) | None => {
+            Some(Kind::Report | Kind::Verification | Kind::Coupling) | None => {
                 Err(format!("{path} is neither a model (.asm) nor a scenario (.avalla)").into())
             }
         }
