@@ -293,7 +293,8 @@ fn a_formula_at_fault_leaves_the_others_their_verdicts() {
     let program = model(
         "dynamic abstract domain Q\ncontrolled on: Q -> Boolean\ncontrolled c: Boolean",
         "CTLSPEC (forall $q in Q with ag(ef(on($q))))\nCTLSPEC ag(ef(c))\nLTLSPEC g(c)\n\
-         main rule r_Main = c := not c\ndefault init s0: function c = false",
+         main rule r_Main = par c := not c if false then extend Q with $q do on($q) := false endif endpar\n\
+         default init s0: function c = false",
     );
     let answers = ask(&program, &unlimited());
     let said: Vec<&OfRuns> = answers.iter().map(|(_, answer)| answer).collect();

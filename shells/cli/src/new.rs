@@ -71,7 +71,8 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         if path.extension().is_some_and(|ending| ending == "chart") {
             let model = path.with_extension("asm");
             // A template's chart has faults if the name is a word of the language.
-            let Some(built) = chart::build::build(shell, &path, &model, None)? else { return Ok(Exit::Model) };
+            let root = shell.disk().root(&path)?;
+            let Some(built) = chart::build::build(shell, root, &model, None)? else { return Ok(Exit::Model) };
             write_text(&model, &built.text)?;
         }
     }

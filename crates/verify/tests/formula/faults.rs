@@ -22,6 +22,7 @@ fn check(definitions: &str, expect: Expect) {
         dynamic abstract domain Job
         static low: Integer -> Boolean";
     let text = model(signature, &format!("function low($n in Integer) = g($n < 3)\n{definitions}"));
+    let text = text.replace("r_Main = skip", "r_Main = extend Job with $j do skip");
     let mut shown = String::new();
     for fault in read(&lowered(&text)).expect_err("a fault") {
         let at = |span: syntax::Span| text[span.start as usize..span.end as usize].to_string();

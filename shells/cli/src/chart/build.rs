@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use groundstate::BuiltChart;
 use groundstate::chart::Built;
+use syntax::SourceFile;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -26,13 +27,14 @@ pub struct Arguments {
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     super::is_chart(&arguments.file)?;
+    let root = shell.disk().root(&arguments.file)?;
     let output = arguments.output.clone().unwrap_or_else(|| arguments.file.with_extension("asm"));
     let to_stdout = output == Path::new("-");
     // An existing model is updated, but the chart itself and what it imports are never overwritten.
     overwrite::refuse(&output)?;
     let existing = if to_stdout { None } else { present_text(&output, shell.global.limits.max_file_size)? };
     let name = if to_stdout { arguments.file.with_extension("asm") } else { output.clone() };
-    let Some(built) = build(shell, &arguments.file, &name, existing.as_deref())? else {
+    let Some(built) = build(shell, root, &name, existing.as_deref())? else {
         if shell.talks() {
             shell.note(&format!("{} has faults and was not built", arguments.file.display()))?;
         }
@@ -58,8 +60,12 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
 
 /// Builds the model of a chart under a file's name, into the existing text, and shows the chart's faults. None if one of them
 /// is an error.
-pub fn build(shell: &mut Shell, chart: &Path, output: &Path, existing: Option<&str>) -> Result<Option<Built>, Failure> {
-    let root = shell.disk().root(chart)?;
+pub fn build(
+    shell: &mut Shell,
+    root: SourceFile,
+    output: &Path,
+    existing: Option<&str>,
+) -> Result<Option<Built>, Failure> {
     let BuiltChart { built, faults, .. } =
         groundstate::build_chart(root, &output.display().to_string(), existing, &mut shell.disk());
     for (sources, faults) in &faults {
