@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use groundstate::job::{self, Cancel, VerifyEvent};
 use groundstate::tell::{Story, Verdicts};
@@ -87,7 +88,12 @@ pub enum General {
     Open(BTreeSet<String>, Watch),
 }
 
-/// Lets asynchronous elaborations take any time: what holds then holds, and the states are far fewer.
+/// LIMIT: states of the search in which asynchronous elaborations take any time. Where times vary little, there may be more of them
+/// than as drawn.
+const GENERAL: u64 = 500_000;
+
+/// Lets asynchronous elaborations take any time: what holds then holds, and mostly the states are far fewer. Takes half of the time that
+/// is allowed, so that the times as they are drawn have the other half.
 pub fn general(
     shell: &mut Shell,
     system: &VerifiedSystem,
@@ -105,16 +111,17 @@ pub fn general(
     let Some((mut asked, _, terminal)) = super::ask(shell, arguments, general)? else {
         return Ok(General::Decided(Exit::World));
     };
-    let options = Options { terminal, ..(*options).clone() };
+    let options = Options { terminal, max_states: options.max_states.min(GENERAL), ..(*options).clone() };
+    let until = arguments.bounded.time.map(|seconds| Instant::now() + Duration::from_secs(seconds) / 2);
     let own = general.program.properties.len();
-    let mut violated = search(&asked.program, &options, *agents, &mut watch)?;
+    let mut violated = search(&asked.program, &options, *agents, (&mut watch, until))?;
     // What was asked may need the times as they are drawn; the rest may not.
     if matches!(violated, Searched::Violated(Subject::Property(index)) if index >= own) {
         Arc::make_mut(&mut asked.program).properties.retain({
             let mut index = 0;
             move |property| (index < own || property.kind == PropertyKind::Invar, index += 1).0
         });
-        violated = search(&asked.program, &options, *agents, &mut watch)?;
+        violated = search(&asked.program, &options, *agents, (&mut watch, until))?;
     }
     let Searched::Complete(mut report) = violated else { return Ok(General::Open(BTreeSet::new(), watch)) };
     let words = Verdicts::new(&asked.program, &asked.sources, false);
@@ -142,21 +149,22 @@ enum Searched {
     Not,
 }
 
-/// Searches until a check is violated.
+/// Searches until a check is violated, or the time is up.
 fn search(
     program: &Arc<Program>,
     options: &Options,
     agents: Option<AgentFairness>,
-    watch: &mut Watch,
+    (watch, until): (&mut Watch, Option<Instant>),
 ) -> Result<Searched, Failure> {
     let request = Request::of(program, options.clone()).fair(agents).build().map_err(conflict::conflict)?;
     // A handle of its own: another search follows.
     let job = job::verify(request, Cancel::new(), NoSolvers, job::NO_KEEPER, || true);
     let job = job.map_err(|error| Failure::usage(format!("the search cannot be started: {error}")))?;
     let mut violated = None;
+    let is_up = || until.is_some_and(|until| Instant::now() > until) || interrupt::request().is_raised();
     while let Some(event) = job.next_event() {
         match event {
-            VerifyEvent::Progress(progress) if watch.at(&progress) && !interrupt::request().is_raised() => {}
+            VerifyEvent::Progress(progress) if watch.at(&progress) && !is_up() => {}
             VerifyEvent::Progress(_) => job.cancel().cancel(),
             VerifyEvent::Violated(subject, _) => {
                 violated = Some(subject);
@@ -167,8 +175,8 @@ fn search(
     let (outcome, _) = job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0));
     Ok(match (violated, outcome) {
         (Some(subject), _) => Searched::Violated(subject),
-        (None, Ok(report)) => Searched::Complete(Box::new(report)),
-        (None, Err(_)) => Searched::Not,
+        (None, Ok(report)) if report.complete => Searched::Complete(Box::new(report)),
+        (None, _) => Searched::Not,
     })
 }
 
