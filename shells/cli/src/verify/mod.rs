@@ -305,7 +305,10 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
             teller.words.general.insert(verdict.subject);
         }
     }
-    report.unreachable.retain(|span| span.file == root || (arguments.imports && users(span.file)));
+    // Nobody wrote the rules of a model that is made of a chart.
+    report
+        .unreachable
+        .retain(|span| system.is_none() && (span.file == root || (arguments.imports && users(span.file))));
     teller.report(shell, &report, &told)?;
     match (&arguments.counterexample, &system) {
         (Some(path), Some(system)) => system::write(shell, path, &arguments.model, system, &asked, &report)?,
