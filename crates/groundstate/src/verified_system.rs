@@ -175,6 +175,8 @@ pub struct GroundRun {
     pub events: Vec<(u64, String, Event)>,
     /// Whether the last state violates the property, too; none if the ground model has no words for it.
     pub violates: Option<bool>,
+    /// Why the last step cannot be made, if that is what is wrong.
+    pub fault: Option<String>,
 }
 
 impl VerifiedSystem {
@@ -196,7 +198,12 @@ impl VerifiedSystem {
         let mut events = Vec::new();
         for (tick, step) in (0..).zip(&trace.steps) {
             given.inputs = &step.inputs;
-            events.extend(run.step(&mut given)?.into_iter().map(|(task, event)| (tick, task, event)));
+            match (run.step(&mut given), &step.fault) {
+                (Ok(made), None) => events.extend(made.into_iter().map(|(task, event)| (tick, task, event))),
+                (Err(fault), Some(_)) => return Ok(GroundRun { events, violates: None, fault: Some(fault) }),
+                (Err(fault), None) => return Err(fault),
+                (Ok(_), Some(_)) => return Err("it makes the step that the verified model cannot make".to_string()),
+            }
         }
         let violates = match formula {
             None => None,
@@ -205,7 +212,7 @@ impl VerifiedSystem {
                 Some(holds.map_err(|fault| fault.show(&ground.program).to_string())? != Value::Boolean(true))
             }
         };
-        Ok(GroundRun { events, violates })
+        Ok(GroundRun { events, violates, fault: None })
     }
 
     /// The run of a counterexample as lines: what the tasks do, and when.
@@ -219,7 +226,7 @@ impl VerifiedSystem {
         subject: Subject,
         trace: &Trace,
     ) -> Result<String, String> {
-        let GroundRun { events, violates } = self.ground_run(limits, asked, subject, trace)?;
+        let GroundRun { events, violates, fault } = self.ground_run(limits, asked, subject, trace)?;
         let tick_ns = self.chart.system.as_ref().map_or(1, |system| system.tick_ns);
         let instant = |tick: u64| chart::system::length(tick as i64, tick_ns);
         let mut out = String::new();
@@ -235,6 +242,10 @@ impl VerifiedSystem {
             last = Some(tick);
         }
         let end = instant(trace.steps.len() as u64);
+        if let Some(fault) = fault {
+            let _ = writeln!(out, "  {end:>10}  the step cannot be made: {fault}");
+            return Ok(out);
+        }
         let _ = match (violates, trace.turn) {
             (Some(true), _) => writeln!(out, "  {end:>10}  the property does not hold"),
             (Some(false), _) => return Err("the ground model keeps the property in the same run".to_string()),

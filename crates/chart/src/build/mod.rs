@@ -102,19 +102,21 @@ pub fn unverified(chart: &Chart, known: &Known) -> Vec<syntax::Diagnostic> {
 
 /// The folder of the pattern library, as the chart's imports write it.
 pub fn library(chart: &Chart) -> Option<String> {
-    let folder = |import: &String| {
-        import.replace('\\', "/").trim_end_matches(".asm").strip_suffix("ControlTask").map(str::to_string)
-    };
-    chart.imports.iter().find_map(folder)
+    chart.imports.iter().find_map(|import| folder_of_patterns(import))
+}
+
+/// The folder in an import of the module that brings all patterns.
+fn folder_of_patterns(import: &str) -> Option<String> {
+    let path = import.replace('\\', "/");
+    let folder = path.trim_end_matches(".asm").strip_suffix("ControlTask")?;
+    (folder.is_empty() || folder.ends_with('/')).then(|| folder.to_string())
 }
 
 /// The chart's system alone, with its times and without what its elaborations compute: the part of the ground model that
 /// [`verified`] is about.
 pub fn communication(chart: &Chart) -> Chart {
     let mut bare = Chart { system: chart.system.as_ref().map(system::bare), ..chart.clone() };
-    let own = |(import, _): &(String, syntax::Span)| {
-        import.replace('\\', "/").trim_end_matches(".asm").ends_with("ControlTask")
-    };
+    let own = |(import, _): &(String, syntax::Span)| folder_of_patterns(import).is_some();
     let imports = chart.imports.iter().cloned().zip(chart.places.iter().copied()).filter(own);
     (bare.imports, bare.places) = imports.unzip();
     bare

@@ -15,7 +15,6 @@ mod system;
 mod tell;
 pub mod watch;
 
-use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -266,7 +265,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
                 system::General::Open(proved, watch) => (proved, watch),
             }
         }
-        None => (BTreeSet::new(), watch),
+        None => (Vec::new(), watch),
     };
     let request = Request::of(&program, options).fair(agents).kept(arguments.checkpoint.is_some()).build();
     let request = request.map_err(conflict::conflict)?;
@@ -300,7 +299,9 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Err(trouble) => return no_start(shell, &teller, trouble),
     };
     for verdict in &mut report.verdicts {
-        if matches!(verdict.outcome, Outcome::Unknown(_)) && general.contains(&teller.words.name(verdict.subject)) {
+        if matches!(verdict.outcome, Outcome::Unknown(_))
+            && general.contains(&system::check(&teller.words, verdict.subject))
+        {
             verdict.outcome = Outcome::Holds;
             teller.words.general.insert(verdict.subject);
         }

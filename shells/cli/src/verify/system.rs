@@ -85,7 +85,7 @@ pub enum General {
     /// Everything holds, or the user has had enough.
     Decided(Exit),
     /// These checks hold; the others are still to be decided.
-    Open(BTreeSet<String>, Watch),
+    Open(Vec<Check>, Watch),
 }
 
 /// LIMIT: states of the search in which asynchronous elaborations take any time. Where times vary little, there may be more of them
@@ -106,30 +106,27 @@ pub fn general(
         && arguments.disk.is_none()
         && arguments.bounded.depth.is_none();
     let Some(general) = system.general.as_ref().filter(|_| plain) else {
-        return Ok(General::Open(BTreeSet::new(), watch));
+        return Ok(General::Open(Vec::new(), watch));
     };
-    let Some((mut asked, _, terminal)) = super::ask(shell, arguments, general)? else {
+    let Some((mut asked, beside, terminal)) = super::ask(shell, arguments, general)? else {
         return Ok(General::Decided(Exit::World));
     };
     let options = Options { terminal, max_states: options.max_states.min(GENERAL), ..(*options).clone() };
     let until = arguments.bounded.time.map(|seconds| Instant::now() + Duration::from_secs(seconds) / 2);
     let own = general.program.properties.len();
-    let mut violated = search(&asked.program, &options, *agents, (&mut watch, until))?;
+    // That some run does a thing may be true only of times that the system does not have: a formula of CTL may ask for that.
+    let mut left_out = leave_out(&mut asked, own, &|kind| kind == PropertyKind::Ctl);
+    let mut searched = search(&asked.program, &options, *agents, (&mut watch, until))?;
     // What was asked may need the times as they are drawn; the rest may not.
-    if matches!(violated, Searched::Violated(Subject::Property(index)) if index >= own) {
-        Arc::make_mut(&mut asked.program).properties.retain({
-            let mut index = 0;
-            move |property| (index < own || property.kind == PropertyKind::Invar, index += 1).0
-        });
-        violated = search(&asked.program, &options, *agents, (&mut watch, until))?;
+    if matches!(searched, Searched::Violated(Subject::Property(index)) if index >= own) {
+        left_out |= leave_out(&mut asked, own, &|kind| kind != PropertyKind::Invar);
+        searched = search(&asked.program, &options, *agents, (&mut watch, until))?;
     }
-    let Searched::Complete(mut report) = violated else { return Ok(General::Open(BTreeSet::new(), watch)) };
+    let Searched::Complete(mut report) = searched else { return Ok(General::Open(Vec::new(), watch)) };
     let words = Verdicts::new(&asked.program, &asked.sources, false);
     let hold = report.verdicts.iter().filter(|verdict| matches!(verdict.outcome, Outcome::Holds));
-    let proved: BTreeSet<String> = hold.map(|verdict| words.name(verdict.subject)).collect();
-    let all = own + arguments.invariants.len() + arguments.ctl.len() + arguments.ltl.len();
-    let is_all = asked.program.properties.iter().filter(|property| property.kind != PropertyKind::Invar).count() >= all;
-    if proved.len() < report.verdicts.len() || !is_all {
+    let proved: Vec<Check> = hold.map(|verdict| check(&words, verdict.subject)).collect();
+    if proved.len() < report.verdicts.len() || left_out {
         watch.hide();
         return Ok(General::Open(proved, watch));
     }
@@ -138,8 +135,31 @@ pub fn general(
     if shell.talks() {
         writeln!(shell.out(), "proved for asynchronous elaborations of any length")?;
     }
-    Teller::new(&asked.program, &asked.sources, false).report(shell, &report, &BTreeSet::new())?;
+    let teller = Teller::new(&asked.program, &asked.sources, false);
+    teller.assumed(shell, &super::assumed(arguments, &beside))?;
+    teller.report(shell, &report, &BTreeSet::new())?;
     Ok(General::Decided(Exit::Good))
+}
+
+/// Takes properties of these kinds out of what was asked; returns whether there were any. The model's own stay.
+fn leave_out(asked: &mut Overlay, own: usize, out: &dyn Fn(PropertyKind) -> bool) -> bool {
+    let properties = &mut Arc::make_mut(&mut asked.program).properties;
+    let asked = properties.split_off(own);
+    let before = asked.len();
+    properties.extend(asked.into_iter().filter(|property| !out(property.kind)));
+    properties.len() < own + before
+}
+
+/// A check, whatever its number among the properties: its kind and its name.
+pub type Check = (Option<PropertyKind>, String);
+
+/// The check of a subject.
+pub fn check(words: &Verdicts<'_>, subject: Subject) -> Check {
+    let kind = match subject {
+        Subject::Property(index) => Some(words.program.properties[index].kind),
+        _ => None,
+    };
+    (kind, words.name(subject))
 }
 
 /// What came of a search.
