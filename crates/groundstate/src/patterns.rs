@@ -88,6 +88,11 @@ pub fn modules() -> impl Iterator<Item = String> {
     PATTERNS.files.iter().filter_map(|(name, _)| Some(format!("{}{}", PATTERNS.folder, name.strip_suffix(".asm")?)))
 }
 
+/// The names of all files, as faults and places give them.
+pub fn names() -> impl Iterator<Item = String> {
+    LIBRARIES.iter().flat_map(|library| library.files.iter().map(|(name, _)| format!("{}{name}", library.home)))
+}
+
 /// The built-in module that a failed import may have meant.
 pub fn meant(path: &str) -> Option<String> {
     LIBRARIES.iter().find_map(|library| {

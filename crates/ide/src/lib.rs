@@ -35,7 +35,7 @@ pub use layout::{layout_in, layout_typed};
 pub use navigate::{Reference, definition, highlights, implementations, links, references};
 pub use outline::{Entry, EntryKind, outline, search};
 pub use position::{Edit, Encoding, Lines, Position, edited};
-pub use project::{Project, library_text};
+pub use project::{Project, library_names, library_text};
 pub use refactor::{Refactoring, RefactoringKind, refactorings};
 pub use rename::{Edits, prepare, rename};
 pub use report::{Fault, Report, Weight, reports};

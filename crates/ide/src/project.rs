@@ -323,3 +323,8 @@ pub fn library_text(name: &str) -> Option<SourceFile> {
     }
     patterns::is_pattern(name).then(|| patterns::pattern(name, name.rsplit('/').next()?)).flatten()
 }
+
+/// The names of the libraries that are built in, in order.
+pub fn library_names() -> Vec<String> {
+    patterns::names().chain(model::libraries().map(|name| format!("<std>/{name}.asm"))).collect()
+}

@@ -44,6 +44,7 @@ mod run;
 mod shell;
 mod sink;
 mod solver;
+mod studio;
 mod test;
 mod tracefile;
 mod verify;
@@ -107,6 +108,8 @@ enum Command {
     Lsp(lsp::Arguments),
     /// Serve a debugger: the debug adapter, over stdin and stdout
     Dap(dap::Arguments),
+    /// Draw, run and check a project in the browser
+    Studio(studio::Arguments),
     /// Measure steps per second and memory
     Bench(bench::Arguments),
     /// Write a shell's completion script for this command
@@ -160,6 +163,7 @@ fn work(arguments: Arguments) -> Exit {
         Command::Fmt(arguments) => fmt::run(&mut shell, &arguments),
         Command::Lsp(arguments) => lsp::run(&mut shell, &arguments),
         Command::Dap(arguments) => dap::run(&mut shell, &arguments),
+        Command::Studio(arguments) => studio::run(&mut shell, &arguments),
         Command::Bench(arguments) => bench::run(&mut shell, &arguments),
         Command::New(arguments) => new::run(&mut shell, &arguments),
         Command::Completions(arguments) => completions::run(&mut shell, &arguments, Arguments::command()),

@@ -34,7 +34,7 @@ pub struct Answers {
 impl Answers {
     /// A project of files on the disk, whose work can be stopped.
     pub fn new(settings: Arc<Settings>, stop: Stop) -> Answers {
-        let mut project = Project::new(Disk::default());
+        let mut project = Project::new(Disk::new(settings.within.clone()));
         project.set_stop(stop);
         Answers { project, settings, versions: BTreeMap::new(), lines: BTreeMap::new(), present: BTreeSet::new() }
     }

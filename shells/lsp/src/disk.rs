@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{ErrorKind, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use groundstate::Kind;
@@ -38,6 +38,15 @@ pub struct Folder {
 #[derive(Debug, Default)]
 pub struct Disk {
     read: BTreeMap<String, (Option<SystemTime>, u64, SourceFile)>,
+    /// Files elsewhere are as if they were not there.
+    within: Option<PathBuf>,
+}
+
+impl Disk {
+    /// The whole disk, or what is in one folder of it, links followed.
+    pub fn new(within: Option<PathBuf>) -> Disk {
+        Disk { read: BTreeMap::new(), within }
+    }
 }
 
 impl Files for Disk {
@@ -46,6 +55,11 @@ impl Files for Disk {
             ErrorKind::NotFound | ErrorKind::NotADirectory => Absent::Missing,
             _ => Absent::Unreadable(format!("{path} cannot be read: {error}")),
         };
+        if let Some(folder) = &self.within
+            && !fs::canonicalize(path).map_err(unreadable)?.starts_with(folder)
+        {
+            return Err(Absent::Missing);
+        }
         let data = fs::metadata(path).map_err(unreadable)?;
         if !data.is_file() {
             return Err(Absent::Unreadable(format!("{path} is no file")));

@@ -26,8 +26,10 @@ mod session;
 mod settings;
 mod worker;
 
+pub use disk::{Folder, project_files};
+pub use location::{path_of, uri_of};
 pub use lsp_server::Connection;
-pub use session::{Ended, serve};
+pub use session::{Ended, serve, serve_within};
 
 /// Serves one editor over stdin and stdout, until it says that it has ended.
 ///

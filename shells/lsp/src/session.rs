@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 use std::panic::{UnwindSafe, catch_unwind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 
@@ -42,9 +42,21 @@ pub enum Ended {
 /// # Errors
 /// The connection broke before the editor could say what it is.
 pub fn serve(connection: &Connection) -> Result<Ended, String> {
+    serve_files(connection, None)
+}
+
+/// The same for an editor that may see the files of one folder alone, and the built-in libraries; the folder's path is without links.
+///
+/// # Errors
+/// As [`serve`].
+pub fn serve_within(connection: &Connection, folder: &Path) -> Result<Ended, String> {
+    serve_files(connection, Some(folder.to_path_buf()))
+}
+
+fn serve_files(connection: &Connection, within: Option<PathBuf>) -> Result<Ended, String> {
     let (id, params) = connection.initialize_start().map_err(|error| error.to_string())?;
     let params: InitializeParams = serde_json::from_value(params).map_err(|error| error.to_string())?;
-    let settings = Arc::new(Settings::of(&params));
+    let settings = Arc::new(Settings { within, ..Settings::of(&params) });
     let result = json!({
         "capabilities": capabilities(&settings),
         "serverInfo": { "name": "groundstate", "version": env!("CARGO_PKG_VERSION") },
@@ -60,7 +72,7 @@ pub fn serve(connection: &Connection) -> Result<Ended, String> {
     let thread = std::thread::Builder::new().name("worker".to_string()).stack_size(STACK_BYTES);
     let thread = thread.spawn(move || worker.work(&received)).map_err(|error| error.to_string())?;
     let mut session = Session {
-        folders: settings.folders.iter().cloned().map(whole).collect(),
+        folders: settings.folders.iter().filter(|path| settings.shows(path)).cloned().map(whole).collect(),
         settings,
         pending,
         out,
@@ -285,6 +297,7 @@ impl Session {
                 .iter()
                 .any(|known| known.path == folder || known.whole && Path::new(&folder).starts_with(&known.path))
             && !path.starts_with('<')
+            && self.settings.shows(&folder)
         {
             self.folders.push(Folder { path: folder, whole: false });
             self.job(Job::Folders(self.folders.clone()));
@@ -331,7 +344,8 @@ impl Session {
     fn folders_changed(&mut self, params: &DidChangeWorkspaceFoldersParams) {
         let removed: Vec<String> = params.event.removed.iter().filter_map(|folder| path_of(&folder.uri)).collect();
         self.folders.retain(|folder| !removed.contains(&folder.path));
-        self.folders.extend(params.event.added.iter().filter_map(|folder| path_of(&folder.uri)).map(whole));
+        let added = params.event.added.iter().filter_map(|folder| path_of(&folder.uri));
+        self.folders.extend(added.filter(|path| self.settings.shows(path)).map(whole));
         self.job(Job::Folders(self.folders.clone()));
     }
 }

@@ -2,6 +2,8 @@
 //!
 //! In: the parameters of `initialize`. Out: [`Settings`]. What an editor does not mention it cannot do.
 
+use std::path::PathBuf;
+
 use ide::Encoding;
 use lsp_types::{InitializeParams, PositionEncodingKind};
 
@@ -28,6 +30,8 @@ pub struct Settings {
     pub may_panic: bool,
     /// The folders that are open.
     pub folders: Vec<String>,
+    /// Only files of this folder are read, whatever the editor says.
+    pub within: Option<PathBuf>,
 }
 
 impl Settings {
@@ -67,6 +71,14 @@ impl Settings {
             checks_folders: option("checkFolders").unwrap_or(true),
             may_panic: option("mayPanic").unwrap_or(false),
             folders,
+            within: None,
         }
+    }
+
+    /// Whether the editor may see the files of a folder.
+    pub fn shows(&self, folder: &str) -> bool {
+        self.within
+            .as_ref()
+            .is_none_or(|within| std::fs::canonicalize(folder).is_ok_and(|path| path.starts_with(within)))
     }
 }

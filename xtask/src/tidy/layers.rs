@@ -20,7 +20,8 @@ const LAYERS: &[&[&str]] = &[
     &["report"],
     &["groundstate"],
     &["ide", "properties", "wire"],
-    &["lsp", "dap", "studio", "python"],
+    &["lsp", "dap", "python"],
+    &["studio"],
     &["cli", "xtask"],
 ];
 

@@ -1,0 +1,55 @@
+//! `groundstate studio [FOLDER]`: the project in a browser; the crate `studio` is all of it.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::interrupt;
+use crate::shell::Shell;
+
+/// Arguments of `studio`.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Only browsers of this machine are answered, and only by the address that is printed. docs/studio.md is a tour."
+)]
+pub struct Arguments {
+    /// The project
+    #[arg(default_value = ".")]
+    folder: PathBuf,
+    /// The port; 0 takes one that is free
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    port: u16,
+    /// Print the address and open no browser
+    #[arg(long)]
+    no_open: bool,
+    /// Write nothing
+    #[arg(long)]
+    read_only: bool,
+}
+
+/// Runs the command.
+pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    let program = std::env::current_exe();
+    let program = program.map_err(|error| Failure::usage(format!("this program cannot find itself: {error}")))?;
+    let options = studio::Options {
+        folder: arguments.folder.clone(),
+        port: arguments.port,
+        read_only: arguments.read_only,
+        program,
+    };
+    let mut told = Ok(());
+    let started = |started: &studio::Started| {
+        let out = shell.out();
+        told = writeln!(out, "{}\n{}\nCtrl-C ends the studio.", started.folder.display(), started.address)
+            .and_then(|()| out.flush());
+        if !arguments.no_open && open::that_detached(&started.address).is_err() {
+            eprintln!("no browser could be opened: open the address yourself");
+        }
+    };
+    studio::serve(&options, started, interrupt::asked).map_err(Failure::usage)?;
+    told?;
+    Ok(Exit::Good)
+}

@@ -1,0 +1,245 @@
+//! What takes long: commands of this program, each a process of its own, for a tab.
+//!
+//! In: which command, on which file. Out: its lines as they come, and its exit code. A process can be stopped whatever it does, and what it
+//! takes too much is its own. The words of a command are made here: a browser names no options. LIMIT: processes at a time, seconds,
+//! lines and bytes of each; what is beyond is told.
+
+use std::collections::BTreeMap;
+use std::io::{BufRead, BufReader, Read};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use groundstate::Kind;
+use serde_json::{Value, json};
+use tokio::sync::mpsc::Sender;
+
+use crate::studio::{Out, Studio, notification};
+
+/// LIMIT: processes at a time.
+const AT_A_TIME: usize = 4;
+/// LIMIT: seconds of a process.
+const SECONDS: u64 = 3_600;
+/// LIMIT: lines of a process that are handed on.
+const LINES: usize = 20_000;
+/// LIMIT: bytes of a line.
+const LINE: u64 = 4 << 20;
+/// How often it is looked whether a process has ended.
+const LOOK: Duration = Duration::from_millis(10);
+/// How long a process may take to end by itself.
+const GRACE: Duration = Duration::from_secs(2);
+
+/// The processes that run.
+#[derive(Debug, Default)]
+pub struct Jobs {
+    last: AtomicU64,
+    open: Mutex<BTreeMap<u64, Running>>,
+}
+
+#[derive(Debug)]
+struct Running {
+    tab: u64,
+    is_stopped: bool,
+}
+
+impl Jobs {
+    fn open(&self) -> MutexGuard<'_, BTreeMap<u64, Running>> {
+        self.open.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Stops a job of a tab. Out: whether there is one.
+    pub fn stop(&self, tab: u64, job: u64) -> bool {
+        let mut open = self.open();
+        let found = open.get_mut(&job).filter(|running| running.tab == tab);
+        found.map(|running| running.is_stopped = true).is_some()
+    }
+
+    /// Stops what a tab has started.
+    pub fn stop_of(&self, tab: u64) {
+        self.open().values_mut().filter(|running| running.tab == tab).for_each(|running| running.is_stopped = true);
+    }
+
+    /// Stops all.
+    pub fn stop_all(&self) {
+        self.open().values_mut().for_each(|running| running.is_stopped = true);
+    }
+
+    /// Whether none runs.
+    pub fn is_idle(&self) -> bool {
+        self.open().is_empty()
+    }
+}
+
+/// The words of a command.
+///
+/// # Errors
+/// There is no such job, or it is not for such a file; a sentence.
+pub fn words(job: &str, path: &str, options: &Value) -> Result<Vec<String>, String> {
+    let kind = Kind::of(Path::new(path));
+    let is_chart = kind == Some(Kind::Chart);
+    let command: &[&str] = match job {
+        "verify" if is_chart || kind == Some(Kind::Model) => &["verify"],
+        "test" if path.is_empty() || matches!(kind, Some(Kind::Scenario | Kind::Model)) => &["test"],
+        "check" if is_chart => &["chart", "check"],
+        "check" => &["check"],
+        "build" if is_chart => &["chart", "build"],
+        "generate" if is_chart || kind == Some(Kind::Model) => &["generate", "cpp"],
+        "review" if kind == Some(Kind::Model) => &["review"],
+        "verify" | "test" | "build" | "generate" | "review" => {
+            return Err(format!("there is nothing to {job} in {path}"));
+        }
+        _ => return Err(format!("`{}` is no job", job.escape_debug())),
+    };
+    let mut words: Vec<String> = command.iter().map(|word| word.to_string()).collect();
+    // A name that begins with `-` is a name.
+    words.push(if path.is_empty() { "./".to_string() } else { format!("./{path}") });
+    let stem = path.rsplit_once('.').map_or(path, |(stem, _)| stem);
+    match job {
+        "verify" => {
+            if let Some(seconds) = options["time"].as_u64() {
+                words.extend(["--time".to_string(), seconds.min(SECONDS).to_string()]);
+            }
+            if options["first"].as_bool() == Some(true) {
+                words.push("--first".to_string());
+            }
+        }
+        "generate" => words.extend(["-o".to_string(), format!("./{stem}.generated")]),
+        _ => {}
+    }
+    words.extend(["--format".to_string(), "json".to_string()]);
+    Ok(words)
+}
+
+/// Starts a command for a tab; its lines and its end are told to the tab alone. Out: its number.
+///
+/// # Errors
+/// Too many run, or the program cannot be started; a sentence.
+pub fn start(studio: &Arc<Studio>, tab: u64, words: &[String], out: Sender<Out>) -> Result<u64, String> {
+    let number = studio.jobs.last.fetch_add(1, Ordering::Relaxed) + 1;
+    {
+        let mut open = studio.jobs.open();
+        if open.len() >= AT_A_TIME {
+            return Err(format!("{AT_A_TIME} jobs run already: stop one first"));
+        }
+        open.insert(number, Running { tab, is_stopped: false });
+    }
+    let mut command = Command::new(&studio.program);
+    command.args(words).current_dir(studio.folder.root());
+    command.env("NO_COLOR", "1").stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let started = command.spawn().map_err(|error| format!("the program cannot be started: {error}"));
+    let child = match started {
+        Ok(child) => child,
+        Err(reason) => {
+            studio.jobs.open().remove(&number);
+            return Err(reason);
+        }
+    };
+    let studio = Arc::clone(studio);
+    std::thread::spawn(move || {
+        let code = follow(&studio, number, child, &out);
+        studio.jobs.open().remove(&number);
+        _ = out.blocking_send(notification("studio/done", &json!({ "job": number, "code": code })));
+    });
+    Ok(number)
+}
+
+/// Hands on what a process writes until it ends. Out: its code; none if it was stopped.
+fn follow(studio: &Studio, number: u64, mut child: Child, out: &Sender<Out>) -> Option<i32> {
+    let left = Arc::new(AtomicU64::new(LINES as u64));
+    let mut readers = Vec::new();
+    if let Some(stdout) = child.stdout.take() {
+        let (out, left) = (out.clone(), Arc::clone(&left));
+        readers.push(std::thread::spawn(move || hand_on(number, stdout, &out, &left)));
+    }
+    if let Some(stderr) = child.stderr.take() {
+        let (out, left) = (out.clone(), Arc::clone(&left));
+        readers.push(std::thread::spawn(move || hand_on(number, stderr, &out, &left)));
+    }
+    let begun = Instant::now();
+    let mut asked: Option<Instant> = None;
+    let code = loop {
+        match child.try_wait() {
+            Ok(Some(status)) => break status.code().filter(|_| asked.is_none()),
+            Ok(None) => {}
+            Err(_) => break None,
+        }
+        let is_stopped = studio.jobs.open().get(&number).is_none_or(|running| running.is_stopped);
+        if is_stopped || begun.elapsed() > Duration::from_secs(SECONDS) || out.is_closed() {
+            match asked {
+                None => {
+                    interrupt(&mut child);
+                    asked = Some(Instant::now());
+                }
+                Some(then) if then.elapsed() > GRACE => _ = child.kill(),
+                Some(_) => {}
+            }
+        }
+        std::thread::sleep(LOOK);
+    };
+    readers.into_iter().for_each(|reader| _ = reader.join());
+    code
+}
+
+/// Asks a process to end, as Ctrl-C does: it may still say what it knows.
+#[cfg(unix)]
+fn interrupt(child: &mut Child) {
+    let asked = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    if !asked.is_ok_and(|status| status.success()) {
+        _ = child.kill();
+    }
+}
+
+#[cfg(not(unix))]
+fn interrupt(child: &mut Child) {
+    _ = child.kill();
+}
+
+/// Sends each line as it comes: an object where it is one, a text else.
+fn hand_on(number: u64, from: impl Read, out: &Sender<Out>, left: &AtomicU64) {
+    let mut from = BufReader::new(from);
+    loop {
+        let mut line = Vec::new();
+        match from.by_ref().take(LINE).read_until(b'\n', &mut line) {
+            Ok(0) | Err(_) => return,
+            Ok(_) => {}
+        }
+        let before = left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |left| Some(left.saturating_sub(1)));
+        let before = before.unwrap_or_default();
+        if before == 0 {
+            // Read on, so that the process does not wait.
+            continue;
+        }
+        let text = String::from_utf8_lossy(&line);
+        let text = text.trim_end_matches(['\n', '\r']);
+        let said = match before {
+            1 => Value::from(format!("more than {LINES} lines: the rest is not shown")),
+            _ => serde_json::from_str(text).unwrap_or_else(|_| Value::from(text)),
+        };
+        let message = notification("studio/line", &json!({ "job": number, "line": said }));
+        if out.blocking_send(message).is_err() {
+            // Nobody listens; the process is stopped by who watches it.
+            continue;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_browser_names_no_options() {
+        let check = |job: &str, path: &str, options: Value| words(job, path, &options).map(|words| words.join(" "));
+        assert_eq!(check("verify", "a/-b.chart", json!({})), Ok("verify ./a/-b.chart --format json".into()));
+        assert_eq!(
+            check("verify", "a.asm", json!({ "time": 5, "first": true, "counterexample": "/etc/x" })),
+            Ok("verify ./a.asm --time 5 --first --format json".into())
+        );
+        assert_eq!(check("build", "--help.chart", json!({})), Ok("chart build ./--help.chart --format json".into()));
+        assert_eq!(check("test", "", json!({})), Ok("test ./ --format json".into()));
+        assert_eq!(check("build", "a.asm", json!({})), Err("there is nothing to build in a.asm".into()));
+        assert_eq!(check("rm -rf", "a.asm", json!({})), Err("`rm -rf` is no job".into()));
+    }
+}

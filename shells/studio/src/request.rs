@@ -1,0 +1,192 @@
+//! The requests that begin with `studio/`: files, jobs, what is there (docs/studio.md).
+//!
+//! In: a method and parameters as JSON. Out: the answer as JSON, or a sentence for the user. It may wait for the disk.
+
+use std::process::Command;
+use std::sync::Arc;
+
+use groundstate::Kind;
+use ide::library_text;
+use lsp::{Folder as Part, project_files, uri_of};
+use serde_json::{Value, json};
+use tokio::sync::mpsc::Sender;
+
+use crate::job;
+use crate::studio::{Out, Studio};
+
+/// The version of these requests. A change that would mislead a front end raises it.
+const VERSION: u32 = 1;
+
+/// What `new` makes folders from, with the words for the user.
+const TEMPLATES: [(&str, &str); 3] = [
+    ("machine", "A control-state machine with inputs"),
+    ("system", "Tasks at several rates, and channels between them"),
+    ("robot", "A vision-based robot: a system with a camera, and its C++ program"),
+];
+
+/// Answers a request of a tab.
+///
+/// # Errors
+/// It is refused; a sentence.
+pub fn answer(
+    studio: &Arc<Studio>,
+    tab: u64,
+    out: &Sender<Out>,
+    method: &str,
+    params: &Value,
+) -> Result<Value, String> {
+    let text = |key: &str| params[key].as_str().ok_or_else(|| format!("`{key}` is a text"));
+    match method {
+        "studio/hello" => Ok(hello(studio)),
+        "studio/read" => match params["uri"].as_str() {
+            Some(uri) => {
+                let path = uri.parse().ok().and_then(|uri| lsp::path_of(&uri)).unwrap_or_default();
+                let library = library_text(&path).ok_or_else(|| format!("{uri} is no file of a library"))?;
+                Ok(json!({ "text": *library.text }))
+            }
+            None => {
+                let path = text("path")?;
+                known(path)?;
+                let (text, hash) =
+                    studio.store().read(&studio.folder, path)?.ok_or_else(|| format!("there is no {path}"))?;
+                Ok(json!({ "text": text, "hash": hash }))
+            }
+        },
+        "studio/write" => {
+            writable(studio)?;
+            let (path, content) = (text("path")?, text("text")?);
+            known(path)?;
+            let base = match &params["base"] {
+                Value::Null => None,
+                Value::String(hash) => Some(hash.as_str()),
+                _ => return Err("`base` is a hash or null".to_string()),
+            };
+            let wrote = studio.store().write(&studio.folder, path, content, base)?;
+            match &wrote {
+                crate::store::Wrote::As(hash) => {
+                    changed(studio, path, Some((content.to_string(), hash.clone())), Some(tab));
+                }
+                crate::store::Wrote::Merged(hash, text) => {
+                    changed(studio, path, Some((text.clone(), hash.clone())), Some(tab));
+                }
+                crate::store::Wrote::Not { .. } => {}
+            }
+            if base.is_none() {
+                studio.tell("studio/files", &json!({ "files": files(studio) }), None);
+            }
+            Ok(wrote.json())
+        }
+        "studio/new" => {
+            writable(studio)?;
+            create(studio, text("template")?, text("name")?)
+        }
+        "studio/job" => {
+            let (job, path) = (text("job")?, params["path"].as_str().unwrap_or_default());
+            if !path.is_empty() {
+                studio.folder.place(path)?;
+            }
+            if matches!(job, "build" | "generate") {
+                writable(studio)?;
+            }
+            let number = job::start(studio, tab, &job::words(job, path, &params["options"])?, out.clone())?;
+            Ok(json!({ "job": number }))
+        }
+        "studio/stop" => {
+            let number = params["job"].as_u64().ok_or("`job` is the number of one")?;
+            match studio.jobs.stop(tab, number) {
+                true => Ok(json!({})),
+                false => Err(format!("no job {number} of this tab runs")),
+            }
+        }
+        _ => Err(format!("{method} is not known")),
+    }
+}
+
+/// Tells other tabs what a file is now.
+pub fn changed(studio: &Studio, path: &str, now: Option<(String, String)>, but: Option<u64>) {
+    let (text, hash) = now.unzip();
+    studio.tell("studio/changed", &json!({ "path": path, "hash": hash, "text": text }), but);
+}
+
+fn writable(studio: &Studio) -> Result<(), String> {
+    match studio.read_only {
+        true => Err("this studio was started with --read-only".to_string()),
+        false => Ok(()),
+    }
+}
+
+/// Only files of the project's kinds are edited; nothing else of the folder is shown or touched.
+fn known(path: &str) -> Result<(), String> {
+    match Kind::of(std::path::Path::new(path)) {
+        Some(_) => Ok(()),
+        None => Err(format!("`{}` is no model, chart, scenario or specification", path.escape_debug())),
+    }
+}
+
+fn hello(studio: &Studio) -> Value {
+    let root = studio.folder.root();
+    let library = ide::library_names();
+    let library = library.iter().filter_map(|name| {
+        let uri = uri_of(name)?;
+        Some(json!({ "path": name, "uri": uri.as_str(), "kind": kind(name)? }))
+    });
+    json!({
+        "version": VERSION,
+        "program": env!("CARGO_PKG_VERSION"),
+        "name": root.file_name().and_then(|name| name.to_str()).unwrap_or("/"),
+        "root": uri_of(&root.to_string_lossy()).map(|uri| uri.as_str().to_string()),
+        "readOnly": studio.read_only,
+        "files": files(studio),
+        "library": library.collect::<Vec<_>>(),
+        "templates": TEMPLATES.map(|(name, title)| json!({ "name": name, "title": title })),
+    })
+}
+
+/// The files of the folder, in order.
+pub fn files(studio: &Studio) -> Vec<Value> {
+    let root = studio.folder.root().to_string_lossy().into_owned();
+    let found = project_files(&[Part { path: root, whole: true }]);
+    let of = |path: &String| {
+        let uri = uri_of(path)?;
+        let name = studio.folder.relative(std::path::Path::new(path))?;
+        Some(json!({ "path": name, "uri": uri.as_str(), "kind": kind(&name)? }))
+    };
+    found.iter().filter_map(of).collect()
+}
+
+fn kind(path: &str) -> Option<&'static str> {
+    Some(match Kind::of(std::path::Path::new(path))? {
+        Kind::Model => "model",
+        Kind::Scenario => "scenario",
+        Kind::Chart => "chart",
+        Kind::Report => "report",
+        Kind::Verification => "verification",
+        Kind::Coupling => "coupling",
+    })
+}
+
+/// A folder from a template, made by `groundstate new`.
+fn create(studio: &Studio, template: &str, name: &str) -> Result<Value, String> {
+    if !TEMPLATES.iter().any(|(known, _)| *known == template) {
+        return Err(format!("`{}` is no template", template.escape_debug()));
+    }
+    // A folder of this one, not of another.
+    if name.contains('/') {
+        return Err(format!("`{}` is no name for a folder", name.escape_debug()));
+    }
+    studio.folder.place(name)?;
+    let words = ["new", &format!("./{name}"), "--template", template, "--quiet"];
+    let made =
+        Command::new(&studio.program).args(words).current_dir(studio.folder.root()).env("NO_COLOR", "1").output();
+    let made = made.map_err(|error| format!("the program cannot be started: {error}"))?;
+    if !made.status.success() {
+        let told = String::from_utf8_lossy(&made.stderr);
+        return Err(told.trim().trim_start_matches("error: ").to_string());
+    }
+    let files = files(studio);
+    studio.tell("studio/files", &json!({ "files": files }), None);
+    let inside = format!("{name}/");
+    let mut paths = files.iter().filter_map(|file| file["path"].as_str()).filter(|path| path.starts_with(&inside));
+    let open = paths.clone().find(|path| path.ends_with(".chart")).or_else(|| paths.next());
+    Ok(json!({ "open": open }))
+}

@@ -1,0 +1,182 @@
+//! How nobody's words are lost: a text is written only over the text that its writer knew.
+//!
+//! In: a text, and the hash of the one that it was made from. Out: written; or merged with what others wrote meanwhile, line by line;
+//! or, where both changed the same lines, a conflict, and nothing is written. LIMIT: bytes of former texts that are kept for merging;
+//! what is not kept any more is a conflict.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::Arc;
+
+use serde_json::{Value, json};
+use sha1::{Digest, Sha1};
+
+use crate::folder::Folder;
+
+/// LIMIT: bytes of former texts.
+const KEPT: usize = 64 << 20;
+
+/// See the module.
+#[derive(Debug, Default)]
+pub struct Store {
+    former: BTreeMap<String, Arc<str>>,
+    order: VecDeque<String>,
+    bytes: usize,
+    /// The hash of each file as browsers know it last.
+    seen: BTreeMap<String, Option<String>>,
+}
+
+/// What became of a text.
+#[derive(Debug, PartialEq, Eq)]
+pub enum Wrote {
+    /// It is on the disk; its hash.
+    As(String),
+    /// It and what others had written are on the disk; hash and text.
+    Merged(String, String),
+    /// Nothing was written: what the file holds, its hash, and both in one text with marks around what differs.
+    Not { hash: String, theirs: String, merged: String },
+}
+
+impl Wrote {
+    /// As a browser gets it.
+    pub fn json(&self) -> Value {
+        match self {
+            Wrote::As(hash) => json!({ "hash": hash }),
+            Wrote::Merged(hash, text) => json!({ "hash": hash, "text": text }),
+            Wrote::Not { hash, theirs, merged } => {
+                json!({ "conflict": { "hash": hash, "theirs": theirs, "merged": merged } })
+            }
+        }
+    }
+}
+
+/// The hash by which a text is known.
+pub fn hash(text: &str) -> String {
+    Sha1::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+impl Store {
+    /// The text of a file and its hash, known from now on; `None` if it is not there.
+    ///
+    /// # Errors
+    /// As [`Folder::read`].
+    pub fn read(&mut self, folder: &Folder, path: &str) -> Result<Option<(String, String)>, String> {
+        let Some(text) = folder.read(path)? else {
+            self.seen.insert(path.to_string(), None);
+            return Ok(None);
+        };
+        let hash = self.know(&text);
+        self.seen.insert(path.to_string(), Some(hash.clone()));
+        Ok(Some((text, hash)))
+    }
+
+    /// Writes a text that was made from the one with the hash `base`; without one, it is a new file.
+    ///
+    /// # Errors
+    /// A new file is there already, or the disk refuses; a sentence.
+    pub fn write(&mut self, folder: &Folder, path: &str, text: &str, base: Option<&str>) -> Result<Wrote, String> {
+        let there = folder.read(path)?;
+        let Some(base) = base else {
+            return match there {
+                Some(_) => Err(format!("{path} is there already")),
+                None => self.put(folder, path, text).map(Wrote::As),
+            };
+        };
+        // A file that somebody took away is made again: its text is in the browser alone.
+        let Some(theirs) = there else { return self.put(folder, path, text).map(Wrote::As) };
+        let hash = self.know(&theirs);
+        if hash == base || theirs == text {
+            return self.put(folder, path, text).map(Wrote::As);
+        }
+        let known = self.former.get(base).cloned();
+        let merged = match &known {
+            Some(known) => diffy::merge(known, text, &theirs),
+            None => diffy::merge("", text, &theirs),
+        };
+        self.seen.insert(path.to_string(), Some(hash.clone()));
+        match (merged, known) {
+            (Ok(merged), Some(_)) => {
+                let hash = self.put(folder, path, &merged)?;
+                Ok(Wrote::Merged(hash, merged))
+            }
+            (Ok(merged) | Err(merged), _) => Ok(Wrote::Not { hash, theirs, merged }),
+        }
+    }
+
+    fn put(&mut self, folder: &Folder, path: &str, text: &str) -> Result<String, String> {
+        folder.write(path, text)?;
+        let hash = self.know(text);
+        self.seen.insert(path.to_string(), Some(hash.clone()));
+        Ok(hash)
+    }
+
+    /// Keeps a text, so that what is made from it can be merged.
+    fn know(&mut self, text: &str) -> String {
+        let hash = hash(text);
+        if !self.former.contains_key(&hash) {
+            self.former.insert(hash.clone(), text.into());
+            self.order.push_back(hash.clone());
+            self.bytes += text.len();
+            while self.bytes > KEPT
+                && self.order.len() > 1
+                && let Some(oldest) = self.order.pop_front()
+            {
+                self.bytes -= self.former.remove(&oldest).map_or(0, |text| text.len());
+            }
+        }
+        hash
+    }
+
+    /// The files that are not what browsers know of them, with what they are now.
+    pub fn changed(&mut self, folder: &Folder) -> Vec<(String, Option<(String, String)>)> {
+        let mut news = Vec::new();
+        for (path, known) in self.seen.clone() {
+            // What cannot be read now is looked at again.
+            let Ok(text) = folder.read(&path) else { continue };
+            let present = text.as_ref().map(|text| hash(text));
+            if present != known {
+                if let Some(text) = &text {
+                    self.know(text);
+                }
+                self.seen.insert(path.clone(), present.clone());
+                news.push((path, text.zip(present)));
+            }
+        }
+        news
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nobodys_words_are_lost() {
+        let place = tempfile::tempdir().expect("a folder");
+        let folder = Folder::at(place.path()).expect("it is one");
+        let mut store = Store::default();
+        let base = "a\nb\nc\nd\ne\n";
+        let Ok(Wrote::As(first)) = store.write(&folder, "x/a.asm", base, None) else { panic!("it is new") };
+        assert!(store.write(&folder, "x/a.asm", "again", None).is_err());
+        // Another program changes the end, the browser the beginning.
+        std::fs::write(place.path().join("x/a.asm"), "a\nb\nc\nd\nE\n").expect("written");
+        assert_eq!(store.changed(&folder).len(), 1);
+        assert_eq!(store.changed(&folder), []);
+        let merged = store.write(&folder, "x/a.asm", "A\nb\nc\nd\ne\n", Some(&first)).expect("merged");
+        let Wrote::Merged(second, text) = merged else { panic!("{merged:?}") };
+        assert_eq!(text, "A\nb\nc\nd\nE\n");
+        assert_eq!(folder.read("x/a.asm").expect("read").as_deref(), Some(&*text));
+        // Both change the same line: nothing is written.
+        std::fs::write(place.path().join("x/a.asm"), "1\nb\nc\nd\nE\n").expect("written");
+        let refused = store.write(&folder, "x/a.asm", "2\nb\nc\nd\nE\n", Some(&second)).expect("told");
+        let Wrote::Not { hash, theirs, merged } = refused else { panic!("{refused:?}") };
+        assert_eq!(theirs, "1\nb\nc\nd\nE\n");
+        assert!(merged.contains("<<<<<<<") && merged.contains("1\n") && merged.contains("2\n"), "{merged}");
+        assert_eq!(folder.read("x/a.asm").expect("read"), Some(theirs));
+        // The user decides.
+        let decided = store.write(&folder, "x/a.asm", "2\nb\n", Some(&hash)).expect("written");
+        assert_eq!(decided, Wrote::As(super::hash("2\nb\n")));
+        // From a text that nobody knows any more nothing is merged.
+        let unknown = store.write(&folder, "x/a.asm", "3\n", Some("0000")).expect("told");
+        assert!(matches!(unknown, Wrote::Not { .. }), "{unknown:?}");
+    }
+}

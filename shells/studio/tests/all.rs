@@ -1,0 +1,1 @@
+//! The studio as a browser meets it: over HTTP and WebSockets.
