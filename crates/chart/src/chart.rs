@@ -216,7 +216,7 @@ pub struct Arrow {
 }
 
 /// Words that begin items of a chart or stand in paths; shapes must not have these names.
-pub(crate) const WORDS: [&str; 20] = [
+pub const WORDS: [&str; 20] = [
     "control",
     "initial",
     "state",

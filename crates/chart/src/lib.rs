@@ -29,7 +29,7 @@ pub mod xml;
 
 pub use build::{Built, Known, Lengths, Unknown, build, communication, library, unbuilt, unverified, verified};
 pub use chart::{
-    Arrow, Chart, Control, End, Layout, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind,
+    Arrow, Chart, Control, End, Layout, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind, WORDS,
 };
 pub use check::{Probed, built_faults, check, probed};
 pub use dump::dump;

@@ -194,7 +194,7 @@ pub fn shape_at(node: &Node, (x, y): (f64, f64)) -> Placed {
 
 /// The arrow of an edge.
 pub fn line(edge: &Edge, points: Vec<(f64, f64)>) -> Line {
-    Line { from: edge.from, to: edge.to, points: straightened(points) }
+    Line { from: edge.from, to: edge.to, branch: edge.branch, points: straightened(points) }
 }
 
 fn label(given: &Value, of: usize, x: f64, y: f64, is_link: bool) -> Label {

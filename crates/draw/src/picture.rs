@@ -88,6 +88,8 @@ pub struct Line {
     pub from: usize,
     /// The index of the box it ends at.
     pub to: usize,
+    /// The exit of the guard it starts at.
+    pub branch: Option<bool>,
     /// The corners, each right of, left of, above or below the one before.
     pub points: Vec<(f64, f64)>,
 }

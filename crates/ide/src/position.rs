@@ -137,6 +137,20 @@ pub fn edited(text: &str, edits: &[Edit]) -> String {
     result
 }
 
+/// The one edit that takes a text to another, as short as it can be at both ends.
+pub fn difference(before: &str, after: &str) -> Option<Edit> {
+    if before == after {
+        return None;
+    }
+    let same = |(a, b): &(char, char)| a == b;
+    let start: usize = before.chars().zip(after.chars()).take_while(same).map(|(letter, _)| letter.len_utf8()).sum();
+    let (rest, new) = (&before[start..], &after[start..]);
+    let end: usize =
+        rest.chars().rev().zip(new.chars().rev()).take_while(same).map(|(letter, _)| letter.len_utf8()).sum();
+    let range = start as u32..(before.len() - end) as u32;
+    Some(Edit::new(range, &new[..new.len() - end]))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -167,5 +181,18 @@ mod tests {
     fn edits_are_made_in_any_order() {
         let edits = [Edit::new(4..5, "E"), Edit::insert(0, "<"), Edit::new(1..3, "")];
         assert_eq!(edited("abcdef", &edits), "<adEf");
+    }
+
+    #[test]
+    fn a_layout_changes_what_it_must() {
+        let check = |before: &str, after: &str| {
+            let edits: Vec<Edit> = difference(before, after).into_iter().collect();
+            assert_eq!(edited(before, &edits), after);
+            edits.first().map(|edit| edit.range)
+        };
+        assert_eq!(check("a  b", "a b"), Some((2, 3)));
+        assert_eq!(check("aaa", "aa"), Some((2, 3)));
+        assert_eq!(check("ä\r\nb", "ä\nb"), Some((2, 3)));
+        assert_eq!(check("a", "a"), None);
     }
 }

@@ -184,6 +184,17 @@ impl<F: Files> Project<F> {
         staged.map_err(|_| format!("{path} or its model has errors: mend them first"))
     }
 
+    /// The chart at a path with the patterns that it imports, as whole as its text allows.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn chart(&mut self, path: &str) -> Result<chart::Loaded, String> {
+        let source = self.text(path).map_err(|absent| absent.told(path))?;
+        let loaded = chart::load(source, &mut self.workspace.texts());
+        self.not_stopped().map_err(|absent| absent.told(path))?;
+        Ok(loaded)
+    }
+
     /// The tree of a file, whatever it means.
     pub fn tree(&mut self, path: &str) -> Option<SyntaxNode> {
         let source = self.text(path).ok()?;

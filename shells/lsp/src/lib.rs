@@ -16,6 +16,7 @@
 mod answer;
 mod background;
 mod capabilities;
+mod chart_view;
 mod disk;
 mod location;
 mod pending;

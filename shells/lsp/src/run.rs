@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use groundstate::Kind;
-use groundstate::machine::{Limits, Show};
+use groundstate::machine::{Limits, Show, Value as ModelValue};
 use groundstate::session::{Heard, Scene, Session, SessionOptions, Waits};
 use ide::{Encoding, Lines};
 use lsp_server::ErrorCode;
@@ -58,6 +58,8 @@ pub struct Sessions {
 struct Open {
     session: Session,
     texts: Texts,
+    /// What stops [`Open::resume`] when it becomes true.
+    breaks: Vec<String>,
     refused: Option<String>,
 }
 
@@ -66,6 +68,18 @@ struct Open {
 struct Texts {
     lines: BTreeMap<String, Lines>,
     encoding: Encoding,
+}
+
+/// LIMIT: terms of one request.
+const TERMS: usize = 1_000;
+
+/// The texts of terms.
+fn terms(params: &Value) -> Result<Vec<String>, Refused> {
+    let list = params["terms"].as_array().ok_or_else(|| wrong("`terms` is a list of texts"))?;
+    match list.len() > TERMS {
+        true => Err(wrong(format!("at most {TERMS} terms at a time"))),
+        false => Ok(list.iter().filter_map(Value::as_str).map(str::to_string).collect()),
+    }
 }
 
 fn wrong(message: impl Into<String>) -> Refused {
@@ -96,6 +110,11 @@ pub fn answer(
         return Ok(Value::Null);
     }
     let mut open = sessions.open.remove(&id).ok_or_else(|| wrong(format!("there is no session {id}")))?;
+    if method == "evaluate" {
+        let values = open.values(params);
+        sessions.open.insert(id, open);
+        return values;
+    }
     open.refused = None;
     let kept = open.carry_out(method, params, stop);
     let stale = open
@@ -138,12 +157,54 @@ impl Sessions {
         };
         let session = Session::open(Arc::new(scene), options).map_err(|error| failed(error.to_string()))?;
         self.last += 1;
-        self.open.insert(self.last, Open { session, texts, refused: None });
+        self.open.insert(self.last, Open { session, texts, breaks: Vec::new(), refused: None });
         Ok(self.last)
     }
 }
 
 impl Open {
+    /// The value of each term; none where there is none now.
+    fn values(&mut self, params: &Value) -> Result<Value, Refused> {
+        let terms = terms(params)?;
+        let program = Arc::clone(&self.session.scene().program);
+        let shown = |term: &String| {
+            let value = self.session.evaluate(term).ok()?;
+            Some(value.show(&program).briefly().to_string())
+        };
+        let values: Vec<Option<String>> = terms.iter().map(shown).collect();
+        Ok(serde_json::json!({ "values": values }))
+    }
+
+    /// Makes steps until a term of the breaks becomes true, the run waits for something or ends, or so many are made. Out: whether the
+    /// session goes on.
+    fn resume(&mut self, steps: u64, stop: &Stop) -> Result<bool, Refused> {
+        let mut before = self.broken();
+        for _ in 0..steps {
+            if let Err(reason) = self.session.step(1) {
+                self.refused = Some(reason);
+                return Ok(true);
+            }
+            if !self.wait(false, stop)? {
+                return Ok(false);
+            }
+            let is_done = self.refused.is_some() || !matches!(self.session.waits(), Waits::Step | Waits::Runs);
+            let now = self.broken();
+            let is_hit = now.iter().zip(&before).any(|(now, before)| *now && !before);
+            let is_wrong = self.session.moment().is_some_and(|moment| !moment.faults.is_empty());
+            if is_done || is_hit || is_wrong {
+                break;
+            }
+            before = now;
+        }
+        Ok(true)
+    }
+
+    /// Which breaks are true. What cannot be evaluated is: whoever wrote it wants to know.
+    fn broken(&mut self) -> Vec<bool> {
+        let breaks = self.breaks.clone();
+        breaks.iter().map(|term| !matches!(self.session.evaluate(term), Ok(ModelValue::Boolean(false)))).collect()
+    }
+
     /// Carries out a request. Out: whether the session goes on.
     fn carry_out(&mut self, method: &str, params: &Value, stop: &Stop) -> Result<bool, Refused> {
         let is_asking = self.session.is_asking();
@@ -172,6 +233,11 @@ impl Open {
                 let candidate = params["candidate"].as_u64().ok_or_else(|| wrong("`candidate` is a number from 0"))?;
                 session.choose(usize::try_from(candidate).unwrap_or(usize::MAX))
             }
+            "breaks" => {
+                self.breaks = terms(params)?;
+                return Ok(true);
+            }
+            "resume" => return self.resume(params["steps"].as_u64().unwrap_or(STEPS).clamp(1, STEPS), stop),
             "state" => return Ok(true),
             other => return Err(Refused::new(ErrorCode::MethodNotFound, format!("{PREFIX}{other} is not known"))),
         };
@@ -219,7 +285,7 @@ impl Open {
                 (Waiting::Input, Some(location.show(program).to_string()), offered, None)
             }
             Waits::Choice { span, candidates } => {
-                let shown = |values: &Vec<groundstate::machine::Value>| {
+                let shown = |values: &Vec<ModelValue>| {
                     values.iter().map(|value| value.show(program).briefly().to_string()).collect::<Vec<_>>().join(", ")
                 };
                 (Waiting::Choice, None, candidates.iter().take(OFFERED).map(shown).collect(), place(*span))

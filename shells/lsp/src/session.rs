@@ -154,7 +154,7 @@ impl Session {
             }
             "textDocument/formatting" => self.format(id, &params, |path, lines| {
                 let text = formatted(path, lines.text())?;
-                Ok(difference(lines.text(), &text).into_iter().collect())
+                Ok(ide::difference(lines.text(), &text).into_iter().collect())
             }),
             "textDocument/rangeFormatting" => self.format_range(id, params),
             "textDocument/onTypeFormatting" => self.format_typed(id, params),
@@ -369,36 +369,4 @@ fn formatted(path: &str, text: &str) -> Result<String, String> {
         return Err("a text with errors is not formatted".to_string());
     }
     Ok(syntax::format(&parse))
-}
-
-/// The one edit that takes a text to another, as short as it can be at both ends.
-fn difference(before: &str, after: &str) -> Option<Edit> {
-    if before == after {
-        return None;
-    }
-    let same = |(a, b): &(char, char)| a == b;
-    let start: usize = before.chars().zip(after.chars()).take_while(same).map(|(letter, _)| letter.len_utf8()).sum();
-    let (rest, new) = (&before[start..], &after[start..]);
-    let end: usize =
-        rest.chars().rev().zip(new.chars().rev()).take_while(same).map(|(letter, _)| letter.len_utf8()).sum();
-    let range = start as u32..(before.len() - end) as u32;
-    Some(Edit::new(range, &new[..new.len() - end]))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_layout_changes_what_it_must() {
-        let check = |before: &str, after: &str| {
-            let edits: Vec<Edit> = difference(before, after).into_iter().collect();
-            assert_eq!(ide::edited(before, &edits), after);
-            edits.first().map(|edit| edit.range)
-        };
-        assert_eq!(check("a  b", "a b"), Some((2, 3)));
-        assert_eq!(check("aaa", "aa"), Some((2, 3)));
-        assert_eq!(check("ä\r\nb", "ä\nb"), Some((2, 3)));
-        assert_eq!(check("a", "a"), None);
-    }
 }

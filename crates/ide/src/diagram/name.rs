@@ -1,0 +1,87 @@
+//! Names for what is drawn: made of what it shows, and taken by nothing else.
+
+use syntax::SyntaxKind;
+
+use super::{Section, Work};
+
+/// LIMIT: letters of a name that is made.
+const LENGTH: usize = 40;
+
+impl Work {
+    /// A name for a new part of the drawing that nothing there has.
+    pub(super) fn fresh_name(&self, wanted: &str, otherwise: &str) -> Result<String, String> {
+        let taken = self.names()?;
+        let base = if is_name(wanted) { wanted.to_string() } else { otherwise.to_string() };
+        if !taken.contains(&base) {
+            return Ok(base);
+        }
+        let stem = base.trim_end_matches(|c: char| c.is_ascii_digit());
+        let stem = if stem.is_empty() { otherwise } else { stem };
+        let numbered = (2..).map(|number| format!("{stem}{number}"));
+        Ok(numbered.into_iter().find(|name| !taken.contains(name)).unwrap_or(base))
+    }
+
+    /// The names of all parts of the drawing.
+    fn names(&self) -> Result<Vec<String>, String> {
+        let section = self.section()?;
+        let mut names: Vec<String> = match &section {
+            Section::Machine(machine) => {
+                machine.shapes().filter_map(|shape| shape.name()).map(|name| name.text().to_string()).collect()
+            }
+            Section::System(system) => {
+                let components = system.components().filter_map(|component| component.name());
+                let channels = system.channels().filter_map(|channel| channel.name());
+                let devices = system.devices().filter_map(|device| device.name());
+                components.chain(channels).chain(devices).map(|name| name.text().to_string()).collect()
+            }
+        };
+        // What is broken may have names that no view shows.
+        let words = section.syntax().descendants_with_tokens().filter_map(|element| element.into_token());
+        let named = words.filter(|token| token.kind() == SyntaxKind::GENERIC_ID);
+        names.extend(named.map(|token| token.text().to_string()));
+        Ok(names)
+    }
+}
+
+/// Whether a text is a name in charts.
+pub(super) fn is_name(text: &str) -> bool {
+    let fits = text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') && text.len() <= 200;
+    if !fits || !text.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        return false;
+    }
+    !chart::WORDS.contains(&text)
+}
+
+/// "Time elapsed" → timeElapsed.
+pub(super) fn in_camel_case(text: &str) -> String {
+    let mut name = String::new();
+    for word in text.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty()) {
+        let shouts = !word.chars().any(|c| c.is_ascii_lowercase());
+        let rest = if shouts { word[1..].to_ascii_lowercase() } else { word[1..].to_string() };
+        let first = &word[..1];
+        name += &if name.is_empty() { first.to_ascii_lowercase() } else { first.to_ascii_uppercase() };
+        name += &rest;
+        if name.len() > LENGTH {
+            break;
+        }
+    }
+    name
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_made_of_what_is_shown() {
+        let check = |text: &str, name: &str| assert_eq!(in_camel_case(text), name);
+        check("Time elapsed", "timeElapsed");
+        check("WRITE ON SB", "writeOnSb");
+        check("  image >= 3? ", "image3");
+        check("Größe", "grE");
+        check("", "");
+        let words = ["state", "enter", "endmachine", "yes", "exit"];
+        assert_eq!(words.map(is_name), [false; 5], "words of the grammar are no names");
+        assert!(is_name("timeElapsed") && is_name("a_1") && !is_name("1a") && !is_name("ä") && !is_name(""));
+    }
+}
