@@ -1,0 +1,89 @@
+import { expect, test } from 'vitest'
+
+import { align, distribute, snappedCorner } from './arrange'
+import { copied, pasted } from './clipboard'
+import { freeBranch, mayConnect, move, redirect, remove } from './gestures'
+import { box, drawing, line } from './testing'
+
+const shapes = () => [
+  box('off', 'circle', 0, 0, 80, 80),
+  box('pressed', 'hexagon', 0, 120, 80, 40),
+  box('on', 'circle', 0, 200, 80, 80),
+  box('enter', 'enter', 40, -40, 2, 2),
+  box('exit 1', 'exit', 40, 400, 2, 2),
+]
+
+test('a drawing without places gets all of them at the first move, but exits', () => {
+  const by = new Map([['off', [10, 0] as const]])
+  expect(move(drawing(shapes(), [], 'pattern', false), by)).toEqual({
+    kind: 'move',
+    places: { off: [50, 40], pressed: [40, 140], on: [40, 240], enter: [41, -39] },
+  })
+  expect(move(drawing(shapes()), by)).toEqual({ kind: 'move', places: { off: [50, 40] } })
+  expect(move(drawing(shapes()), new Map([['off', [0, 0] as const]]))).toBeNull()
+})
+
+test('what no chart has is refused at once', () => {
+  const pattern = drawing(shapes(), [line(0, 1)], 'pattern')
+  expect(mayConnect(pattern, { from: 'off', branch: null, to: 'enter' })).toBe('into-enter')
+  expect(mayConnect(pattern, { from: 'exit', branch: null, to: 'off' })).toBe('out-of-exit')
+  expect(mayConnect(pattern, { from: 'off', branch: null, to: 'pressed' })).toBe('there-already')
+  expect(mayConnect(pattern, { from: 'off', branch: null, to: 'exit' })).toBeNull()
+  expect(mayConnect(drawing(shapes()), { from: 'off', branch: null, to: 'exit' })).toBe('no-exit-here')
+})
+
+test('an end of an arrow moves', () => {
+  const machine = drawing(shapes(), [line(1, 2, 'yes')])
+  const [arrow] = machine.picture.lines
+  const [off, pressed] = machine.picture.boxes
+  expect(redirect(machine, arrow!, 'to', off!, null)).toEqual({
+    kind: 'redirect',
+    from: 'pressed',
+    branch: 'yes',
+    to: 'on',
+    new: { from: 'pressed', branch: 'yes', to: 'off' },
+  })
+  expect(redirect(machine, arrow!, 'from', off!, null)).toMatchObject({ new: { from: 'off', branch: null, to: 'on' } })
+  expect(redirect(machine, arrow!, 'from', pressed!, 'yes')).toBeNull()
+  expect(freeBranch(machine, pressed!)).toBe('no')
+})
+
+test('shapes go with their arrows, floating ends with theirs', () => {
+  const pattern = drawing(shapes(), [line(0, 1), line(1, 4, 'no')], 'pattern')
+  expect(remove(pattern, { boxes: ['off', 'enter'], lines: [0] })).toEqual([{ kind: 'delete', ids: ['off'] }])
+  expect(remove(pattern, { boxes: ['exit 1'], lines: [] })).toEqual([
+    { kind: 'disconnect', from: 'pressed', branch: 'no', to: 'exit' },
+  ])
+})
+
+test('what is copied is pasted with the arrows between', () => {
+  const machine = drawing(shapes(), [line(0, 1), line(1, 2, 'yes')])
+  const text = copied(machine, ['off', 'pressed'])
+  const operation = pasted(text!, null)
+  expect(operation).toMatchObject({
+    kind: 'paste',
+    shapes: [
+      { id: 'off', shape: 'state', at: [80, 80] },
+      { id: 'pressed', shape: 'guard', at: [80, 180] },
+    ],
+    arrows: [{ from: 'off', branch: null, to: 'pressed' }],
+  })
+  expect(pasted('some text', null)).toBeNull()
+  expect(pasted('{"kind":"other"}', null)).toBeNull()
+  expect(copied(machine, ['enter'])).toBeNull()
+})
+
+test('shapes are aligned and distributed', () => {
+  const rects = new Map([
+    ['a', { x: 0, y: 0, width: 10, height: 10 }],
+    ['b', { x: 7, y: 30, width: 20, height: 10 }],
+    ['c', { x: 3, y: 100, width: 10, height: 10 }],
+  ])
+  expect([...align(rects, 'left')]).toEqual([
+    ['b', [-7, 0]],
+    ['c', [-3, 0]],
+  ])
+  expect([...distribute(rects, 'y')]).toEqual([['b', [0, 20]]])
+  expect(align(new Map(), 'top').size).toBe(0)
+  expect(snappedCorner({ x: 3, y: 4, width: 30, height: 30 })).toEqual([5, 5])
+})

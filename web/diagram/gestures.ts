@@ -1,0 +1,130 @@
+// What hands do on the canvas → operations of the contract.
+//
+// In: a drawing and a gesture (shapes were moved by so much, an arrow was drawn, keys). Out: an operation, or a reason why there
+// is none. The meaning of an operation for the text is the server's.
+
+import { type Point, centre } from './geometry'
+import type { Arrow, Box, Branch, Drawing, Figure, Line, Operation, Shape } from './protocol'
+import type { Selection } from './pick'
+
+const rounded = (value: number): number => Math.round(value)
+
+// Moves shapes. A drawing without places gets all of them, so that nothing else jumps.
+export function move(drawing: Drawing, by: ReadonlyMap<string, Point>): Operation | null {
+  const places: Record<string, [number, number]> = {}
+  for (const box of drawing.picture.boxes) {
+    const moved = by.get(box.id)
+    const [dx, dy] = moved ?? [0, 0]
+    if (box.figure === 'exit') continue
+    if (!drawing.placed || dx !== 0 || dy !== 0) {
+      const [cx, cy] = centre(box)
+      places[box.id] = [rounded(cx + dx), rounded(cy + dy)]
+    }
+  }
+  const real = [...by].some(([id, [dx, dy]]) => (dx !== 0 || dy !== 0) && id in places)
+  return real ? { kind: 'move', places } : null
+}
+
+const SHAPES: Record<Figure, Shape | null> = {
+  circle: 'state',
+  hexagon: 'guard',
+  rectangle: 'action',
+  block: 'instance',
+  enter: null,
+  exit: null,
+  component: 'component',
+  channel: 'channel',
+  device: 'sensor',
+}
+
+export const shapeOf = (box: Box): Shape | null => SHAPES[box.figure]
+
+// The name that the contract has for an end: `exit 1` is `exit`.
+export const endOf = (box: Box): string => (box.figure === 'exit' ? 'exit' : box.id)
+
+export const arrowOf = (drawing: Drawing, line: Line): Arrow | null => {
+  const from = drawing.picture.boxes[line.from]
+  const to = drawing.picture.boxes[line.to]
+  return from && to ? { from: endOf(from), branch: line.branch, to: endOf(to) } : null
+}
+
+export type Refusal = 'into-enter' | 'out-of-exit' | 'there-already' | 'no-exit-here' | 'to-itself'
+
+// Whether an arrow may be drawn at all; what is more subtle is the server's to refuse.
+export function mayConnect(drawing: Drawing, arrow: Arrow): Refusal | null {
+  if (arrow.to === 'enter') return 'into-enter'
+  if (arrow.from === 'exit') return 'out-of-exit'
+  if (arrow.to === 'exit' && drawing.kind !== 'pattern') return 'no-exit-here'
+  if (arrow.from === arrow.to && drawing.kind === 'system') return 'to-itself'
+  const known = drawing.picture.lines.some((line) => {
+    const there = arrowOf(drawing, line)
+    return there && there.from === arrow.from && there.branch === arrow.branch && there.to === arrow.to
+  })
+  return known ? 'there-already' : null
+}
+
+export const connect = (arrow: Arrow): Operation => ({ kind: 'connect', ...arrow })
+
+export function redirect(drawing: Drawing, line: Line, end: 'from' | 'to', box: Box, branch: Branch): Operation | null {
+  const old = arrowOf(drawing, line)
+  if (!old) return null
+  const fresh: Arrow =
+    end === 'to'
+      ? { ...old, to: endOf(box) }
+      : { ...old, from: endOf(box), branch: box.figure === 'hexagon' ? (branch ?? old.branch ?? 'yes') : null }
+  if (fresh.from === old.from && fresh.to === old.to && fresh.branch === old.branch) return null
+  return { kind: 'redirect', ...old, new: fresh }
+}
+
+// Deletes what is selected: shapes in one operation, else arrows one by one. Floating ends go with their arrows.
+export function remove(drawing: Drawing, selection: Selection): Operation[] {
+  const ids = selection.boxes.filter((id) => {
+    const box = drawing.picture.boxes.find((box) => box.id === id)
+    return box && box.figure !== 'enter' && box.figure !== 'exit'
+  })
+  if (ids.length > 0) return [{ kind: 'delete', ids }]
+  const lines = new Set(selection.lines)
+  drawing.picture.lines.forEach((line, index) => {
+    const to = drawing.picture.boxes[line.to]
+    const from = drawing.picture.boxes[line.from]
+    if ((to?.figure === 'exit' && selection.boxes.includes(to.id)) || (from?.figure === 'enter' && selection.boxes.includes(from.id)))
+      lines.add(index)
+  })
+  const out: Operation[] = []
+  for (const index of lines) {
+    const line = drawing.picture.lines[index]
+    const arrow = line && arrowOf(drawing, line)
+    if (arrow) out.push({ kind: 'disconnect', ...arrow })
+  }
+  return out
+}
+
+// The branch that a new arrow from a shape takes: a guard's first free exit.
+export function freeBranch(drawing: Drawing, box: Box): Branch {
+  if (box.figure !== 'hexagon') return null
+  const index = drawing.picture.boxes.indexOf(box)
+  const taken = drawing.picture.lines.filter((line) => line.from === index).map((line) => line.branch)
+  return taken.includes('yes') && !taken.includes('no') ? 'no' : 'yes'
+}
+
+// Which shapes a kind of drawing can have, in the order of the palette, with their keys.
+export interface Tool {
+  shape: Shape
+  key: string
+}
+
+export function toolsFor(kind: Drawing['kind']): Tool[] {
+  return kind === 'system'
+    ? [
+        { shape: 'component', key: 'c' },
+        { shape: 'channel', key: 'h' },
+        { shape: 'sensor', key: 's' },
+        { shape: 'actuator', key: 'a' },
+      ]
+    : [
+        { shape: 'state', key: 's' },
+        { shape: 'guard', key: 'g' },
+        { shape: 'action', key: 'a' },
+        { shape: 'instance', key: 'i' },
+      ]
+}

@@ -1,0 +1,222 @@
+// The messages between the browser and the server: the types of what `groundstate studio` sends and takes.
+//
+// Owns: names and shapes of requests, answers and notifications; no behaviour. Positions are those of the Language Server
+// Protocol: lines from 0, columns in UTF-16 units. Lengths are CSS pixels, to the right and down.
+
+export interface Position {
+  line: number
+  character: number
+}
+
+export interface Range {
+  start: Position
+  end: Position
+}
+
+export interface Place {
+  uri: string
+  range: Range
+}
+
+export interface TextEdit {
+  range: Range
+  newText: string
+}
+
+export type Kind = 'model' | 'scenario' | 'chart' | 'report' | 'verification' | 'coupling'
+
+export interface File {
+  path: string
+  uri: string
+  kind: Kind
+}
+
+export interface Template {
+  name: string
+  title: string
+}
+
+export interface Hello {
+  version: 1
+  name: string
+  root: string
+  readOnly: boolean
+  files: File[]
+  library: File[]
+  templates: Template[]
+}
+
+export interface Conflict {
+  hash: string
+  theirs: string
+  merged: string
+}
+
+export type Written = { hash: string; text?: string; conflict?: undefined } | { conflict: Conflict }
+
+export interface Changed {
+  path: string
+  hash: string
+  text: string | null
+}
+
+export type JobKind = 'verify' | 'test' | 'build' | 'check' | 'generate' | 'cover'
+
+// Pictures of charts.
+
+export type Figure =
+  | 'circle'
+  | 'hexagon'
+  | 'rectangle'
+  | 'block'
+  | 'enter'
+  | 'exit'
+  | 'component'
+  | 'channel'
+  | 'device'
+
+export interface Detail {
+  id: string | null
+  text: string
+  right: string | null
+}
+
+export interface Box {
+  id: string
+  figure: Figure
+  dashed: boolean
+  initial: boolean
+  lines: string[]
+  details: Detail[]
+  x: number
+  y: number
+  width: number
+  height: number
+  label: string
+  link: string | null
+  refine: null | { by: string | null }
+  of: string | null
+  opens: null | { uri: string; name: string }
+  range: Range | null
+  nameRange: Range | null
+}
+
+export type Branch = 'yes' | 'no' | null
+
+export interface Line {
+  from: number
+  to: number
+  branch: Branch
+  points: [number, number][]
+  range: Range | null
+}
+
+export interface Label {
+  of: number
+  text: string
+  isLink: boolean
+  x: number
+  y: number
+  width: number
+  height: number
+}
+
+export interface Picture {
+  left: number
+  top: number
+  width: number
+  height: number
+  boxes: Box[]
+  lines: Line[]
+  labels: Label[]
+}
+
+export interface Drawing {
+  name: string
+  kind: 'machine' | 'pattern' | 'system'
+  title: string
+  link: string | null
+  range: Range
+  placed: boolean
+  picture: Picture
+  control: null | { term: string; states: Record<string, string> }
+}
+
+export interface Pictures {
+  version: 1
+  drawings: Drawing[]
+  problems: string[]
+}
+
+// Operations on a drawing.
+
+export type Shape = 'state' | 'guard' | 'action' | 'instance' | 'component' | 'channel' | 'sensor' | 'actuator'
+
+export interface Arrow {
+  from: string
+  branch: Branch
+  to: string
+}
+
+export interface PastedShape {
+  id: string
+  shape: Shape
+  text: string
+  link: string | null
+  of: string | null
+  at: [number, number]
+}
+
+export type Operation =
+  | { kind: 'move'; places: Record<string, [number, number]> }
+  | { kind: 'add'; shape: Shape; at: [number, number]; text?: string; of?: string; from?: string; to?: string }
+  | ({ kind: 'connect' } & Arrow)
+  | ({ kind: 'disconnect' } & Arrow)
+  | ({ kind: 'redirect' } & Arrow & { new: Arrow })
+  | { kind: 'delete'; ids: string[] }
+  | { kind: 'text'; id: string; text: string | null }
+  | { kind: 'link'; id: string; link: string | null }
+  | { kind: 'refine'; id: string; refine: null | { by: string | null } }
+  | { kind: 'initial'; id: string }
+  | { kind: 'machine'; name: string; pattern: boolean; title: string }
+  | { kind: 'layout' }
+  | { kind: 'paste'; shapes: PastedShape[]; arrows: Arrow[] }
+
+export interface Edited {
+  edits: TextEdit[]
+  select: string[]
+}
+
+// Running.
+
+export interface Update {
+  location: string
+  before: string
+  after: string
+  at: Place
+}
+
+export interface SessionFault {
+  id: string
+  message: string
+  at: Place
+  related: { text: string; at: Place }[]
+}
+
+export interface SessionState {
+  version: number
+  session: number
+  step: number
+  waiting: 'step' | 'input' | 'choice' | 'nothing'
+  word: string | null
+  offered: string[]
+  at: Place | null
+  state: Record<string, string> | [string, string][]
+  updates: Update[]
+  unchanged: Place[]
+  rules: { name: string; at: Place }[]
+  faults: SessionFault[]
+  next: Place | null
+  refused: string | null
+  stale: boolean
+}
