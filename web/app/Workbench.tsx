@@ -1,0 +1,249 @@
+// The workbench: files at the left, the open file in the middle, panels below; notices, dialogs, the tour.
+//
+// Owns: what is where, sizes, the address of what is in front. In: the server and its greeting.
+
+import { type ReactNode, Suspense, lazy, useCallback, useEffect, useMemo, useState } from 'react'
+
+import '@xyflow/react/dist/base.css'
+import './shell.css'
+import './controls.css'
+import './dialogs.css'
+import './figures.css'
+import './canvas.css'
+import './inspector.css'
+import './panels.css'
+import './conflict.css'
+import type { Hello } from '../diagram/protocol'
+import { Canvas } from '../editor/Canvas'
+import type { Chart } from '../editor/chart'
+import { CheckPanel } from '../editor/CheckPanel'
+import { Dialogs } from '../editor/Dialogs'
+import type { Doc } from '../editor/document'
+import { Icon } from '../editor/icons'
+import { Inspector } from '../editor/Inspector'
+import { Problems, counted } from '../editor/Problems'
+import { RunPanel } from '../editor/RunPanel'
+import type { Server } from '../editor/server'
+import { useStore } from '../editor/store'
+import { type Panel, Studio } from '../editor/studio'
+import { TextPane } from '../editor/TextPane'
+import { words } from '../words'
+import { commands, shortcut } from './commands'
+import { Sidebar, fileName, kindIcon } from './Sidebar'
+import { Splitter } from './Splitter'
+import { TopBar } from './TopBar'
+import { Tour } from './Tour'
+import { Welcome } from './Welcome'
+import { useAddress } from './address'
+
+const Conflict = lazy(() => import('../editor/Conflict'))
+
+let studio: Studio | null = null
+
+export default function Workbench({ server, hello }: { server: Server; hello: Hello }): ReactNode {
+  // One studio for the life of the page.
+  studio ??= new Studio(server, hello)
+  return <Bench studio={studio} />
+}
+
+function Bench({ studio }: { studio: Studio }): ReactNode {
+  const active = useStore(studio.store, (state) => state.active)
+  const opened = useStore(studio.store, (state) => state.opened)
+  const dialog = useStore(studio.store, (state) => state.dialog)
+  const online = useStore(studio.store, (state) => state.online)
+  const [sidebar, setSidebar] = useState(window.innerWidth >= 1100)
+  useAddress(studio)
+  useEffect(() => {
+    const key = (event: KeyboardEvent): void => shortcut(studio, event)
+    window.addEventListener('keydown', key, true)
+    return () => window.removeEventListener('keydown', key, true)
+  }, [studio])
+  const doc = studio.doc(active)
+  const chart = studio.chart(active)
+  const all = useMemo(() => commands(studio), [studio, active, opened, dialog])
+  return (
+    <div className={`bench${sidebar ? '' : ' no-sidebar'}`}>
+      <TopBar studio={studio} sidebar={sidebar} showSidebar={() => setSidebar(true)} />
+      {sidebar && <Sidebar studio={studio} hide={() => setSidebar(false)} />}
+      <main className="middle">
+        <Tabs studio={studio} />
+        {online === 'closed' && (
+          <div className="offline" role="alert">
+            <Icon name="warning" size={14} />
+            {words.shell.offline}
+          </div>
+        )}
+        <div className="stage">{doc ? <Editor key={doc.file.uri} studio={studio} doc={doc} chart={chart} /> : <Welcome studio={studio} />}</div>
+        <Panels studio={studio} />
+      </main>
+      <Notice studio={studio} />
+      <Dialogs studio={studio} commands={all} />
+      <Tour />
+    </div>
+  )
+}
+
+function Tabs({ studio }: { studio: Studio }): ReactNode {
+  const tabs = useStore(studio.store, (state) => state.tabs)
+  const active = useStore(studio.store, (state) => state.active)
+  useStore(studio.store, (state) => state.opened)
+  if (tabs.length === 0) return null
+  return (
+    <div className="tabs" role="tablist" aria-label={words.shell.tabs}>
+      {tabs.map((uri) => {
+        const file = studio.doc(uri)?.file
+        if (!file) return null
+        const name = fileName(file)
+        return (
+          <div key={uri} className={`tab ${file.kind}${uri === active ? ' on' : ''}`} role="presentation">
+            <button
+              role="tab"
+              aria-selected={uri === active}
+              title={file.path}
+              onClick={() => void studio.open(uri)}
+              onAuxClick={(event) => event.button === 1 && studio.close(uri)}
+            >
+              <Icon name={kindIcon(file)} size={14} />
+              {name}
+            </button>
+            <button className="tab-close" tabIndex={-1} aria-label={words.shell.closeTab(name)} onClick={() => studio.close(uri)}>
+              <Icon name="close" size={12} />
+            </button>
+          </div>
+        )
+      })}
+    </div>
+  )
+}
+
+function Editor({ studio, doc, chart }: { studio: Studio; doc: Doc; chart: Chart | undefined }): ReactNode {
+  const layout = useStore(studio.store, (state) => state.layout)
+  const conflict = useStore(doc.store, (state) => state.sync.conflict !== null)
+  const [share, setShare] = useState(() => Number(localStorage.getItem('groundstate-share') ?? 0.6))
+  const resize = useCallback((next: number) => {
+    const kept = Math.min(0.8, Math.max(0.25, next))
+    localStorage.setItem('groundstate-share', String(kept))
+    setShare(kept)
+  }, [])
+  if (conflict) {
+    return (
+      <Suspense fallback={null}>
+        <Conflict doc={doc} />
+      </Suspense>
+    )
+  }
+  if (!chart) return <TextPane studio={studio} doc={doc} />
+  const both = layout === 'both'
+  return (
+    <div className="editor" style={both ? { gridTemplateColumns: `minmax(280px, ${share}fr) 5px minmax(240px, ${1 - share}fr)` } : undefined}>
+      {layout !== 'text' && (
+        <section className="picture-pane">
+          <Drawings studio={studio} chart={chart} />
+          <Canvas studio={studio} chart={chart} />
+          <Inspector studio={studio} chart={chart} />
+        </section>
+      )}
+      {both && <Splitter axis="x" resize={resize} />}
+      {layout !== 'picture' && <TextPane studio={studio} doc={doc} />}
+    </div>
+  )
+}
+
+function Drawings({ studio, chart }: { studio: Studio; chart: Chart }): ReactNode {
+  const pictures = useStore(chart.store, (state) => state.pictures)
+  const shown = useStore(chart.store, (state) => state.shown)
+  const drawings = pictures?.drawings ?? []
+  const turn = (name: string): void => {
+    studio.store.set({ trail: [] })
+    chart.turnTo(name)
+    void studio.runner.evaluate()
+  }
+  return (
+    <div className="drawings" role="tablist" aria-label={words.shell.drawings}>
+      {drawings.map((drawing) => (
+        <button key={drawing.name} role="tab" className={drawing.kind} aria-selected={drawing.name === shown} onClick={() => turn(drawing.name)}>
+          <Icon name={drawing.kind === 'pattern' ? 'instance' : drawing.kind === 'system' ? 'component' : 'state'} size={14} />
+          {drawing.title || drawing.name}
+        </button>
+      ))}
+      {!chart.doc.readOnly && (
+        <button
+          className="quiet"
+          title={words.canvas.newMachine}
+          aria-label={words.canvas.newMachine}
+          onClick={() => studio.store.set({ dialog: { kind: 'machine', uri: chart.doc.file.uri } })}
+        >
+          <Icon name="plus" size={14} />
+        </button>
+      )}
+    </div>
+  )
+}
+
+const PANELS: { panel: Panel; icon: string }[] = [
+  { panel: 'problems', icon: 'warning' },
+  { panel: 'run', icon: 'play' },
+  { panel: 'check', icon: 'shield' },
+]
+
+function Panels({ studio }: { studio: Studio }): ReactNode {
+  const panel = useStore(studio.store, (state) => state.panel)
+  const problems = useStore(studio.store, counted)
+  const running = useStore(studio.jobs.store, (state) => state.jobs.some((job) => job.running))
+  const session = useStore(studio.runner.store, (state) => state.session !== null)
+  const [height, setHeight] = useState(() => Number(localStorage.getItem('groundstate-panel') ?? 250))
+  const resize = useCallback((_: number, event: PointerEvent) => {
+    const kept = Math.min(window.innerHeight * 0.7, Math.max(110, window.innerHeight - event.clientY - 32))
+    localStorage.setItem('groundstate-panel', String(Math.round(kept)))
+    setHeight(kept)
+  }, [])
+  return (
+    <section className="panels">
+      {panel && <Splitter axis="y" resize={resize} />}
+      <div className="panel-tabs" role="tablist" aria-label={words.shell.panels.problems}>
+        {PANELS.map(({ panel: one, icon }) => (
+          <button key={one} role="tab" aria-selected={panel === one} onClick={() => studio.store.set({ panel: panel === one ? null : one })}>
+            <Icon name={icon} size={13} />
+            {words.shell.panels[one]}
+            {one === 'problems' && problems > 0 && <span className="count">{problems}</span>}
+            {((one === 'check' && running) || (one === 'run' && session)) && <span className="busy-dot" aria-hidden="true" />}
+          </button>
+        ))}
+        <span className="grow" />
+        {panel && (
+          <button className="quiet" title={words.shell.closePanel} aria-label={words.shell.closePanel} onClick={() => studio.store.set({ panel: null })}>
+            <Icon name="close" size={14} />
+          </button>
+        )}
+      </div>
+      {panel && (
+        <div className="panel" role="tabpanel" aria-label={words.shell.panels[panel]} style={{ height }}>
+          {panel === 'problems' && <Problems studio={studio} />}
+          {panel === 'run' && <RunPanel studio={studio} />}
+          {panel === 'check' && <CheckPanel studio={studio} />}
+        </div>
+      )}
+    </section>
+  )
+}
+
+const NOTICE_MS = 6000
+
+function Notice({ studio }: { studio: Studio }): ReactNode {
+  const notice = useStore(studio.store, (state) => state.notice)
+  useEffect(() => {
+    if (!notice) return
+    const timer = setTimeout(() => studio.store.set({ notice: null }), NOTICE_MS)
+    return () => clearTimeout(timer)
+  }, [notice, studio])
+  if (!notice) return null
+  return (
+    <div key={notice.count} className={`notice ${notice.tone}`} role={notice.tone === 'refused' ? 'alert' : 'status'}>
+      <Icon name={notice.tone === 'refused' ? 'warning' : 'check'} size={15} />
+      <span>{notice.text}</span>
+      <button className="quiet" aria-label={words.shell.dismiss} onClick={() => studio.store.set({ notice: null })}>
+        <Icon name="close" size={13} />
+      </button>
+    </div>
+  )
+}

@@ -1,0 +1,116 @@
+// The commands of the studio, for Ctrl K, menus and keys.
+//
+// In: the studio. Out: names with what they do, those that fit what is open.
+
+import { formatDocument } from '@codemirror/lsp-client'
+
+import type { JobKind } from '../diagram/protocol'
+import { startRun } from '../editor/RunPanel'
+import type { Command } from '../editor/Search'
+import type { Layout, Studio } from '../editor/studio'
+import { words } from '../words'
+import { following, setTheme, theme } from './theme'
+
+// The jobs that fit a file; verification and tests of a chart are those of its model.
+export function jobsFor(studio: Studio, uri: string | null): { job: JobKind; act: () => void }[] {
+  const file = uri === null ? undefined : studio.file(uri)
+  if (!file || studio.isLibrary(file.uri)) return []
+  const start = (job: JobKind, at = file) => ({ job, act: () => void studio.jobs.start(job, at) })
+  switch (file.kind) {
+    case 'chart': {
+      const model = studio.sibling(file, 'asm')
+      return [start('build'), ...(model ? [start('check'), start('verify', model), start('generate', model)] : [start('verify')])]
+    }
+    case 'model':
+      return [start('verify'), start('test'), start('cover'), start('generate')]
+    case 'scenario':
+      return [start('test'), start('cover')]
+    default:
+      return []
+  }
+}
+
+export function commands(studio: Studio): Command[] {
+  const { active } = studio.store.get()
+  const show = (layout: Layout) => () => studio.store.set({ layout })
+  const chart = studio.chart(active)
+  const doc = studio.doc(active)
+  const all: Command[] = [
+    { name: words.commands.run, icon: 'play', key: 'F5', act: () => void startRun(studio) },
+    ...jobsFor(studio, active).map(({ job, act }) => ({ name: words.jobs[job], icon: jobIcons[job], act })),
+  ]
+  if (chart && active !== null && !chart.doc.readOnly) {
+    all.push(
+      { name: words.commands.newMachine, icon: 'plus', act: () => studio.store.set({ dialog: { kind: 'machine', uri: active } }) },
+      { name: words.commands.autoLayout, icon: 'layout', act: () => void chart.operate({ kind: 'layout' }) },
+    )
+  }
+  if (doc && !doc.readOnly) all.push({ name: words.commands.format, icon: 'text', key: 'Shift Alt F', act: () => void formatDocument(doc.view) })
+  all.push(
+    { name: words.commands.newProject, icon: 'plus', act: () => studio.store.set({ dialog: { kind: 'new' } }) },
+    { name: words.commands.problems, icon: 'warning', act: () => studio.store.set({ panel: 'problems' }) },
+    { name: words.commands.layoutBoth, icon: 'both', key: 'Ctrl 1', act: show('both') },
+    { name: words.commands.layoutPicture, icon: 'picture', key: 'Ctrl 2', act: show('picture') },
+    { name: words.commands.layoutText, icon: 'text', key: 'Ctrl 3', act: show('text') },
+    { name: words.commands.theme, icon: 'auto', act: () => setTheme(following[theme()]) },
+    { name: words.commands.keys, icon: 'keyboard', key: '?', act: () => studio.store.set({ dialog: { kind: 'keys' } }) },
+    { name: words.commands.tour, icon: 'flag', act: () => window.dispatchEvent(new Event('groundstate-tour')) },
+  )
+  return all
+}
+
+export const jobIcons: Record<JobKind, string> = {
+  verify: 'shield',
+  test: 'beaker',
+  build: 'hammer',
+  check: 'compare',
+  generate: 'code',
+  cover: 'beaker',
+}
+
+// Keys that work everywhere. Undo and redo reach the text of the file in front also from the canvas and the panels.
+export function shortcut(studio: Studio, event: KeyboardEvent): void {
+  const control = event.ctrlKey || event.metaKey
+  const key = event.key.toLowerCase()
+  const target = event.target as HTMLElement
+  const typing = target.closest('input, textarea, .cm-editor, select') !== null
+  const { dialog, active } = studio.store.get()
+  const done = (): void => {
+    event.preventDefault()
+    event.stopPropagation()
+  }
+  if (control && key === 'k') {
+    done()
+    return studio.store.set({ dialog: dialog?.kind === 'search' ? null : { kind: 'search' } })
+  }
+  if (dialog) return
+  if (control && key === 's') {
+    done()
+    return void studio.saveAll()
+  }
+  if (control && ['1', '2', '3'].includes(key)) {
+    done()
+    return studio.store.set({ layout: key === '1' ? 'both' : key === '2' ? 'picture' : 'text' })
+  }
+  const doc = studio.doc(active)
+  if (control && !typing && doc && (key === 'z' || key === 'y')) {
+    done()
+    return key === 'y' || event.shiftKey ? doc.redo() : doc.undo()
+  }
+  const { runner } = studio
+  const run = runner.store.get()
+  if (event.key === 'F5') {
+    done()
+    if (!run.session) return void startRun(studio)
+    return run.playing ? runner.pause() : runner.play()
+  }
+  if (event.key === 'F10') {
+    done()
+    if (!run.session) return void startRun(studio)
+    return event.shiftKey ? void runner.back() : void runner.step()
+  }
+  if (event.key === '?' && !typing) {
+    done()
+    studio.store.set({ dialog: { kind: 'keys' } })
+  }
+}

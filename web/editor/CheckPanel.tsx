@@ -1,0 +1,268 @@
+// What jobs found: verdicts with counterexamples that play, results of scenarios, differences, output.
+
+import { type ReactNode, useEffect, useState } from 'react'
+
+import { words } from '../words'
+import { Icon } from './icons'
+import { type Job, type LinePlace, type ScenarioResult, type Verdict, scenarios, verdicts } from './jobs'
+import { useFrame } from './shown'
+import { useStore } from './store'
+import type { Studio } from './studio'
+
+export async function goTo(studio: Studio, place: LinePlace | undefined): Promise<void> {
+  if (!place) return
+  const { files } = studio.store.get()
+  const path = place.file.replaceAll('\\', '/')
+  // The job names files as it was given them: the end of the path decides.
+  const file = files.find((file) => path === file.path || path.endsWith(`/${file.path}`)) ?? files.find((file) => file.path.endsWith(`/${path}`))
+  if (!file) return
+  const start = { line: place.line - 1, character: place.column - 1 }
+  const end = { line: (place.end_line ?? place.line) - 1, character: (place.end_column ?? place.column) - 1 }
+  await studio.open(file.uri, { range: { start, end } })
+}
+
+export function CheckPanel({ studio }: { studio: Studio }): ReactNode {
+  const { jobs, shown } = useStore(studio.jobs.store, (state) => state)
+  const job = jobs.find((job) => job.id === shown) ?? jobs[0]
+  const played = useFrame(studio)
+  if (!job) {
+    return (
+      <div className="panel-empty tall">
+        <h3>{words.check.none}</h3>
+        <p>{words.check.noneHint}</p>
+      </div>
+    )
+  }
+  return (
+    <div className="check">
+      <ul className="job-list" aria-label={words.check.jobs}>
+        {jobs.map((other) => (
+          <li key={other.id}>
+            <button className={other.id === job.id ? 'on' : undefined} aria-current={other.id === job.id} onClick={() => studio.jobs.show(other.id)}>
+              <Outcome job={other} />
+              <span className="job-name">{words.jobs[other.job]}</span>
+              <span className="job-file">{other.file.path.split('/').at(-1)}</span>
+            </button>
+          </li>
+        ))}
+      </ul>
+      <div className="job" aria-live="polite">
+        <header className="row">
+          <h3>
+            {words.jobs[job.job]} <span className="faint">{job.file.path}</span>
+          </h3>
+          <Outcome job={job} named />
+          {job.progress !== null && <span className="faint progress">{job.progress}</span>}
+          <span className="grow" />
+          {job.running && <Elapsed since={job.began} />}
+          {job.running ? (
+            <button className="small" onClick={() => void studio.jobs.stop(job.id)}>
+              <Icon name="stop" size={13} />
+              {words.check.stop}
+            </button>
+          ) : (
+            <button className="small" onClick={() => void studio.jobs.start(job.job, job.file)}>
+              <Icon name="restart" size={13} />
+              {words.check.again}
+            </button>
+          )}
+        </header>
+        <div className="scroll" tabIndex={0}>
+          <Findings studio={studio} job={job} />
+        </div>
+      </div>
+      {played && played.playing.job === job.id && <Player studio={studio} played={played} />}
+    </div>
+  )
+}
+
+function Elapsed({ since }: { since: number }): ReactNode {
+  const [, tick] = useState(0)
+  useEffect(() => {
+    const timer = setInterval(() => tick((count) => count + 1), 1000)
+    return () => clearInterval(timer)
+  }, [])
+  return <span className="faint">{words.check.elapsed(Math.round((Date.now() - since) / 1000))}</span>
+}
+
+function Outcome({ job, named = false }: { job: Job; named?: boolean }): ReactNode {
+  const [tone, word, icon] = job.running
+    ? ['running', words.check.running, 'restart']
+    : job.code === 0
+      ? ['good', words.check.good, 'check']
+      : job.code === 1
+        ? ['bad', words.check.bad, 'cross']
+        : job.code === 3
+          ? ['unknown', words.check.unknown, 'question']
+          : job.code === null
+            ? ['unknown', words.check.stopped, 'stop']
+            : ['bad', words.check.world, 'warning']
+  return (
+    <span className={`outcome ${tone}`} title={word}>
+      <Icon name={icon} size={13} />
+      {named ? word : <span className="unseen">{word}</span>}
+    </span>
+  )
+}
+
+function Findings({ studio, job }: { studio: Studio; job: Job }): ReactNode {
+  const found = verdicts(job)
+  const played = scenarios(job)
+  const rest = job.lines.filter((line) => typeof line === 'string' || !['verdict', 'scenario', 'summary', 'progress'].includes(String(line['type'])))
+  return (
+    <>
+      {found.length > 0 && (
+        <ul className="verdicts">
+          {found.map((verdict) => (
+            <VerdictLine key={verdict.check} studio={studio} job={job} verdict={verdict} />
+          ))}
+        </ul>
+      )}
+      {played.length > 0 && (
+        <ul className="verdicts">
+          {played.map((scenario) => (
+            <ScenarioLine key={scenario.file} studio={studio} scenario={scenario} />
+          ))}
+        </ul>
+      )}
+      {rest.length > 0 && <Output studio={studio} lines={rest} />}
+    </>
+  )
+}
+
+const MARK = { holds: ['good', 'check'], violated: ['bad', 'cross'], unknown: ['unknown', 'question'] } as const
+
+function VerdictLine({ studio, job, verdict }: { studio: Studio; job: Job; verdict: Verdict }): ReactNode {
+  const [tone, icon] = MARK[verdict.verdict]
+  const steps = verdict.trace?.length ?? 0
+  const said = verdict.verdict === 'unknown' ? words.check.unknownVerdict : words.check[verdict.verdict]
+  return (
+    <li className="verdict">
+      <span className={`outcome ${tone}`}>
+        <Icon name={icon} size={13} />
+        {said}
+      </span>
+      {verdict.at ? (
+        <button className="link-button mono" onClick={() => void goTo(studio, verdict.at)}>
+          {verdict.check}
+        </button>
+      ) : (
+        <code>{verdict.check}</code>
+      )}
+      <span className="faint">{verdict.by ?? (verdict.states !== undefined ? words.check.states(verdict.states) : (verdict.reasons ?? []).join(' '))}</span>
+      <span className="grow" />
+      {steps > 0 && (
+        <button className="small" onClick={() => studio.jobs.play(job.id, verdict.check, 0)}>
+          <Icon name="play" size={12} />
+          {words.check.trace(steps - 1)}
+        </button>
+      )}
+    </li>
+  )
+}
+
+function ScenarioLine({ studio, scenario }: { studio: Studio; scenario: ScenarioResult }): ReactNode {
+  const good = scenario.result === 'passed' || scenario.result === 'failed-as-expected'
+  const fault = scenario.faults[0]
+  return (
+    <li className="verdict">
+      <span className={`outcome ${good ? 'good' : 'bad'}`}>
+        <Icon name={good ? 'check' : 'cross'} size={13} />
+        {scenario.result}
+      </span>
+      <button className="link-button mono" onClick={() => void goTo(studio, fault?.at ?? { file: scenario.file, line: 1, column: 1 })}>
+        {scenario.name}
+      </button>
+      <span className="faint">
+        {words.check.steps(scenario.steps)}, {words.check.checks(scenario.checks, scenario.failed_checks)}
+      </span>
+      {fault?.message && <span className="message bad">{fault.message}</span>}
+    </li>
+  )
+}
+
+function Output({ studio, lines }: { studio: Studio; lines: (string | Record<string, unknown>)[] }): ReactNode {
+  return (
+    <ul className="output">
+      {lines.slice(-600).map((line, index) => {
+        if (typeof line === 'string') return <li key={index}>{line}</li>
+        const at = (line['at'] ?? line['place']) as LinePlace | undefined
+        const message = line['message'] ?? line['text'] ?? null
+        const told =
+          typeof message === 'string'
+            ? message
+            : Object.entries(line)
+                .filter(([key, value]) => key !== 'at' && value !== null && typeof value !== 'object')
+                .map(([key, value]) => (key === 'type' ? String(value) : `${key.replaceAll('_', ' ')} ${String(value)}`))
+                .join(' · ')
+        return (
+          <li key={index} className={line['severity'] === 'error' ? 'bad' : undefined}>
+            {at?.file ? (
+              <button className="link-button" onClick={() => void goTo(studio, at)}>
+                {told}
+              </button>
+            ) : (
+              told
+            )}
+          </li>
+        )
+      })}
+    </ul>
+  )
+}
+
+// A counterexample, step by step; the charts show its state.
+function Player({ studio, played }: { studio: Studio; played: NonNullable<ReturnType<typeof useFrame>> }): ReactNode {
+  const { frame, count, verdict, playing } = played
+  const { jobs } = studio
+  const last = count - 1
+  const go = (at: number): void => jobs.play(playing.job, playing.check, Math.max(0, Math.min(at, last)))
+  return (
+    <section className="player" aria-label={words.check.counterexample}>
+      <header className="row">
+        <button className="square" title={words.check.previous} aria-label={words.check.previous} disabled={playing.at === 0} onClick={() => go(playing.at - 1)}>
+          <Icon name="back" />
+        </button>
+        <button className="square" title={words.check.next} aria-label={words.check.next} disabled={playing.at >= last} onClick={() => go(playing.at + 1)}>
+          <Icon name="step" />
+        </button>
+        <input type="range" min={0} max={last} value={playing.at} aria-label={words.check.counterexample} onChange={(event) => go(Number(event.target.value))} />
+        <span className="run-step">
+          {words.run.stepNumber(frame.step)} / {last}
+        </span>
+        <button className="square" title={words.check.leave} aria-label={words.check.leave} onClick={() => jobs.leave()}>
+          <Icon name="close" />
+        </button>
+      </header>
+      <div className="scroll" tabIndex={0}>
+        {verdict.again_from !== undefined && verdict.again_from !== null && <p className="note">{words.check.repeats(verdict.again_from)}</p>}
+        {frame.fault !== null && <p className="note bad">{frame.fault}</p>}
+        {frame.inputs.length > 0 && <Pairs title={words.check.inputs} pairs={frame.inputs} />}
+        {frame.choices.length > 0 && (
+          <p className="choices">
+            {words.check.choices}: <code>{frame.choices.join(', ')}</code>
+          </p>
+        )}
+        <table>
+          <tbody>
+            {[...frame.state].map(([location, value]) => (
+              <tr key={location} className={frame.changed.has(location) ? 'changed' : undefined}>
+                <th scope="row">{location}</th>
+                <td>{value}</td>
+                <td className="before">{frame.changed.has(location) ? `${words.run.was} ${frame.changed.get(location)}` : ''}</td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      </div>
+    </section>
+  )
+}
+
+function Pairs({ title, pairs }: { title: string; pairs: [string, string][] }): ReactNode {
+  return (
+    <p className="choices">
+      {title}: <code>{pairs.map(([location, value]) => `${location} = ${value}`).join(', ')}</code>
+    </p>
+  )
+}

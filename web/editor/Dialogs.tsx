@@ -1,0 +1,199 @@
+// The dialogs: new project, new drawing, rename, keys; and the frame that all of them have.
+
+import { type FormEvent, type ReactNode, useEffect, useRef, useState } from 'react'
+
+import { words } from '../words'
+import { Icon } from './icons'
+import { type Command, Search } from './Search'
+import { useStore } from './store'
+import type { Studio } from './studio'
+
+const NAME = /^[A-Za-z]\w*$/
+
+export function Frame({ label, close, wide, children }: { label: string; close: () => void; wide?: boolean; children: ReactNode }): ReactNode {
+  const dialog = useRef<HTMLDialogElement>(null)
+  useEffect(() => {
+    dialog.current?.showModal()
+  }, [])
+  return (
+    <dialog
+      ref={dialog}
+      className={wide ? 'frame wide' : 'frame'}
+      aria-label={label}
+      onClose={close}
+      onPointerDown={(event) => event.target === dialog.current && dialog.current?.close()}
+    >
+      {children}
+    </dialog>
+  )
+}
+
+export function Dialogs({ studio, commands }: { studio: Studio; commands: Command[] }): ReactNode {
+  const dialog = useStore(studio.store, (state) => state.dialog)
+  const close = (): void => studio.store.set({ dialog: null })
+  if (!dialog) return null
+  switch (dialog.kind) {
+    case 'search':
+      return (
+        <Frame label={words.search.label} close={close} wide>
+          <Search studio={studio} commands={commands} close={close} />
+        </Frame>
+      )
+    case 'new':
+      return <NewProject studio={studio} close={close} />
+    case 'machine':
+      return <NewMachine studio={studio} uri={dialog.uri} close={close} />
+    case 'rename':
+      return <Rename studio={studio} dialog={dialog} close={close} />
+    case 'keys':
+      return <Keys close={close} />
+  }
+}
+
+function Buttons({ act, enabled, close }: { act: string; enabled: boolean; close: () => void }): ReactNode {
+  return (
+    <footer className="row">
+      <span className="grow" />
+      <button type="button" onClick={close}>
+        {words.dialogs.cancel}
+      </button>
+      <button type="submit" className="primary" disabled={!enabled}>
+        {act}
+      </button>
+    </footer>
+  )
+}
+
+function NewProject({ studio, close }: { studio: Studio; close: () => void }): ReactNode {
+  const templates = useStore(studio.store, (state) => state.hello?.templates) ?? []
+  const [template, setTemplate] = useState(templates[0]?.name ?? '')
+  const [name, setName] = useState('')
+  const good = NAME.test(name)
+  const submit = (event: FormEvent): void => {
+    event.preventDefault()
+    if (good) void studio.create(template, name).then((done) => done && close())
+  }
+  return (
+    <Frame label={words.dialogs.newTitle} close={close}>
+      <form className="dialog" onSubmit={submit}>
+        <h2>{words.dialogs.newTitle}</h2>
+        <div className="cards" role="radiogroup" aria-label={words.dialogs.newTitle}>
+          {templates.map((known) => (
+            <label key={known.name} className={`card${known.name === template ? ' on' : ''}`}>
+              <input type="radio" name="template" checked={known.name === template} onChange={() => setTemplate(known.name)} />
+              <b>{known.name}</b>
+              <span>{known.title}</span>
+            </label>
+          ))}
+        </div>
+        <label className="field">
+          <span>{words.dialogs.newName}</span>
+          <input autoFocus className="mono" value={name} placeholder={words.dialogs.newNameHint} onChange={(event) => setName(event.target.value)} />
+        </label>
+        {name !== '' && !good && <p className="note bad">{words.dialogs.badName}</p>}
+        <Buttons act={words.dialogs.create} enabled={good && template !== ''} close={close} />
+      </form>
+    </Frame>
+  )
+}
+
+function NewMachine({ studio, uri, close }: { studio: Studio; uri: string; close: () => void }): ReactNode {
+  const [name, setName] = useState('')
+  const [title, setTitle] = useState('')
+  const [pattern, setPattern] = useState(false)
+  const good = NAME.test(name)
+  const submit = (event: FormEvent): void => {
+    event.preventDefault()
+    if (!good) return
+    close()
+    void studio.chart(uri)?.operate({ kind: 'machine', name, pattern, title })
+  }
+  const choice = (value: boolean, label: string, hint: string): ReactNode => (
+    <label className={`card${value === pattern ? ' on' : ''}`}>
+      <input type="radio" name="kind" checked={value === pattern} onChange={() => setPattern(value)} />
+      <b>{label}</b>
+      <span>{hint}</span>
+    </label>
+  )
+  return (
+    <Frame label={words.dialogs.machineTitle} close={close}>
+      <form className="dialog" onSubmit={submit}>
+        <h2>{words.dialogs.machineTitle}</h2>
+        <div className="cards" role="radiogroup" aria-label={words.dialogs.machineKind}>
+          {choice(false, words.dialogs.machine, words.dialogs.machineHint)}
+          {choice(true, words.dialogs.pattern, words.dialogs.patternHint)}
+        </div>
+        <label className="field">
+          <span>{words.dialogs.machineName}</span>
+          <input autoFocus className="mono" value={name} placeholder={words.dialogs.newNameHint} onChange={(event) => setName(event.target.value)} />
+        </label>
+        <label className="field">
+          <span>{words.dialogs.machineText}</span>
+          <input value={title} onChange={(event) => setTitle(event.target.value)} />
+        </label>
+        {name !== '' && !good && <p className="note bad">{words.dialogs.badName}</p>}
+        <Buttons act={words.dialogs.create} enabled={good} close={close} />
+      </form>
+    </Frame>
+  )
+}
+
+interface RenameDialog {
+  old: string
+  uri: string
+  at: { line: number; character: number }
+}
+
+function Rename({ studio, dialog, close }: { studio: Studio; dialog: RenameDialog; close: () => void }): ReactNode {
+  const [name, setName] = useState(dialog.old)
+  const submit = (event: FormEvent): void => {
+    event.preventDefault()
+    void studio.rename(dialog.uri, dialog.at, name.trim()).then((done) => done && close())
+  }
+  return (
+    <Frame label={words.rename.title(dialog.old)} close={close}>
+      <form className="dialog" onSubmit={submit}>
+        <h2>{words.rename.title(dialog.old)}</h2>
+        <p className="hint">{words.rename.hint}</p>
+        <label className="field">
+          <span>{words.dialogs.newName}</span>
+          <input autoFocus className="mono" value={name} onFocus={(event) => event.target.select()} onChange={(event) => setName(event.target.value)} />
+        </label>
+        <Buttons act={words.rename.rename} enabled={name.trim() !== '' && name.trim() !== dialog.old} close={close} />
+      </form>
+    </Frame>
+  )
+}
+
+function Keys({ close }: { close: () => void }): ReactNode {
+  return (
+    <Frame label={words.dialogs.keysTitle} close={close} wide>
+      <div className="dialog">
+        <header className="row">
+          <h2>{words.dialogs.keysTitle}</h2>
+          <span className="grow" />
+          <button className="quiet" aria-label={words.shell.dismiss} onClick={close}>
+            <Icon name="close" />
+          </button>
+        </header>
+        <div className="key-columns">
+          {words.keys.map(([where, keys]) => (
+            <section key={where}>
+              <h3>{where}</h3>
+              <dl>
+                {keys.map(([key, meaning]) => (
+                  <div key={key}>
+                    <dt>
+                      <kbd>{key}</kbd>
+                    </dt>
+                    <dd>{meaning}</dd>
+                  </div>
+                ))}
+              </dl>
+            </section>
+          ))}
+        </div>
+      </div>
+    </Frame>
+  )
+}

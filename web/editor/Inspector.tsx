@@ -1,0 +1,261 @@
+// The properties of what is selected: name, text, link, refinement, initial state, pattern; an arrow's ends.
+//
+// In: the drawing and the selection. Out: operations, renamings. It shows nothing while nothing is selected.
+
+import { type FormEvent, type ReactNode, useEffect, useId, useState } from 'react'
+
+import { arrowOf } from '../diagram/gestures'
+import { faultsOn } from '../diagram/pick'
+import type { Box, Drawing } from '../diagram/protocol'
+import { words } from '../words'
+import type { Chart } from './chart'
+import { Icon } from './icons'
+import { deleteSelected } from './keys'
+import { linkOffers } from './offers'
+import { breakTerm } from './shown'
+import { useStore } from './store'
+import type { Studio } from './studio'
+
+export function Inspector({ studio, chart }: { studio: Studio; chart: Chart }): ReactNode {
+  const drawing = useStore(chart.store, () => chart.drawing)
+  const selection = useStore(chart.store, (state) => state.selection)
+  if (!drawing || (selection.boxes.length === 0 && selection.lines.length === 0)) return null
+  const boxes = drawing.picture.boxes.filter((box) => selection.boxes.includes(box.id))
+  const [box] = boxes
+  const title = boxes.length > 1 ? words.inspector.several(boxes.length) : box ? words.spoken.figure[box.figure] : words.inspector.arrow
+  return (
+    <aside className="inspector" aria-label={words.inspector.label}>
+      <header>
+        <h2>{title}</h2>
+        {!chart.doc.readOnly && (
+          <button className="quiet" title={words.inspector.delete} aria-label={words.inspector.delete} onClick={() => deleteSelected(chart)}>
+            <Icon name="trash" />
+          </button>
+        )}
+        <button className="quiet" title={words.inspector.close} aria-label={words.inspector.close} onClick={() => chart.select({ boxes: [], lines: [] })}>
+          <Icon name="close" />
+        </button>
+      </header>
+      {boxes.length === 1 && box && <OneBox key={box.id} studio={studio} chart={chart} drawing={drawing} box={box} />}
+      {boxes.length === 0 && <OneLine drawing={drawing} index={selection.lines[0] ?? -1} />}
+    </aside>
+  )
+}
+
+function OneBox({ studio, chart, drawing, box }: { studio: Studio; chart: Chart; drawing: Drawing; box: Box }): ReactNode {
+  const readOnly = chart.doc.readOnly
+  const faults = useStore(studio.store, (state) => state.faults.get(chart.doc.file.uri))
+  const breaks = useStore(studio.runner.store, (state) => state.breaks)
+  const fault = faults ? faultsOn(drawing, faults).get(box.id) : undefined
+  const term = breakTerm(drawing, box.id)
+  const ends = box.figure === 'enter' || box.figure === 'exit'
+  const system = drawing.kind === 'system'
+  const links = !system && !ends
+  const rename = async (name: string): Promise<boolean> => {
+    if (!box.nameRange) return false
+    const done = await studio.rename(chart.doc.file.uri, box.nameRange.start, name)
+    if (done) chart.store.set({ selection: { boxes: [name], lines: [] } })
+    return done
+  }
+  const set = (operation: Parameters<Chart['operate']>[0]): Promise<boolean> =>
+    chart.operate(operation, { select: false }).then((done) => done !== null)
+  return (
+    <div className="fields">
+      {fault && (
+        <p className={`fault-note ${fault.severity}`} role="alert">
+          {fault.message}
+        </p>
+      )}
+      {!ends && (
+        <TextField name="name" label={words.inspector.name} value={box.id} mono readOnly={readOnly || !box.nameRange} commit={rename} />
+      )}
+      {!ends && (
+        <TextField
+          name="text"
+          label={words.inspector.text}
+          value={box.label}
+          placeholder={box.figure === 'block' ? '' : box.lines.join(' ')}
+          readOnly={readOnly}
+          commit={(text) => set({ kind: 'text', id: box.id, text: text === '' ? null : text })}
+        />
+      )}
+      {links && (
+        <LinkField studio={studio} chart={chart} box={box} readOnly={readOnly} commit={(link) => set({ kind: 'link', id: box.id, link: link === '' ? null : link })} />
+      )}
+      {box.figure === 'circle' && (
+        <Switch
+          label={words.inspector.initial}
+          on={box.initial}
+          disabled={readOnly || box.initial || drawing.kind === 'pattern'}
+          flip={() => void set({ kind: 'initial', id: box.id })}
+        />
+      )}
+      {(box.figure === 'hexagon' || box.figure === 'rectangle') && (
+        <>
+          <Switch
+            label={words.inspector.refine}
+            on={box.refine !== null}
+            disabled={readOnly}
+            flip={() => void set({ kind: 'refine', id: box.id, refine: box.refine ? null : { by: null } })}
+          />
+          {box.refine && (
+            <TextField
+              name="by"
+              label={words.inspector.refineBy}
+              value={box.refine.by ?? ''}
+              placeholder={words.inspector.refineByHint}
+              mono
+              readOnly={readOnly}
+              commit={(by) => set({ kind: 'refine', id: box.id, refine: { by: by === '' ? null : by } })}
+            />
+          )}
+        </>
+      )}
+      {box.of !== null && (
+        <div className="pair">
+          <span className="key">{words.inspector.pattern}</span>
+          <code>{box.of}</code>
+          {box.opens && (
+            <button className="small" onClick={() => box.opens && void studio.enter(box.opens.uri, box.opens.name)}>
+              {words.inspector.open}
+            </button>
+          )}
+        </div>
+      )}
+      {box.details.length > 0 && system && (
+        <div className="details">
+          <span className="key">{words.inspector.details}</span>
+          <ul>
+            {box.details.map((detail, index) => (
+              <li key={index}>
+                <span>{detail.text}</span>
+                <span className="right">{detail.right}</span>
+              </li>
+            ))}
+          </ul>
+        </div>
+      )}
+      {term !== null && (
+        <Switch label={words.inspector.breakpoint} on={breaks.includes(term)} disabled={false} flip={() => studio.runner.toggleBreak(term)} />
+      )}
+      {box.range && (
+        <button className="small wide" onClick={() => box.range && void studio.open(chart.doc.file.uri, { range: box.range })}>
+          <Icon name="text" size={14} />
+          {words.inspector.inText}
+        </button>
+      )}
+    </div>
+  )
+}
+
+function OneLine({ drawing, index }: { drawing: Drawing; index: number }): ReactNode {
+  const line = drawing.picture.lines[index]
+  const arrow = line && arrowOf(drawing, line)
+  if (!arrow) return null
+  return (
+    <div className="fields">
+      <div className="pair">
+        <span className="key">{words.inspector.from}</span>
+        <code>{arrow.from}</code>
+      </div>
+      {arrow.branch && (
+        <div className="pair">
+          <span className="key">{words.inspector.branch}</span>
+          <code>{arrow.branch}</code>
+        </div>
+      )}
+      <div className="pair">
+        <span className="key">{words.inspector.to}</span>
+        <code>{arrow.to}</code>
+      </div>
+    </div>
+  )
+}
+
+interface FieldProps {
+  name: string
+  label: string
+  value: string
+  placeholder?: string
+  mono?: boolean
+  readOnly: boolean
+  list?: string
+  commit: (value: string) => Promise<boolean>
+  focused?: () => void
+}
+
+// A field that is committed by Enter or by leaving it, and goes back if the commit is refused.
+export function TextField({ name, label, value, placeholder, mono, readOnly, list, commit, focused }: FieldProps): ReactNode {
+  const id = useId()
+  const [text, setText] = useState(value)
+  useEffect(() => setText(value), [value])
+  const send = async (): Promise<void> => {
+    const next = text.trim()
+    if (next === value) return setText(value)
+    if (!(await commit(next))) setText(value)
+  }
+  const submit = (event: FormEvent): void => {
+    event.preventDefault()
+    void send()
+  }
+  return (
+    <form className="field" onSubmit={submit}>
+      <label htmlFor={id}>{label}</label>
+      <input
+        id={id}
+        name={name}
+        className={mono ? 'mono' : undefined}
+        value={text}
+        placeholder={placeholder}
+        readOnly={readOnly}
+        list={list}
+        spellCheck={false}
+        autoComplete="off"
+        onFocus={focused}
+        onChange={(event) => setText(event.target.value)}
+        onBlur={() => void send()}
+        onKeyDown={(event) => {
+          if (event.key !== 'Escape') return
+          setText(value)
+          event.currentTarget.closest<HTMLElement>('.editor')?.querySelector<HTMLElement>('.canvas')?.focus()
+        }}
+      />
+    </form>
+  )
+}
+
+function LinkField({ studio, chart, box, readOnly, commit }: { studio: Studio; chart: Chart; box: Box; readOnly: boolean; commit: (link: string) => Promise<boolean> }): ReactNode {
+  const [offers, setOffers] = useState<string[]>([])
+  const id = useId()
+  return (
+    <>
+      <TextField
+        name="link"
+        label={words.inspector.link}
+        value={box.link ?? ''}
+        placeholder={words.inspector.linkHint[box.figure] ?? ''}
+        mono
+        readOnly={readOnly}
+        list={id}
+        commit={commit}
+        focused={() => void linkOffers(studio, chart, box).then(setOffers)}
+      />
+      <datalist id={id}>
+        {offers.map((offer) => (
+          <option key={offer} value={offer} />
+        ))}
+      </datalist>
+    </>
+  )
+}
+
+export function Switch({ label, on, disabled, flip }: { label: string; on: boolean; disabled: boolean; flip: () => void }): ReactNode {
+  return (
+    <button type="button" role="switch" aria-checked={on} className="switch" disabled={disabled} onClick={flip}>
+      <span>{label}</span>
+      <span className="track" aria-hidden="true">
+        <span className="thumb" />
+      </span>
+    </button>
+  )
+}

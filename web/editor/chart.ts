@@ -1,0 +1,167 @@
+// What is known of a chart beside its text: the picture, what is selected, which drawing is shown.
+//
+// Owns: asking for pictures (at most one at a time, the latest text wins; the last good picture stays while a broken text has
+// none), operations one after another, and the selection both ways. INVARIANT: operations change the text alone; the picture
+// comes from the server.
+
+import type { Arrow, Drawing, Edited, Operation, Pictures, Position } from '../diagram/protocol'
+import { NOTHING, type Selection, drawingAt, pickAt, rangesOf } from '../diagram/pick'
+import { changesOf, difference, rebased } from '../diagram/text'
+import type { Doc } from './document'
+import { Store } from './store'
+import type { Studio } from './studio'
+
+export interface ChartState {
+  pictures: Pictures | null
+  // The text has a fault that keeps it from being drawn: the picture is an earlier one.
+  stale: boolean
+  // The name of the drawing that is shown.
+  shown: string | null
+  selection: Selection
+  // Counts the selections that were made in the text, so that the canvas can bring them into view.
+  revealed: number
+  // Counts refusals: what the canvas showed ahead goes back.
+  refusals: number
+}
+
+export class Chart {
+  readonly store = new Store<ChartState>({ pictures: null, stale: false, shown: null, selection: NOTHING, revealed: 0, refusals: 0 })
+  private busy = false
+  private again = false
+  private frame = 0
+  private queue: Promise<unknown> = Promise.resolve()
+
+  constructor(
+    private readonly studio: Studio,
+    readonly doc: Doc,
+  ) {
+    doc.onText.push(() => this.refresh())
+    doc.onCursor.push((at) => this.cursor(at))
+    this.refresh()
+  }
+
+  get drawing(): Drawing | null {
+    const { pictures, shown } = this.store.get()
+    return pictures?.drawings.find((drawing) => drawing.name === shown) ?? pictures?.drawings[0] ?? null
+  }
+
+  // Asks for the picture of the present text, in the next frame.
+  refresh(): void {
+    if (this.frame !== 0) return
+    this.frame = requestAnimationFrame(() => {
+      this.frame = 0
+      void this.ask()
+    })
+  }
+
+  private async ask(): Promise<void> {
+    if (this.busy) {
+      this.again = true
+      return
+    }
+    this.busy = true
+    try {
+      this.studio.client.sync()
+      const params = { textDocument: { uri: this.doc.file.uri } }
+      const pictures = await this.studio.server.request<Pictures>('groundstate/chart/picture', params)
+      const known = this.store.get().pictures
+      if (pictures.drawings.length === 0 && known && known.drawings.length > 0 && this.doc.text.trim() !== '') this.store.set({ stale: true })
+      else this.show(pictures)
+    } catch {
+      this.store.set({ stale: true })
+    } finally {
+      this.busy = false
+      if (this.again) {
+        this.again = false
+        this.refresh()
+      }
+    }
+  }
+
+  private show(pictures: Pictures): void {
+    const { shown, selection } = this.store.get()
+    const drawing = pictures.drawings.find((drawing) => drawing.name === shown) ?? pictures.drawings[0]
+    const boxes = selection.boxes.filter((id) => drawing?.picture.boxes.some((box) => box.id === id))
+    // Lines are known by their index alone: a new picture may count them otherwise.
+    const same = this.store.get().pictures?.drawings.find((old) => old.name === drawing?.name)
+    const lines = same && drawing && same.picture.lines.length === drawing.picture.lines.length ? selection.lines : []
+    const kept = boxes.length === selection.boxes.length && lines.length === selection.lines.length
+    this.store.set({
+      pictures,
+      stale: false,
+      shown: drawing?.name ?? null,
+      ...(kept ? {} : { selection: { boxes, lines } }),
+    })
+    this.mark(false)
+  }
+
+  // Shows another drawing of this chart.
+  turnTo(name: string): void {
+    if (this.store.get().shown === name) return
+    this.store.set({ shown: name, selection: NOTHING })
+    this.mark(false)
+  }
+
+  // What is selected on the canvas is shown in the text.
+  select(selection: Selection): void {
+    const old = this.store.get().selection
+    const same = (a: readonly unknown[], b: readonly unknown[]): boolean => a.length === b.length && a.every((x, i) => x === b[i])
+    if (same(old.boxes, selection.boxes) && same(old.lines, selection.lines)) return
+    this.store.set({ selection })
+    this.mark(true)
+  }
+
+  private mark(scroll: boolean): void {
+    const drawing = this.drawing
+    if (drawing) this.doc.pick(rangesOf(drawing, this.store.get().selection), scroll)
+  }
+
+  // The cursor in the text selects on the canvas.
+  private cursor(at: Position): void {
+    const { pictures } = this.store.get()
+    const drawing = pictures && drawingAt(pictures.drawings, at)
+    if (!drawing) return
+    const selection = pickAt(drawing, at)
+    this.store.set((state) => ({ shown: drawing.name, selection, revealed: state.revealed + 1 }))
+    this.mark(false)
+  }
+
+  // Does an operation on the shown drawing; resolves to the ids that it selects, or null if it was refused.
+  operate(operation: Operation, options: { joined?: boolean; select?: boolean } = {}): Promise<string[] | null> {
+    const next = this.queue.then(() => this.perform(operation, options))
+    this.queue = next.catch(() => null)
+    return next
+  }
+
+  private async perform(operation: Operation, options: { joined?: boolean; select?: boolean }): Promise<string[] | null> {
+    const drawing = this.drawing?.name ?? ''
+    if (this.doc.readOnly) return null
+    this.studio.client.sync()
+    const before = this.doc.text
+    try {
+      const params = { textDocument: { uri: this.doc.file.uri }, drawing, operation }
+      const { edits, select } = await this.studio.server.request<Edited>('groundstate/chart/edit', params)
+      let changes = changesOf(before, edits)
+      if (this.doc.text !== before) {
+        const carried = rebased(changes, difference(before, this.doc.text))
+        if (!carried) return null
+        changes = carried
+      }
+      if (changes.length > 0) this.doc.change(changes, options.joined)
+      if (operation.kind === 'machine') this.store.set({ shown: operation.name, selection: NOTHING })
+      else if (options.select !== false && operation.kind !== 'move') this.store.set({ selection: { boxes: select, lines: [] } })
+      return select
+    } catch (error) {
+      this.studio.tell((error as Error).message, 'refused')
+      this.store.set((state) => ({ refusals: state.refusals + 1 }))
+      return null
+    }
+  }
+
+  // A new shape at the end of a new arrow: undone as one.
+  async grow(add: Operation, arrow: Omit<Arrow, 'to'>): Promise<void> {
+    const made = await this.operate(add)
+    const id = made?.[0]
+    if (id !== undefined) await this.operate({ kind: 'connect', ...arrow, to: id }, { joined: true, select: false })
+  }
+}

@@ -1,0 +1,41 @@
+// Showing all of a drawing: its arrows, too, and beside the bars that lie on the canvas.
+
+import { getViewportForBounds, useReactFlow, useStore, useStoreApi } from '@xyflow/react'
+import { useCallback } from 'react'
+
+import { bounds } from '../diagram/geometry'
+import type { Drawing } from '../diagram/protocol'
+import type { Chart } from './chart'
+
+const ROOM = { left: '68px', right: '36px', top: '28px', bottom: '60px' } as const
+const LARGEST = 1.2
+const SMALLEST = 0.3
+
+export function useFit(chart: Chart): (duration?: number) => void {
+  const flow = useReactFlow()
+  const store = useStoreApi()
+  return useCallback(
+    (duration = 0) => {
+      const drawing = chart.drawing
+      const { width, height } = store.getState()
+      if (!drawing || width === 0) return
+      const corners = drawing.picture.lines.flatMap((line) => line.points.map(([x, y]) => ({ x, y, width: 0, height: 0 })))
+      const all = bounds([...drawing.picture.boxes, ...drawing.picture.labels, ...corners])
+      if (all) void flow.setViewport(getViewportForBounds(all, width, height, SMALLEST, LARGEST, ROOM), { duration })
+    },
+    [chart, flow, store],
+  )
+}
+
+// Whether some of a drawing lies outside of what is shown: then an overview helps.
+export function useBeyond(drawing: Drawing): boolean {
+  return useStore(({ transform: [x, y, zoom], width, height }) =>
+    drawing.picture.boxes.some(
+      (box) =>
+        box.x * zoom + x < 0 ||
+        box.y * zoom + y < 0 ||
+        (box.x + box.width) * zoom + x > width ||
+        (box.y + box.height) * zoom + y > height,
+    ),
+  )
+}

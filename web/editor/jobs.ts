@@ -1,0 +1,177 @@
+// Jobs of the server: verification, tests, building, checking, generating; their output and their end.
+//
+// Owns: the list of jobs, newest first, and what their lines say: verdicts with counterexamples, results of scenarios, faults.
+// In: `studio/line` and `studio/done`. Out: a store.
+
+import type { File, JobKind } from '../diagram/protocol'
+import type { RunStep } from '../diagram/light'
+import { Store } from './store'
+import type { Studio } from './studio'
+
+export interface Verdict {
+  check: string
+  kind: string
+  verdict: 'holds' | 'violated' | 'unknown'
+  states?: number
+  by?: string
+  reasons?: string[]
+  at?: LinePlace
+  trace?: RunStep[]
+  again_from?: number
+}
+
+// Lines and columns from 1, as the command line counts.
+export interface LinePlace {
+  file: string
+  line: number
+  column: number
+  end_line?: number
+  end_column?: number
+}
+
+export interface Job {
+  id: number
+  job: JobKind
+  file: File
+  running: boolean
+  code: number | null
+  began: number
+  lines: (string | Record<string, unknown>)[]
+  progress: string | null
+}
+
+export interface JobsState {
+  jobs: Job[]
+  // The job that is shown.
+  shown: number | null
+  // The counterexample that is played, and at which step.
+  playing: { job: number; check: string; at: number } | null
+}
+
+// LIMIT: of a job with endless output, the last lines are kept.
+const KEPT = 5000
+
+export class Jobs {
+  readonly store = new Store<JobsState>({ jobs: [], shown: null, playing: null })
+  private early = new Map<number, (string | Record<string, unknown>)[]>()
+  private ended = new Map<number, number | null>()
+
+  constructor(private readonly studio: Studio) {
+    studio.server.on<{ job: number; line: string | Record<string, unknown> }>('studio/line', ({ job, line }) => this.line(job, line))
+    studio.server.on<{ job: number; code: number | null }>('studio/done', ({ job, code }) => this.done(job, code))
+  }
+
+  async start(job: JobKind, file: File, options: { time?: number; first?: boolean } = {}): Promise<void> {
+    await this.studio.saveAll()
+    try {
+      const params = { job, path: file.path, options }
+      const { job: id } = await this.studio.server.request<{ job: number }>('studio/job', params)
+      const lines = this.early.get(id) ?? []
+      this.early.delete(id)
+      const code = this.ended.get(id)
+      this.ended.delete(id)
+      const fresh: Job = { id, job, file, running: code === undefined, code: code ?? null, began: Date.now(), lines, progress: null }
+      this.store.set((state) => ({ jobs: [fresh, ...state.jobs].slice(0, 30), shown: id, playing: null }))
+      this.studio.store.set({ panel: 'check' })
+      if (code !== undefined) this.after(fresh)
+    } catch (error) {
+      this.studio.tell((error as Error).message, 'refused')
+    }
+  }
+
+  private update(id: number, change: (job: Job) => Partial<Job>): Job | null {
+    let changed: Job | null = null
+    this.store.set((state) => ({
+      jobs: state.jobs.map((job) => {
+        if (job.id !== id) return job
+        changed = { ...job, ...change(job) }
+        return changed
+      }),
+    }))
+    return changed
+  }
+
+  private line(id: number, line: string | Record<string, unknown>): void {
+    const known = this.store.get().jobs.some((job) => job.id === id)
+    if (!known) {
+      this.early.set(id, [...(this.early.get(id) ?? []), line])
+      return
+    }
+    const progress = typeof line === 'object' && line['type'] === 'progress' ? told(line) : null
+    this.update(id, (job) => (progress === null ? { lines: [...job.lines, line].slice(-KEPT) } : { progress }))
+  }
+
+  private done(id: number, code: number | null): void {
+    if (!this.store.get().jobs.some((job) => job.id === id)) {
+      this.ended.set(id, code)
+      return
+    }
+    const job = this.update(id, () => ({ running: false, code, progress: null }))
+    if (job) this.after(job)
+  }
+
+  private after(job: Job): void {
+    if (job.job === 'build' || job.job === 'generate') this.studio.redraw()
+    this.waiting.get(job.id)?.(job)
+    this.waiting.delete(job.id)
+  }
+
+  private waiting = new Map<number, (job: Job) => void>()
+
+  // Resolves when the job that was started last is done.
+  async run(job: JobKind, file: File): Promise<Job | null> {
+    const before = this.store.get().shown
+    await this.start(job, file)
+    const { shown, jobs } = this.store.get()
+    const begun = jobs.find((job) => job.id === shown)
+    if (!begun || shown === before) return null
+    if (!begun.running) return begun
+    return new Promise((resolve) => this.waiting.set(begun.id, resolve))
+  }
+
+  async stop(id: number): Promise<void> {
+    try {
+      await this.studio.server.request('studio/stop', { job: id })
+    } catch (error) {
+      this.studio.tell((error as Error).message, 'refused')
+    }
+  }
+
+  show(id: number): void {
+    this.store.set({ shown: id })
+  }
+
+  play(job: number, check: string, at: number): void {
+    this.store.set({ playing: { job, check, at } })
+  }
+
+  leave(): void {
+    this.store.set({ playing: null })
+  }
+
+  lost(): void {
+    this.store.set((state) => ({ jobs: state.jobs.map((job) => (job.running ? { ...job, running: false, code: null } : job)) }))
+  }
+}
+
+const told = (line: Record<string, unknown>): string =>
+  Object.entries(line)
+    .filter(([key, value]) => key !== 'type' && typeof value !== 'object')
+    .map(([key, value]) => `${key} ${String(value)}`)
+    .join(' · ')
+
+export const verdicts = (job: Job): Verdict[] =>
+  job.lines.filter((line) => typeof line === 'object' && line['type'] === 'verdict') as unknown as Verdict[]
+
+export interface ScenarioResult {
+  name: string
+  file: string
+  result: string
+  steps: number
+  checks: number
+  failed_checks: number
+  faults: { message?: string; at?: LinePlace; id?: string }[]
+}
+
+export const scenarios = (job: Job): ScenarioResult[] =>
+  job.lines.filter((line) => typeof line === 'object' && line['type'] === 'scenario') as unknown as ScenarioResult[]

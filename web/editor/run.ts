@@ -1,0 +1,330 @@
+// Running a model by hand or at a speed: one session of the server, its states, breakpoints, what is recorded.
+//
+// Owns: the session and its last answer, inputs that were set, the steps for a recording, values of guards. INVARIANT: the engine
+// alone makes steps; here nothing is computed but when to ask for the next.
+
+import { type Recorded, freeName, scenario } from '../diagram/record'
+import { closedTerm, isControl, stateOf } from '../diagram/light'
+import type { Drawing, File, SessionState } from '../diagram/protocol'
+import { words } from '../words'
+import { Store } from './store'
+import type { Studio } from './studio'
+
+export interface RunState {
+  file: File | null
+  session: SessionState | null
+  busy: boolean
+  playing: boolean
+  // Steps a second; 0 is as fast as can be.
+  speed: number
+  // Inputs that keep a value until they are set again.
+  sets: ReadonlyMap<string, string>
+  breaks: readonly string[]
+  // Why it paused at a breakpoint.
+  broke: string | null
+  // Terms with their values in this state.
+  values: ReadonlyMap<string, string | null>
+  seed: number | null
+}
+
+const NONE: RunState = {
+  file: null,
+  session: null,
+  busy: false,
+  playing: false,
+  speed: 4,
+  sets: new Map(),
+  breaks: [],
+  broke: null,
+  values: new Map(),
+  seed: null,
+}
+
+const FAST_STEPS = 200
+
+export class Runner {
+  readonly store = new Store<RunState>(NONE)
+  private timer: ReturnType<typeof setTimeout> | undefined
+  private steps: Recorded[] = []
+  private given: [string, string][] = []
+  private readonly offered = new Map<string, string[]>()
+
+  constructor(private readonly studio: Studio) {}
+
+  // Begins a run of a model or a scenario.
+  async open(file: File, seed: number | null = null): Promise<void> {
+    await this.close()
+    this.store.set({ busy: true, file, seed })
+    this.studio.store.set({ panel: 'run' })
+    try {
+      this.studio.client.sync()
+      const params = { textDocument: { uri: file.uri }, ...(seed === null ? {} : { seed }) }
+      const session = await this.studio.server.request<SessionState>('groundstate/session/open', params)
+      this.steps = []
+      this.given = []
+      this.store.set({ sets: new Map(), broke: null })
+      this.took(session)
+    } catch (error) {
+      this.store.set({ file: null })
+      this.studio.tell((error as Error).message, 'refused')
+    } finally {
+      this.store.set({ busy: false })
+    }
+  }
+
+  // What an input may be, as it was offered when it was asked for.
+  offers(location: string): string[] {
+    return this.offered.get(location) ?? []
+  }
+
+  private took(session: SessionState): void {
+    if (session.waiting === 'input' && session.word && session.offered.length > 0) this.offered.set(session.word, session.offered)
+    this.store.set({ session })
+    if (session.refused) this.studio.tell(session.refused, 'refused')
+    this.marks(session)
+    void this.evaluate()
+  }
+
+  private async ask(method: string, params: object): Promise<SessionState | null> {
+    const { session } = this.store.get()
+    if (!session) return null
+    this.store.set({ busy: true })
+    try {
+      const answer = await this.studio.server.request<SessionState>(`groundstate/session/${method}`, {
+        session: session.session,
+        ...params,
+      })
+      this.took(answer)
+      return answer
+    } catch (error) {
+      this.pause()
+      this.studio.tell((error as Error).message, 'refused')
+      return null
+    } finally {
+      this.store.set({ busy: false })
+    }
+  }
+
+  private note(before: number, answer: SessionState | null): void {
+    if (!answer || answer.step <= before) return
+    this.steps.push({ sets: this.given, updates: answer.updates })
+    this.given = []
+  }
+
+  async step(): Promise<SessionState | null> {
+    const before = this.store.get().session?.step ?? 0
+    this.store.set({ broke: null })
+    const answer = await this.ask('step', { steps: 1 })
+    this.note(before, answer)
+    return answer
+  }
+
+  async back(): Promise<void> {
+    this.pause()
+    const before = this.store.get().session?.step ?? 0
+    const answer = await this.ask('back', {})
+    if (answer && answer.step < before) this.steps.length = Math.min(this.steps.length, answer.step)
+    this.store.set({ broke: null })
+  }
+
+  async set(location: string, value: string | null): Promise<void> {
+    const sets = new Map(this.store.get().sets)
+    if (value === null) sets.delete(location)
+    else sets.set(location, value)
+    const answer = await this.ask('set', { location, value })
+    if (!answer || answer.refused) return
+    this.store.set({ sets })
+    if (value !== null) this.given.push([location, value])
+  }
+
+  async answer(value: string): Promise<void> {
+    const { session } = this.store.get()
+    const before = session?.step ?? 0
+    if (session?.word) this.given.push([session.word, value])
+    this.note(before, await this.ask('answer', { value }))
+  }
+
+  async choose(candidate: number): Promise<void> {
+    const before = this.store.get().session?.step ?? 0
+    this.note(before, await this.ask('choose', { candidate }))
+  }
+
+  play(): void {
+    if (this.store.get().playing) return
+    this.store.set({ playing: true })
+    void this.tick()
+  }
+
+  private async tick(): Promise<void> {
+    const { playing, speed, session } = this.store.get()
+    if (!playing || !session) return
+    const begun = performance.now()
+    const answer = speed === 0 ? await this.fast() : await this.step()
+    if (!this.store.get().playing) return
+    const over = !answer || answer.waiting !== 'step' || answer.faults.length > 0 || answer.refused !== null
+    if (over || (await this.broken())) return this.pause()
+    const wait = speed === 0 ? 0 : Math.max(0, 1000 / speed - (performance.now() - begun))
+    this.timer = setTimeout(() => void this.tick(), wait)
+  }
+
+  private async fast(): Promise<SessionState | null> {
+    const { breaks } = this.store.get()
+    const before = this.store.get().session?.step ?? 0
+    if (breaks.length === 0) {
+      const answer = await this.ask('step', { steps: FAST_STEPS })
+      this.note(before, answer)
+      return answer
+    }
+    await this.studio.server.request('groundstate/session/breaks', { session: this.store.get().session?.session, terms: breaks })
+    return this.ask('resume', { steps: FAST_STEPS })
+  }
+
+  // Whether a breakpoint's term is true now.
+  private async broken(): Promise<boolean> {
+    const { breaks, session } = this.store.get()
+    if (breaks.length === 0 || !session) return false
+    try {
+      const { values } = await this.studio.server.request<{ values: (string | null)[] }>('groundstate/session/evaluate', {
+        session: session.session,
+        terms: breaks,
+      })
+      const index = values.indexOf('true')
+      if (index >= 0) this.store.set({ broke: breaks[index] ?? null })
+      return index >= 0
+    } catch {
+      return false
+    }
+  }
+
+  pause(): void {
+    clearTimeout(this.timer)
+    this.store.set({ playing: false })
+  }
+
+  setSpeed(speed: number): void {
+    this.store.set({ speed })
+  }
+
+  toggleBreak(term: string): void {
+    this.store.set(({ breaks }) => ({
+      breaks: breaks.includes(term) ? breaks.filter((known) => known !== term) : [...breaks, term],
+    }))
+  }
+
+  async restart(): Promise<void> {
+    const { file, seed } = this.store.get()
+    if (file) await this.open(file, seed)
+  }
+
+  async close(): Promise<void> {
+    this.pause()
+    const { session } = this.store.get()
+    this.clearMarks()
+    this.store.set({ session: null, file: null, values: new Map(), broke: null })
+    if (!session) return
+    try {
+      await this.studio.server.request('groundstate/session/close', { session: session.session })
+    } catch {
+      // It is gone already.
+    }
+  }
+
+  lost(): void {
+    this.pause()
+    this.clearMarks()
+    this.store.set({ session: null, file: null, values: new Map() })
+  }
+
+  // What the session did so far as a scenario beside the model.
+  async record(): Promise<void> {
+    const { file } = this.store.get()
+    if (!file || file.kind !== 'model') return
+    const folder = file.path.slice(0, file.path.lastIndexOf('/') + 1)
+    const model = file.path.slice(folder.length).replace(/\.asm$/, '')
+    const taken = this.studio.store
+      .get()
+      .files.filter((other) => other.path.startsWith(folder))
+      .map((other) => other.path.slice(folder.length).replace(/\.[^.]*$/, ''))
+    const name = freeName(model, taken)
+    if (await this.studio.write(`${folder}${name}.avalla`, scenario(name, `${model}.asm`, this.steps)))
+      this.studio.tell(words.run.recorded(name))
+  }
+
+  get recorded(): number {
+    return this.steps.length
+  }
+
+  // Guards of the drawings that are shown.
+
+  private guardTerms(): string[] {
+    const { session } = this.store.get()
+    const terms = new Set<string>()
+    if (!session) return []
+    for (const drawing of this.shown())
+      for (const box of drawing.picture.boxes) for (const { term } of guardTerms(drawing, box, session)) terms.add(term)
+    return [...terms].slice(0, 200)
+  }
+
+  private shown(): Drawing[] {
+    const { active, tabs } = this.studio.store.get()
+    const uris = active === null ? tabs : [active]
+    return uris.map((uri) => this.studio.chart(uri)?.drawing).filter((drawing) => drawing !== null && drawing !== undefined)
+  }
+
+  // Asks for the values of the guards on the canvas.
+  async evaluate(): Promise<void> {
+    const { session } = this.store.get()
+    const terms = this.guardTerms()
+    if (!session || terms.length === 0) return
+    try {
+      const { values } = await this.studio.server.request<{ values: (string | null)[] }>('groundstate/session/evaluate', {
+        session: session.session,
+        terms,
+      })
+      if (this.store.get().session?.session !== session.session) return
+      this.store.set({ values: new Map(terms.map((term, index) => [term, values[index] ?? null])) })
+    } catch {
+      this.store.set({ values: new Map() })
+    }
+  }
+
+  // What the last step wrote, on the lines of the open texts.
+  private marks(session: SessionState): void {
+    for (const doc of this.studio.openDocs) {
+      const here = <T extends { uri: string }>(place: T): boolean => place.uri === doc.file.uri
+      doc.ran([
+        ...session.unchanged.filter(here).map(({ range }) => ({ range, kind: 'same' as const })),
+        ...session.updates.filter(({ at }) => here(at)).map(({ at }) => ({ range: at.range, kind: 'changed' as const })),
+        ...session.faults.filter(({ at }) => here(at)).map(({ at }) => ({ range: at.range, kind: 'fault' as const })),
+        ...(session.next && here(session.next) ? [{ range: session.next.range, kind: 'next' as const }] : []),
+      ])
+    }
+  }
+
+  private clearMarks(): void {
+    for (const doc of this.studio.openDocs) doc.ran([])
+  }
+}
+
+// The terms that say whether a guard holds, one for each agent if it speaks of one.
+export function guardTerms(
+  drawing: Drawing,
+  box: Drawing['picture']['boxes'][number],
+  session: SessionState,
+): { term: string; agent: string }[] {
+  const closed = closedTerm(box)
+  if (closed !== null) return [{ term: closed, agent: '' }]
+  if (box.figure !== 'hexagon' || !drawing.control) return []
+  const control = drawing.control.term
+  const variables = new Set([...(box.link ?? '').matchAll(/\$\w+/g)].map(([name]) => name))
+  if (box.link === null || box.link === '') return control.includes('$') ? [] : [{ term: box.id, agent: '' }]
+  const [variable] = variables
+  if (variables.size !== 1 || variable === undefined || !control.includes(variable)) return []
+  const out: { term: string; agent: string }[] = []
+  for (const [location] of stateOf(session)) {
+    const agent = /^[^(]*\((.*)\)$/.exec(location)?.[1]
+    if (agent === undefined || agent === '' || !isControl(location, control)) continue
+    out.push({ term: box.link.split(variable).join(agent), agent })
+  }
+  return out.slice(0, 8)
+}

@@ -1,0 +1,66 @@
+// What a run or a counterexample shows on a drawing: lit states, values of guards, breakpoints.
+
+import { useMemo } from 'react'
+
+import { frames, lit, stateOf } from '../diagram/light'
+import type { Drawing } from '../diagram/protocol'
+import { verdicts } from './jobs'
+import { guardTerms } from './run'
+import { useStore } from './store'
+import type { Studio } from './studio'
+
+export interface ShownRun {
+  lit: ReadonlyMap<string, string[]>
+  values: ReadonlyMap<string, string>
+  breaks: ReadonlySet<string>
+  lines: ReadonlySet<number>
+}
+
+const NO_LINES: ReadonlySet<number> = new Set()
+
+// The breakpoint that a shape stands for, as a term; null if it has none.
+export function breakTerm(drawing: Drawing, id: string): string | null {
+  const box = drawing.picture.boxes.find((box) => box.id === id)
+  const control = drawing.control
+  if (!box) return null
+  if (box.figure === 'hexagon') return box.link && !box.link.includes('$') ? box.link : box.link ? null : box.id
+  if (box.figure !== 'circle' || !control || control.term.includes('$')) return null
+  const value = Object.entries(control.states).find(([, shape]) => shape === id)?.[0]
+  return value === undefined ? null : `${control.term} = ${value}`
+}
+
+export function useFrame(studio: Studio) {
+  const playing = useStore(studio.jobs.store, (state) => state.playing)
+  const jobs = useStore(studio.jobs.store, (state) => state.jobs)
+  return useMemo(() => {
+    if (!playing) return null
+    const job = jobs.find((job) => job.id === playing.job)
+    const verdict = job && verdicts(job).find((verdict) => verdict.check === playing.check)
+    const all = frames(verdict?.trace ?? [])
+    const frame = all[Math.min(playing.at, all.length - 1)]
+    return frame && verdict ? { frame, count: all.length, verdict, playing } : null
+  }, [jobs, playing])
+}
+
+export function useShownRun(studio: Studio, drawing: Drawing): ShownRun {
+  const session = useStore(studio.runner.store, (state) => state.session)
+  const values = useStore(studio.runner.store, (state) => state.values)
+  const breaks = useStore(studio.runner.store, (state) => state.breaks)
+  const played = useFrame(studio)
+  return useMemo(() => {
+    const state = played ? played.frame.state : session ? stateOf(session) : new Map<string, string>()
+    const guards = new Map<string, string>()
+    const broken = new Set<string>()
+    for (const box of drawing.picture.boxes) {
+      const term = breakTerm(drawing, box.id)
+      if (term !== null && breaks.includes(term)) broken.add(box.id)
+      if (!session || played) continue
+      const known = guardTerms(drawing, box, session)
+        .map(({ term }) => values.get(term))
+        .filter((value) => value !== undefined && value !== null)
+      const first = known[0]
+      if (first !== undefined) guards.set(box.id, known.every((value) => value === first) ? first : 'mixed')
+    }
+    return { lit: lit(drawing, state), values: guards, breaks: broken, lines: NO_LINES }
+  }, [breaks, drawing, played, session, values])
+}

@@ -1,0 +1,428 @@
+// The whole of an open folder: its files, the texts that are open, the language client, faults, what is shown.
+//
+// Owns: opening and closing, which file and drawing is in front, the address of both, renaming in all files, notices. In: the
+// server. It must not know how anything looks.
+
+import { LSPClient, Workspace, type WorkspaceFile } from '@codemirror/lsp-client'
+import type { Text, TransactionSpec } from '@codemirror/state'
+import type { EditorView } from '@codemirror/view'
+import { LSPPlugin } from '@codemirror/lsp-client'
+
+import type { Fault, Severity } from '../diagram/pick'
+import type { Changed, File, Hello, Place, Range, TextEdit } from '../diagram/protocol'
+import { changesOf } from '../diagram/text'
+import { words } from '../words'
+import { Chart } from './chart'
+import { Doc } from './document'
+import { Jobs } from './jobs'
+import { Runner } from './run'
+import { sanitized } from './sanitize'
+import type { Server } from './server'
+import { Store } from './store'
+
+export type Layout = 'both' | 'picture' | 'text'
+export type Panel = 'problems' | 'run' | 'check'
+export type Dialog =
+  | { kind: 'search' }
+  | { kind: 'new' }
+  | { kind: 'keys' }
+  | { kind: 'rename'; old: string; uri: string; at: { line: number; character: number } }
+  | { kind: 'machine'; uri: string }
+
+export interface Notice {
+  text: string
+  tone: 'told' | 'refused'
+  count: number
+}
+
+export interface StudioState {
+  online: 'connecting' | 'open' | 'closed'
+  hello: Hello | null
+  files: File[]
+  tabs: string[]
+  active: string | null
+  layout: Layout
+  panel: Panel | null
+  // The text beside a chart: its own, or its model's.
+  beside: 'chart' | 'model'
+  faults: ReadonlyMap<string, Fault[]>
+  notice: Notice | null
+  dialog: Dialog | null
+  // Where one came from by double-clicking, the last one last.
+  trail: { uri: string; drawing: string }[]
+  // Counts documents that were opened, so that views look again.
+  opened: number
+}
+
+interface Published {
+  uri: string
+  version?: number
+  diagnostics: { range: Range; severity?: number; message: string; code?: string | number }[]
+}
+
+const SEVERITIES: Severity[] = ['error', 'error', 'warning', 'info', 'hint']
+
+// The files that the language client knows: one view each.
+class Texts extends Workspace {
+  files: (WorkspaceFile & { view: EditorView })[] = []
+  private versions = new Map<string, number>()
+
+  constructor(
+    client: LSPClient,
+    private readonly studio: Studio,
+  ) {
+    super(client)
+  }
+
+  private version(uri: string): number {
+    const version = (this.versions.get(uri) ?? -1) + 1
+    this.versions.set(uri, version)
+    return version
+  }
+
+  syncFiles() {
+    if (this.studio.server.online !== 'open') return []
+    const updates = []
+    for (const file of this.files) {
+      const plugin = LSPPlugin.get(file.view)
+      if (!plugin || plugin.unsyncedChanges.empty) continue
+      updates.push({ changes: plugin.unsyncedChanges, file, prevDoc: file.doc })
+      file.doc = file.view.state.doc
+      file.version = this.version(file.uri)
+      plugin.clear()
+    }
+    return updates
+  }
+
+  openFile(uri: string, languageId: string, view: EditorView): void {
+    const doc: Text = view.state.doc
+    const file = { uri, languageId, version: this.version(uri), doc, view, getView: () => view }
+    this.files.push(file)
+    this.client.didOpen(file)
+  }
+
+  closeFile(uri: string): void {
+    this.files = this.files.filter((file) => file.uri !== uri)
+    this.client.didClose(uri)
+  }
+
+  override async requestFile(uri: string): Promise<WorkspaceFile | null> {
+    await this.studio.document(uri)
+    return this.getFile(uri)
+  }
+
+  override updateFile(uri: string, update: TransactionSpec): void {
+    this.getFile(uri)?.getView()?.dispatch(update)
+  }
+
+  override async displayFile(uri: string): Promise<EditorView | null> {
+    return (await this.studio.open(uri))?.view ?? null
+  }
+}
+
+export class Studio {
+  readonly store = new Store<StudioState>({
+    online: 'connecting',
+    hello: null,
+    files: [],
+    tabs: [],
+    active: null,
+    layout: 'both',
+    panel: null,
+    beside: 'chart',
+    faults: new Map(),
+    notice: null,
+    dialog: null,
+    trail: [],
+    opened: 0,
+  })
+  readonly client: LSPClient
+  readonly runner: Runner
+  readonly jobs: Jobs
+  private readonly docs = new Map<string, Doc>()
+  private readonly charts = new Map<string, Chart>()
+  private readonly opening = new Map<string, Promise<Doc | null>>()
+  private notices = 0
+
+  constructor(
+    readonly server: Server,
+    readonly hello: Hello,
+  ) {
+    this.client = new LSPClient({
+      rootUri: hello.root,
+      timeout: 120_000,
+      sanitizeHTML: sanitized,
+      workspace: (client) => new Texts(client, this),
+      notificationHandlers: {
+        'textDocument/publishDiagnostics': (_, params: Published) => (this.published(params), true),
+        'window/logMessage': () => true,
+      },
+    })
+    this.runner = new Runner(this)
+    this.jobs = new Jobs(this)
+    this.store.set({ online: server.online, hello, files: hello.files })
+    this.client.connect(server.transport)
+    server.on<Changed>('studio/changed', (params) => this.changedOutside(params))
+    server.on<{ files: File[] }>('studio/files', ({ files }) => this.store.set({ files }))
+    server.watch((online) => this.connection(online))
+  }
+
+  private connection(online: StudioState['online']): void {
+    this.store.set({ online })
+    if (online === 'closed') {
+      for (const doc of this.docs.values()) doc.event({ kind: 'offline' })
+      this.client.disconnect()
+      this.runner.lost()
+      this.jobs.lost()
+    }
+    if (online === 'open') void this.again()
+  }
+
+  // After the connection came back: a new language session with the texts as they are, and a look at the files.
+  private async again(): Promise<void> {
+    this.client.workspace.syncFiles()
+    this.client.connect(this.server.transport)
+    const hello = await this.server.request<Hello>('studio/hello', {})
+    this.store.set({ hello, files: hello.files })
+    for (const doc of this.docs.values()) doc.event({ kind: 'online' })
+    for (const chart of this.charts.values()) chart.refresh()
+  }
+
+  private changedOutside({ path, hash, text }: Changed): void {
+    const file = this.store.get().files.find((file) => file.path === path)
+    const doc = file && this.docs.get(file.uri)
+    if (doc) doc.event(text === null ? { kind: 'gone' } : { kind: 'seen', hash, text })
+    this.redraw()
+  }
+
+  // Pictures hang on the files that charts import, too.
+  redraw(): void {
+    for (const chart of this.charts.values()) chart.refresh()
+  }
+
+  private published({ uri, diagnostics, version }: Published): void {
+    const file = this.client.workspace.getFile(uri)
+    if (file && version !== undefined && version !== null && version !== file.version) return
+    const faults = diagnostics.map(
+      (item): Fault => ({
+        uri,
+        range: item.range,
+        severity: SEVERITIES[item.severity ?? 1] ?? 'error',
+        message: item.message,
+        code: String(item.code ?? ''),
+      }),
+    )
+    const all = new Map(this.store.get().faults)
+    if (faults.length > 0) all.set(uri, faults)
+    else all.delete(uri)
+    this.store.set({ faults: all })
+    this.docs.get(uri)?.diagnose(faults)
+  }
+
+  tell(text: string, tone: Notice['tone'] = 'told'): void {
+    this.store.set({ notice: { text, tone, count: ++this.notices } })
+  }
+
+  // Files.
+
+  file(uri: string): File | undefined {
+    const { files, hello } = this.store.get()
+    return files.find((file) => file.uri === uri) ?? hello?.library.find((file) => file.uri === uri)
+  }
+
+  fileAt(path: string): File | undefined {
+    return this.store.get().files.find((file) => file.path === path)
+  }
+
+  // A file with the same name but another ending: the model of a chart.
+  sibling(file: File, ending: string): File | undefined {
+    return this.file(file.uri.replace(/\.[^./]*$/, `.${ending}`))
+  }
+
+  isLibrary(uri: string): boolean {
+    return !this.store.get().files.some((file) => file.uri === uri)
+  }
+
+  doc(uri: string | null): Doc | undefined {
+    return uri === null ? undefined : this.docs.get(uri)
+  }
+
+  chart(uri: string | null): Chart | undefined {
+    return uri === null ? undefined : this.charts.get(uri)
+  }
+
+  get openDocs(): Doc[] {
+    return [...this.docs.values()]
+  }
+
+  // The document of a file, read if need be; it is not brought to the front.
+  document(uri: string): Promise<Doc | null> {
+    const known = this.docs.get(uri)
+    if (known) return Promise.resolve(known)
+    const begun = this.opening.get(uri)
+    if (begun) return begun
+    const promise = this.load(uri).finally(() => this.opening.delete(uri))
+    this.opening.set(uri, promise)
+    return promise
+  }
+
+  private async load(uri: string): Promise<Doc | null> {
+    const own = this.store.get().files.find((file) => file.uri === uri)
+    const file: File = own ?? this.file(uri) ?? { uri, path: decodeURIComponent(uri.split('/').at(-1) ?? uri), kind: kindOf(uri) }
+    try {
+      const params = own ? { path: own.path } : { uri }
+      const { text, hash } = await this.server.request<{ text: string; hash?: string }>('studio/read', params)
+      const readOnly = !own || this.hello.readOnly
+      const doc = new Doc(this, file, text, hash ?? null, readOnly)
+      this.docs.set(uri, doc)
+      if (file.kind === 'chart') this.charts.set(uri, new Chart(this, doc))
+      const faults = this.store.get().faults.get(uri)
+      if (faults) doc.diagnose(faults)
+      this.store.set((state) => ({ opened: state.opened + 1 }))
+      return doc
+    } catch (error) {
+      this.tell((error as Error).message, 'refused')
+      return null
+    }
+  }
+
+  // Brings a file to the front, and a place or a drawing of it before the eyes.
+  async open(uri: string, where: { range?: Range; drawing?: string; focus?: boolean } = {}): Promise<Doc | null> {
+    const doc = await this.document(uri)
+    if (!doc) return null
+    this.store.set((state) => ({
+      active: uri,
+      tabs: state.tabs.includes(uri) ? state.tabs : [...state.tabs, uri],
+      beside: state.active === uri ? state.beside : 'chart',
+    }))
+    if (where.drawing !== undefined) this.chart(uri)?.turnTo(where.drawing)
+    const { range } = where
+    if (range) {
+      if (this.store.get().layout === 'picture') this.store.set({ layout: 'both' })
+      requestAnimationFrame(() => doc.reveal(range, where.focus ?? true))
+    }
+    return doc
+  }
+
+  // From a shape into the drawing that it stands for; `back` leads out again.
+  async enter(uri: string, drawing: string): Promise<void> {
+    const { active, trail } = this.store.get()
+    const here = this.chart(active)?.drawing?.name
+    await this.open(uri, { drawing })
+    if (active !== null && here !== undefined) this.store.set({ trail: [...trail, { uri: active, drawing: here }] })
+  }
+
+  async back(index: number): Promise<void> {
+    const { trail } = this.store.get()
+    const to = trail[index]
+    if (!to) return
+    await this.open(to.uri, { drawing: to.drawing })
+    this.store.set({ trail: trail.slice(0, index) })
+  }
+
+  close(uri: string): void {
+    const { tabs, active } = this.store.get()
+    const index = tabs.indexOf(uri)
+    const left = tabs.filter((tab) => tab !== uri)
+    this.store.set({ tabs: left, ...(active === uri ? { active: left[Math.min(index, left.length - 1)] ?? null } : {}) })
+    const doc = this.docs.get(uri)
+    if (!doc) return
+    void doc.saved().then(() => {
+      // It may have been opened again, or stand beside a chart.
+      const { sync } = doc.store.get()
+      if (this.store.get().tabs.includes(uri) || sync.conflict || sync.text !== sync.baseText) return
+      this.docs.delete(uri)
+      this.charts.delete(uri)
+      doc.destroy()
+      this.store.set((state) => ({ opened: state.opened + 1 }))
+    })
+  }
+
+  async show(place: Place, focus = true): Promise<void> {
+    await this.open(place.uri, { range: place.range, focus })
+  }
+
+  // Renaming.
+
+  askRename(doc: Doc): void {
+    const { state } = doc.view
+    const word = state.wordAt(state.selection.main.head)
+    if (!word) return this.tell(words.rename.nothing, 'refused')
+    this.store.set({
+      dialog: { kind: 'rename', old: state.sliceDoc(word.from, word.to), uri: doc.file.uri, at: doc.positionAt(word.from) },
+    })
+  }
+
+  async rename(uri: string, position: { line: number; character: number }, newName: string): Promise<boolean> {
+    this.client.sync()
+    try {
+      const params = { textDocument: { uri }, position, newName }
+      const edit = await this.server.request<WorkspaceEdit | null>('textDocument/rename', params)
+      return edit !== null && (await this.apply(edit))
+    } catch (error) {
+      this.tell((error as Error).message, 'refused')
+      return false
+    }
+  }
+
+  private async apply(edit: WorkspaceEdit): Promise<boolean> {
+    const all = new Map<string, TextEdit[]>(Object.entries(edit.changes ?? {}))
+    for (const { textDocument, edits } of edit.documentChanges ?? []) all.set(textDocument.uri, edits)
+    const targets: [Doc, TextEdit[]][] = []
+    for (const [uri, edits] of all) {
+      const doc = await this.document(uri)
+      if (!doc || doc.readOnly) {
+        this.tell(words.rename.readOnly, 'refused')
+        return false
+      }
+      targets.push([doc, edits])
+    }
+    for (const [doc, edits] of targets) doc.change(changesOf(doc.text, edits))
+    return true
+  }
+
+  // A new project from a template.
+  async create(template: string, name: string): Promise<boolean> {
+    try {
+      const { open } = await this.server.request<{ open: string }>('studio/new', { template, name })
+      const hello = await this.server.request<Hello>('studio/hello', {})
+      this.store.set({ files: hello.files })
+      const file = this.fileAt(open)
+      if (file) await this.open(file.uri)
+      return true
+    } catch (error) {
+      this.tell((error as Error).message, 'refused')
+      return false
+    }
+  }
+
+  // A new file with this text; opened.
+  async write(path: string, text: string): Promise<boolean> {
+    try {
+      await this.server.request('studio/write', { path, text, base: null })
+      const hello = await this.server.request<Hello>('studio/hello', {})
+      this.store.set({ files: hello.files })
+      const file = this.fileAt(path)
+      if (file) await this.open(file.uri)
+      return true
+    } catch (error) {
+      this.tell((error as Error).message, 'refused')
+      return false
+    }
+  }
+
+  async saveAll(): Promise<void> {
+    await Promise.all(this.openDocs.map((doc) => (doc.readOnly ? null : doc.saved())))
+  }
+}
+
+interface WorkspaceEdit {
+  changes?: Record<string, TextEdit[]>
+  documentChanges?: { textDocument: { uri: string }; edits: TextEdit[] }[]
+}
+
+function kindOf(uri: string): File['kind'] {
+  if (uri.endsWith('.chart')) return 'chart'
+  if (uri.endsWith('.avalla')) return 'scenario'
+  return 'model'
+}

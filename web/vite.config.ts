@@ -1,0 +1,19 @@
+// How the front end is built: hashed files that the server embeds, no inline scripts, nothing from elsewhere.
+
+import react from '@vitejs/plugin-react'
+import { defineConfig } from 'vite'
+
+export default defineConfig({
+  plugins: [react()],
+  build: {
+    target: 'es2022',
+    outDir: 'dist',
+    emptyOutDir: true,
+    // The page's security policy lets in no scripts or styles within HTML.
+    modulePreload: { polyfill: false },
+    chunkSizeWarningLimit: 900,
+  },
+  server: {
+    proxy: { '/ws': { target: process.env['STUDIO'] ?? 'http://127.0.0.1:7171', ws: true } },
+  },
+})
