@@ -1,6 +1,7 @@
 //! The tests of `ide` as one program: the pages of `spec/ide`, and what must hold whatever the text.
 #![allow(clippy::disallowed_methods, reason = "tests rewrite the pages on request")]
 
+mod drawing;
 mod edits;
 mod pages;
 mod refactor;

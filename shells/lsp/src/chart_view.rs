@@ -19,10 +19,8 @@ use crate::answer::Answers;
 use crate::location::uri_of;
 use crate::route::{Refused, subject};
 
-/// Where everything lies.
-pub const PICTURE: &str = "groundstate/chart/picture";
-/// What is done to a drawing.
-pub const EDIT: &str = "groundstate/chart/edit";
+/// The beginning of both methods.
+pub const PREFIX: &str = "groundstate/chart/";
 
 /// The version of both.
 const VERSION: u32 = 1;
@@ -40,11 +38,20 @@ fn path_in(params: &Value) -> Result<String, Refused> {
     path.ok_or_else(|| wrong("`textDocument.uri` is a chart"))
 }
 
-/// Answers [`PICTURE`].
+/// Answers a request about a chart.
 ///
 /// # Errors
-/// There is no chart.
-pub fn picture(answers: &mut Answers, params: &Value) -> Result<Value, Refused> {
+/// There is no chart or no such request, or it cannot be done; a sentence.
+pub fn answer(answers: &mut Answers, method: &str, params: &Value) -> Result<Value, Refused> {
+    match method {
+        "picture" => picture(answers, params),
+        "edit" => edit(answers, params),
+        other => Err(Refused::new(ErrorCode::MethodNotFound, format!("{PREFIX}{other} is not known"))),
+    }
+}
+
+/// Where everything lies.
+fn picture(answers: &mut Answers, params: &Value) -> Result<Value, Refused> {
     let path = path_in(params)?;
     let loaded = answers.project.chart(&path).map_err(failed)?;
     let text = answers.project.text(&path).map_err(|absent| failed(absent.told(&path)))?.text;
@@ -271,11 +278,8 @@ fn arrow(machine: &Machine, from: &str, branch: Option<bool>, to: &str) -> Optio
     found.map(|arrow| arrow.span)
 }
 
-/// Answers [`EDIT`].
-///
-/// # Errors
-/// It cannot be done; a sentence.
-pub fn edit(answers: &mut Answers, params: &Value) -> Result<Value, Refused> {
+/// What is done to a drawing.
+fn edit(answers: &mut Answers, params: &Value) -> Result<Value, Refused> {
     let path = path_in(params)?;
     let source = answers.project.text(&path).map_err(|absent| failed(absent.told(&path)))?;
     let drawing = params["drawing"].as_str().unwrap_or_default();
@@ -335,6 +339,7 @@ fn operation_of(value: &Value) -> Result<Operation, Refused> {
             let ids = value["ids"].as_array().ok_or_else(|| wrong("`ids` is a list of names"))?;
             Operation::Delete(ids.iter().filter_map(Value::as_str).map(str::to_string).collect())
         }
+        "rename" => Operation::Rename(needed("id")?, needed("name")?),
         "text" => Operation::Text(needed("id")?, text("text").filter(|text| !text.is_empty())),
         "link" => Operation::Link(needed("id")?, text("link").filter(|link| !link.trim().is_empty())),
         "refine" => {

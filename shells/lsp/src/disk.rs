@@ -55,10 +55,15 @@ impl Files for Disk {
             ErrorKind::NotFound | ErrorKind::NotADirectory => Absent::Missing,
             _ => Absent::Unreadable(format!("{path} cannot be read: {error}")),
         };
-        if let Some(folder) = &self.within
-            && !fs::canonicalize(path).map_err(unreadable)?.starts_with(folder)
-        {
-            return Err(Absent::Missing);
+        if let Some(folder) = &self.within {
+            let outside =
+                || Absent::Unreadable(format!("{path} lies outside the folder that is open, {}", folder.display()));
+            if !Path::new(path).starts_with(folder) {
+                return Err(outside());
+            }
+            if !fs::canonicalize(path).map_err(unreadable)?.starts_with(folder) {
+                return Err(outside());
+            }
         }
         let data = fs::metadata(path).map_err(unreadable)?;
         if !data.is_file() {

@@ -10,7 +10,6 @@ use serde_json::Value;
 
 use crate::answer::Answers;
 use crate::capabilities::REFACTORINGS;
-use crate::chart_view;
 use crate::location::{path_of, uri_of};
 use crate::publish::diagnostic;
 
@@ -111,8 +110,6 @@ pub fn answer(answers: &mut Answers, name: &str, params: Value) -> Result<Value,
         method::CallHierarchyOutgoingCalls::METHOD => {
             with::<method::CallHierarchyOutgoingCalls>(answers, params, callees)
         }
-        chart_view::PICTURE => chart_view::picture(answers, &params),
-        chart_view::EDIT => chart_view::edit(answers, &params),
         "groundstate/panic" if answers.settings.may_panic => panic!("asked to"),
         _ => Err(Refused::new(ErrorCode::MethodNotFound, format!("{name} is not known"))),
     }

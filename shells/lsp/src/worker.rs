@@ -19,6 +19,7 @@ use serde_json::Value;
 
 use crate::answer::Answers;
 use crate::background::Background;
+use crate::chart_view;
 use crate::disk::{Folder, project_files};
 use crate::location::uri_of;
 use crate::pending::{Pending, Stamp, Work};
@@ -271,9 +272,14 @@ impl Worker {
             let answers = &mut self.answers;
             self.pending.begin(Work::Request { id: id.clone(), path: path.clone(), about_all }, self.changes);
             let (sessions, stop) = (&mut self.sessions, self.pending.stop());
-            let answered = catch_unwind(AssertUnwindSafe(|| match method.strip_prefix(run::PREFIX) {
-                Some(method) => run::answer(sessions, answers, method, &params, &stop),
-                None => route::answer(answers, method, params),
+            let answered = catch_unwind(AssertUnwindSafe(|| {
+                if let Some(method) = method.strip_prefix(run::PREFIX) {
+                    run::answer(sessions, answers, method, &params, &stop)
+                } else if let Some(method) = method.strip_prefix(chart_view::PREFIX) {
+                    chart_view::answer(answers, method, &params)
+                } else {
+                    route::answer(answers, method, params)
+                }
             }));
             self.pending.end();
             answer = answered.unwrap_or_else(|panic| {

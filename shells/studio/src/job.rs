@@ -6,8 +6,8 @@
 
 use std::collections::BTreeMap;
 use std::io::{BufRead, BufReader, Read};
-use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -16,7 +16,7 @@ use groundstate::Kind;
 use serde_json::{Value, json};
 use tokio::sync::mpsc::Sender;
 
-use crate::studio::{Out, Studio, notification};
+use crate::tell::{Out, notification};
 
 /// LIMIT: processes at a time.
 const AT_A_TIME: usize = 4;
@@ -32,8 +32,10 @@ const LOOK: Duration = Duration::from_millis(10);
 const GRACE: Duration = Duration::from_secs(2);
 
 /// The processes that run.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Jobs {
+    program: PathBuf,
+    folder: PathBuf,
     last: AtomicU64,
     open: Mutex<BTreeMap<u64, Running>>,
 }
@@ -45,6 +47,21 @@ struct Running {
 }
 
 impl Jobs {
+    /// None yet; those to come are of this program, in this folder.
+    pub fn new(program: PathBuf, folder: PathBuf) -> Jobs {
+        Jobs { program, folder, last: AtomicU64::new(0), open: Mutex::default() }
+    }
+
+    /// The output of a command that is over in a moment.
+    ///
+    /// # Errors
+    /// The program cannot be started; a sentence.
+    pub fn at_once(&self, words: &[&str]) -> Result<Output, String> {
+        let mut command = Command::new(&self.program);
+        command.args(words).current_dir(&self.folder).env("NO_COLOR", "1").stdin(Stdio::null());
+        command.output().map_err(|error| format!("the program cannot be started: {error}"))
+    }
+
     fn open(&self) -> MutexGuard<'_, BTreeMap<u64, Running>> {
         self.open.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -64,6 +81,42 @@ impl Jobs {
     /// Stops all.
     pub fn stop_all(&self) {
         self.open().values_mut().for_each(|running| running.is_stopped = true);
+    }
+
+    /// Starts a command for a tab; its lines and its end are told to the tab alone. Out: its number.
+    ///
+    /// # Errors
+    /// Too many run, or the program cannot be started; a sentence.
+    pub fn start(self: &Arc<Jobs>, tab: u64, words: &[String], out: Sender<Out>) -> Result<u64, String> {
+        let number = self.last.fetch_add(1, Ordering::Relaxed) + 1;
+        {
+            let mut open = self.open();
+            if open.len() >= AT_A_TIME {
+                return Err(format!("{AT_A_TIME} jobs run already: stop one first"));
+            }
+            open.insert(number, Running { tab, is_stopped: false });
+        }
+        let mut command = Command::new(&self.program);
+        command.args(words).current_dir(&self.folder);
+        command.env("NO_COLOR", "1").stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        // What it starts itself, a solver, ends with it.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let started = command.spawn().map_err(|error| format!("the program cannot be started: {error}"));
+        let child = match started {
+            Ok(child) => child,
+            Err(reason) => {
+                self.open().remove(&number);
+                return Err(reason);
+            }
+        };
+        let jobs = Arc::clone(self);
+        std::thread::spawn(move || {
+            let code = follow(&jobs, number, child, &out);
+            jobs.open().remove(&number);
+            _ = out.blocking_send(notification("studio/done", &json!({ "job": number, "code": code })));
+        });
+        Ok(number)
     }
 
     /// Whether none runs.
@@ -112,41 +165,8 @@ pub fn words(job: &str, path: &str, options: &Value) -> Result<Vec<String>, Stri
     Ok(words)
 }
 
-/// Starts a command for a tab; its lines and its end are told to the tab alone. Out: its number.
-///
-/// # Errors
-/// Too many run, or the program cannot be started; a sentence.
-pub fn start(studio: &Arc<Studio>, tab: u64, words: &[String], out: Sender<Out>) -> Result<u64, String> {
-    let number = studio.jobs.last.fetch_add(1, Ordering::Relaxed) + 1;
-    {
-        let mut open = studio.jobs.open();
-        if open.len() >= AT_A_TIME {
-            return Err(format!("{AT_A_TIME} jobs run already: stop one first"));
-        }
-        open.insert(number, Running { tab, is_stopped: false });
-    }
-    let mut command = Command::new(&studio.program);
-    command.args(words).current_dir(studio.folder.root());
-    command.env("NO_COLOR", "1").stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    let started = command.spawn().map_err(|error| format!("the program cannot be started: {error}"));
-    let child = match started {
-        Ok(child) => child,
-        Err(reason) => {
-            studio.jobs.open().remove(&number);
-            return Err(reason);
-        }
-    };
-    let studio = Arc::clone(studio);
-    std::thread::spawn(move || {
-        let code = follow(&studio, number, child, &out);
-        studio.jobs.open().remove(&number);
-        _ = out.blocking_send(notification("studio/done", &json!({ "job": number, "code": code })));
-    });
-    Ok(number)
-}
-
 /// Hands on what a process writes until it ends. Out: its code; none if it was stopped.
-fn follow(studio: &Studio, number: u64, mut child: Child, out: &Sender<Out>) -> Option<i32> {
+fn follow(jobs: &Jobs, number: u64, mut child: Child, out: &Sender<Out>) -> Option<i32> {
     let left = Arc::new(AtomicU64::new(LINES as u64));
     let mut readers = Vec::new();
     if let Some(stdout) = child.stdout.take() {
@@ -165,34 +185,39 @@ fn follow(studio: &Studio, number: u64, mut child: Child, out: &Sender<Out>) -> 
             Ok(None) => {}
             Err(_) => break None,
         }
-        let is_stopped = studio.jobs.open().get(&number).is_none_or(|running| running.is_stopped);
+        let is_stopped = jobs.open().get(&number).is_none_or(|running| running.is_stopped);
         if is_stopped || begun.elapsed() > Duration::from_secs(SECONDS) || out.is_closed() {
             match asked {
                 None => {
-                    interrupt(&mut child);
+                    signal(&mut child, "-INT");
                     asked = Some(Instant::now());
                 }
-                Some(then) if then.elapsed() > GRACE => _ = child.kill(),
+                Some(then) if then.elapsed() > GRACE => signal(&mut child, "-KILL"),
                 Some(_) => {}
             }
         }
         std::thread::sleep(LOOK);
     };
+    if asked.is_some() {
+        // What it left behind would keep its output open.
+        signal(&mut child, "-KILL");
+    }
     readers.into_iter().for_each(|reader| _ = reader.join());
     code
 }
 
-/// Asks a process to end, as Ctrl-C does: it may still say what it knows.
+/// Signals a process and what it has started: `-INT` is what Ctrl-C does, so it may still say what it knows.
 #[cfg(unix)]
-fn interrupt(child: &mut Child) {
-    let asked = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-    if !asked.is_ok_and(|status| status.success()) {
+fn signal(child: &mut Child, signal: &str) {
+    let group = format!("-{}", child.id());
+    let sent = Command::new("kill").args([signal, "--", &group]).stderr(Stdio::null()).status();
+    if !sent.is_ok_and(|status| status.success()) {
         _ = child.kill();
     }
 }
 
 #[cfg(not(unix))]
-fn interrupt(child: &mut Child) {
+fn signal(child: &mut Child, _signal: &str) {
     _ = child.kill();
 }
 

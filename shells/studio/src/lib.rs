@@ -23,6 +23,7 @@ mod serve;
 mod socket;
 mod store;
 mod studio;
+mod tell;
 mod watch;
 
 pub use serve::{Options, Started, serve};

@@ -2,7 +2,6 @@
 //!
 //! In: a method and parameters as JSON. Out: the answer as JSON, or a sentence for the user. It may wait for the disk.
 
-use std::process::Command;
 use std::sync::Arc;
 
 use groundstate::Kind;
@@ -12,7 +11,8 @@ use serde_json::{Value, json};
 use tokio::sync::mpsc::Sender;
 
 use crate::job;
-use crate::studio::{Out, Studio};
+use crate::studio::Studio;
+use crate::tell::Out;
 
 /// The version of these requests. A change that would mislead a front end raises it.
 const VERSION: u32 = 1;
@@ -88,7 +88,8 @@ pub fn answer(
             if matches!(job, "build" | "generate") {
                 writable(studio)?;
             }
-            let number = job::start(studio, tab, &job::words(job, path, &params["options"])?, out.clone())?;
+            let words = job::words(job, path, &params["options"])?;
+            let number = studio.jobs.start(tab, &words, out.clone())?;
             Ok(json!({ "job": number }))
         }
         "studio/stop" => {
@@ -176,9 +177,7 @@ fn create(studio: &Studio, template: &str, name: &str) -> Result<Value, String> 
     }
     studio.folder.place(name)?;
     let words = ["new", &format!("./{name}"), "--template", template, "--quiet"];
-    let made =
-        Command::new(&studio.program).args(words).current_dir(studio.folder.root()).env("NO_COLOR", "1").output();
-    let made = made.map_err(|error| format!("the program cannot be started: {error}"))?;
+    let made = studio.jobs.at_once(&words)?;
     if !made.status.success() {
         let told = String::from_utf8_lossy(&made.stderr);
         return Err(told.trim().trim_start_matches("error: ").to_string());

@@ -14,7 +14,8 @@ use tokio::sync::mpsc::{Receiver, Sender, channel};
 
 use crate::folder::BYTES;
 use crate::request;
-use crate::studio::{Out, Studio, WAITING};
+use crate::studio::Studio;
+use crate::tell::{Out, WAITING};
 
 /// LIMIT: tabs at a time.
 const TABS: usize = 16;

@@ -3,27 +3,16 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use serde_json::{Value, json};
+use serde_json::Value;
 use tokio::sync::mpsc::Sender;
 use tokio::sync::mpsc::error::TrySendError;
 
 use crate::folder::Folder;
 use crate::job::Jobs;
 use crate::store::Store;
-
-/// Messages to a tab that wait at a time. LIMIT: a tab that reads more slowly is let go; it connects again and reads anew.
-pub const WAITING: usize = 4_096;
-
-/// What goes to a tab.
-#[derive(Debug, Clone)]
-pub enum Out {
-    /// A message to the browser.
-    Say(String),
-    /// To its language server: files have changed.
-    FilesChanged,
-}
+use crate::tell::{Out, notification};
 
 /// See the module.
 #[derive(Debug)]
@@ -38,10 +27,8 @@ pub struct Studio {
     pub hosts: Vec<String>,
     /// Nothing is written.
     pub read_only: bool,
-    /// This program, for jobs.
-    pub program: PathBuf,
     /// Processes that run.
-    pub jobs: Jobs,
+    pub jobs: Arc<Jobs>,
     store: Mutex<Store>,
     tabs: Mutex<BTreeMap<u64, Sender<Out>>>,
     last: AtomicU64,
@@ -50,14 +37,14 @@ pub struct Studio {
 impl Studio {
     /// A studio that nobody looks at yet.
     pub fn new(folder: Folder, token: String, port: u16, read_only: bool, program: PathBuf) -> Studio {
+        let root = folder.root().to_path_buf();
         Studio {
             folder,
             token,
             port,
             hosts: ["127.0.0.1", "localhost"].iter().map(|name| format!("{name}:{port}")).collect(),
             read_only,
-            program,
-            jobs: Jobs::default(),
+            jobs: Arc::new(Jobs::new(program, root)),
             store: Mutex::default(),
             tabs: Mutex::default(),
             last: AtomicU64::new(0),
@@ -113,9 +100,4 @@ impl Studio {
         };
         self.tabs().retain(|tab, out| Some(*tab) == but || goes_on(out));
     }
-}
-
-/// A notification as it is sent.
-pub fn notification(method: &str, params: &Value) -> Out {
-    Out::Say(json!({ "jsonrpc": "2.0", "method": method, "params": params }).to_string())
 }

@@ -38,6 +38,8 @@ pub enum Operation {
     Redirect(Joint, Joint),
     /// Shapes go, and all that hangs on them.
     Delete(Vec<String>),
+    /// A shape gets another name, wherever the chart names it.
+    Rename(String, String),
     /// What a shape shows; without a text, its name in words.
     Text(String, Option<String>),
     /// The part of the specification that a shape stands for.
@@ -168,6 +170,7 @@ impl Work {
             Operation::Disconnect(joint) => self.disconnect(joint),
             Operation::Redirect(joint, new) => self.redirect(joint, new),
             Operation::Delete(names) => names.iter().try_for_each(|name| self.delete(name)),
+            Operation::Rename(name, to) => self.rename(name, to),
             Operation::Text(name, text) => self.set_text(name, text.as_deref()),
             Operation::Link(name, link) => self.set_link(name, link.as_deref()),
             Operation::Refine(name, refinement) => {

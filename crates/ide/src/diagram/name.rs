@@ -1,6 +1,8 @@
 //! Names for what is drawn: made of what it shows, and taken by nothing else.
 
-use syntax::SyntaxKind;
+use syntax::SyntaxKind::*;
+use syntax::SyntaxNode;
+use syntax::ast::{AstNode, Phase, PhaseKind};
 
 use super::{Section, Work};
 
@@ -21,6 +23,47 @@ impl Work {
         Ok(numbered.into_iter().find(|name| !taken.contains(name)).unwrap_or(base))
     }
 
+    /// See [`super::Operation::Rename`].
+    pub(super) fn rename(&mut self, name: &str, to: &str) -> Result<(), String> {
+        self.select = vec![to.to_string()];
+        if name == to {
+            return Ok(());
+        }
+        if !is_name(to) {
+            return Err(format!("`{to}` is no name: a letter first, then letters, digits and _; no word of charts"));
+        }
+        if name == "enter" || !self.placeable()?.iter().any(|known| known == name) {
+            return Err(format!("there is no shape `{name}`"));
+        }
+        if self.names()?.iter().any(|taken| taken == to) {
+            return Err(format!("`{to}` is there already"));
+        }
+        let section = self.section()?;
+        let layout = self.layout()?.map(|layout| layout.syntax().clone());
+        let nodes = [Some(section.syntax().clone()), layout];
+        let mut found: Vec<std::ops::Range<usize>> = Vec::new();
+        for node in nodes.iter().flatten() {
+            for child in node.descendants() {
+                let tokens = child.children_with_tokens().filter_map(|element| element.into_token());
+                let mut own = tokens.filter(|token| token.kind() == GENERIC_ID);
+                // Which of the names in a node are those of parts of the drawing; links are AsmetaL.
+                let named: Vec<_> = match child.kind() {
+                    CONTROL_STATE | GUARD_SHAPE | ACTION_SHAPE | PATTERN_INSTANCE | COMPONENT | DEVICE | PLACEMENT => {
+                        own.next().into_iter().collect()
+                    }
+                    PHASE if !is_elaboration(&child) => own.next().into_iter().collect(),
+                    PATH_STOP | SEQUENCE | COMPONENT_KIND | CHANNEL | CHANNEL_KIND | CONNECTION => own.collect(),
+                    _ => continue,
+                };
+                let named = named.iter().filter(|token| token.text() == name);
+                found.extend(named.map(|token| std::ops::Range::from(token.text_range())));
+            }
+        }
+        found.sort_by_key(|range| range.start);
+        found.into_iter().rev().for_each(|range| self.replace(range, to));
+        Ok(())
+    }
+
     /// The names of all parts of the drawing.
     fn names(&self) -> Result<Vec<String>, String> {
         let section = self.section()?;
@@ -37,10 +80,14 @@ impl Work {
         };
         // What is broken may have names that no view shows.
         let words = section.syntax().descendants_with_tokens().filter_map(|element| element.into_token());
-        let named = words.filter(|token| token.kind() == SyntaxKind::GENERIC_ID);
+        let named = words.filter(|token| token.kind() == GENERIC_ID);
         names.extend(named.map(|token| token.text().to_string()));
         Ok(names)
     }
+}
+
+fn is_elaboration(node: &SyntaxNode) -> bool {
+    Phase::cast(node.clone()).is_some_and(|phase| phase.kind() == Some(PhaseKind::Elaborate))
 }
 
 /// Whether a text is a name in charts.

@@ -26,7 +26,7 @@ impl Work {
     }
 
     /// What may stand in the layout of the drawing.
-    fn placeable(&self) -> Result<Vec<String>, String> {
+    pub(super) fn placeable(&self) -> Result<Vec<String>, String> {
         Ok(match self.section()? {
             Section::Machine(machine) => {
                 let shapes = machine.shapes().filter_map(|shape| shape.name()).map(|name| name.text().to_string());

@@ -158,6 +158,25 @@ fn shapes_say_other_things() {
 }
 
 #[test]
+fn names_change_wherever_they_stand() {
+    let text = LAMP.replace("guard pressed \"Pressed\"", "guard pressed \"Pressed\" {pressed}")
+        + "\nlayout lamp\n\tpressed at 1, 2\nendlayout\n";
+    let renamed = after(&text, "lamp", Operation::Rename("pressed".into(), "pushed".into()));
+    let expect = text.replace("guard pressed", "guard pushed").replace("-> pressed", "-> pushed");
+    assert_eq!(renamed, expect.replace("pressed no", "pushed no").replace("pressed at", "pushed at"));
+    assert_eq!(refused(&text, "lamp", Operation::Rename("pressed".into(), "on".into())), "`on` is there already");
+    assert!(refused(&text, "lamp", Operation::Rename("pressed".into(), "state".into())).contains("is no name"));
+    let system = "chart P\nsystem p\n\tcomponent a synchronous period 1 ms\n\t\telaborate q 0.1 ms\n\t\twrite q\n\tendcomponent\n\
+                  \tcomponent b asynchronous awaits q\n\t\tread q as q2\n\tendcomponent\n\tchannel q from a to b queue 2\nendsystem\n";
+    let renamed = after(system, "p", Operation::Rename("q".into(), "codes".into()));
+    let expect =
+        system.replace("write q", "write codes").replace("awaits q", "awaits codes").replace("read q", "read codes");
+    assert_eq!(renamed, expect.replace("channel q", "channel codes"));
+    let renamed = after(system, "p", Operation::Rename("a".into(), "reader".into()));
+    assert_eq!(renamed, system.replace("component a", "component reader").replace("from a", "from reader"));
+}
+
+#[test]
 fn what_is_not_moved_stays() {
     let places = BTreeMap::from([("off".to_string(), (1.0, 2.0)), ("on".to_string(), (3.0, 4.0))]);
     let operation = Operation::Move(BTreeMap::from([("off".to_string(), (10.0, -20.0))]));
