@@ -41,7 +41,7 @@ const jobs: Record<JobKind, string> = {
   build: 'Build model',
   check: 'Compare with model',
   generate: 'Generate C++',
-  cover: 'Coverage',
+  review: 'Review',
 }
 
 export const words = {
@@ -177,7 +177,6 @@ export const words = {
     which: 'Of which pattern?',
     instanceOf: (name: string) => `Pattern ${name}`,
     noPattern: 'There is no pattern yet: make one under “New drawing”, or import a chart that has some.',
-    channelHow: 'Draw an arrow from one component to another: the channel comes between them.',
   },
   inspector: {
     label: 'Properties',
@@ -203,7 +202,8 @@ export const words = {
     delete: 'Delete',
     breakpoint: 'Pause a run here',
     fault: 'Fault',
-    close: 'Close the properties',
+    fold: 'Fold the properties',
+    unfold: 'Unfold the properties',
   },
   problems: {
     none: 'No problems.',
@@ -272,6 +272,7 @@ export const words = {
     violated: 'violated',
     unknownVerdict: 'unknown',
     states: (count: number) => (count === 1 ? '1 state' : `${count.toLocaleString('en')} states`),
+    explored: (count: number, complete: boolean) => `${complete ? 'All' : 'Not all'} states were seen: ${count.toLocaleString('en')}.`,
     trace: (steps: number) => (steps === 1 ? 'Show its step' : `Play its ${steps} steps`),
     counterexample: 'Counterexample',
     leave: 'Leave the counterexample',

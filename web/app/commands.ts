@@ -22,9 +22,9 @@ export function jobsFor(studio: Studio, uri: string | null): { job: JobKind; act
       return [start('build'), ...(model ? [start('check'), start('verify', model), start('generate', model)] : [start('verify')])]
     }
     case 'model':
-      return [start('verify'), start('test'), start('cover'), start('generate')]
+      return [start('verify'), start('test'), start('review'), start('generate')]
     case 'scenario':
-      return [start('test'), start('cover')]
+      return [start('test')]
     default:
       return []
   }
@@ -65,7 +65,7 @@ export const jobIcons: Record<JobKind, string> = {
   build: 'hammer',
   check: 'compare',
   generate: 'code',
-  cover: 'beaker',
+  review: 'search',
 }
 
 // Keys that work everywhere. Undo and redo reach the text of the file in front also from the canvas and the panels.

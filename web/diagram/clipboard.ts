@@ -20,7 +20,8 @@ export function copied(drawing: Drawing, ids: readonly string[]): string | null 
   const shapes: PastedShape[] = []
   for (const box of drawing.picture.boxes) {
     const shape = shapeOf(box)
-    if (!ids.includes(box.id) || !shape) continue
+    // A channel comes with the arrow that is drawn between components.
+    if (!ids.includes(box.id) || !shape || shape === 'channel') continue
     const [x, y] = centre(box)
     const link = box.link === '' ? null : box.link
     shapes.push({ id: box.id, shape, text: box.label, link, of: box.of, at: [Math.round(x), Math.round(y)] })

@@ -2,7 +2,7 @@ import { expect, test } from 'vitest'
 
 import { align, distribute, snappedCorner } from './arrange'
 import { copied, pasted } from './clipboard'
-import { freeBranch, mayConnect, move, redirect, remove } from './gestures'
+import { freeBranch, kept, mayConnect, move, redirect, remove } from './gestures'
 import { box, drawing, line } from './testing'
 
 const shapes = () => [
@@ -13,14 +13,15 @@ const shapes = () => [
   box('exit 1', 'exit', 40, 400, 2, 2),
 ]
 
-test('a drawing without places gets all of them at the first move, but exits', () => {
-  const by = new Map([['off', [10, 0] as const]])
-  expect(move(drawing(shapes(), [], 'pattern', false), by)).toEqual({
-    kind: 'move',
-    places: { off: [50, 40], pressed: [40, 140], on: [40, 240], enter: [41, -39] },
-  })
-  expect(move(drawing(shapes()), by)).toEqual({ kind: 'move', places: { off: [50, 40] } })
+test('only what was moved gets a new place; a drawing without places keeps all of them', () => {
+  const by = new Map([['off', [10, 0] as const], ['exit 1', [10, 0] as const]])
+  const operation = move(drawing(shapes()), by)
+  expect(operation).toEqual({ kind: 'move', places: { off: [50, 40] } })
   expect(move(drawing(shapes()), new Map([['off', [0, 0] as const]]))).toBeNull()
+  const places = { off: [40, 40], pressed: [40, 140], on: [40, 240], enter: [41, -39] }
+  expect(kept(drawing(shapes(), [], 'pattern', false), operation!)).toEqual({ places })
+  expect(kept(drawing(shapes()), operation!)).toEqual({})
+  expect(kept(drawing(shapes(), [], 'pattern', false), { kind: 'layout' })).toEqual({})
 })
 
 test('what no chart has is refused at once', () => {

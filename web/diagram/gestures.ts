@@ -9,20 +9,24 @@ import type { Selection } from './pick'
 
 const rounded = (value: number): number => Math.round(value)
 
-// Moves shapes. A drawing without places gets all of them, so that nothing else jumps.
+// Moves shapes.
 export function move(drawing: Drawing, by: ReadonlyMap<string, Point>): Operation | null {
   const places: Record<string, [number, number]> = {}
   for (const box of drawing.picture.boxes) {
-    const moved = by.get(box.id)
-    const [dx, dy] = moved ?? [0, 0]
-    if (box.figure === 'exit') continue
-    if (!drawing.placed || dx !== 0 || dy !== 0) {
-      const [cx, cy] = centre(box)
-      places[box.id] = [rounded(cx + dx), rounded(cy + dy)]
-    }
+    const [dx, dy] = by.get(box.id) ?? [0, 0]
+    if (box.figure === 'exit' || (dx === 0 && dy === 0)) continue
+    const [cx, cy] = centre(box)
+    places[box.id] = [rounded(cx + dx), rounded(cy + dy)]
   }
-  const real = [...by].some(([id, [dx, dy]]) => (dx !== 0 || dy !== 0) && id in places)
-  return real ? { kind: 'move', places } : null
+  return Object.keys(places).length > 0 ? { kind: 'move', places } : null
+}
+
+// Where all shapes are, for an operation on a drawing that has no places in the text: so that nothing else moves.
+export function kept(drawing: Drawing, operation: Operation): { places?: Record<string, [number, number]> } {
+  if (drawing.placed || operation.kind === 'layout' || operation.kind === 'machine') return {}
+  const all = drawing.picture.boxes.filter((box) => box.figure !== 'exit')
+  const middle = (box: Box): [number, number] => [rounded(centre(box)[0]), rounded(centre(box)[1])]
+  return { places: Object.fromEntries(all.map((box) => [box.id, middle(box)])) }
 }
 
 const SHAPES: Record<Figure, Shape | null> = {
@@ -117,7 +121,6 @@ export function toolsFor(kind: Drawing['kind']): Tool[] {
   return kind === 'system'
     ? [
         { shape: 'component', key: 'c' },
-        { shape: 'channel', key: 'h' },
         { shape: 'sensor', key: 's' },
         { shape: 'actuator', key: 'a' },
       ]

@@ -9,7 +9,7 @@ import { box, drawing, line } from './testing'
 const range = (line: number, from: number, to: number) => ({ start: { line, character: from }, end: { line, character: to } })
 
 test('control states are lit, one for each agent', () => {
-  const machine = { ...drawing([box('a', 'circle', 0, 0), box('b', 'circle', 0, 90)]), control: { term: 'arm($c)', states: { UP: 'a', DOWN: 'b' } } }
+  const machine = { ...drawing([box('a', 'circle', 0, 0), box('b', 'circle', 0, 90)]), lights: [{ name: '$c', term: 'arm($c)', shapes: [{ value: 'UP', shape: 'a' }, { value: 'DOWN', shape: 'b' }] }] }
   const state = new Map([
     ['arm(c1)', 'UP'],
     ['arm(c2)', 'UP'],

@@ -21,25 +21,25 @@ export function isControl(location: string, term: string): boolean {
   return term.includes('$') || /\(.*\(/.test(term) || compact(location) === compact(term)
 }
 
-export interface Lit {
-  // Box → the agents in it; the empty string for a machine that has none.
-  boxes: Map<string, string[]>
-}
-
 const argument = (location: string): string => /^[^(]*\((.*)\)\s*$/.exec(location)?.[1] ?? ''
 
+// What is lit, each with the agents in it; the empty string for a machine that has none. In a system these are rows of components.
 export function lit(drawing: Drawing, state: State): Map<string, string[]> {
   const out = new Map<string, string[]>()
-  const control = drawing.control
-  if (!control) return out
-  for (const [location, value] of state) {
-    if (!isControl(location, control.term)) continue
-    const id = control.states[value]
-    if (id === undefined) continue
-    out.set(id, [...(out.get(id) ?? []), argument(location)])
+  for (const { term, shapes } of drawing.lights) {
+    const byValue = new Map(shapes.map(({ value, shape }) => [value, shape]))
+    for (const [location, value] of state) {
+      const shape = byValue.get(value)
+      if (shape === undefined || !isControl(location, term)) continue
+      const agent = drawing.kind === 'system' ? '' : argument(location)
+      out.set(shape, [...(out.get(shape) ?? []), agent])
+    }
   }
   return out
 }
+
+// The term of a machine's control variable.
+export const controlOf = (drawing: Drawing): string | null => (drawing.kind === 'system' ? null : (drawing.lights[0]?.term ?? null))
 
 // A guard's term, if it can be evaluated outside of the machine: no variables in it.
 export const closedTerm = (box: Box): string | null =>

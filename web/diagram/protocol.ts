@@ -60,7 +60,7 @@ export interface Changed {
   text: string | null
 }
 
-export type JobKind = 'verify' | 'test' | 'build' | 'check' | 'generate' | 'cover'
+export type JobKind = 'verify' | 'test' | 'build' | 'check' | 'generate' | 'review'
 
 // Pictures of charts.
 
@@ -139,7 +139,14 @@ export interface Drawing {
   range: Range
   placed: boolean
   picture: Picture
-  control: null | { term: string; states: Record<string, string> }
+  lights: Light[]
+}
+
+// A term, and what is lit by its values: a box, or a line in one.
+export interface Light {
+  name: string
+  term: string
+  shapes: { value: string; shape: string }[]
 }
 
 export interface Pictures {

@@ -38,7 +38,7 @@ export const line = (from: number, to: number, branch: Line['branch'] = null): L
 export function drawing(boxes: Box[], lines: Line[] = [], kind: Drawing['kind'] = 'machine', placed = true): Drawing {
   const range = { start: { line: 0, character: 0 }, end: { line: 99, character: 0 } }
   const picture = { left: 0, top: 0, width: 500, height: 500, boxes, lines, labels: [] }
-  return { name: 'm', kind, title: 'M', link: null, range, placed, picture, control: null }
+  return { name: 'm', kind, title: 'M', link: null, range, placed, picture, lights: [] }
 }
 
 // A small generator, so that a failure comes again.

@@ -14,12 +14,12 @@ import { NOTHING } from '../diagram/pick'
 import type { Drawing, Line, Shape as ShapeKind } from '../diagram/protocol'
 import { words } from '../words'
 import { CanvasBar } from './CanvasBar'
-import { useBeyond, useFit } from './fit'
+import { useBeyond, useFit, useKeptWhole } from './fit'
 import type { Chart } from './chart'
 import { type Dropped, useConnecting } from './connect'
 import { Icon } from './icons'
 import { canvasKey } from './keys'
-import { Lines } from './Lines'
+import { Holds, Lines } from './Lines'
 import { Menu } from './Menu'
 import { useNodes } from './nodes'
 import { Palette, useTool } from './Palette'
@@ -110,6 +110,7 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
   const toFlow = useCallback((at: { x: number; y: number }) => flow.screenToFlowPosition(at, { snapToGrid: false }), [flow])
   const fit = useFit(chart)
   const beyond = useBeyond(drawing)
+  useKeptWhole(beyond, fit)
   const { drawn, begin, grip } = useConnecting(studio, chart, toFlow, setDrop)
   const tool = useTool(studio, chart, drawing, toFlow)
 
@@ -307,11 +308,10 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
               selected={selection.lines}
               lit={run.lines}
               held={drawn?.line ?? null}
-              readOnly={readOnly}
               name={lineName}
               onPick={pickLine}
-              onGrip={grip}
             />
+            {!readOnly && <Holds drawing={drawing} selected={selection.lines} onGrip={grip} />}
             {drawn && <Loose drawn={drawn} />}
           </ViewportPortal>
           {tool.ghost}

@@ -187,6 +187,7 @@ function Output({ studio, lines }: { studio: Studio; lines: (string | Record<str
       {lines.slice(-600).map((line, index) => {
         if (typeof line === 'string') return <li key={index}>{line}</li>
         const at = (line['at'] ?? line['place']) as LinePlace | undefined
+        if (line['type'] === 'explored') return <li key={index}>{words.check.explored(Number(line['states']), line['complete'] === true)}</li>
         const message = line['message'] ?? line['text'] ?? null
         const told =
           typeof message === 'string'

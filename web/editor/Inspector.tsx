@@ -19,12 +19,13 @@ import type { Studio } from './studio'
 export function Inspector({ studio, chart }: { studio: Studio; chart: Chart }): ReactNode {
   const drawing = useStore(chart.store, () => chart.drawing)
   const selection = useStore(chart.store, (state) => state.selection)
+  const [folded, setFolded] = useState(false)
   if (!drawing || (selection.boxes.length === 0 && selection.lines.length === 0)) return null
   const boxes = drawing.picture.boxes.filter((box) => selection.boxes.includes(box.id))
   const [box] = boxes
   const title = boxes.length > 1 ? words.inspector.several(boxes.length) : box ? words.spoken.figure[box.figure] : words.inspector.arrow
   return (
-    <aside className="inspector" aria-label={words.inspector.label}>
+    <aside className={`inspector${folded ? ' folded' : ''}`} aria-label={words.inspector.label}>
       <header>
         <h2>{title}</h2>
         {!chart.doc.readOnly && (
@@ -32,12 +33,20 @@ export function Inspector({ studio, chart }: { studio: Studio; chart: Chart }): 
             <Icon name="trash" />
           </button>
         )}
-        <button className="quiet" title={words.inspector.close} aria-label={words.inspector.close} onClick={() => chart.select({ boxes: [], lines: [] })}>
-          <Icon name="close" />
+        <button
+          className="quiet"
+          title={folded ? words.inspector.unfold : words.inspector.fold}
+          aria-label={folded ? words.inspector.unfold : words.inspector.fold}
+          aria-expanded={!folded}
+          onClick={() => setFolded(!folded)}
+        >
+          <span className={`turn${folded ? '' : ' open'}`}>
+            <Icon name="chevron" size={14} />
+          </span>
         </button>
       </header>
-      {boxes.length === 1 && box && <OneBox key={box.id} studio={studio} chart={chart} drawing={drawing} box={box} />}
-      {boxes.length === 0 && <OneLine drawing={drawing} index={selection.lines[0] ?? -1} />}
+      {!folded && boxes.length === 1 && box && <OneBox key={box.id} studio={studio} chart={chart} drawing={drawing} box={box} />}
+      {!folded && boxes.length === 0 && <OneLine drawing={drawing} index={selection.lines[0] ?? -1} />}
     </aside>
   )
 }
@@ -54,7 +63,7 @@ function OneBox({ studio, chart, drawing, box }: { studio: Studio; chart: Chart;
   const rename = async (name: string): Promise<boolean> => {
     if (!box.nameRange) return false
     const done = await studio.rename(chart.doc.file.uri, box.nameRange.start, name)
-    if (done) chart.store.set({ selection: { boxes: [name], lines: [] } })
+    if (done) chart.selectWhenThere([name])
     return done
   }
   const set = (operation: Parameters<Chart['operate']>[0]): Promise<boolean> =>
@@ -80,7 +89,7 @@ function OneBox({ studio, chart, drawing, box }: { studio: Studio; chart: Chart;
         />
       )}
       {links && (
-        <LinkField studio={studio} chart={chart} box={box} readOnly={readOnly} commit={(link) => set({ kind: 'link', id: box.id, link: link === '' ? null : link })} />
+        <LinkField studio={studio} chart={chart} drawing={drawing} box={box} readOnly={readOnly} commit={(link) => set({ kind: 'link', id: box.id, link: link === '' ? null : link })} />
       )}
       {box.figure === 'circle' && (
         <Switch
@@ -224,16 +233,19 @@ export function TextField({ name, label, value, placeholder, mono, readOnly, lis
   )
 }
 
-function LinkField({ studio, chart, box, readOnly, commit }: { studio: Studio; chart: Chart; box: Box; readOnly: boolean; commit: (link: string) => Promise<boolean> }): ReactNode {
+function LinkField({ studio, chart, drawing, box, readOnly, commit }: { studio: Studio; chart: Chart; drawing: Drawing; box: Box; readOnly: boolean; commit: (link: string) => Promise<boolean> }): ReactNode {
   const [offers, setOffers] = useState<string[]>([])
   const id = useId()
+  // What it stands for without a link of its own, as the picture says it.
+  const shown = drawing.picture.labels.find((label) => label.isLink && drawing.picture.boxes[label.of] === box)
+  const given = shown?.text.replace(/^\{|\}$/g, '') ?? ''
   return (
     <>
       <TextField
         name="link"
         label={words.inspector.link}
         value={box.link ?? ''}
-        placeholder={words.inspector.linkHint[box.figure] ?? ''}
+        placeholder={given || words.inspector.linkHint[box.figure] || ''}
         mono
         readOnly={readOnly}
         list={id}

@@ -1,7 +1,7 @@
 // The arrows of a drawing: the server's routes; while a shape is moved, straight lines that follow it.
 //
-// In: the drawing, how far shapes have been moved since, what is selected. Out: one SVG below the shapes; selecting, and taking
-// hold of an end.
+// In: the drawing, how far shapes have been moved since, what is selected. Out: an SVG below the shapes, in which arrows
+// are selected, and one above, by which their ends are taken hold of.
 
 import { type PointerEvent, type ReactNode, memo } from 'react'
 
@@ -17,10 +17,8 @@ export interface LinesProps {
   lit: ReadonlySet<number>
   // The arrow whose end is in the hand.
   held: number | null
-  readOnly: boolean
   name: (line: Line) => string
   onPick: (index: number, event: PointerEvent) => void
-  onGrip: (index: number, end: 'from' | 'to', event: PointerEvent) => void
 }
 
 export function Lines(props: LinesProps): ReactNode {
@@ -47,10 +45,8 @@ export function Lines(props: LinesProps): ReactNode {
             selected={selected.includes(index)}
             lit={lit.has(index)}
             held={held === index}
-            readOnly={props.readOnly}
             label={props.name}
             onPick={props.onPick}
-            onGrip={props.onGrip}
           />
         )
       })}
@@ -69,29 +65,41 @@ interface ArrowProps {
   selected: boolean
   lit: boolean
   held: boolean
-  readOnly: boolean
   label: (line: Line) => string
   onPick: LinesProps['onPick']
-  onGrip: LinesProps['onGrip']
 }
 
 const Arrow = memo(function Arrow(props: ArrowProps): ReactNode {
   const { line, index, boxes, selected } = props
   const points = followed(line, boxes, [props.fx, props.fy], [props.tx, props.ty])
   const { line: path, tip } = arrowPath(points)
-  const [start, end] = [points[0], points.at(-1)]
   const name = `arrow${selected ? ' selected' : ''}${props.lit ? ' lit' : ''}${props.held ? ' held' : ''}`
   return (
     <g className={name} onPointerDown={(event) => props.onPick(index, event)} aria-label={props.label(line)} role="img">
       <path className="reach" d={path} />
       <path className="stroke" d={path} />
       <path className="tip" d={tip} />
-      {selected && !props.readOnly && start && end && (
-        <>
-          <circle className="hold nodrag nopan" cx={start[0]} cy={start[1]} r={5} onPointerDown={(event) => props.onGrip(index, 'from', event)} />
-          <circle className="hold nodrag nopan" cx={end[0]} cy={end[1]} r={5} onPointerDown={(event) => props.onGrip(index, 'to', event)} />
-        </>
-      )}
     </g>
   )
 })
+
+// The ends of the selected arrows, above the shapes: there they are taken hold of.
+export function Holds({ drawing, selected, onGrip }: { drawing: Drawing; selected: readonly number[]; onGrip: (index: number, end: 'from' | 'to', event: PointerEvent) => void }): ReactNode {
+  return (
+    <svg className="lines holds" width="1" height="1">
+      {selected.map((index) => {
+        const points = drawing.picture.lines[index]?.points ?? []
+        const [start, end] = [points[0], points.at(-1)]
+        return (
+          start &&
+          end && (
+            <g key={index}>
+              <circle className="hold nodrag nopan" cx={start[0]} cy={start[1]} r={5} onPointerDown={(event) => onGrip(index, 'from', event)} />
+              <circle className="hold nodrag nopan" cx={end[0]} cy={end[1]} r={5} onPointerDown={(event) => onGrip(index, 'to', event)} />
+            </g>
+          )
+        )
+      })}
+    </svg>
+  )
+}

@@ -92,7 +92,6 @@ export function useTool(
     const where: [number, number] = [snapped(x, GRID), snapped(y, GRID)]
     setShape(null)
     setAt(null)
-    if (shape === 'channel') return studio.tell(words.palette.channelHow, 'refused')
     if (shape !== 'instance') return add(shape, where)
     const [only] = patterns
     if (only === undefined) return studio.tell(words.palette.noPattern, 'refused')

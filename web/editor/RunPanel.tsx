@@ -87,7 +87,7 @@ function Running({ studio, run, session, file }: { studio: Studio; run: RunState
         <Controls studio={studio} run={run} session={session} />
         <p className="run-what">
           <button className="link-button" onClick={() => void studio.open(file.uri)}>
-            {file.path}
+            {file.path.split('/').at(-1)}
           </button>
           <span className="run-step">{words.run.stepNumber(session.step)}</span>
           <span className={`run-wait ${session.waiting}`}>
@@ -150,7 +150,7 @@ function Asked({ runner, run, session }: { runner: Runner; run: RunState; sessio
   const location = session.word ?? ''
   const give = (value: string): void => {
     setText('')
-    if (keep) void runner.set(location, value).then(() => runner.step())
+    if (keep) void runner.set(location, value)
     else void runner.answer(value)
   }
   const submit = (event: FormEvent): void => {

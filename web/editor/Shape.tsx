@@ -66,7 +66,7 @@ function Sign({ right, top }: { right: number; top: number }): ReactNode {
   return <path className="shape component sign" d={d} />
 }
 
-function Words({ box }: { box: Box }): ReactNode {
+function Words({ box, row }: { box: Box; row: string | null }): ReactNode {
   const { width, height } = box
   const cx = width / 2
   const ruled = box.details.some((detail) => detail.right !== null)
@@ -93,12 +93,15 @@ function Words({ box }: { box: Box }): ReactNode {
     return (
       <Fragment key={index}>
         {rule !== null && <path className={`shape ${CLASSES[box.figure]} inner sign`} d={`M0 ${rule}H${width}`} />}
-        <text className="small start" x={12} y={at}>
-          {detail.text}
-        </text>
-        <text className="small end" x={width - 12} y={at}>
-          {detail.right}
-        </text>
+        <g className={row !== null && detail.id === row ? 'row-lit' : undefined}>
+          <rect className="row" x={6} y={at - 10.5} width={width - 12} height={14} rx={3} />
+          <text className="small start" x={12} y={at}>
+            {detail.text}
+          </text>
+          <text className="small end" x={width - 12} y={at}>
+            {detail.right}
+          </text>
+        </g>
       </Fragment>
     )
   })
@@ -114,11 +117,11 @@ function Words({ box }: { box: Box }): ReactNode {
   )
 }
 
-export const Shape = memo(function Shape({ box, labels }: { box: Box; labels: Label[] }): ReactNode {
+export const Shape = memo(function Shape({ box, labels, row = null }: { box: Box; labels: Label[]; row?: string | null }): ReactNode {
   return (
     <svg className="figure" width={box.width} height={box.height} aria-hidden="true">
       <Outline box={box} />
-      <Words box={box} />
+      <Words box={box} row={row} />
       {labels.map((label, index) => {
         const x = (label.isLink ? label.x : label.x + label.width / 2) - box.x
         const y = label.y + label.height - 3.5 - box.y

@@ -21,6 +21,8 @@ export interface ShapeData extends Record<string, unknown> {
   labels: Label[]
   ports: Port[]
   lit: string[] | null
+  // The lit row of a component.
+  row: string | null
   value: string | null
   fault: { severity: string; message: string } | null
   broken: boolean
@@ -54,7 +56,7 @@ export const ShapeNode = memo(function ShapeNode({ data, selected, dragging }: N
           {selected && <g className="ring"><Halo box={box} by={4} /></g>}
         </svg>
       )}
-      <Shape box={box} labels={labels} />
+      <Shape box={box} labels={labels} row={data.row} />
       {fault && (
         <span className="fault-badge" title={fault.message} aria-label={fault.message}>
           !

@@ -6,10 +6,14 @@
 
 import type { Arrow, Drawing, Edited, Operation, Pictures, Position } from '../diagram/protocol'
 import { NOTHING, type Selection, drawingAt, pickAt, rangesOf } from '../diagram/pick'
+import { kept } from '../diagram/gestures'
 import { changesOf, difference, rebased } from '../diagram/text'
 import type { Doc } from './document'
 import { Store } from './store'
 import type { Studio } from './studio'
+
+// The server gave an answer up because the text changed.
+const CONTENT_MODIFIED = -32801
 
 export interface ChartState {
   pictures: Pictures | null
@@ -30,6 +34,8 @@ export class Chart {
   private again = false
   private frame = 0
   private queue: Promise<unknown> = Promise.resolve()
+  // Shapes that an operation made, until a picture has them.
+  private wanted: string[] = []
 
   constructor(
     private readonly studio: Studio,
@@ -61,14 +67,14 @@ export class Chart {
     }
     this.busy = true
     try {
-      this.studio.client.sync()
       const params = { textDocument: { uri: this.doc.file.uri } }
-      const pictures = await this.studio.server.request<Pictures>('groundstate/chart/picture', params)
+      const pictures = await this.studio.ask<Pictures>('groundstate/chart/picture', params)
       const known = this.store.get().pictures
       if (pictures.drawings.length === 0 && known && known.drawings.length > 0 && this.doc.text.trim() !== '') this.store.set({ stale: true })
       else this.show(pictures)
-    } catch {
-      this.store.set({ stale: true })
+    } catch (error) {
+      if ((error as { code?: number }).code === CONTENT_MODIFIED) this.again = true
+      else this.store.set({ stale: true })
     } finally {
       this.busy = false
       if (this.again) {
@@ -81,11 +87,14 @@ export class Chart {
   private show(pictures: Pictures): void {
     const { shown, selection } = this.store.get()
     const drawing = pictures.drawings.find((drawing) => drawing.name === shown) ?? pictures.drawings[0]
-    const boxes = selection.boxes.filter((id) => drawing?.picture.boxes.some((box) => box.id === id))
+    const there = (id: string): boolean => drawing?.picture.boxes.some((box) => box.id === id) ?? false
+    const made = this.wanted.length > 0 && this.wanted.every(there) ? this.wanted : null
+    if (made) this.wanted = []
+    const boxes = made ?? selection.boxes.filter(there)
     // Lines are known by their index alone: a new picture may count them otherwise.
     const same = this.store.get().pictures?.drawings.find((old) => old.name === drawing?.name)
     const lines = same && drawing && same.picture.lines.length === drawing.picture.lines.length ? selection.lines : []
-    const kept = boxes.length === selection.boxes.length && lines.length === selection.lines.length
+    const kept = !made && boxes.length === selection.boxes.length && lines.length === selection.lines.length
     this.store.set({
       pictures,
       stale: false,
@@ -127,29 +136,29 @@ export class Chart {
   }
 
   // Does an operation on the shown drawing; resolves to the ids that it selects, or null if it was refused.
-  operate(operation: Operation, options: { joined?: boolean; select?: boolean } = {}): Promise<string[] | null> {
+  operate(operation: Operation, options: { select?: boolean } = {}): Promise<string[] | null> {
     const next = this.queue.then(() => this.perform(operation, options))
     this.queue = next.catch(() => null)
     return next
   }
 
-  private async perform(operation: Operation, options: { joined?: boolean; select?: boolean }): Promise<string[] | null> {
-    const drawing = this.drawing?.name ?? ''
+  private async perform(operation: Operation, options: { select?: boolean }): Promise<string[] | null> {
+    const shown = this.drawing
+    const drawing = shown?.name ?? ''
     if (this.doc.readOnly) return null
-    this.studio.client.sync()
     const before = this.doc.text
     try {
-      const params = { textDocument: { uri: this.doc.file.uri }, drawing, operation }
-      const { edits, select } = await this.studio.server.request<Edited>('groundstate/chart/edit', params)
+      const params = { textDocument: { uri: this.doc.file.uri }, drawing, operation, ...(shown ? kept(shown, operation) : {}) }
+      const { edits, select } = await this.studio.ask<Edited>('groundstate/chart/edit', params)
       let changes = changesOf(before, edits)
       if (this.doc.text !== before) {
         const carried = rebased(changes, difference(before, this.doc.text))
         if (!carried) return null
         changes = carried
       }
-      if (changes.length > 0) this.doc.change(changes, options.joined)
+      if (changes.length > 0) this.doc.change(changes)
       if (operation.kind === 'machine') this.store.set({ shown: operation.name, selection: NOTHING })
-      else if (options.select !== false && operation.kind !== 'move') this.store.set({ selection: { boxes: select, lines: [] } })
+      else if (options.select !== false && operation.kind !== 'move') this.selectWhenThere(select)
       return select
     } catch (error) {
       this.studio.tell((error as Error).message, 'refused')
@@ -158,10 +167,27 @@ export class Chart {
     }
   }
 
-  // A new shape at the end of a new arrow: undone as one.
+  // Selects shapes as soon as a picture has them.
+  selectWhenThere(ids: string[]): void {
+    this.wanted = ids
+    if (ids.length === 0) this.store.set({ selection: NOTHING })
+    this.refresh()
+  }
+
+  // Several operations that are undone as one.
+  async operateAll(operations: Operation[]): Promise<void> {
+    const [only] = operations
+    if (only && operations.length === 1) return void (await this.operate(only))
+    await this.doc.grouped(async () => {
+      for (const operation of operations) await this.operate(operation)
+    })
+  }
+
+  // A new shape at the end of a new arrow.
   async grow(add: Operation, arrow: Omit<Arrow, 'to'>): Promise<void> {
-    const made = await this.operate(add)
-    const id = made?.[0]
-    if (id !== undefined) await this.operate({ kind: 'connect', ...arrow, to: id }, { joined: true, select: false })
+    await this.doc.grouped(async () => {
+      const id = (await this.operate(add))?.[0]
+      if (id !== undefined) await this.operate({ kind: 'connect', ...arrow, to: id }, { select: false })
+    })
   }
 }

@@ -91,13 +91,6 @@ export function useConnecting(
         if (over === from && Math.hypot(x - what.fast[0], y - what.fast[1]) < 12) return
         const refusal = mayConnect(drawing, arrow)
         if (refusal) return studio.tell(words.refused[refusal], 'refused')
-        if (drawing.kind === 'system' && from.figure === 'component' && over.figure === 'component') {
-          const at: [number, number] = [
-            Math.round((from.x + from.width / 2 + over.x + over.width / 2) / 2),
-            Math.round((from.y + from.height / 2 + over.y + over.height / 2) / 2),
-          ]
-          return void chart.operate({ kind: 'add', shape: 'channel', at, from: from.id, to: over.id })
-        }
         return void chart.operate(connect(arrow), { select: false })
       }
       const line = drawing.picture.lines[what.index]

@@ -9,12 +9,11 @@ import { bracketMatching, codeFolding, foldGutter, foldKeymap, indentUnit } from
 import { type Diagnostic, lintKeymap, setDiagnostics } from '@codemirror/lint'
 import { LSPPlugin, formatKeymap, findReferencesKeymap, hoverTooltips, jumpToDefinitionKeymap, serverCompletion, signatureHelp } from '@codemirror/lsp-client'
 import { highlightSelectionMatches, searchKeymap } from '@codemirror/search'
-import { Annotation, EditorState, Transaction } from '@codemirror/state'
+import { Annotation, ChangeSet, type ChangeSpec, EditorState, Transaction } from '@codemirror/state'
 import { EditorView, crosshairCursor, drawSelection, dropCursor, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers, rectangularSelection } from '@codemirror/view'
 
 import type { File, Position, Range } from '../diagram/protocol'
 import { type Effect, type Sync, type SyncEvent, opened, turn } from '../diagram/sync'
-import type { Change } from '../diagram/text'
 import type { Written } from '../diagram/protocol'
 import { words } from '../words'
 import { coloured, languageId } from './language'
@@ -28,9 +27,6 @@ const SAVE_DELAY_MS = 300
 // A change that did not come from the user's hands in the text.
 const FromOutside = Annotation.define<true>()
 
-// The changes of one gesture that takes two operations are undone as one.
-export const Joined = Annotation.define<true>()
-
 export interface DocState {
   sync: Sync
   // How much there is to undo and to redo.
@@ -42,6 +38,8 @@ export class Doc {
   readonly store: Store<DocState>
   readonly view: EditorView
   private timer: ReturnType<typeof setTimeout> | undefined
+  // What was changed since a group began.
+  private group: ChangeSet | null = null
   // Called after each change of the text, and when the cursor is moved by hand.
   onText: (() => void)[] = []
   onCursor: ((at: Position) => void)[] = []
@@ -70,7 +68,7 @@ export class Doc {
       lineNumbers(),
       foldGutter(),
       codeFolding(),
-      history({ joinToEvent: (transaction, adjacent) => adjacent || transaction.annotation(Joined) === true }),
+      history(),
       drawSelection(),
       dropCursor(),
       rectangularSelection(),
@@ -104,6 +102,7 @@ export class Doc {
       editorTheme,
       EditorView.updateListener.of((update) => {
         if (update.docChanged) {
+          if (this.group) this.group = this.group.compose(update.changes)
           const text = update.state.doc.toString()
           this.store.set({ undos: undoDepth(update.state), redos: redoDepth(update.state) })
           this.event({ kind: 'edited', text })
@@ -135,15 +134,33 @@ export class Doc {
   }
 
   // One transaction: what undo takes back at once.
-  change(changes: Change[], joined = false): void {
+  change(changes: ChangeSpec): void {
+    const grouped = this.group !== null
     this.view.dispatch({
       changes,
       annotations: [
         FromOutside.of(true),
         Transaction.userEvent.of('diagram'),
-        joined ? Joined.of(true) : isolateHistory.of('full'),
+        grouped ? Transaction.addToHistory.of(false) : isolateHistory.of('full'),
       ],
     })
+  }
+
+  // What a gesture changes by several operations is undone as one: the changes are taken back and made again at once.
+  async grouped(work: () => Promise<void>): Promise<void> {
+    const { doc } = this.view.state
+    this.group = ChangeSet.empty(doc.length)
+    try {
+      await work()
+    } finally {
+      const all: ChangeSet = this.group
+      this.group = null
+      if (!all.empty) {
+        const annotations = [FromOutside.of(true), Transaction.addToHistory.of(false)]
+        this.view.dispatch({ changes: all.invert(doc), annotations })
+        this.change(all)
+      }
+    }
   }
 
   undo(): void {
@@ -164,6 +181,11 @@ export class Doc {
       annotations: FromOutside.of(true),
     })
     if (focus) this.view.focus()
+  }
+
+  scrollTo(range: Range): void {
+    const from = this.offsetAt(range.start)
+    this.view.dispatch({ effects: EditorView.scrollIntoView(from, { y: 'nearest', yMargin: 60 }), annotations: FromOutside.of(true) })
   }
 
   // Shows the places of what is selected on the canvas.

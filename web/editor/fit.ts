@@ -1,7 +1,7 @@
 // Showing all of a drawing: its arrows, too, and beside the bars that lie on the canvas.
 
 import { getViewportForBounds, useReactFlow, useStore, useStoreApi } from '@xyflow/react'
-import { useCallback } from 'react'
+import { useCallback, useEffect, useRef } from 'react'
 
 import { bounds } from '../diagram/geometry'
 import type { Drawing } from '../diagram/protocol'
@@ -38,4 +38,15 @@ export function useBeyond(drawing: Drawing): boolean {
         (box.y + box.height) * zoom + y > height,
     ),
   )
+}
+
+// When the canvas gets smaller, a drawing that was seen as a whole stays seen as a whole.
+export function useKeptWhole(beyond: boolean, fit: () => void): void {
+  const size = useStore((state) => state.width * 100_000 + state.height)
+  const last = useRef({ size, beyond })
+  useEffect(() => {
+    const before = last.current
+    last.current = { size, beyond }
+    if (before.size !== size && before.size !== 0 && !before.beyond && beyond) fit()
+  }, [beyond, fit, size])
 }

@@ -62,8 +62,7 @@ export async function paste(studio: Studio, chart: Chart, at: Point | null): Pro
 export function deleteSelected(chart: Chart): void {
   const drawing = chart.drawing
   if (!drawing || chart.doc.readOnly) return
-  const operations = remove(drawing, chart.store.get().selection)
-  operations.forEach((operation, index) => void chart.operate(operation, { joined: index > 0 }))
+  void chart.operateAll(remove(drawing, chart.store.get().selection))
 }
 
 export function duplicate(chart: Chart): void {

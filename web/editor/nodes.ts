@@ -76,12 +76,13 @@ export function useNodes(known: Known): ShapeNodeType[] {
     const [dx, dy] = known.offsets.get(box.id) ?? [0, 0]
     const selected = known.selected.has(box.id)
     const lit = known.lit.get(box.id) ?? null
+    const row = box.details.find((detail) => detail.id !== null && known.lit.has(detail.id))?.id ?? null
     const value = known.values.get(box.id) ?? null
     const fault = faults.get(box.id) ?? null
     const broken = known.breaks.has(box.id)
     const editing = known.editing === box.id
     const [x, y] = [box.x + dx, box.y + dy]
-    const key = `${x} ${y} ${selected} ${lit?.join()} ${value} ${fault?.severity}${fault?.message} ${broken} ${editing} ${known.readOnly}\n${shown[index]}`
+    const key = `${x} ${y} ${selected} ${lit?.join()} ${row} ${value} ${fault?.severity}${fault?.message} ${broken} ${editing} ${known.readOnly}\n${shown[index]}`
     const old = kept.current.get(box.id)
     if (old?.key === key) {
       next.set(box.id, old)
@@ -109,6 +110,7 @@ export function useNodes(known: Known): ShapeNodeType[] {
         labels: labels[index] ?? [],
         ports: ports[index] ?? [],
         lit,
+        row,
         value,
         fault: fault && { severity: fault.severity, message: fault.message },
         broken,

@@ -32,7 +32,7 @@ async function completed(studio: Studio, chart: Chart, box: Box): Promise<string
   const open = text.indexOf('{')
   if (open < 0) return []
   const params = { textDocument: { uri: chart.doc.file.uri }, position: chart.doc.positionAt(from + open + 1) }
-  const answer = await studio.server.request<{ items: Completion[] } | Completion[] | null>('textDocument/completion', params)
+  const answer = await studio.ask<{ items: Completion[] } | Completion[] | null>('textDocument/completion', params)
   const items = Array.isArray(answer) ? answer : (answer?.items ?? [])
   return items.map((item) => item.label)
 }
@@ -40,12 +40,11 @@ async function completed(studio: Studio, chart: Chart, box: Box): Promise<string
 async function declared(studio: Studio, chart: Chart): Promise<string[]> {
   const model = studio.sibling(chart.doc.file, 'asm')
   if (!model) return []
-  const answer = await studio.server.request<Outline[] | null>('textDocument/documentSymbol', { textDocument: { uri: model.uri } })
+  const answer = await studio.ask<Outline[] | null>('textDocument/documentSymbol', { textDocument: { uri: model.uri } })
   return names(answer ?? [])
 }
 
 export async function linkOffers(studio: Studio, chart: Chart, box: Box): Promise<string[]> {
-  studio.client.sync()
   const found = await Promise.allSettled([completed(studio, chart, box), declared(studio, chart)])
   const all = found.flatMap((result) => (result.status === 'fulfilled' ? result.value : []))
   const used = chart.store.get().pictures?.drawings.flatMap((drawing) => drawing.picture.boxes.map((box) => box.link ?? '')) ?? []

@@ -4,7 +4,7 @@
 // alone makes steps; here nothing is computed but when to ask for the next.
 
 import { type Recorded, freeName, scenario } from '../diagram/record'
-import { closedTerm, isControl, stateOf } from '../diagram/light'
+import { closedTerm, controlOf, isControl, stateOf } from '../diagram/light'
 import type { Drawing, File, SessionState } from '../diagram/protocol'
 import { words } from '../words'
 import { Store } from './store'
@@ -56,10 +56,10 @@ export class Runner {
     await this.close()
     this.store.set({ busy: true, file, seed })
     this.studio.store.set({ panel: 'run' })
+    this.studio.besideModel(file.uri)
     try {
-      this.studio.client.sync()
       const params = { textDocument: { uri: file.uri }, ...(seed === null ? {} : { seed }) }
-      const session = await this.studio.server.request<SessionState>('groundstate/session/open', params)
+      const session = await this.studio.ask<SessionState>('groundstate/session/open', params)
       this.steps = []
       this.given = []
       this.store.set({ sets: new Map(), broke: null })
@@ -82,6 +82,7 @@ export class Runner {
     this.store.set({ session })
     if (session.refused) this.studio.tell(session.refused, 'refused')
     this.marks(session)
+    this.follow(session)
     void this.evaluate()
   }
 
@@ -131,10 +132,13 @@ export class Runner {
     const sets = new Map(this.store.get().sets)
     if (value === null) sets.delete(location)
     else sets.set(location, value)
+    const before = this.store.get().session?.step ?? 0
     const answer = await this.ask('set', { location, value })
     if (!answer || answer.refused) return
     this.store.set({ sets })
     if (value !== null) this.given.push([location, value])
+    // If it was asked for, the step has been made with it.
+    this.note(before, answer)
   }
 
   async answer(value: string): Promise<void> {
@@ -222,6 +226,7 @@ export class Runner {
     this.clearMarks()
     this.store.set({ session: null, file: null, values: new Map(), broke: null })
     if (!session) return
+    this.studio.store.set({ beside: 'chart' })
     try {
       await this.studio.server.request('groundstate/session/close', { session: session.session })
     } catch {
@@ -301,6 +306,20 @@ export class Runner {
     }
   }
 
+  // A text that was opened meanwhile.
+  markAgain(): void {
+    const { session } = this.store.get()
+    if (session) this.marks(session)
+  }
+
+  // In a step by hand, the first line that it wrote comes into view.
+  private follow(session: SessionState): void {
+    const first = session.faults[0]?.at ?? session.next ?? session.updates[0]?.at
+    const doc = first && this.studio.doc(first.uri)
+    if (!first || !doc || this.store.get().playing || !doc.view.dom.isConnected || doc.view.hasFocus) return
+    doc.scrollTo(first.range)
+  }
+
   private clearMarks(): void {
     for (const doc of this.studio.openDocs) doc.ran([])
   }
@@ -314,8 +333,8 @@ export function guardTerms(
 ): { term: string; agent: string }[] {
   const closed = closedTerm(box)
   if (closed !== null) return [{ term: closed, agent: '' }]
-  if (box.figure !== 'hexagon' || !drawing.control) return []
-  const control = drawing.control.term
+  const control = controlOf(drawing)
+  if (box.figure !== 'hexagon' || control === null) return []
   const variables = new Set([...(box.link ?? '').matchAll(/\$\w+/g)].map(([name]) => name))
   if (box.link === null || box.link === '') return control.includes('$') ? [] : [{ term: box.id, agent: '' }]
   const [variable] = variables

@@ -2,7 +2,7 @@
 
 import { useMemo } from 'react'
 
-import { frames, lit, stateOf } from '../diagram/light'
+import { controlOf, frames, lit, stateOf } from '../diagram/light'
 import type { Drawing } from '../diagram/protocol'
 import { verdicts } from './jobs'
 import { guardTerms } from './run'
@@ -21,12 +21,12 @@ const NO_LINES: ReadonlySet<number> = new Set()
 // The breakpoint that a shape stands for, as a term; null if it has none.
 export function breakTerm(drawing: Drawing, id: string): string | null {
   const box = drawing.picture.boxes.find((box) => box.id === id)
-  const control = drawing.control
+  const control = controlOf(drawing)
   if (!box) return null
   if (box.figure === 'hexagon') return box.link && !box.link.includes('$') ? box.link : box.link ? null : box.id
-  if (box.figure !== 'circle' || !control || control.term.includes('$')) return null
-  const value = Object.entries(control.states).find(([, shape]) => shape === id)?.[0]
-  return value === undefined ? null : `${control.term} = ${value}`
+  if (box.figure !== 'circle' || control === null || control.includes('$')) return null
+  const value = drawing.lights[0]?.shapes.find(({ shape }) => shape === id)?.value
+  return value === undefined ? null : `${control} = ${value}`
 }
 
 export function useFrame(studio: Studio) {

@@ -167,6 +167,14 @@ export class Studio {
     server.watch((online) => this.connection(online))
   }
 
+  // A question about texts: the language server has them as they are now. INVARIANT: the client sends changes after a promise, so a
+  // question waits for the same one, or it would come before them.
+  async ask<Result>(method: string, params: unknown): Promise<Result> {
+    this.client.sync()
+    await this.client.initializing
+    return this.server.request<Result>(method, params)
+  }
+
   private connection(online: StudioState['online']): void {
     this.store.set({ online })
     if (online === 'closed') {
@@ -278,6 +286,7 @@ export class Studio {
       if (file.kind === 'chart') this.charts.set(uri, new Chart(this, doc))
       const faults = this.store.get().faults.get(uri)
       if (faults) doc.diagnose(faults)
+      this.runner.markAgain()
       this.store.set((state) => ({ opened: state.opened + 1 }))
       return doc
     } catch (error) {
@@ -338,8 +347,21 @@ export class Studio {
     })
   }
 
+  // A place in the model of the chart in front is shown beside the picture.
   async show(place: Place, focus = true): Promise<void> {
-    await this.open(place.uri, { range: place.range, focus })
+    if (this.besideModel(place.uri)) {
+      const doc = await this.document(place.uri)
+      requestAnimationFrame(() => doc?.reveal(place.range, focus))
+    } else await this.open(place.uri, { range: place.range, focus })
+  }
+
+  // Puts a model's text beside the picture, if it is that of the chart in front.
+  besideModel(uri: string): boolean {
+    const { active, layout } = this.store.get()
+    const front = active === null ? undefined : this.file(active)
+    if (front?.kind !== 'chart' || this.sibling(front, 'asm')?.uri !== uri || layout === 'picture') return false
+    this.store.set({ beside: 'model' })
+    return true
   }
 
   // Renaming.
@@ -354,10 +376,9 @@ export class Studio {
   }
 
   async rename(uri: string, position: { line: number; character: number }, newName: string): Promise<boolean> {
-    this.client.sync()
     try {
       const params = { textDocument: { uri }, position, newName }
-      const edit = await this.server.request<WorkspaceEdit | null>('textDocument/rename', params)
+      const edit = await this.ask<WorkspaceEdit | null>('textDocument/rename', params)
       return edit !== null && (await this.apply(edit))
     } catch (error) {
       this.tell((error as Error).message, 'refused')
