@@ -1,0 +1,100 @@
+// How the studio looks: pictures of each view in light and dark at 1400 and 1024 pixels, and what axe finds in them.
+
+import { readFileSync } from 'node:fs'
+import { createRequire } from 'node:module'
+
+import type { Browser, Page } from 'playwright-core'
+import { afterAll, beforeAll, expect, test } from 'vitest'
+
+import { type Trouble, opened, page as newPage, shape, shot } from './browser'
+import { type Served, copied, removed, served } from './served'
+
+const AXE = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8')
+
+let browser: Browser
+let studio: Served
+const trouble: Trouble = { told: [] }
+
+beforeAll(async () => {
+  studio = await served(copied('examples'))
+  browser = await opened()
+})
+
+afterAll(async () => {
+  await browser?.close()
+  studio?.stop()
+  if (studio) removed(studio.folder)
+})
+
+interface Finding {
+  id: string
+  impact: string
+  nodes: { target: string[]; failureSummary: string }[]
+}
+
+// axe is put in by the test's own means: the page's security policy would refuse it.
+async function serious(page: Page): Promise<string[]> {
+  await page.evaluate(AXE)
+  const found = await page.evaluate(async () => {
+    const axe = (window as unknown as { axe: { run: (options: object) => Promise<{ violations: Finding[] }> } }).axe
+    return (await axe.run({ resultTypes: ['violations'] })).violations
+  })
+  return found
+    .filter((finding) => finding.impact === 'serious' || finding.impact === 'critical')
+    .map((finding) => `${finding.id}: ${finding.nodes.map((node) => `${node.target.join(' ')} ${node.failureSummary}`).join('; ')}`)
+}
+
+const VIEWS: [string, string, (page: Page) => Promise<void>][] = [
+  ['welcome', '', async () => undefined],
+  [
+    'machine',
+    '#/examples/visual_servoing/VisualServoingComponent.chart',
+    async (page) => {
+      await shape(page, 'available').click()
+      await page.locator('.inspector').waitFor()
+    },
+  ],
+  [
+    'system',
+    '#/examples/pick_and_place/PlacingSystem.chart',
+    async (page) => {
+      await shape(page, 'planner').waitFor()
+    },
+  ],
+  [
+    'model',
+    '#/examples/coffee_machine/CoffeeMachine.asm',
+    async (page) => {
+      await page.keyboard.press('F5')
+      await page.locator('.state-table').waitFor()
+      await page.keyboard.press('F10')
+      await page.locator('.asked').waitFor()
+    },
+  ],
+  [
+    'keys',
+    '#/examples/coffee_machine/BuyCoffee.avalla',
+    async (page) => {
+      await page.locator('.cm-content').waitFor()
+      await page.keyboard.press('?')
+      await page.locator('dialog').waitFor()
+    },
+  ],
+]
+
+for (const [name, address, act] of VIEWS) {
+  for (const dark of [false, true]) {
+    for (const width of [1400, 1024]) {
+      test(`${name}, ${dark ? 'dark' : 'light'}, ${width}`, async () => {
+        trouble.told = []
+        const page = await newPage(browser, studio.address + address, trouble, { width, dark })
+        await page.waitForTimeout(400)
+        await act(page)
+        await shot(page, `${name}-${dark ? 'dark' : 'light'}-${width}`)
+        expect(await serious(page)).toEqual([])
+        expect(trouble.told).toEqual([])
+        await page.context().close()
+      })
+    }
+  }
+}

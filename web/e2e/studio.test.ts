@@ -1,0 +1,302 @@
+// The studio as its users meet it: each test does one thing on the page, and looks at the file on the disk.
+
+import { existsSync, readFileSync, writeFileSync } from 'node:fs'
+import { join } from 'node:path'
+
+import type { Browser, Page } from 'playwright-core'
+import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from 'vitest'
+
+import { type Trouble, drag, middle, onArrow, opened, page as newPage, shape, shot, text } from './browser'
+import { type Served, copied, removed, served } from './served'
+
+const LAMP = `// A lamp with a button.
+chart Lamp
+
+machine lamp "Lamp"
+	control light
+	initial state off "Off"
+	state on "On"
+	guard pressed "Pressed"
+	action count "COUNT"
+	off -> pressed yes -> count -> on
+	on -> pressed
+	pressed no -> off
+endmachine
+`
+
+let browser: Browser
+let studio: Served
+let page: Page
+const trouble: Trouble = { told: [] }
+
+const path = (name: string): string => join(studio.folder, name)
+const file = (name: string): string => (existsSync(path(name)) ? readFileSync(path(name), 'utf8') : '')
+const saved = (): Promise<void> => page.locator('.state-chip', { hasText: 'Saved' }).waitFor()
+
+async function until(holds: () => boolean | Promise<boolean>, what: string | (() => string)): Promise<void> {
+  for (let tries = 0; tries < 160; tries++) {
+    if (await holds()) return
+    await new Promise((done) => setTimeout(done, 50))
+  }
+  throw new Error(`it never came: ${typeof what === 'string' ? what : what()}`)
+}
+
+const has = (name: string, part: string | RegExp): Promise<void> =>
+  until(() => (typeof part === 'string' ? file(name).includes(part) : part.test(file(name))), () => `${part} in ${name}:\n${file(name)}`)
+
+async function open(name: string): Promise<void> {
+  await page.goto(`${studio.address}#/${name}`)
+  await page.reload()
+  await page.locator('.tab.on').waitFor()
+}
+
+async function lamp(): Promise<void> {
+  writeFileSync(path('Lamp.chart'), LAMP)
+  await open('Lamp.chart')
+  await shape(page, 'off').waitFor()
+}
+
+beforeAll(async () => {
+  const folder = copied('examples')
+  writeFileSync(join(folder, 'Lamp.chart'), LAMP)
+  studio = await served(folder)
+  browser = await opened()
+})
+
+afterAll(async () => {
+  await browser?.close()
+  studio?.stop()
+  if (studio) removed(studio.folder)
+})
+
+beforeEach(async () => {
+  trouble.told = []
+  page = await newPage(browser, studio.address, trouble)
+})
+
+afterEach(async () => {
+  await page.context().close()
+  expect(trouble.told).toEqual([])
+})
+
+test('a shape is moved, undone and done again, from canvas and text', async () => {
+  await lamp()
+  const [x, y] = await middle(shape(page, 'on'))
+  await drag(page, [x, y], [x + 120, y + 40])
+  await has('Lamp.chart', /layout lamp[\s\S]*on at \d+, \d+/)
+  // Nothing else moved, and what was written stays as it was.
+  expect(file('Lamp.chart').startsWith(LAMP.trimEnd())).toBe(true)
+  await page.keyboard.press('Control+z')
+  await until(() => file('Lamp.chart') === LAMP, 'the text as it was')
+  await page.keyboard.press('Control+y')
+  await has('Lamp.chart', 'layout lamp')
+  await page.locator('.cm-content').click()
+  await page.keyboard.press('Control+z')
+  await until(() => file('Lamp.chart') === LAMP, 'the text as it was')
+})
+
+test('a shape is placed by its key, named, linked, and made initial', async () => {
+  await lamp()
+  await page.locator('.canvas').click({ position: { x: 60, y: 30 } })
+  await page.keyboard.press('s')
+  await page.mouse.click(330, 250)
+  await has('Lamp.chart', /\n\tstate \w+/)
+  const name = page.locator('.inspector input[name=name]')
+  await name.waitFor()
+  await name.fill('broken')
+  await name.press('Enter')
+  await has('Lamp.chart', 'state broken')
+  await page.locator('.inspector input[name=text]').fill('Broken lamp')
+  await page.locator('.inspector input[name=text]').press('Enter')
+  await has('Lamp.chart', 'state broken "Broken lamp"')
+  await page.locator('.inspector input[name=link]').fill('BROKEN')
+  await page.locator('.inspector input[name=link]').press('Enter')
+  await has('Lamp.chart', 'state broken "Broken lamp" {BROKEN}')
+  await page.getByRole('switch', { name: 'Initial state' }).click()
+  await has('Lamp.chart', 'initial state broken')
+  expect(file('Lamp.chart')).toContain('\tstate off "Off"')
+  expect(file('Lamp.chart')).toContain('// A lamp with a button.')
+})
+
+test('an arrow is drawn from a port, redirected and deleted', async () => {
+  writeFileSync(path('Lamp.chart'), LAMP.replace('\tpressed no -> off\n', ''))
+  await open('Lamp.chart')
+  await shape(page, 'pressed').hover()
+  const port = await middle(page.locator('.port.no'))
+  await drag(page, port, await middle(shape(page, 'on')))
+  await has('Lamp.chart', 'pressed no -> on')
+  await page.mouse.click(...(await onArrow(page, 'Arrow from Pressed, no, to On')))
+  const tip = await middle(page.locator('.holds .hold').nth(1))
+  await drag(page, tip, await middle(shape(page, 'off')))
+  await has('Lamp.chart', 'pressed no -> off')
+  await page.mouse.click(...(await onArrow(page, 'Arrow from Pressed, no, to Off')))
+  await page.keyboard.press('Delete')
+  await until(() => !file('Lamp.chart').includes('pressed no'), 'no exit for no')
+})
+
+test('an arrow into the free grows a new shape, and is undone with it', async () => {
+  await lamp()
+  await shape(page, 'on').hover()
+  const port = await middle(shape(page, 'on').locator('.port.right'))
+  await drag(page, port, [800, 300])
+  await page.getByRole('menuitem', { name: 'Guard' }).click()
+  await has('Lamp.chart', /on -> (?!pressed)\w+/)
+  await page.locator('.canvas').focus()
+  await page.keyboard.press('Control+z')
+  await until(() => file('Lamp.chart') === LAMP, 'the text as it was')
+})
+
+test('shapes are selected together, aligned, copied and deleted', async () => {
+  await lamp()
+  await shape(page, 'on').click()
+  await shape(page, 'count').click({ modifiers: ['Control'] })
+  await page.keyboard.press('Control+c')
+  await page.getByRole('button', { name: 'Align left' }).click()
+  await has('Lamp.chart', 'layout lamp')
+  await page.keyboard.press('Control+v')
+  await has('Lamp.chart', /action count\d+/)
+  await saved()
+  await shape(page, 'pressed').click()
+  await page.keyboard.press('Delete')
+  await until(() => !file('Lamp.chart').includes('guard pressed'), 'no guard')
+  expect(file('Lamp.chart')).not.toMatch(/pressed/)
+})
+
+test('selecting a shape shows its text, and the cursor in the text selects the shape', async () => {
+  await lamp()
+  await shape(page, 'count').click()
+  await page.locator('.cm-picked', { hasText: 'count' }).first().waitFor()
+  await page.locator('.cm-line', { hasText: 'state on' }).click()
+  await shape(page, 'on').locator('.box.selected').waitFor()
+  expect(await shape(page, 'count').locator('.box.selected').count()).toBe(0)
+})
+
+test('everything is done with keys alone', async () => {
+  await lamp()
+  await shape(page, 'off').focus()
+  await page.keyboard.press('Tab')
+  await page.keyboard.press('Enter')
+  await page.locator('.field-in-shape').waitFor()
+  await page.keyboard.type('Button pressed')
+  await page.keyboard.press('Enter')
+  await has('Lamp.chart', 'guard pressed "Button pressed"')
+  await page.keyboard.press('ArrowRight')
+  await page.keyboard.press('ArrowRight')
+  await has('Lamp.chart', 'pressed at')
+})
+
+test('a fault in the text is told there, on the shape and in the list; the picture stays', async () => {
+  await lamp()
+  await page.locator('.cm-line', { hasText: 'pressed no' }).click()
+  await page.keyboard.press('End')
+  await page.keyboard.type('\n\tstate lost')
+  await shape(page, 'lost').locator('.fault-badge').waitFor()
+  await page.getByRole('tab', { name: /Problems/ }).click()
+  await page.locator('.problem', { hasText: 'lost' }).first().waitFor()
+  await shot(page, 'faults')
+  await page.locator('.cm-line', { hasText: 'state lost' }).click()
+  await page.keyboard.press('End')
+  await page.keyboard.type(' ->')
+  expect(await shape(page, 'off').count()).toBe(1)
+})
+
+test('a model is built, runs, lights states, shows guards, steps back and becomes a scenario', async () => {
+  await lamp()
+  await page.keyboard.press('F5')
+  await page.getByRole('button', { name: 'Build the model and run' }).click()
+  await shape(page, 'off').locator('.box.lit').waitFor({ timeout: 20_000 })
+  await page.keyboard.press('F10')
+  await page.locator('.offers button', { hasText: 'true' }).click()
+  await shape(page, 'on').locator('.box.lit').waitFor()
+  await shape(page, 'pressed').locator('.value-badge.true').waitFor()
+  await page.locator('.cm-ran-changed').first().waitFor()
+  await shot(page, 'run')
+  await page.getByRole('switch', { name: 'pressed' }).click()
+  await page.keyboard.press('F10')
+  await shape(page, 'off').locator('.box.lit').waitFor()
+  await page.keyboard.press('Shift+F10')
+  await shape(page, 'on').locator('.box.lit').waitFor()
+  await page.getByRole('button', { name: 'Record as a scenario' }).click()
+  await has('LampRun1.avalla', 'check light = ON;')
+  await page.getByRole('button', { name: 'Test' }).click()
+  await page.locator('.verdict', { hasText: 'passed' }).waitFor({ timeout: 20_000 })
+})
+
+test('a run pauses at a breakpoint', async () => {
+  await lamp()
+  await shape(page, 'on').click()
+  await page.getByRole('switch', { name: 'Pause a run here' }).click()
+  await shape(page, 'on').locator('.break-badge').waitFor()
+  await page.keyboard.press('F5')
+  await shape(page, 'off').locator('.box.lit').waitFor()
+  await page.keyboard.press('F10')
+  await page.locator('.offers button', { hasText: 'false' }).click()
+  await page.getByRole('switch', { name: 'pressed' }).click()
+  await page.keyboard.press('F5')
+  await page.locator('.note', { hasText: 'Paused' }).waitFor()
+  await shape(page, 'on').locator('.box.lit').waitFor()
+})
+
+test('a model is verified, and its counterexample plays', async () => {
+  await open('examples/mutual_exclusion/Peterson.asm')
+  await page.getByRole('button', { name: 'Verify' }).click()
+  await page.locator('.verdict', { hasText: 'violated' }).waitFor({ timeout: 40_000 })
+  await page.getByRole('button', { name: /Play its/ }).first().click()
+  await page.getByRole('button', { name: 'One step on' }).click()
+  await page.locator('.player tr.changed').first().waitFor()
+  await shot(page, 'verdicts')
+})
+
+test('what is written outside appears; what clashes is shown side by side', async () => {
+  await lamp()
+  writeFileSync(path('Lamp.chart'), LAMP.replace('"On"', '"Shining"'))
+  await page.locator('.figure text', { hasText: 'Shining' }).waitFor()
+  await page.context().setOffline(true)
+  await page.context().setOffline(false)
+  await page.locator('.cm-line', { hasText: 'action count' }).click()
+  await page.keyboard.press('End')
+  await page.keyboard.type(' // mine')
+  // Before the editor has written: the same line, from outside.
+  writeFileSync(path('Lamp.chart'), LAMP.replace('"COUNT"', '"ADD ONE"'))
+  await page.locator('.conflict').waitFor()
+  await shot(page, 'conflict')
+  expect(file('Lamp.chart')).toContain('ADD ONE')
+  await page.getByRole('button', { name: 'Keep my text' }).click()
+  await has('Lamp.chart', '// mine')
+  expect(await text(page)).toContain('// mine')
+})
+
+test('files, drawings, shapes and commands are found', async () => {
+  await open('examples/visual_servoing/VisualServoingComponent.chart')
+  await shape(page, 'reading').waitFor()
+  await page.keyboard.press('Control+k')
+  await page.keyboard.type('elapsed')
+  await shot(page, 'search')
+  await page.keyboard.press('Escape')
+  await shape(page, 'reading').dblclick()
+  await page.locator('.trail button').waitFor()
+  await page.getByRole('tab', { name: 'Asynchronous master reading', selected: true }).waitFor()
+  await page.locator('.trail button').click()
+  await page.getByRole('tab', { name: 'Visual servoing component', selected: true }).waitFor()
+})
+
+test('a project begins from a template, and a chart with a new machine', async () => {
+  await page.getByRole('button', { name: 'New from a template' }).first().click()
+  await page.locator('.card').first().waitFor()
+  await shot(page, 'new')
+  await page.locator('dialog input.mono').fill('Door')
+  await page.getByRole('button', { name: 'Create' }).click()
+  await page.locator('.tab.on').waitFor()
+  await lamp()
+  await page.getByRole('button', { name: 'New machine' }).click()
+  await page.locator('dialog input.mono').fill('blink')
+  await page.getByRole('button', { name: 'Create' }).click()
+  await has('Lamp.chart', 'machine blink')
+})
+
+test('the pattern library opens read only', async () => {
+  await page.getByRole('button', { name: /PatternMachines/ }).first().click()
+  await page.locator('.react-flow__node').first().waitFor()
+  await page.locator('.state-chip', { hasText: 'Read only' }).waitFor()
+  expect(await page.locator('.palette').count()).toBe(0)
+})
