@@ -73,6 +73,7 @@ export const words = {
     layout: { both: 'Picture and text', picture: 'Picture only', text: 'Text only' },
     layouts: 'What is shown',
     panels: { problems: 'Problems', run: 'Run', check: 'Results' },
+    panelTabs: 'Panels',
     closePanel: 'Close the panel',
     resize: 'Change the size',
     dismiss: 'Dismiss',

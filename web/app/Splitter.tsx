@@ -6,11 +6,13 @@ import { words } from '../words'
 
 export interface SplitterProps {
   axis: 'x' | 'y'
+  // Its place, in hundredths.
+  value: number
   // The share of the parent before the bar.
   resize: (share: number, event: PointerEvent) => void
 }
 
-export function Splitter({ axis, resize }: SplitterProps): ReactNode {
+export function Splitter({ axis, value, resize }: SplitterProps): ReactNode {
   const drag = (event: ReactPointerEvent<HTMLDivElement>): void => {
     event.preventDefault()
     const parent = event.currentTarget.parentElement?.getBoundingClientRect()
@@ -35,5 +37,16 @@ export function Splitter({ axis, resize }: SplitterProps): ReactNode {
     const [x, y] = [own.left + by, own.top + by]
     resize((x - parent.left) / parent.width, new PointerEvent('pointermove', { clientX: x, clientY: y }))
   }
-  return <div className={`splitter ${axis}`} role="separator" tabIndex={0} aria-label={words.shell.resize} aria-orientation={axis === 'x' ? 'vertical' : 'horizontal'} onPointerDown={drag} onKeyDown={key} />
+  return (
+    <div
+      className={`splitter ${axis}`}
+      role="separator"
+      tabIndex={0}
+      aria-label={words.shell.resize}
+      aria-orientation={axis === 'x' ? 'vertical' : 'horizontal'}
+      aria-valuenow={value}
+      onPointerDown={drag}
+      onKeyDown={key}
+    />
+  )
 }

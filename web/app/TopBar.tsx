@@ -76,7 +76,7 @@ export function TopBar({ studio, sidebar, showSidebar }: { studio: Studio; sideb
       {jobs.length > 0 && (
         <div className="joined">
           {first && (
-            <button onClick={first.act}>
+            <button aria-label={words.jobs[first.job]} onClick={first.act}>
               <Icon name={jobIcons[first.job]} />
               <span className="wide-only">{words.jobs[first.job]}</span>
             </button>

@@ -89,16 +89,15 @@ function Tabs({ studio }: { studio: Studio }): ReactNode {
   useStore(studio.store, (state) => state.opened)
   if (tabs.length === 0) return null
   return (
-    <div className="tabs" role="tablist" aria-label={words.shell.tabs}>
+    <nav className="tabs" aria-label={words.shell.tabs}>
       {tabs.map((uri) => {
         const file = studio.doc(uri)?.file
         if (!file) return null
         const name = fileName(file)
         return (
-          <div key={uri} className={`tab ${file.kind}${uri === active ? ' on' : ''}`} role="presentation">
+          <div key={uri} className={`tab ${file.kind}${uri === active ? ' on' : ''}`}>
             <button
-              role="tab"
-              aria-selected={uri === active}
+              aria-current={uri === active ? 'page' : undefined}
               title={file.path}
               onClick={() => void studio.open(uri)}
               onAuxClick={(event) => event.button === 1 && studio.close(uri)}
@@ -106,13 +105,13 @@ function Tabs({ studio }: { studio: Studio }): ReactNode {
               <Icon name={kindIcon(file)} size={14} />
               {name}
             </button>
-            <button className="tab-close" tabIndex={-1} aria-label={words.shell.closeTab(name)} onClick={() => studio.close(uri)}>
+            <button className="tab-close" aria-label={words.shell.closeTab(name)} onClick={() => studio.close(uri)}>
               <Icon name="close" size={12} />
             </button>
           </div>
         )
       })}
-    </div>
+    </nav>
   )
 }
 
@@ -143,7 +142,7 @@ function Editor({ studio, doc, chart }: { studio: Studio; doc: Doc; chart: Chart
           <Inspector studio={studio} chart={chart} />
         </section>
       )}
-      {both && <Splitter axis="x" resize={resize} />}
+      {both && <Splitter axis="x" value={Math.round(share * 100)} resize={resize} />}
       {layout !== 'picture' && <TextPane studio={studio} doc={doc} />}
     </div>
   )
@@ -159,13 +158,15 @@ function Drawings({ studio, chart }: { studio: Studio; chart: Chart }): ReactNod
     void studio.runner.evaluate()
   }
   return (
-    <div className="drawings" role="tablist" aria-label={words.shell.drawings}>
+    <div className="drawings">
+      <div className="drawing-tabs" role="tablist" aria-label={words.shell.drawings}>
       {drawings.map((drawing) => (
         <button key={drawing.name} role="tab" className={drawing.kind} aria-selected={drawing.name === shown} onClick={() => turn(drawing.name)}>
           <Icon name={drawing.kind === 'pattern' ? 'instance' : drawing.kind === 'system' ? 'component' : 'state'} size={14} />
           {drawing.title || drawing.name}
         </button>
       ))}
+      </div>
       {!chart.doc.readOnly && (
         <button
           className="quiet"
@@ -199,8 +200,9 @@ function Panels({ studio }: { studio: Studio }): ReactNode {
   }, [])
   return (
     <section className="panels">
-      {panel && <Splitter axis="y" resize={resize} />}
-      <div className="panel-tabs" role="tablist" aria-label={words.shell.panels.problems}>
+      {panel && <Splitter axis="y" value={Math.round((height / window.innerHeight) * 100)} resize={resize} />}
+      <div className="panel-tabs">
+        <div className="row" role="tablist" aria-label={words.shell.panelTabs}>
         {PANELS.map(({ panel: one, icon }) => (
           <button key={one} role="tab" aria-selected={panel === one} onClick={() => studio.store.set({ panel: panel === one ? null : one })}>
             <Icon name={icon} size={13} />
@@ -209,6 +211,7 @@ function Panels({ studio }: { studio: Studio }): ReactNode {
             {((one === 'check' && running) || (one === 'run' && session)) && <span className="busy-dot" aria-hidden="true" />}
           </button>
         ))}
+        </div>
         <span className="grow" />
         {panel && (
           <button className="quiet" title={words.shell.closePanel} aria-label={words.shell.closePanel} onClick={() => studio.store.set({ panel: null })}>

@@ -1,3 +1,5 @@
+// Tests of arrows, outlines and what lies under a point.
+
 import { expect, test } from 'vitest'
 
 import { arrowPath, border, followed, guardSides, hexagon, hit, plainArrow } from './geometry'

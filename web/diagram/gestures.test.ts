@@ -1,3 +1,5 @@
+// Tests of gestures, the clipboard and putting shapes in order.
+
 import { expect, test } from 'vitest'
 
 import { align, distribute, snappedCorner } from './arrange'

@@ -1,3 +1,5 @@
+// Tests of what a run lights, what a place in the text picks, recording and search.
+
 import { expect, test } from 'vitest'
 
 import { frames, functionOf, isControl, lit } from './light'

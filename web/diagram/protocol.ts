@@ -181,6 +181,7 @@ export type Operation =
   | ({ kind: 'disconnect' } & Arrow)
   | ({ kind: 'redirect' } & Arrow & { new: Arrow })
   | { kind: 'delete'; ids: string[] }
+  | { kind: 'rename'; id: string; name: string }
   | { kind: 'text'; id: string; text: string | null }
   | { kind: 'link'; id: string; link: string | null }
   | { kind: 'refine'; id: string; refine: null | { by: string | null } }

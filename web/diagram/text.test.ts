@@ -1,3 +1,5 @@
+// Tests of positions, differences and changes carried over others, on random texts.
+
 import { expect, test } from 'vitest'
 
 import { applied, changesOf, difference, offsetOf, positionOf, rebased } from './text'

@@ -16,7 +16,7 @@ let studio: Served
 const trouble: Trouble = { told: [] }
 
 beforeAll(async () => {
-  studio = await served(copied('examples'))
+  studio = await served(copied('examples', 'library'))
   browser = await opened()
 })
 

@@ -57,7 +57,7 @@ async function lamp(): Promise<void> {
 }
 
 beforeAll(async () => {
-  const folder = copied('examples')
+  const folder = copied('examples', 'library')
   writeFileSync(join(folder, 'Lamp.chart'), LAMP)
   studio = await served(folder)
   browser = await opened()

@@ -28,7 +28,7 @@ export function CanvasBar({ chart, drawing }: { studio: Studio; chart: Chart; dr
         <button title={words.canvas.zoomOut} aria-label={words.canvas.zoomOut} onClick={() => void flow.zoomOut({ duration: 120 })}>
           −
         </button>
-        <button className="zoom" title={words.canvas.zoomReset} aria-label={words.canvas.zoomReset} onClick={() => void flow.zoomTo(1, { duration: 120 })}>
+        <button className="zoom" title={words.canvas.zoomReset} onClick={() => void flow.zoomTo(1, { duration: 120 })}>
           {zoom} %
         </button>
         <button title={words.canvas.zoomIn} aria-label={words.canvas.zoomIn} onClick={() => void flow.zoomIn({ duration: 120 })}>

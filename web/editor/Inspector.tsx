@@ -60,12 +60,7 @@ function OneBox({ studio, chart, drawing, box }: { studio: Studio; chart: Chart;
   const ends = box.figure === 'enter' || box.figure === 'exit'
   const system = drawing.kind === 'system'
   const links = !system && !ends
-  const rename = async (name: string): Promise<boolean> => {
-    if (!box.nameRange) return false
-    const done = await studio.rename(chart.doc.file.uri, box.nameRange.start, name)
-    if (done) chart.selectWhenThere([name])
-    return done
-  }
+  const rename = async (name: string): Promise<boolean> => (await chart.operate({ kind: 'rename', id: box.id, name })) !== null
   const set = (operation: Parameters<Chart['operate']>[0]): Promise<boolean> =>
     chart.operate(operation, { select: false }).then((done) => done !== null)
   return (

@@ -54,7 +54,6 @@ export class Doc {
     this.store = new Store<DocState>({ sync: opened(text, hash ?? ''), undos: 0, redos: 0 })
     const state = EditorState.create({ doc: text, extensions: this.extensions() })
     this.view = new EditorView({ state })
-    this.view.contentDOM.setAttribute('aria-label', words.text.label(file.path))
   }
 
   private extensions() {
@@ -65,6 +64,7 @@ export class Doc {
       EditorState.tabSize.of(4),
       indentUnit.of('\t'),
       this.readOnly ? [EditorState.readOnly.of(true), EditorView.editable.of(false)] : [],
+      EditorView.contentAttributes.of({ tabindex: '0', 'aria-label': words.text.label(this.file.path) }),
       lineNumbers(),
       foldGutter(),
       codeFolding(),

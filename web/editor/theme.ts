@@ -8,7 +8,7 @@ export const editorTheme = EditorView.theme({
   '.cm-scroller': { fontFamily: 'var(--mono)', lineHeight: '1.55', overflow: 'auto' },
   '.cm-content': { padding: '10px 0 40vh', caretColor: 'var(--ink)' },
   '.cm-line': { padding: '0 14px 0 6px' },
-  '.cm-gutters': { backgroundColor: 'var(--paper)', color: 'var(--due)', border: 'none', paddingLeft: '4px' },
+  '.cm-gutters': { backgroundColor: 'var(--paper)', color: 'var(--faint)', border: 'none', paddingLeft: '4px' },
   '.cm-lineNumbers .cm-gutterElement': { minWidth: '26px', fontSize: '11px', padding: '0 6px 0 4px' },
   '.cm-foldGutter .cm-gutterElement': { color: 'var(--due)', cursor: 'pointer' },
   '.cm-activeLine': { backgroundColor: 'transparent' },
