@@ -10,10 +10,10 @@ MODELS := library/patterns library/runtime examples
 LINTED := $(if $(shell command -v clippy-driver),RUSTC_WORKSPACE_WRAPPER=clippy-driver CLIPPY_ARGS=-D__CLIPPY_HACKERY__warnings)
 OLDEST := $(shell sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)
 TIMED := sh xtask/timed.sh
-PARTS := lint unit scenarios cpp systems robot
+PARTS := lint unit scenarios cpp systems robot web
 
 .PHONY: help demo test full quick times lint unit scenarios verify cpp cpp-full systems robot robot-full mutants fuzz bench \
-    msrv bench-cpp corpus update vscode clean
+    studio web msrv bench-cpp corpus update vscode clean
 
 help: ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*##/\t/' | expand -t 12
@@ -34,6 +34,24 @@ test: ## everything that must hold before a change lands: a quarter of an hour o
 
 timed-%:
 	@$(TIMED) $* $(MAKE) --no-print-directory $*
+
+# What is not newer than what it was made of is not made again.
+WEB := $(shell find web -name node_modules -prune -o -name dist -prune -o -type f -print 2>/dev/null)
+
+web/node_modules/.package-lock.json: web/package.json web/package-lock.json
+	cd web && npm ci --no-audit --no-fund
+	@touch $@
+
+web/dist/index.html: $(WEB) web/node_modules/.package-lock.json
+	cd web && npm run build
+	@touch $@
+
+studio: web/dist/index.html ## a project in the browser: `make studio FOLDER=examples`, without one this project
+	$(CARGO) build --locked --profile demo --package cli
+	target/demo/groundstate studio $(or $(FOLDER),.)
+
+web: web/node_modules/.package-lock.json ## the studio's front end: types and the fast tests
+	cd web && npm test
 
 vscode: ## the extension for VS Code, checked and packed: editors/vscode/groundstate.vsix
 	cd editors/vscode && npm ci --no-audit --no-fund && npm test && npm run package
