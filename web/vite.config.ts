@@ -5,6 +5,8 @@ import { defineConfig } from 'vite'
 
 export default defineConfig({
   plugins: [react()],
+  // An exported project may lie anywhere.
+  base: './',
   build: {
     target: 'es2022',
     outDir: 'dist',

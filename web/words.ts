@@ -390,4 +390,8 @@ export const words = {
     done: 'Begin',
     skip: 'Skip',
   },
+  exported: {
+    refused: 'This is an exported project: it shows what was recorded, and nothing can be changed',
+    end: 'the recording ends here',
+  },
 }

@@ -3,6 +3,8 @@
 // Owns: JSON-RPC requests with names of their own (`s1`, `s2`, …), so that the language client's numbers do not meet them;
 // notifications by method; the transport that the language client takes. It must not know what the messages mean.
 
+import { Exported, exported } from './exported'
+
 export type Online = 'connecting' | 'open' | 'closed'
 
 interface Waiting {
@@ -41,9 +43,23 @@ export class Connection {
   private watchers = new Set<(online: Online) => void>()
   online: Online = 'connecting'
 
+  // Answers instead of a server, where the page is an exported project.
+  private kept: Exported | null = null
+
   constructor(private readonly address: string) {}
 
   open(): void {
+    const project = exported()
+    if (project !== null) {
+      void Exported.load(project, (method, params) => this.received(JSON.stringify({ method, params }))).then(
+        (kept) => {
+          this.kept = kept
+          this.tell('open')
+        },
+        () => this.tell('closed'),
+      )
+      return
+    }
     const socket = new WebSocket(this.address)
     this.socket = socket
     socket.onopen = () => {
@@ -88,7 +104,16 @@ export class Connection {
     for (const listener of [...this.raw]) listener(text)
   }
 
+  private async ask(kept: Exported, method: string, params: unknown): Promise<unknown> {
+    try {
+      return kept.answer(method, (params ?? {}) as Record<string, unknown>)
+    } catch (error) {
+      throw new Refused(error instanceof Error ? error.message : String(error), 0)
+    }
+  }
+
   request<Result>(method: string, params: unknown): Promise<Result> {
+    if (this.kept) return this.ask(this.kept, method, params) as Promise<Result>
     const socket = this.socket
     if (!socket || socket.readyState !== WebSocket.OPEN) return Promise.reject(new Refused('connection lost', 0))
     const id = `s${++this.count}`
@@ -96,6 +121,17 @@ export class Connection {
       this.waiting.set(id, { resolve: resolve as (result: unknown) => void, reject })
       socket.send(JSON.stringify({ jsonrpc: '2.0', id, method, params }))
     })
+  }
+
+  // What the language client asks of an exported project.
+  private sent(kept: Exported, text: string): void {
+    const message = JSON.parse(text) as Message
+    if (message.id === undefined || message.id === null || message.method === undefined) return
+    const { id } = message
+    void this.ask(kept, message.method, message.params).then(
+      (result) => this.received(JSON.stringify({ jsonrpc: '2.0', id, result: result ?? null })),
+      (error: Refused) => this.received(JSON.stringify({ jsonrpc: '2.0', id, error: { code: -32803, message: error.message } })),
+    )
   }
 
   on<Params>(method: string, handler: (params: Params) => void): void {
@@ -107,6 +143,7 @@ export class Connection {
   // What the language client speaks through. While there is no connection, what it sends is lost: it begins anew afterwards.
   readonly transport = {
     send: (message: string): void => {
+      if (this.kept) this.sent(this.kept, message)
       if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(message)
     },
     subscribe: (listener: (message: string) => void): void => void this.raw.add(listener),

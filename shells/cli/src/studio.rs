@@ -28,12 +28,29 @@ pub struct Arguments {
     /// Write nothing
     #[arg(long)]
     read_only: bool,
+    /// Start nothing: write the project as a site that any static server shows, with charts, a run of each model and verdicts
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["port", "no_open", "read_only"])]
+    export: Option<PathBuf>,
 }
 
 /// Runs the command.
 pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let program = std::env::current_exe();
     let program = program.map_err(|error| Failure::usage(format!("this program cannot find itself: {error}")))?;
+    if let Some(site) = &arguments.export {
+        let export = studio::Export { folder: arguments.folder.clone(), site: site.clone(), program };
+        let talks = shell.talks();
+        let tell = |path: &str| {
+            if talks {
+                eprintln!("{path}");
+            }
+        };
+        let count = studio::export(&export, tell).map_err(Failure::usage)?;
+        if talks {
+            writeln!(shell.out(), "{}: {count} files of the project; any static server shows it", site.display())?;
+        }
+        return Ok(Exit::Good);
+    }
     let options = studio::Options {
         folder: arguments.folder.clone(),
         port: arguments.port,

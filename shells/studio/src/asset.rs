@@ -6,10 +6,11 @@ use axum::body::Body;
 use axum::http::{Response, StatusCode, Uri, header};
 use rust_embed::RustEmbed;
 
+/// The files, by their paths.
 #[derive(RustEmbed)]
 #[folder = "../../web/dist"]
 #[allow_missing = true]
-struct Front;
+pub struct Front;
 
 /// Shown where there is no front end.
 const NOT_BUILT: &str = "<!doctype html><meta charset=utf-8><title>Groundstate studio</title><p>This program was built without the \

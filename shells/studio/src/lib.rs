@@ -15,6 +15,7 @@
 )]
 
 mod asset;
+mod export;
 mod folder;
 mod guard;
 mod job;
@@ -26,4 +27,5 @@ mod studio;
 mod tell;
 mod watch;
 
+pub use export::{Export, export};
 pub use serve::{Options, Started, serve};

@@ -10,6 +10,7 @@ use lsp::{Folder as Part, project_files, uri_of};
 use serde_json::{Value, json};
 use tokio::sync::mpsc::Sender;
 
+use crate::folder::Folder;
 use crate::job;
 use crate::studio::Studio;
 use crate::tell::Out;
@@ -37,13 +38,9 @@ pub fn answer(
 ) -> Result<Value, String> {
     let text = |key: &str| params[key].as_str().ok_or_else(|| format!("`{key}` is a text"));
     match method {
-        "studio/hello" => Ok(hello(studio)),
+        "studio/hello" => Ok(hello(&studio.folder, studio.read_only)),
         "studio/read" => match params["uri"].as_str() {
-            Some(uri) => {
-                let path = uri.parse().ok().and_then(|uri| lsp::path_of(&uri)).unwrap_or_default();
-                let library = library_text(&path).ok_or_else(|| format!("{uri} is no file of a library"))?;
-                Ok(json!({ "text": *library.text }))
-            }
+            Some(uri) => Ok(json!({ "text": library(uri)? })),
             None => {
                 let path = text("path")?;
                 known(path)?;
@@ -72,7 +69,7 @@ pub fn answer(
                 crate::store::Wrote::Not { .. } => {}
             }
             if base.is_none() {
-                studio.tell("studio/files", &json!({ "files": files(studio) }), None);
+                studio.tell("studio/files", &json!({ "files": files(&studio.folder) }), None);
             }
             Ok(wrote.json())
         }
@@ -124,8 +121,19 @@ fn known(path: &str) -> Result<(), String> {
     }
 }
 
-fn hello(studio: &Studio) -> Value {
-    let root = studio.folder.root();
+/// The text of a built-in library.
+///
+/// # Errors
+/// It is none; a sentence.
+pub fn library(uri: &str) -> Result<String, String> {
+    let path = uri.parse().ok().and_then(|uri| lsp::path_of(&uri)).unwrap_or_default();
+    let library = library_text(&path).ok_or_else(|| format!("{uri} is no file of a library"))?;
+    Ok(library.text.to_string())
+}
+
+/// What a front end is told first.
+pub fn hello(folder: &Folder, is_read_only: bool) -> Value {
+    let root = folder.root();
     let library = ide::library_names();
     let library = library.iter().filter_map(|name| {
         let uri = uri_of(name)?;
@@ -136,20 +144,20 @@ fn hello(studio: &Studio) -> Value {
         "program": env!("CARGO_PKG_VERSION"),
         "name": root.file_name().and_then(|name| name.to_str()).unwrap_or("/"),
         "root": uri_of(&root.to_string_lossy()).map(|uri| uri.as_str().to_string()),
-        "readOnly": studio.read_only,
-        "files": files(studio),
+        "readOnly": is_read_only,
+        "files": files(folder),
         "library": library.collect::<Vec<_>>(),
         "templates": TEMPLATES.map(|(name, title)| json!({ "name": name, "title": title })),
     })
 }
 
 /// The files of the folder, in order.
-pub fn files(studio: &Studio) -> Vec<Value> {
-    let root = studio.folder.root().to_string_lossy().into_owned();
+pub fn files(folder: &Folder) -> Vec<Value> {
+    let root = folder.root().to_string_lossy().into_owned();
     let found = project_files(&[Part { path: root, whole: true }]);
     let of = |path: &String| {
         let uri = uri_of(path)?;
-        let name = studio.folder.relative(std::path::Path::new(path))?;
+        let name = folder.relative(std::path::Path::new(path))?;
         Some(json!({ "path": name, "uri": uri.as_str(), "kind": kind(&name)? }))
     };
     found.iter().filter_map(of).collect()
@@ -182,7 +190,7 @@ fn create(studio: &Studio, template: &str, name: &str) -> Result<Value, String> 
         let told = String::from_utf8_lossy(&made.stderr);
         return Err(told.trim().trim_start_matches("error: ").to_string());
     }
-    let files = files(studio);
+    let files = files(&studio.folder);
     studio.tell("studio/files", &json!({ "files": files }), None);
     let inside = format!("{name}/");
     let mut paths = files.iter().filter_map(|file| file["path"].as_str()).filter(|path| path.starts_with(&inside));

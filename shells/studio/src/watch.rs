@@ -50,7 +50,7 @@ fn listener(events: Sender<()>) -> impl Fn(notify::Result<notify::Event>) {
 }
 
 fn follow(studio: &Studio, happened: &Receiver<()>) {
-    let mut listed: Vec<Value> = files(studio);
+    let mut listed: Vec<Value> = files(&studio.folder);
     while happened.recv().is_ok() {
         loop {
             match happened.recv_timeout(REST) {
@@ -63,7 +63,7 @@ fn follow(studio: &Studio, happened: &Receiver<()>) {
         for (path, now) in news {
             changed(studio, &path, now, None);
         }
-        let present = files(studio);
+        let present = files(&studio.folder);
         if present != listed {
             studio.tell("studio/files", &json!({ "files": present }), None);
             listed = present;
