@@ -14,7 +14,7 @@ import { NOTHING } from '../diagram/pick'
 import type { Drawing, Line, Shape as ShapeKind } from '../diagram/protocol'
 import { words } from '../words'
 import { CanvasBar } from './CanvasBar'
-import { useBeyond, useFit, useKeptWhole } from './fit'
+import { useBeyond, useDetail, useFit, useKeptWhole } from './fit'
 import type { Chart } from './chart'
 import { type Dropped, useConnecting } from './connect'
 import { Icon } from './icons'
@@ -111,6 +111,7 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
   const fit = useFit(chart)
   const beyond = useBeyond(drawing)
   useKeptWhole(beyond, fit)
+  const detail = useDetail()
   const { drawn, begin, grip } = useConnecting(studio, chart, toFlow, setDrop)
   const tool = useTool(studio, chart, drawing, toFlow)
 
@@ -252,7 +253,7 @@ function Shown({ studio, chart, drawing }: { studio: Studio; chart: Chart; drawi
     <ActsContext value={acts}>
       <div
         ref={canvas}
-        className={`canvas${tool.shape ? ' placing' : ''}${drawn ? ' connecting' : ''}${stale ? ' stale' : ''}`}
+        className={`canvas ${detail}${tool.shape ? ' placing' : ''}${drawn ? ' connecting' : ''}${stale ? ' stale' : ''}`}
         tabIndex={-1}
         onKeyDown={keys}
         onPointerMove={(event) => {

@@ -50,3 +50,8 @@ export function useKeptWhole(beyond: boolean, fit: () => void): void {
     if (before.size !== size && before.size !== 0 && !before.beyond && beyond) fit()
   }, [beyond, fit, size])
 }
+
+// What can be read at this distance: everything, the texts of shapes, or outlines alone.
+export function useDetail(): 'near' | 'far' | 'farther' {
+  return useStore(({ transform: [, , zoom] }) => (zoom < 0.34 ? 'farther' : zoom < 0.5 ? 'far' : 'near'))
+}
