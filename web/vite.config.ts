@@ -1,10 +1,9 @@
 // How the front end is built: hashed files that the server embeds, no inline scripts, nothing from elsewhere.
 
-import react from '@vitejs/plugin-react'
 import { defineConfig } from 'vite'
 
 export default defineConfig({
-  plugins: [react()],
+  esbuild: { jsx: 'automatic' },
   // An exported project may lie anywhere.
   base: './',
   build: {
