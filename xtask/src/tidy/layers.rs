@@ -14,7 +14,7 @@ const LAYERS: &[&[&str]] = &[
     &["machine"],
     &["explore", "solve"],
     &["recording", "testkit"],
-    &["simulate", "scenario", "verify", "refine", "chart", "conform"],
+    &["simulate", "scenario", "verify", "refine", "chart", "conform", "mutate"],
     &["draw", "generate"],
     &["inputs"],
     &["report"],
