@@ -128,6 +128,19 @@ impl Overlay {
         Ok(())
     }
 
+    /// Adds a term of any domain; messages show its text under `name`.
+    ///
+    /// # Errors
+    /// The faults of the text.
+    pub fn value(&mut self, name: &str, text: &str) -> Result<Expression, Vec<Diagnostic>> {
+        let file = self.add(SourceFile::new(name, text));
+        let fragment = Arc::make_mut(&mut self.model).check_term(file, &term(file, text)?);
+        if has_errors(&fragment.diagnostics) {
+            return Err(fragment.diagnostics);
+        }
+        program::lower_term(Arc::make_mut(&mut self.program), &self.model, &fragment.item, &fragment.variables)
+    }
+
     fn condition(&mut self, file: FileId, name: &str, said: Said<'_>) -> Result<Expression, Vec<Diagnostic>> {
         let term = term(file, said.text)?;
         let fragment = Arc::make_mut(&mut self.model).check_condition(file, &term, name);

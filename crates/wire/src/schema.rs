@@ -48,6 +48,8 @@ fn the_schema_of_the_output() {
             all.subschema_for::<Goal<'_>>(),
             all.subschema_for::<Measured>(),
             all.subschema_for::<MetaProperty>(),
+            all.subschema_for::<Mutant<'_>>(),
+            all.subschema_for::<Mutation<'_>>(),
             all.subschema_for::<ProgramReported<'_>>(),
             all.subschema_for::<Refinement>(),
             all.subschema_for::<ReportMade<'_>>(),

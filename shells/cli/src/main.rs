@@ -32,6 +32,7 @@ mod limits;
 mod load;
 mod lsp;
 mod man;
+mod mutate;
 mod new;
 mod overwrite;
 mod progress;
@@ -88,6 +89,8 @@ enum Command {
     Review(review::Arguments),
     /// Write scenarios that reach the rules, branches, updates, conditions and transitions of a model
     GenerateTests(generate_tests::Arguments),
+    /// Put small faults into models and tell which ones no property and no scenario notices
+    Mutate(Box<mutate::Arguments>),
     /// Repeat the run of a recorded trace and compare
     Replay(replay::Arguments),
     /// Run a model and write a page about the run: timeline, deadlines, waiting, coverage
@@ -153,6 +156,7 @@ fn work(arguments: Arguments) -> Exit {
         Command::Refine(arguments) => refine::run(&mut shell, &arguments),
         Command::Review(arguments) => review::run(&mut shell, &arguments),
         Command::GenerateTests(arguments) => generate_tests::run(&mut shell, &arguments),
+        Command::Mutate(arguments) => mutate::run(&mut shell, &arguments),
         Command::Replay(arguments) => replay::run(&mut shell, &arguments),
         Command::Report(arguments) => report::run(&mut shell, &arguments),
         Command::Chart(arguments) => chart::run(&mut shell, &arguments),

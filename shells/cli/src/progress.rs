@@ -11,6 +11,7 @@ pub struct Progress {
     total: Option<u64>,
     bar: Option<ProgressBar>,
     wanted: bool,
+    what: &'static str,
 }
 
 /// The shortest time between two reports of a run.
@@ -34,7 +35,18 @@ const PATIENCE: Duration = Duration::from_millis(700);
 impl Progress {
     /// A bar for this many steps, if known; with `busy`, none, since the terminal is used for something else.
     pub fn new(total: Option<u64>, busy: bool) -> Progress {
-        Progress { began: Instant::now(), total, bar: None, wanted: !busy && std::io::stderr().is_terminal() }
+        Progress {
+            began: Instant::now(),
+            total,
+            bar: None,
+            wanted: !busy && std::io::stderr().is_terminal(),
+            what: "steps",
+        }
+    }
+
+    /// A bar for this many of something else than steps.
+    pub fn of(what: &'static str, total: u64, busy: bool) -> Progress {
+        Progress { what, ..Progress::new(Some(total), busy) }
     }
 
     /// Shows how many steps have been made.
@@ -43,7 +55,7 @@ impl Progress {
             return;
         }
         if self.bar.is_none() && self.began.elapsed() > PATIENCE {
-            self.bar = Some(bar(self.total));
+            self.bar = Some(bar(self.total, self.what));
         }
         if let Some(bar) = &self.bar {
             bar.set_position(steps);
@@ -58,13 +70,16 @@ impl Progress {
     }
 }
 
-fn bar(total: Option<u64>) -> ProgressBar {
+fn bar(total: Option<u64>, what: &str) -> ProgressBar {
     let (bar, template) = match total {
-        Some(total) => (ProgressBar::new(total), "{wide_bar} {human_pos}/{human_len} steps, {per_sec}, {eta} left"),
-        None => (ProgressBar::no_length(), "{spinner} {human_pos} steps, {per_sec}, {elapsed}"),
+        Some(total) => (
+            ProgressBar::new(total),
+            format!("{{wide_bar}} {{human_pos}}/{{human_len}} {what}, {{per_sec}}, {{eta}} left"),
+        ),
+        None => (ProgressBar::no_length(), format!("{{spinner}} {{human_pos}} {what}, {{per_sec}}, {{elapsed}}")),
     };
     bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(10));
-    if let Ok(style) = ProgressStyle::with_template(template) {
+    if let Ok(style) = ProgressStyle::with_template(&template) {
         bar.set_style(style);
     }
     bar

@@ -86,6 +86,7 @@ fn every_command_writes_what_the_schema_says() {
         vec!["refine", "library/refinement/Manage.refine"],
         vec!["review", "shells/cli/tests/cmd/review.in/Door.asm"],
         vec!["review", "shells/cli/tests/cmd/run.in/Clash.asm"],
+        vec!["mutate", "shells/cli/tests/cmd/mutate.in/Barrier.asm", "--sample", "9", "--jobs", "1"],
         vec!["generate-tests", light, "-o", &tests],
         vec!["report", "shells/cli/tests/cmd/report.in/Blink.asm", "--steps", "8"],
         vec!["report", case_study, "--run", recording],

@@ -1,4 +1,4 @@
-//! Pages that show files, commands and answers are transcripts: docs/start.md, docs/refinement.md, and the model in README.md.
+//! Pages that show files, commands and answers are transcripts: docs/start.md, docs/refinement.md, docs/mutation.md, and the model in README.md.
 //!
 //! In: a page. A block of code after a line that ends with "`NAME`:" is the file NAME; a `diff` block there changes
 //! that file. The page is cut before each such block; each piece is a transcript for trycmd, run in one folder that all
@@ -163,6 +163,11 @@ fn the_first_system_goes_as_its_page_says() {
 #[test]
 fn refinement_is_taught_as_its_page_says() {
     check("docs/refinement.md");
+}
+
+#[test]
+fn mutation_is_taught_as_its_page_says() {
+    check("docs/mutation.md");
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod conform;
 pub(crate) mod desk;
 mod generate;
 mod generate_tests;
+mod mutate;
 mod refine;
 mod review;
 mod run;
@@ -29,6 +30,7 @@ pub use conform::{
 pub use desk::{Command, Remote, RunEvent};
 pub use generate::{Folder, GenerateEvent, GenerateJob, NotGenerated, generate_model, generate_system};
 pub use generate_tests::{TestsEvent, TestsJob, TestsRequest, generate_tests};
+pub use mutate::{Hands, MutateEvent, MutateJob, Mutated, mutate};
 pub use refine::{RefineEvent, RefineJob, refine};
 pub use review::{ReviewEvent, ReviewJob, ReviewRequest, review};
 pub use run::{RunJob, RunRequest, at_once, report, run};

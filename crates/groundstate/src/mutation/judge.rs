@@ -1,0 +1,262 @@
+//! Judges one mutant after the other.
+//!
+//! In: a [`Bench`], a mutant's number, a [`Timer`]. Out: the [`Outcome`]. First come the properties, model by model, then the
+//! scenarios; the first check that notices the mutant ends it. What survives is compared with the model itself.
+//! INVARIANT: a worker's texts are those of the disk again when a mutant is judged.
+
+use std::sync::Arc;
+
+use machine::{FaultKind, Interrupt};
+use mutate::{Differs, Extent, Variant, same};
+use scenario::FailureKind;
+use verify::{NoStart, Reason, Report, Stop, Subject};
+
+use super::ask::Asked;
+use super::base::{Bench, Judge, play_options};
+use super::outcome::{By, Killed, Outcome, Proof, Unseen};
+use super::{Candidate, Timer};
+use crate::tell::Verdicts;
+use crate::workspace::{Files, NotLoaded, tidy};
+use crate::{Loaded, SeededChoices, Suite, Workspace};
+
+/// Judges mutants.
+#[derive(Debug)]
+pub struct Worker<F> {
+    bench: Arc<Bench>,
+    workspace: Workspace<F>,
+    version: i64,
+}
+
+/// What a model says of a mutant that it does not kill.
+enum Said {
+    /// All is as it was; so many states were visited, if all were.
+    Passes(Option<u64>),
+    /// A limit was reached.
+    Open(String),
+}
+
+impl<F: Files> Worker<F> {
+    /// A worker who reads texts from these files.
+    pub fn new(bench: &Arc<Bench>, files: F) -> Worker<F> {
+        Worker { bench: Arc::clone(bench), workspace: Workspace::new(files), version: 0 }
+    }
+
+    /// Judges the mutant of this number.
+    pub fn judge(&mut self, number: usize, timer: &dyn Timer) -> Outcome {
+        let bench = Arc::clone(&self.bench);
+        let candidate = &bench.candidates[number];
+        let text = mutate::applied(&candidate.file.text, &candidate.mutant.edits);
+        self.version += 1;
+        let path = candidate.file.name.as_str();
+        if self.workspace.set_text(path, self.version, text).is_err() {
+            return Outcome::Open("its text could not be set".to_string());
+        }
+        let interrupt = timer.begin();
+        let outcome = self.judged(&bench, candidate, &interrupt);
+        timer.end(&interrupt);
+        self.workspace.close(path);
+        outcome.unwrap_or_else(|outcome| outcome)
+    }
+
+    /// The outcome; as an error if it ends the judgement early.
+    fn judged(&mut self, bench: &Bench, candidate: &Candidate, interrupt: &Interrupt) -> Result<Outcome, Outcome> {
+        let mut open = None;
+        let mut variants = Vec::new();
+        for judge in candidate.models.iter().map(|index| &bench.judges[*index]) {
+            if judge.never_runs(candidate) {
+                continue;
+            }
+            let loaded = self.loaded(&judge.path)?;
+            let asked = Asked::of(&loaded, judge.beside.as_ref(), &mut self.workspace.texts());
+            let asked = asked.map_err(|(_, faults)| not_compiled(&faults))?.counting(&judge.counting);
+            let said = match bench.wanted.verify {
+                true => verified(bench, judge, &asked, interrupt)?,
+                false => Said::Passes(None),
+            };
+            match said {
+                Said::Passes(states) => variants.push((judge, asked, states)),
+                Said::Open(why) => open = Some(why),
+            }
+        }
+        self.played(bench, candidate, interrupt, &mut open)?;
+        if let Some(why) = open {
+            return Ok(Outcome::Open(why));
+        }
+        Ok(compared(bench, candidate, variants, interrupt))
+    }
+
+    fn loaded(&mut self, path: &str) -> Result<Arc<Loaded>, Outcome> {
+        self.workspace.load(path).map_err(|not| match not {
+            NotLoaded::Absent(absent) => Outcome::Open(absent.told(path)),
+            NotLoaded::Faulty(faulty) => not_compiled(&faulty.diagnostics),
+        })
+    }
+
+    /// Runs the scenarios that run the mutated text.
+    fn played(
+        &mut self,
+        bench: &Bench,
+        candidate: &Candidate,
+        interrupt: &Interrupt,
+        open: &mut Option<String>,
+    ) -> Result<(), Outcome> {
+        let mut suite = Suite::new();
+        let options = play_options(&bench.wanted.extent, interrupt);
+        for play in bench.plays.iter().filter(|play| play.files.contains(&candidate.file.name)) {
+            let Ok(source) = self.workspace.text(&play.path) else { continue };
+            let texts = &mut self.workspace.texts();
+            let tested = suite.test(source, texts, options.clone(), &mut SeededChoices::new(0));
+            let Some(verdict) = &tested.verdict else { return Err(not_compiled(&tested.failures())) };
+            if verdict.passed() {
+                continue;
+            }
+            let at_limit = verdict.failures().iter().any(|failure| {
+                matches!(&failure.kind, FailureKind::Fault { fault, .. }
+                    if matches!(fault.kind, FaultKind::Limit { .. } | FaultKind::Interrupted(_)))
+            });
+            if at_limit {
+                *open = Some(format!("{} reached a limit", play.path));
+                continue;
+            }
+            let by = By::Scenario { path: play.path.clone() };
+            return Err(Outcome::Killed(Killed { by, steps: verdict.steps }));
+        }
+        Ok(())
+    }
+}
+
+impl Judge {
+    /// Whether the mutant is in a rule that no reachable state runs.
+    fn never_runs(&self, candidate: &Candidate) -> bool {
+        let place = &candidate.mutant.place;
+        candidate.mutant.function.is_none()
+            && self.never.iter().any(|(path, bytes)| {
+                tidy(&candidate.file.name) == *path && bytes.start <= place.start && place.end <= bytes.end
+            })
+    }
+}
+
+fn not_compiled(faults: &[syntax::Diagnostic]) -> Outcome {
+    let error = faults.iter().find(|fault| fault.severity == syntax::Severity::Error);
+    Outcome::NotCompiled(error.map_or_else(String::new, |fault| fault.message.clone()))
+}
+
+/// Verifies a mutant, up to the first violation.
+fn verified(bench: &Bench, judge: &Judge, asked: &Asked, interrupt: &Interrupt) -> Result<Said, Outcome> {
+    let killed =
+        |name: String, steps| Outcome::Killed(Killed { by: By::Property { model: judge.path.clone(), name }, steps });
+    let depth = judge.counting.depth;
+    let report = match asked.verified(&bench.wanted.extent, (depth, true), interrupt) {
+        Ok(report) => report,
+        Err(NoStart::Fault(_)) => return Err(killed("the initial state can be made".to_string(), 0)),
+        Err(_) => return Ok(Said::Open(limit(None, interrupt))),
+    };
+    let mut violated: Vec<(Subject, u64)> = report
+        .verdicts
+        .iter()
+        .filter_map(|verdict| match &verdict.outcome {
+            verify::Outcome::Violated(trace) => Some((verdict.subject, trace.steps.len() as u64)),
+            _ => None,
+        })
+        .collect();
+    violated.retain(|(_, steps)| depth.is_none_or(|depth| *steps <= depth));
+    // A property says more than a built-in check.
+    violated.sort_by_key(|(subject, steps)| (!matches!(subject, Subject::Property(_)), *steps));
+    if let Some((subject, steps)) = violated.first() {
+        let name = Verdicts::new(asked.program(), &asked.overlay.sources, false).name(*subject);
+        return Err(killed(name, *steps));
+    }
+    Ok(match open(&report, depth) {
+        Some(stop) => Said::Open(limit(stop, interrupt)),
+        None => Said::Passes(report.stop.is_none().then_some(report.progress.states)),
+    })
+}
+
+/// Why it is not known whether a mutant passes, if it is not.
+fn open(report: &Report, depth: Option<u64>) -> Option<Option<Stop>> {
+    let as_the_model = |reason: &Reason| match reason {
+        Reason::Bounded(_) => true,
+        Reason::Stopped(Stop::Depth) => depth.is_some(),
+        _ => false,
+    };
+    let known = report.verdicts.iter().all(|verdict| match &verdict.outcome {
+        verify::Outcome::Holds => true,
+        verify::Outcome::Violated(_) => false,
+        verify::Outcome::Unknown(reasons) => reasons.iter().all(as_the_model),
+    });
+    (!known).then_some(report.stop)
+}
+
+/// The limit that was reached, as a clause.
+fn limit(stop: Option<Stop>, interrupt: &Interrupt) -> String {
+    let reached = match stop {
+        _ if interrupt.is_raised() => "the time was up",
+        Some(Stop::States) => "the limit of states was reached",
+        Some(Stop::Memory) => "the limit of memory was reached",
+        Some(Stop::Depth | Stop::Disk | Stop::Asked | Stop::Found) | None => "a check could not be decided",
+    };
+    reached.to_string()
+}
+
+/// Compares a mutant that nobody noticed with the model.
+fn compared(
+    bench: &Bench,
+    candidate: &Candidate,
+    variants: Vec<(&Judge, Asked, Option<u64>)>,
+    interrupt: &Interrupt,
+) -> Outcome {
+    let runs = !variants.is_empty();
+    let (mut more, mut steps, mut unmeasured) = (0, false, false);
+    for (judge, mutated, states) in variants {
+        match (judge.states, states) {
+            (Some(one), Some(other)) if one != other => {
+                more += one.abs_diff(other);
+                continue;
+            }
+            // The model's own states were not all visited.
+            (None, _) if bench.wanted.verify => {
+                unmeasured = true;
+                continue;
+            }
+            _ => {}
+        }
+        match are_same(bench, candidate, judge, mutated, interrupt) {
+            Ok(()) => {}
+            Err(Differs::Somewhere) => steps = true,
+            Err(Differs::TooFar | Differs::Beyond) => unmeasured = true,
+        }
+    }
+    match (more, steps, unmeasured) {
+        (0, false, false) if !bench.wanted.whole => Outcome::Survived(Unseen::Nowhere),
+        (0, false, false) if runs => Outcome::Equivalent(Proof::SameSteps),
+        (0, false, false) => Outcome::Equivalent(Proof::NeverRuns),
+        (0, true, _) => Outcome::Survived(Unseen::Steps),
+        (0, false, true) => Outcome::Survived(Unseen::Unmeasured),
+        (more, ..) => Outcome::Survived(Unseen::States(more)),
+    }
+}
+
+fn are_same(
+    bench: &Bench,
+    candidate: &Candidate,
+    judge: &Judge,
+    mut mutated: Asked,
+    interrupt: &Interrupt,
+) -> Result<(), Differs> {
+    let mut asked = judge.asked.clone();
+    let mut observed = [Vec::new(), Vec::new()];
+    if let Some(function) = &candidate.mutant.function {
+        for (asked, observed) in [&mut asked, &mut mutated].into_iter().zip(&mut observed) {
+            observed.push(asked.values_of(&function.name, &function.parameters).ok_or(Differs::Beyond)?);
+        }
+    }
+    let extent = Extent {
+        limits: bench.wanted.extent.limits.clone(),
+        bounds: asked.bounds.clone(),
+        max_states: bench.wanted.extent.max_states,
+        interrupt: interrupt.clone(),
+    };
+    let [one, other] = &observed;
+    let one = Variant { program: asked.program(), observed: one };
+    same(one, Variant { program: mutated.program(), observed: other }, &extent)
+}

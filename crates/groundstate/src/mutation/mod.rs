@@ -1,0 +1,92 @@
+//! Mutation analysis: which small faults of a model its properties and scenarios would not notice (spec/mutation.md).
+//!
+//! In: paths of the texts to mutate, and of the models and scenarios that judge. Out: first whether these accept the model
+//! as it is ([`Bench`]), then an [`Outcome`] for each mutant. INVARIANT: a mutant is killed only by a check that the model
+//! itself passes, and equivalent only by proof; whatever a limit left open is neither killed nor survived.
+
+mod ask;
+mod base;
+mod judge;
+mod outcome;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::RangeInclusive;
+use std::sync::Arc;
+
+use machine::{Interrupt, Limits};
+use mutate::{Change, Mutant, Operator};
+use syntax::{LineColumn, SourceFile};
+
+pub use base::{Bench, Unfit};
+pub use judge::Worker;
+pub use outcome::{By, Killed, Outcome, Proof, Score, Unseen, score, surprising};
+
+/// What is to be mutated, and who judges.
+#[derive(Debug, Clone)]
+pub struct Wanted {
+    /// Paths of the models that judge by their properties, and are run by scenarios.
+    pub models: Vec<String>,
+    /// Paths of the scenarios that judge.
+    pub scenarios: Vec<String>,
+    /// Paths of the texts to mutate.
+    pub mutated: BTreeSet<String>,
+    /// Also mutate what the models import, unless it belongs to a built-in library.
+    pub imports: bool,
+    /// The models are all that the mutated texts are for: what makes no difference in any of them is equivalent.
+    pub whole: bool,
+    /// Judge by the models' properties.
+    pub verify: bool,
+    /// Judge by the scenarios.
+    pub test: bool,
+    /// The operators.
+    pub operators: Vec<Operator>,
+    /// Only mutants of these lines of each path.
+    pub lines: Option<BTreeMap<String, Vec<RangeInclusive<u32>>>>,
+    /// Only so many, drawn by this seed.
+    pub sample: Option<(usize, u64)>,
+    /// How far a search goes.
+    pub extent: Extent,
+}
+
+/// How far the search of one model goes.
+#[derive(Debug, Clone)]
+pub struct Extent {
+    /// The machine's limits.
+    pub limits: Limits,
+    /// The most states.
+    pub max_states: u64,
+    /// The most bytes for states.
+    pub max_bytes: u64,
+}
+
+/// Gives an interrupt that is raised when the time of one judgement is up.
+pub trait Timer: Send + Sync {
+    /// Begins to measure.
+    fn begin(&self) -> Interrupt;
+
+    /// No longer measures.
+    fn end(&self, interrupt: &Interrupt);
+}
+
+/// A mutant of one of the texts.
+#[derive(Debug, Clone)]
+pub struct Candidate {
+    /// The text.
+    pub file: Arc<SourceFile>,
+    /// The fault.
+    pub mutant: Mutant,
+    /// The models, by number, that run what is mutated.
+    pub models: Vec<usize>,
+}
+
+impl Candidate {
+    /// Where the fault is.
+    pub fn place(&self) -> LineColumn {
+        self.file.line_column(self.mutant.place.start as u32)
+    }
+
+    /// The lines that the fault changes.
+    pub fn change(&self) -> Change {
+        mutate::changed(&self.file.text, &self.mutant.edits)
+    }
+}

@@ -1,0 +1,183 @@
+//! `groundstate mutate PATH…`: puts small faults into models and tells which no property and no scenario notices.
+//!
+//! Exit codes: 0 every mutant is killed or equivalent, 1 some survive or something does not pass as it is, 3 none survives
+//! but some are not known.
+
+mod find;
+mod since;
+mod tell;
+mod timer;
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::Args;
+use groundstate::job::{self, Cancel, Hands, MutateEvent};
+use groundstate::mutate::Operator;
+use groundstate::mutation::{Bench, Extent, Wanted};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::files::Disk;
+use crate::interrupt;
+use crate::progress::Progress;
+use crate::shell::Shell;
+use find::Found;
+use timer::Clock;
+
+/// Arguments of `mutate`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The models to mutate, or folders of them
+    #[arg(required_unless_present = "list_operators", value_name = "PATH")]
+    paths: Vec<PathBuf>,
+    /// Models and scenarios that judge, or folders of them; may be repeated. Default: the models that are mutated, and the
+    /// scenarios in their folders
+    #[arg(long, value_name = "PATH")]
+    by: Vec<PathBuf>,
+    /// Who judges: the properties, the scenarios, or both
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "WHO", default_values_t = [With::Verify, With::Test])]
+    with: Vec<With>,
+    /// Only these operators, by their ids
+    #[arg(long, value_delimiter = ',', value_name = "ID", value_parser = operator)]
+    operators: Vec<Operator>,
+    /// List the operators
+    #[arg(long)]
+    list_operators: bool,
+    /// Also mutate the files that the models import
+    #[arg(long)]
+    imports: bool,
+    /// Judge only N mutants, drawn at random
+    #[arg(long, value_name = "N")]
+    sample: Option<usize>,
+    /// Seed of the sample
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Only mutants of lines that changed since this revision of git
+    #[arg(long, value_name = "REV")]
+    since: Option<String>,
+    /// The most time for one mutant, in seconds
+    #[arg(long, value_name = "SECONDS", value_parser = crate::limits::count, default_value = "20")]
+    time: u64,
+    /// The most states for one mutant
+    #[arg(long, value_name = "N", value_parser = crate::limits::count, default_value = "200000")]
+    max_states: u64,
+    /// The most memory that the program may take, in MiB
+    #[arg(long, value_name = "MIB", default_value_t = 8192)]
+    max_memory: u64,
+    /// How many mutants are judged at a time. Default: the number of processors
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=256))]
+    jobs: Option<u64>,
+    /// Tell every mutant, not only those that survive
+    #[arg(long)]
+    all: bool,
+}
+
+/// Who judges.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum With {
+    /// The properties of models
+    Verify,
+    /// Scenarios
+    Test,
+}
+
+fn operator(id: &str) -> Result<Operator, String> {
+    Operator::of(id).ok_or_else(|| "there is no such operator; --list-operators lists them".to_string())
+}
+
+/// Runs the command.
+pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    if arguments.list_operators {
+        for operator in Operator::ALL {
+            writeln!(shell.out(), "{:<20} {}", operator.id(), operator.meaning())?;
+        }
+        return Ok(Exit::Good);
+    }
+    let found = Found::new(&arguments.paths, &arguments.by)?;
+    let lines = match &arguments.since {
+        Some(revision) => Some(since::changed_lines(revision, &found.mutated)?),
+        None => None,
+    };
+    let jobs = arguments
+        .jobs
+        .map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), |jobs| jobs as usize);
+    let operators = match arguments.operators.is_empty() {
+        true => Operator::ALL.to_vec(),
+        false => arguments.operators.clone(),
+    };
+    let strict = found.strict;
+    let wanted = Wanted {
+        models: found.models,
+        scenarios: found.scenarios,
+        mutated: found.mutated,
+        imports: arguments.imports,
+        whole: arguments.by.is_empty(),
+        verify: arguments.with.contains(&With::Verify),
+        test: arguments.with.contains(&With::Test),
+        operators,
+        lines,
+        sample: arguments.sample.map(|size| (size, arguments.seed)),
+        extent: Extent {
+            limits: shell.global.limits.uninterrupted(),
+            max_states: arguments.max_states,
+            max_bytes: arguments.max_memory.saturating_mul(1 << 20) / jobs as u64,
+        },
+    };
+    interrupt::listen();
+    interrupt::bound_memory(arguments.max_memory);
+    let limit = shell.global.limits.max_file_size;
+    let hands = Hands {
+        files: Box::new(move || Disk { limit }),
+        timer: Clock::start(Duration::from_secs(arguments.time)),
+        workers: jobs,
+    };
+    let started = job::mutate(wanted, hands, strict, Cancel::from(interrupt::request().clone()));
+    let job = started.map_err(|error| Failure::usage(format!("the analysis cannot be started: {error}")))?;
+    let mut progress: Option<Progress> = None;
+    let mut judged = 0;
+    while let Some(event) = job.next_event() {
+        match event {
+            MutateEvent::Tried(_) => {}
+            MutateEvent::Begun(count) => {
+                progress = Some(Progress::of("mutants", count as u64, shell.global.quiet || shell.json()));
+            }
+            MutateEvent::Judged(..) => {
+                judged += 1;
+                progress.iter_mut().for_each(|progress| progress.at(judged));
+            }
+        }
+    }
+    let mutated = job.finish().unwrap_or_else(|crashed| panic!("{}", crashed.0));
+    progress.iter_mut().for_each(Progress::done);
+    if let Some(exit) = unfit(shell, &mutated.bench, strict)? {
+        return Ok(exit);
+    }
+    tell::told(shell, &mutated, arguments.sample.is_some(), arguments.all)
+}
+
+/// Says who cannot judge; an exit code if nobody judges.
+fn unfit(shell: &mut Shell, bench: &Bench, strict: bool) -> Result<Option<Exit>, Failure> {
+    for unfit in &bench.unfit {
+        if strict {
+            shell.diagnostics(&unfit.sources, &unfit.faults)?;
+        }
+        if shell.talks() {
+            let left_out = if strict { "" } else { "left out: " };
+            shell.note(&format!("{left_out}{} {}", unfit.path, unfit.why))?;
+        }
+    }
+    let (models, scenarios) = bench.judging();
+    if strict && !bench.unfit.is_empty() {
+        if shell.talks() {
+            shell.note("a model must pass its properties and scenarios before they can be judged by mutants")?;
+        }
+        return Ok(Some(Exit::Model));
+    }
+    if models.is_empty() && scenarios.is_empty() && !interrupt::asked() {
+        let help = "name models with a main rule, or with --by those that import the files to be mutated";
+        return Err(Failure::usage_with_help("nothing judges these files", help));
+    }
+    Ok(None)
+}
