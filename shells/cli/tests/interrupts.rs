@@ -38,3 +38,23 @@ fn a_violation_is_told_at_once_and_signals_that_come_together_are_one() {
     assert_eq!(rest.matches("interrupted").count(), 4, "{rest}");
     assert!(rest.contains("(not all reachable)"), "{rest}");
 }
+
+/// Stays as it is; one of its mutants grows for ever.
+const STILL: &str = "asm Still\nimport StandardLibrary\nsignature:\n\tcontrolled n: Integer\ndefinitions:\n\
+                     \tmain rule r_Main = n := 2 * n\ndefault init s0:\n\tfunction n = 0\n";
+
+#[test]
+fn mutants_that_were_judged_are_told() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    std::fs::write(folder.path().join("Still.asm"), STILL).expect("the file can be written");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_groundstate"));
+    let limits = ["--max-states", "4000000000", "--time", "1000", "--jobs", "1"];
+    command.args(["mutate", "Still.asm"]).args(limits).current_dir(folder.path());
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("it starts");
+    std::thread::sleep(std::time::Duration::from_millis(700));
+    terminate(&child);
+    let mut told = String::new();
+    child.stdout.take().expect("it is piped").read_to_string(&mut told).expect("text");
+    assert!(matches!(child.wait().expect("it ends").code(), Some(1 | 3)), "{told}");
+    assert!(told.contains("not judged: the command was interrupted"), "{told}");
+}

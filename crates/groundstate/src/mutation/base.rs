@@ -222,6 +222,7 @@ impl Bench {
                     self.unfit(path, "has no initial state".to_string(), loaded.sources.clone(), vec![fault]);
                     return None;
                 }
+                Err(NoStart::Stopped(_)) if interrupt.is_raised() => return None,
                 Err(_) => {
                     let why = "has initial states that cannot be listed".to_string();
                     self.unfit(path, why, Sources::default(), Vec::new());
@@ -261,6 +262,7 @@ impl Bench {
             };
             match (concerned, tested.passed()) {
                 (true, true) => self.plays.push(Play { path, files }),
+                (true, false) if interrupt.is_raised() => break,
                 (true, false) => {
                     let faults = tested.failures();
                     self.unfit(&path, "fails with the model as it is".to_string(), tested.sources, faults);
