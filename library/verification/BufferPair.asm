@@ -41,6 +41,9 @@ signature:
 	controlled newestWritten: Datum
 	controlled handedOver: Datum
 	controlled unaccounted: Integer
+	// what was handed over last was not read yet; what the last reading or skipping had to say of its datum
+	controlled isUnread: Boolean
+	controlled mustBeFresh: Boolean
 
 	static owner: Scheduler -> Task
 	static phaseAction: SchedulePhase -> PhaseAction
@@ -109,8 +112,24 @@ definitions:
 		endpar
 
 	// What came of the step of the machines, told by what was written and read before it.
-	rule r_observe($written in Integer, $read in Integer) =
+	rule r_observe($written in Integer, $read in Integer, $wasReading in Boolean) =
 		par
+			// a reading that begins has what was handed over before; who goes on without one has nothing new
+			if isDef(sb_readingArray(buffer)) and not $wasReading then
+				par
+					mustBeFresh := isUnread
+					isUnread := indexRead(buffer) != $read
+				endpar
+			else
+				par
+					if task_skipped(consumer_task) > 0 then
+						mustBeFresh := false
+					endif
+					if indexRead(buffer) != $read then
+						isUnread := true
+					endif
+				endpar
+			endif
 			if sb_written(buffer) != $written then
 				newestWritten := sb_staged(buffer)
 			endif
@@ -161,5 +180,7 @@ definitions:
 			and sb_sequence(buffer, sb_readingArray(buffer)) = sb_receivedSequence(buffer))
 	// what it gives is the newest datum that was handed over
 	invariant inv_handedOver over sb_received: isDef(sb_readingArray(buffer)) implies sb_received(buffer) = handedOver
+	// whether it is new, is told truly, also when a reading is left out
+	invariant inv_fresh over sb_fresh: sb_fresh(buffer) = mustBeFresh
 	// each datum that was made is written, or counted as dropped
 	invariant inv_nothingLost over unaccounted: unaccounted = (if isMade then 1 else 0 endif)

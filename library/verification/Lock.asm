@@ -14,7 +14,7 @@ definitions:
 	main rule r_Main =
 		par
 			forall $t in Task with moves($t) do r_use[$t]
-			forall $u in Task with true do moved($u) := moves($u)
+			forall $u in Task with true do r_observe[$u]
 			r_sem_arbitrate[gate]
 		endpar
 
@@ -25,3 +25,5 @@ default init s0:
 	function sem_illegalPost($s in Semaphore) = false
 	function semaq($s in Semaphore) = []
 	function moved($t in Task) = false
+	function waited($t in Task) = false
+	function lingered($t in Task) = false

@@ -61,7 +61,7 @@ definitions:
 	main rule r_Main =
 		par
 			forall $t in Task with moves($t) do r_useBadly[$t]
-			forall $u in Task with true do moved($u) := moves($u)
+			forall $u in Task with true do r_observe[$u]
 			r_arbitrateBadly[]
 		endpar
 
@@ -72,4 +72,6 @@ default init s0:
 	function sem_illegalPost($s in Semaphore) = false
 	function semaq($s in Semaphore) = []
 	function moved($t in Task) = false
+	function waited($t in Task) = false
+	function lingered($t in Task) = false
 	function fault = seeded

@@ -14,7 +14,7 @@ signature:
 
 definitions:
 	main rule r_Main =
-		let ($written = sb_written(buffer), $read = indexRead(buffer)) in
+		let ($written = sb_written(buffer), $read = indexRead(buffer), $wasReading = isDef(sb_readingArray(buffer))) in
 			seq
 				r_setTimes[]
 				par
@@ -22,7 +22,7 @@ definitions:
 					r_sem_arbitrate[lock]
 					clock := clock + 1
 				endpar
-				r_observe[$written, $read]
+				r_observe[$written, $read, $wasReading]
 				r_shiftTimes[]
 			endseq
 		endlet
@@ -77,9 +77,16 @@ default init s0:
 	function newestWritten = 0
 	function handedOver = 0
 	function unaccounted = 0
+	function isUnread = false
+	function mustBeFresh = false
 
 	function task_period($t in Task) = if $t = producer_task then 6 else 7 endif
-	function task_timeForElaboration($t in Task) = if $t = owner(master) then 6 else 5 endif
+	function task_timeForElaboration($t in Task) =
+		if $t = owner(master) then
+			6
+		else
+			if kindOf($t) = SYNCHRONOUS and isHasty then (if $t = producer_task then 6 else 7 endif) else 5 endif
+		endif
 	function task_periodStart($t in Task) =
 		if kindOf($t) = SYNCHRONOUS then (if $t = producer_task then -6 else -7 endif) else 0 endif
 	function time($p in SchedulePhase) = 1

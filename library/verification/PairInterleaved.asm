@@ -17,14 +17,16 @@ signature:
 definitions:
 	main rule r_Main =
 		choose $moves in Moves with true do
-			let ($written = sb_written(buffer), $read = indexRead(buffer)) in
+			let ($written = sb_written(buffer),
+				$read = indexRead(buffer),
+				$wasReading = isDef(sb_readingArray(buffer))) in
 				seq
 					r_setClocks[$moves]
 					par
 						forall $c in Scheduler with isMoving($moves, $c) do r_scheduler_execute[$c]
 						r_sem_arbitrate[lock]
 					endpar
-					r_observe[$written, $read]
+					r_observe[$written, $read, $wasReading]
 					r_forget[$moves]
 				endseq
 			endlet
@@ -79,6 +81,8 @@ default init s0:
 	function newestWritten = 0
 	function handedOver = 0
 	function unaccounted = 0
+	function isUnread = false
+	function mustBeFresh = false
 
 	function task_period($t in Task) = 1
 	function task_deadline($t in Task) = 1

@@ -44,3 +44,4 @@ default init s0:
 	function onTheWay = []
 	function due = 0
 	function refused = false
+	function isCounted = true

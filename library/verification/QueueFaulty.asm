@@ -90,4 +90,5 @@ default init s0:
 	function onTheWay = []
 	function due = 0
 	function refused = false
+	function isCounted = true
 	function fault = seeded

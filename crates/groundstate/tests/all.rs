@@ -10,6 +10,7 @@ mod pages;
 mod picks;
 mod review;
 mod scenarios;
+mod seeded;
 mod sessions;
 mod system_verification;
 mod systems;
