@@ -132,6 +132,21 @@ fn a_chart_is_drawn_in() {
 }
 
 #[test]
+fn libraries_that_are_built_in_are_found() {
+    let text = "asm a\nimport StandardLibrary\nimport patterns/ControlTask\nsignature:\ndefinitions:\n\tmain rule r_m = skip\n";
+    let running = Running::over(&[("sub/a.asm", text)]);
+    let mut tab = running.tab();
+    tab.initialize(&running);
+    let uri = running.uri("sub/a.asm");
+    tab.tell(
+        "textDocument/didOpen",
+        json!({ "textDocument": { "uri": uri, "languageId": "asmetal", "version": 1, "text": text } }),
+    );
+    let faults = tab.hear("textDocument/publishDiagnostics", |params| params["uri"] == *uri);
+    assert!(!faults.to_string().contains("import"), "{faults}");
+}
+
+#[test]
 fn a_model_that_loops_hangs_nobody() {
     let forever = "asm Loop\nimport StandardLibrary\nsignature:\n\tcontrolled x: Integer\ndefinitions:\n\
                    \tmain rule r_m = while true do x := x + 1\n\tdefault init s0:\n\t\tfunction x = 0\n";
