@@ -13,7 +13,7 @@ TIMED := sh xtask/timed.sh
 PARTS := lint unit scenarios cpp systems robot web
 
 .PHONY: help demo test full quick times lint unit scenarios verify cpp cpp-full systems robot robot-full mutants fuzz bench \
-    studio web msrv bench-cpp corpus update vscode clean
+    studio studio-full bench-studio web msrv bench-cpp corpus update vscode clean
 
 help: ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*##/\t/' | expand -t 12
@@ -53,6 +53,14 @@ studio: web/dist/index.html ## a project in the browser: `make studio FOLDER=exa
 web: web/node_modules/.package-lock.json ## the studio's front end: types and the fast tests
 	cd web && npm test
 
+studio-full: web/dist/index.html $(TESTED) ## the studio in Debian's Chromium: every view, light and dark, its faults of accessibility
+	sh cpp/install.sh chromium
+	cd web && GROUNDSTATE=$(CURDIR)/$(TESTED) npm run e2e
+
+bench-studio: web/dist/index.html $(GROUNDSTATE) ## the studio's first picture, frames, and the time from a letter to its fault
+	sh cpp/install.sh chromium
+	cd web && GROUNDSTATE=$(CURDIR)/$(GROUNDSTATE) npm run bench
+
 vscode: ## the extension for VS Code, checked and packed: editors/vscode/groundstate.vsix
 	cd editors/vscode && npm ci --no-audit --no-fund && npm test && npm run package
 
@@ -60,7 +68,7 @@ full: ## what is slow and rarely breaks, beside `make test`: larger samples, the
 	@$(TIMED) --begin
 	$(MAKE) --no-print-directory test
 	GROUNDSTATE_FULL=1 $(LINTED) $(CARGO) test --workspace --locked --no-fail-fast
-	$(MAKE) --no-print-directory msrv verify cpp-full robot-full mutants
+	$(MAKE) --no-print-directory msrv verify cpp-full robot-full mutants studio-full
 	@$(TIMED)
 
 quick: $(TESTED) ## what a one-line change needs: lints, the tests that are over in a moment, the library's scenarios
