@@ -11,6 +11,8 @@ pub mod import;
 
 mod chart;
 mod check;
+mod component;
+mod computing;
 mod defined;
 mod differ;
 mod dump;
@@ -32,6 +34,7 @@ pub use chart::{
     Arrow, Chart, Control, End, Layout, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind, WORDS,
 };
 pub use check::{Probed, built_faults, check, probed};
+pub use computing::{ComponentMachine, Computing, Content, Feed, Take};
 pub use dump::dump;
 pub use export::scxml_of;
 pub use extract::{Extracted, extract};

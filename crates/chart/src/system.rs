@@ -5,6 +5,7 @@
 
 use syntax::Span;
 
+use crate::computing::Computing;
 use crate::link::Link;
 
 /// A system.
@@ -24,6 +25,8 @@ pub struct System {
     pub devices: Vec<Device>,
     /// Physical connections, by the names of their ends.
     pub connections: Vec<(String, String)>,
+    /// What its components compute, if machines say so.
+    pub computing: Computing,
     /// The place of its name.
     pub span: Span,
 }
@@ -85,6 +88,8 @@ pub struct Phase {
     pub time: u64,
     /// The shortest duration; equal to `time` unless it varies.
     pub least: u64,
+    /// The machine that says what an elaboration computes.
+    pub machine: Option<Named>,
     /// Where it is declared.
     pub span: Span,
 }
@@ -111,7 +116,18 @@ pub struct Channel {
     pub to: usize,
     /// Its kind.
     pub kind: ChannelKind,
+    /// The domain of its data, if the chart says it.
+    pub message: Option<Named>,
     /// Where it is declared: its name.
+    pub span: Span,
+}
+
+/// A name of something outside the chart: a machine, or a domain as it is written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Named {
+    /// Its text.
+    pub text: String,
+    /// Where it stands.
     pub span: Span,
 }
 
@@ -143,6 +159,8 @@ pub struct Device {
     pub text: String,
     /// Whether it is a sensor; otherwise it is an actuator.
     pub is_sensor: bool,
+    /// The domain of what it senses or sets, if the chart says it.
+    pub message: Option<Named>,
     /// Where it is declared: its name.
     pub span: Span,
 }

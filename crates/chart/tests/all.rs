@@ -4,6 +4,7 @@
 mod agreement;
 mod exchange;
 mod extracted;
+mod machines;
 mod pages;
 mod regenerate;
 mod systems;

@@ -5,7 +5,7 @@ use chart::{Chart, Known, build, probed, read};
 use model::check;
 use syntax::{Diagnostic, FileId, SourceFile, parse_chart};
 use testkit::page::Block;
-use testkit::{NoFiles, NoSolver, Page, Patterns};
+use testkit::{NoFiles, NoSolver, Page, Patterns, Texts};
 
 fn chart(text: &str) -> (Chart, Vec<Diagnostic>) {
     read(FileId(0), &parse_chart(FileId(0), text))
@@ -41,6 +41,12 @@ fn the_charts_of_the_page() {
     }
 }
 
+/// Whether a component has a machine.
+fn computes(chart: &Chart) -> bool {
+    let components = chart.system.iter().flat_map(|system| &system.components);
+    components.flat_map(|component| &component.phases).any(|phase| phase.machine.is_some())
+}
+
 #[test]
 fn each_fault_has_a_page_whose_example_shows_it() {
     assert!(chart::FAULT_IDS.is_sorted());
@@ -53,6 +59,14 @@ fn each_fault_has_a_page_whose_example_shows_it() {
             continue;
         }
         let (drawn, mut faults) = chart(block("chart fault").expect("an example"));
+        if faults.is_empty() && computes(&drawn) {
+            // A machine is read from its own file.
+            let machine = block("asmetal machine").unwrap_or_default();
+            let texts = machine.split_whitespace().nth(1).map(|name| (format!("{name}.asm"), machine));
+            let mut loader = Texts::of(texts.iter().map(|(name, text)| (name.as_str(), *text)));
+            let root = SourceFile::new("Example.chart", block("chart fault").expect("an example"));
+            faults = chart::load(root, &mut loader).diagnostics;
+        }
         if faults.is_empty() {
             faults.extend(chart::unbuilt(&drawn, &patterns()));
         }

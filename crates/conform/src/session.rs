@@ -132,6 +132,11 @@ impl Session {
         })
     }
 
+    /// Whether components have machines: what these decide is not compared.
+    pub fn computes(&self) -> bool {
+        self.steps.tick().is_some()
+    }
+
     /// From now on, an interrupt ends the comparison within [`Session::go_on`]; the verdict is then unknown.
     pub fn heed(&mut self, interrupt: Interrupt) {
         self.interrupt = interrupt;

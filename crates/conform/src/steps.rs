@@ -31,12 +31,24 @@ const STEP: &str = "choose $c in Scheduler with true do par \
      forall $s in Semaphore with true do r_sem_arbitrate[$s] \
    endpar";
 
+/// A tick of a system whose components have machines, without these: what they compute is not recorded.
+const TICK: &str = "par \
+     forall $c in Scheduler with true do r_scheduler_execute[$c] \
+     forall $s in Semaphore with true do r_sem_arbitrate[$s] \
+     clock := clock + 1 \
+   endpar";
+
+/// The rule of the tasks of such a system, as `chart build` names it.
+const COMPUTING: &str = "r_computingTask";
+
 /// Adds the steps of tasks to a program.
 #[derive(Debug, Clone)]
 pub struct Steps {
     loosen: ProcedureId,
     /// A component, which is chosen, steps.
     step: ProcedureId,
+    /// All components step, without their machines. None if none has one: the main rule is then such a step.
+    tick: Option<ProcedureId>,
     /// One for each wait-free channel, by its name: it becomes a shared value.
     cells: Vec<(String, ProcedureId)>,
 }
@@ -64,6 +76,9 @@ impl Steps {
         let mut add = |text: &str| rule(text, sources, model, program);
         let loosen = add(LOOSEN)?;
         let step = add(STEP)?;
+        let computes = computes(model);
+        let mut add = |text: &str| rule(text, sources, model, program);
+        let tick = if computes { Some(add(TICK)?) } else { None };
         let cell = |name: &String| {
             format!(
                 "extend SharedValue with $v do par \
@@ -79,7 +94,7 @@ impl Steps {
         };
         let cells: Result<Vec<_>, _> =
             wait_free.iter().map(|name| add(&cell(name)).map(|procedure| (name.clone(), procedure))).collect();
-        Ok(Steps { loosen, step, cells: cells? })
+        Ok(Steps { loosen, step, tick, cells: cells? })
     }
 
     /// The model in its initial state, with the wait-free channels as shared values, and what is known of it.
@@ -111,6 +126,11 @@ impl Steps {
         self.step
     }
 
+    /// The step of all components in a tick, if it is not the main rule.
+    pub fn tick(&self) -> Option<ProcedureId> {
+        self.tick
+    }
+
     /// From now on phases take no time, and a rest follows each.
     ///
     /// # Errors
@@ -118,6 +138,11 @@ impl Steps {
     pub fn loosen(&self, machine: &mut Machine) -> Result<(), String> {
         run(machine, self.loosen)
     }
+}
+
+/// Whether components of the system have machines.
+fn computes(model: &Model) -> bool {
+    model.rules.iter().any(|rule| rule.name == COMPUTING)
 }
 
 fn run(machine: &mut Machine, procedure: ProcedureId) -> Result<(), String> {

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use machine::{EngineChoice, Interrupt, Limits, Machine};
-use program::Program;
+use program::{ProcedureId, Program};
 
 use crate::Verdict;
 use crate::events::Longest;
@@ -23,6 +23,8 @@ const SHOWN: usize = 12;
 pub struct Replay {
     machine: Machine,
     vocabulary: Vocabulary,
+    /// What a tick does, if it is not the main rule.
+    procedure: Option<ProcedureId>,
     /// The next tick.
     tick: i64,
     cursors: Vec<usize>,
@@ -37,7 +39,7 @@ impl Replay {
     pub fn new(program: &Arc<Program>, limits: Limits, steps: &Steps) -> Result<Replay, String> {
         let (machine, vocabulary) = steps.start(program, limits)?;
         let cursors = vec![0; vocabulary.components.len()];
-        Ok(Replay { machine, vocabulary, tick: 0, cursors, agreed: 0 })
+        Ok(Replay { machine, vocabulary, procedure: steps.tick(), tick: 0, cursors, agreed: 0 })
     }
 
     /// Compiles no step.
@@ -87,7 +89,13 @@ impl Replay {
     /// The step of a tick; none: it agrees.
     fn step(&mut self, tracks: &[&[Event]], recording: &Recording) -> Option<Verdict> {
         let tick = self.tick;
-        if let Err(fault) = self.machine.step(&mut Longest) {
+        let made = match self.procedure {
+            None => self.machine.step(&mut Longest).map(|_| ()),
+            Some(procedure) => {
+                self.machine.prepare_procedure(procedure, &mut Longest).map(|()| _ = self.machine.commit())
+            }
+        };
+        if let Err(fault) = made {
             let fault = fault.show(self.machine.program()).to_string();
             let reason = format!("the model cannot make the step of tick {tick}: {fault}");
             return Some(Verdict::Unknown { events: self.agreed, reason });

@@ -231,7 +231,10 @@ fn initial_state(chart: &Chart, machines: &[&Machine]) -> String {
 /// The text of a new file.
 pub(super) fn fresh(chart: &Chart, parts: &Parts) -> String {
     let word = if parts.main.is_some() { "asm" } else { "module" };
-    let decided = match chart.system {
+    let decided = match &chart.system {
+        Some(system) if !system.computing.ends.is_empty() => {
+            "elements, the main rule, the initial state and what comes from its components' machines"
+        }
         Some(_) => "elements, the main rule and the initial state",
         None => "rules of its machines and the domains of its control states",
     };

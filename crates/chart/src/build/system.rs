@@ -12,6 +12,7 @@ use super::known::Known;
 use super::known::missing;
 use super::module::{Item, Parts};
 use crate::chart::Chart;
+use crate::computing::Made;
 use crate::fault;
 use crate::system::{Action, ChannelKind, Component, Phase, System, Timing};
 
@@ -19,8 +20,29 @@ use crate::system::{Action, ChannelKind, Component, Phase, System, Timing};
 pub(super) fn unbuilt(system: &System, known: &Known) -> Vec<Diagnostic> {
     match missing(known) {
         Some(missing) => vec![fault::no_patterns(system.span, missing)],
-        None => late(system),
+        None => late(system).into_iter().chain(doubled(system, known)).collect(),
     }
+}
+
+/// Names that components' machines make, and that something else has.
+fn doubled(system: &System, known: &Known) -> Vec<Diagnostic> {
+    let mut faults = Vec::new();
+    let mut told: Vec<&str> = Vec::new();
+    let elements = parts(&Chart::default(), &bare(system), known).declarations;
+    let computing = &system.computing;
+    let made = [&computing.declarations, &computing.definitions];
+    for made in made {
+        for (index, item) in made.iter().enumerate() {
+            let is_known = [&known.terms, &known.rules, &known.domains].iter().any(|names| names.contains(&item.name));
+            let first = made[..index].iter().find(|first| first.name == item.name).map(|first| first.span);
+            let is_element = elements.iter().any(|element| element.name == item.name);
+            if (first.is_some() || is_known || is_element) && !told.contains(&item.name.as_str()) {
+                told.push(&item.name);
+                faults.push(fault::component::made_twice(item.span, &item.name, first));
+            }
+        }
+    }
+    faults
 }
 
 /// Deadlines that the patterns cannot express.
@@ -86,8 +108,42 @@ pub(super) fn parts(chart: &Chart, system: &System, known: &Known) -> Parts {
     fixed(&mut parts, "inv_deadlines", deadlines);
     parts.main = Some(format!("main rule r_Main =\n{TICK}"));
     let agent = if varies(system) { VARYING_AGENT } else { AGENT };
-    parts.init = Some(initial(system) + agent);
+    if system.computing.ends.is_empty() {
+        parts.init = Some(initial(system) + agent);
+    } else {
+        computing(system, &mut parts);
+        parts.init = Some(initial(system) + &system.computing.initial.concat() + COMPUTING_AGENT);
+    }
     parts
+}
+
+/// What the components' machines compute, and the rule of the tasks that lets them do it.
+fn computing(system: &System, parts: &mut Parts) {
+    let computing = &system.computing;
+    let new = computing.imports.iter().filter(|import| !parts.imports.contains(import)).cloned().collect::<Vec<_>>();
+    parts.imports.splice(0..0, new);
+    let item = |made: &Made| Item { name: made.name.clone(), text: made.text.clone(), decided: true };
+    parts.declarations.extend(computing.declarations.iter().map(item));
+    parts.definitions.extend(computing.definitions.iter().map(item));
+    let cases: Vec<String> = computing.ends.iter().map(|(phase, rule)| format!("case {phase}: {rule}[]\n")).collect();
+    let text = format!(
+        "// what is computed when an elaboration ends\nrule r_endOfElaboration($p in SchedulePhase) =\nswitch $p\n{}endswitch\n",
+        cases.concat()
+    );
+    parts.definitions.push(Item { name: "r_endOfElaboration".to_string(), text, decided: true });
+    let (execute, early) = match varies(system) {
+        false => ("r_scheduler_execute", ""),
+        true => (
+            "r_scheduler_executeVarying",
+            "else if mayEnd(self) then if endsNow(self) then r_endOfElaboration[scheduler_currentPhase(self)] endif endif ",
+        ),
+    };
+    let text = format!(
+        "// what each task does when it is its turn\nrule r_computingTask =\npar\n{execute}[self]\n\
+         if action(scheduler_currentPhase(self)) = ELABORATING then\n\
+         if tElapsed(self) then r_endOfElaboration[scheduler_currentPhase(self)] {early}endif\nendif\nendpar\n"
+    );
+    parts.definitions.push(Item { name: "r_computingTask".to_string(), text, decided: true });
 }
 
 /// Whether the time of some elaboration varies.
@@ -107,9 +163,9 @@ clock := clock + 1
 endpar
 ";
 
-/// The system without the rules of its elaborations.
+/// The system without what its elaborations compute.
 pub(super) fn bare(system: &System) -> System {
-    let mut system = system.clone();
+    let mut system = System { computing: Default::default(), ..system.clone() };
     for phase in system.components.iter_mut().flat_map(|component| &mut component.phases) {
         if let Action::Elaborate(link) = &mut phase.action {
             *link = None;
@@ -197,6 +253,7 @@ const WORKS: &str =
 pub(super) const VERIFICATION: &str = "verification/";
 
 const AGENT: &str = "agent Scheduler: r_controlTask[]\n";
+const COMPUTING_AGENT: &str = "agent Scheduler: r_computingTask[]\n";
 const VARYING_AGENT: &str = "agent Scheduler: r_varyingTask[]\n";
 
 fn task(component: &Component) -> String {

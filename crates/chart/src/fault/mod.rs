@@ -2,6 +2,7 @@
 //!
 //! In: the place, and what is there. Out: a diagnostic whose id is one of [`IDS`] and has a page `spec/faults/<id>.md`.
 
+pub(crate) mod component;
 pub(crate) mod foreign;
 pub(crate) mod import;
 
@@ -15,6 +16,7 @@ pub const IDS: &[&str] = &[
     "chart-differs",
     "chart-import",
     "circular-path",
+    "component-machine",
     "control-variable",
     "dead-end",
     "duplicate-shape",
@@ -27,6 +29,7 @@ pub const IDS: &[&str] = &[
     "long-cycle",
     "machine-state",
     "made-name",
+    "message-domain",
     "misplaced-exit",
     "not-built",
     "not-control-state",
@@ -37,8 +40,11 @@ pub const IDS: &[&str] = &[
     "to-refine",
     "uncovered-case",
     "undecided-paths",
+    "unfed-function",
     "unknown-shape",
     "unreachable-shape",
+    "untaken-function",
+    "unwritten-channel",
 ];
 
 /// A path over guards and actions that returns to itself.

@@ -10,7 +10,7 @@ use std::rc::Rc;
 
 use model::Loader;
 use syntax::ast::{AstNode, ChartFile};
-use syntax::{Diagnostic, FileId, SourceFile, Sources, Span};
+use syntax::{Diagnostic, FileId, Severity, SourceFile, Sources, Span};
 
 use crate::chart::Chart;
 use crate::fault;
@@ -26,7 +26,7 @@ pub struct Loaded {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Reads a chart and the charts that it imports.
+/// Reads a chart, the charts that it imports, and the machines of its components.
 pub fn load(root: SourceFile, loader: &mut dyn Loader) -> Loaded {
     load_beside(Sources::default(), root, loader)
 }
@@ -34,10 +34,15 @@ pub fn load(root: SourceFile, loader: &mut dyn Loader) -> Loaded {
 /// Like [`load`], but adds the texts to existing ones.
 pub fn load_beside(sources: Sources, root: SourceFile, loader: &mut dyn Loader) -> Loaded {
     let mut files = Files { sources, faults: Vec::new(), loader, seen: BTreeMap::new(), open: Vec::new() };
-    let chart = files.read(root);
-    let Files { sources, mut faults, .. } = files;
+    let chart = files.read(root.clone());
+    let Files { mut sources, mut faults, loader, .. } = files;
+    let mut chart = Rc::unwrap_or_clone(chart);
+    // Machines of a system that is not understood would only be reported for what it lacks.
+    if !faults.iter().any(|fault| fault.severity == Severity::Error) {
+        faults.extend(crate::component::compute(&root, &mut chart, &mut sources, loader));
+    }
     faults.sort_by_key(|fault| (fault.primary.span.file, fault.primary.span.start));
-    Loaded { sources, chart: Rc::unwrap_or_clone(chart), diagnostics: faults }
+    Loaded { sources, chart, diagnostics: faults }
 }
 
 struct Files<'l> {

@@ -7,11 +7,11 @@ use syntax::ast::{self, AstNode, PhaseKind};
 use syntax::{Span, SyntaxKind, SyntaxToken};
 
 use super::Reader;
-use super::link::link;
+use super::link::{flat, link};
 use super::machine::spoken;
 use crate::build::system::{busy, taken};
 use crate::fault;
-use crate::system::{Action, Channel, ChannelKind, Component, Device, Phase, System, Timing, length};
+use crate::system::{Action, Channel, ChannelKind, Component, Device, Named, Phase, System, Timing, length};
 
 /// The default length of a step: a millisecond.
 const TICK_NS: u64 = 1_000_000;
@@ -33,6 +33,7 @@ impl Reader {
             channels: Vec::new(),
             devices: Vec::new(),
             connections: Vec::new(),
+            computing: Default::default(),
             span: self.span(&name),
         };
         let components: Vec<ast::Component> =
@@ -60,6 +61,7 @@ impl Reader {
             system.devices.push(Device {
                 text: device.text().unwrap_or_else(|| spoken(name.text())),
                 is_sensor: device.is_sensor(),
+                message: self.message(device.message()),
                 span: self.span(&name),
                 name: name.text().to_string(),
             });
@@ -228,7 +230,8 @@ impl Reader {
         } else {
             ChannelKind::Shared
         };
-        system.channels.push(Channel { name: name.text().to_string(), from, to, kind, span });
+        let message = self.message(node.message());
+        system.channels.push(Channel { name: name.text().to_string(), from, to, kind, message, span });
     }
 
     fn phases(&mut self, index: usize, node: &ast::Component, system: &mut System) {
@@ -277,9 +280,15 @@ impl Reader {
                 action,
                 time,
                 least,
+                machine: phase.machine().map(|name| Named { text: name.text().to_string(), span: self.span(&name) }),
                 span,
             });
         }
+    }
+
+    fn message(&self, domain: Option<ast::Domain>) -> Option<Named> {
+        let domain = domain?;
+        Some(Named { text: flat(domain.syntax()), span: Span::new(self.file, domain.range()) })
     }
 
     /// Checks that a channel is written and read.

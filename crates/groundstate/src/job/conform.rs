@@ -88,6 +88,8 @@ pub struct Conformed {
     pub verdict: Verdict,
     /// How the two were compared.
     pub way: Way,
+    /// Components have machines: what these decide was not compared.
+    pub computes: bool,
 }
 
 /// Why there is no verdict.
@@ -135,7 +137,8 @@ fn follow<T: Tail>(
             session.heed(cancel.interrupt().clone());
             let verdict = session.go_on(&recording, false).map_err(NotConformed::Refused)?;
             let Some(verdict) = verdict else { unreachable!("nothing more comes") };
-            return Ok(Conformed { sources: session.sources().clone(), recording, verdict, way: session.way() });
+            let (sources, way, computes) = (session.sources().clone(), session.way(), session.computes());
+            return Ok(Conformed { sources, recording, verdict, way, computes });
         }
     };
     let mut begin = Some(begin);
@@ -158,8 +161,8 @@ fn follow<T: Tail>(
             match session.go_on(recording, more).map_err(NotConformed::Refused)? {
                 Some(verdict) => {
                     let verdict = if stops { verdict.left() } else { verdict };
-                    let (sources, way) = (session.sources().clone(), session.way());
-                    return Ok(Conformed { sources, recording: recording.clone(), verdict, way });
+                    let (sources, way, computes) = (session.sources().clone(), session.way(), session.computes());
+                    return Ok(Conformed { sources, recording: recording.clone(), verdict, way, computes });
                 }
                 None => tell(ConformEvent::Agrees(session.progress(recording))),
             }

@@ -1,7 +1,7 @@
 //! Views of systems: components, phases, channels, devices and connections (spec/charts.md).
 
 use super::chart::text_of;
-use super::{AstNode, Children, Link, child, children, nodes, token, tokens};
+use super::{AstNode, Children, Domain, Link, child, children, nodes, token, tokens};
 use crate::{SyntaxKind, SyntaxKind::*, SyntaxToken};
 
 nodes! {
@@ -13,13 +13,13 @@ nodes! {
     Component = COMPONENT,
     /// `synchronous period Q offset Q deadline Q`, `asynchronous awaits NAME`
     ComponentKind = COMPONENT_KIND,
-    /// `read CHANNEL as NAME Q`, `elaborate NAME Q {rule}`, `write CHANNEL as NAME Q`
+    /// `read CHANNEL as NAME Q`, `elaborate NAME Q by NAME {rule}`, `write CHANNEL as NAME Q`
     Phase = PHASE,
-    /// `channel NAME from NAME to NAME KIND`
+    /// `channel NAME : DOMAIN from NAME to NAME KIND`
     Channel = CHANNEL,
     /// `swinging buffer N master NAME`, `queue N`, `shared value`
     ChannelKind = CHANNEL_KIND,
-    /// `sensor NAME "text"`, `actuator NAME "text"`
+    /// `sensor NAME : DOMAIN "text"`, `actuator NAME : DOMAIN "text"`
     Device = DEVICE,
     /// `NAME -> NAME`
     Connection = CONNECTION,
@@ -145,6 +145,11 @@ impl Phase {
     pub fn time(&self) -> Option<Quantity> {
         child(self.syntax())
     }
+    /// The machine after `by`.
+    pub fn machine(&self) -> Option<SyntaxToken> {
+        let by = token(self.syntax(), BY_KW)?;
+        names(self.syntax()).find(|name| name.text_range().start() > by.text_range().start())
+    }
     /// The rule of an elaboration.
     pub fn link(&self) -> Option<Link> {
         child(self.syntax())
@@ -155,6 +160,10 @@ impl Channel {
     /// The name.
     pub fn name(&self) -> Option<SyntaxToken> {
         names(self.syntax()).next()
+    }
+    /// The domain of what goes through it.
+    pub fn message(&self) -> Option<Domain> {
+        child(self.syntax())
     }
     /// The component that writes.
     pub fn from(&self) -> Option<SyntaxToken> {
@@ -201,6 +210,10 @@ impl Device {
     /// The text shown.
     pub fn text(&self) -> Option<String> {
         text_of(self.syntax())
+    }
+    /// The domain of what is sensed or set.
+    pub fn message(&self) -> Option<Domain> {
+        child(self.syntax())
     }
 }
 

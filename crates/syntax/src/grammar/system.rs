@@ -3,6 +3,7 @@
 //! In: the cursor at `system`. Out: SYSTEM_CHART. Every length of time is a number and a unit.
 
 use super::chart_part::{block, eat_word, expect_word, keyword, no_item, rule_link, shape_name};
+use super::domain::domain;
 use crate::SyntaxKind::*;
 use crate::fault;
 use crate::parser::Parser;
@@ -36,6 +37,7 @@ fn item(p: &mut Parser<'_>) {
             p.start(DEVICE);
             p.bump_as(device);
             if shape_name(p) {
+                message(p);
                 p.eat(STRING);
             }
             p.finish();
@@ -61,7 +63,7 @@ fn length(p: &mut Parser<'_>, varies: bool) {
     }
     if complete {
         // The next line is another item, and a word that goes on here is not a unit.
-        if p.on_new_line() || p.at(EOF) || keyword(p, &[OFFSET_KW, DEADLINE_KW]).is_some() {
+        if p.on_new_line() || p.at(EOF) || keyword(p, &[OFFSET_KW, DEADLINE_KW, BY_KW]).is_some() {
             let found = p.missing();
             p.fault(fault::expected_unit(found));
         } else {
@@ -69,6 +71,13 @@ fn length(p: &mut Parser<'_>, varies: bool) {
         }
     }
     p.finish();
+}
+
+/// `: DOMAIN`, if it is there: what goes through a channel or a device
+fn message(p: &mut Parser<'_>) {
+    if p.eat(COLON) {
+        domain(p);
+    }
 }
 
 /// `NAME -> NAME`: a physical connection
@@ -112,7 +121,7 @@ fn kind(p: &mut Parser<'_>) {
     p.finish();
 }
 
-/// `read NAME as NAME Q`, `elaborate NAME Q {rule}`, `write NAME as NAME Q`
+/// `read NAME as NAME Q`, `elaborate NAME Q by NAME {rule}`, `write NAME as NAME Q`
 fn phase(p: &mut Parser<'_>) {
     let Some(word) = keyword(p, &[READ_KW, ELABORATE_KW, WRITE_KW]) else {
         let starts = |p: &Parser<'_>| keyword(p, &[READ_KW, ELABORATE_KW, WRITE_KW]).is_some();
@@ -128,16 +137,23 @@ fn phase(p: &mut Parser<'_>) {
         if p.at(INTEGER) || p.at(REAL) {
             length(p, true);
         }
+        if eat_word(p, BY_KW) {
+            shape_name(p);
+        }
         rule_link(p);
     }
     p.finish();
 }
 
-/// `channel NAME from NAME to NAME KIND`
+/// `channel NAME : DOMAIN from NAME to NAME KIND`
 fn channel(p: &mut Parser<'_>) {
     p.start(CHANNEL);
     p.bump_as(CHANNEL_KW);
-    if shape_name(p) && expect_word(p, FROM_KW, "behind the name of a channel") {
+    let named = shape_name(p);
+    if named {
+        message(p);
+    }
+    if named && expect_word(p, FROM_KW, "behind the name of a channel") {
         shape_name(p);
         if expect_word(p, TO_KW, "behind the sender of a channel") {
             shape_name(p);
@@ -227,6 +243,43 @@ mod tests {
                   CHANNEL(channel q from vs to grab CHANNEL_KIND(queue 4))
                   CHANNEL(channel v from vs to grab CHANNEL_KIND(shared value))
                   CONNECTION(camera -> grab)
+                  endsystem)"#]],
+        );
+    }
+
+    #[test]
+    fn machines_and_messages() {
+        check(
+            "chart C system s sensor stop : Boolean \"Stop\" component c synchronous period 1 ms elaborate e 1 ms by M elaborate f by N {r_f[]} endcomponent channel x : Prod(Code, Integer) from c to c queue 2 endsystem",
+            expect![[r#"
+                chart
+                C
+                SYSTEM_CHART(
+                  system
+                  s
+                  DEVICE(sensor stop : Boolean "Stop")
+                  COMPONENT(
+                    component
+                    c
+                    COMPONENT_KIND(synchronous period QUANTITY(1 ms))
+                    PHASE(elaborate e QUANTITY(1 ms) by M)
+                    PHASE(
+                      elaborate
+                      f
+                      by
+                      N
+                      LINK({ MACRO_CALL(r_f ARGUMENT_LIST([ ])) }))
+                    endcomponent)
+                  CHANNEL(
+                    channel
+                    x
+                    :
+                    STRUCTURED(Prod ( Code , Integer ))
+                    from
+                    c
+                    to
+                    c
+                    CHANNEL_KIND(queue 2))
                   endsystem)"#]],
         );
     }

@@ -104,7 +104,7 @@ fn refused(shell: &mut Shell, path: &Path, refusal: Refusal) -> Result<Exit, Fai
 }
 
 fn tell(shell: &mut Shell, conformed: &Conformed) -> Result<Exit, Failure> {
-    let Conformed { sources, recording, verdict, way } = conformed;
+    let Conformed { sources, recording, verdict, way, computes } = conformed;
     let way = way.words();
     if shell.json() {
         shell.object(&wire::Conformance::new(sources, verdict, way))?;
@@ -118,6 +118,9 @@ fn tell(shell: &mut Shell, conformed: &Conformed) -> Result<Exit, Failure> {
                     more => format!("; {more} events after the tasks were asked to stop are not compared"),
                 };
                 writeln!(shell.out(), "conforms {way}: {events} events, {steps} steps of the model{after}")?;
+                if *computes {
+                    writeln!(shell.out(), "not compared: what the components' machines decide")?;
+                }
             }
             Ok(Exit::Good)
         }

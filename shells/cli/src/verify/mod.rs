@@ -258,7 +258,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let (general, watch) = match &system {
         Some(system) => {
             system::refuse(&asked, loaded.program.properties.len(), terminal.as_ref())?;
-            system::about(shell)?;
+            system::about(shell, system)?;
             let sought = system::Sought { arguments, options: &options, agents };
             match system::general(shell, system, &sought, watch)? {
                 system::General::Decided(exit) => return Ok(exit),

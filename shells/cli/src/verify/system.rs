@@ -51,9 +51,21 @@ pub fn load(shell: &mut Shell, arguments: &Arguments) -> Result<Result<Box<Verif
 }
 
 /// Says what the verdicts are about.
-pub fn about(shell: &mut Shell) -> Result<(), Failure> {
+pub fn about(shell: &mut Shell, system: &VerifiedSystem) -> Result<(), Failure> {
     if shell.talks() {
         writeln!(shell.out(), "of times, locks and channels as drawn; what elaborations compute is left out")?;
+        let machines = system.chart.system.iter().flat_map(|system| &system.computing.machines);
+        let mut files: Vec<&str> = machines.map(|machine| machine.source.name.as_str()).collect();
+        files.sort_unstable();
+        files.dedup();
+        if !files.is_empty() {
+            let commands: Vec<String> = files.iter().map(|file| format!("`groundstate verify {file}`")).collect();
+            writeln!(
+                shell.out(),
+                "left out: what the components' machines decide; each by itself: {}",
+                commands.join(", ")
+            )?;
+        }
     }
     Ok(())
 }

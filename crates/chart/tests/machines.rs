@@ -1,0 +1,249 @@
+//! Components' own machines: how their functions meet channels and devices, what they become in the ground model, and the faults.
+
+use chart::{Feed, Known, Take, build};
+use model::Loader;
+use syntax::SourceFile;
+use testkit::{NoSolver, Patterns, Texts};
+
+const PARCELS: &str = "module Parcels
+export *
+signature:
+	enum domain Code = {LETTER | PARCEL}
+definitions:
+";
+
+const SEQUENCER: &str = "asm Sequencer
+import StandardLibrary
+import Parcels
+signature:
+	enum domain Mode = {IDLE | BUSY}
+	domain Count subsetof Integer
+	monitored codes: Code
+	monitored isNewCodes: Boolean
+	monitored stop: Boolean
+	out orders: Boolean
+	out lamp: Integer
+	controlled mode: Mode
+	derived isBusy: Boolean
+definitions:
+	domain Count = {0 : 3}
+	function isBusy = mode = BUSY
+	rule r_decide($m in Mode) = par mode := $m orders := $m = BUSY endpar
+	invariant inv_lamp over lamp: lamp >= 0
+	main rule r_Main =
+		if not stop and isNewCodes and codes = PARCEL and not isBusy then r_decide[BUSY] else par r_decide[IDLE] lamp := 1 endpar endif
+default init s0:
+	function mode = IDLE
+	function orders = false
+	function lamp = 0
+";
+
+const CELL: &str = "chart Cell
+import Parcels
+import machines/Sequencer
+import patterns/ControlTask
+system cell
+	sensor stop : Boolean
+	actuator lamp : Integer \"Lamp\"
+	component reader synchronous period 10 ms
+		elaborate look 1 ms
+		write codes 1 ms
+	endcomponent
+	component sequencer synchronous period 20 ms
+		read codes 1 ms
+		elaborate decide 2 ms by Sequencer
+		write orders 1 ms
+	endcomponent
+	component pusher synchronous period 10 ms
+		read orders 1 ms
+	endcomponent
+	channel codes : Code from reader to sequencer queue 4
+	channel orders : Boolean from sequencer to pusher shared value
+	stop -> sequencer
+	sequencer -> lamp
+endsystem
+";
+
+/// Files in memory, and the pattern library.
+struct Files(Texts);
+
+impl Loader for Files {
+    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        if importer.name.starts_with("patterns/") || path.starts_with("patterns/") {
+            return Patterns.load(importer, path);
+        }
+        self.0.load(importer, path)
+    }
+}
+
+fn files(sequencer: &str) -> Files {
+    Files(Texts::of([
+        ("Parcels.asm", PARCELS),
+        ("machines/Parcels.asm", PARCELS),
+        ("machines/Sequencer.asm", sequencer),
+    ]))
+}
+
+fn load(cell: &str, sequencer: &str) -> chart::Loaded {
+    let sequencer = sequencer.replace("import Parcels", "import ../Parcels");
+    chart::load(SourceFile::new("Cell.chart", cell), &mut files(&sequencer))
+}
+
+fn faults(cell: &str, sequencer: &str) -> Vec<String> {
+    let found = load(cell, sequencer).diagnostics;
+    found
+        .iter()
+        .map(|fault| format!("{}: {} ({})", fault.id, fault.message, fault.help.clone().unwrap_or_default()))
+        .collect()
+}
+
+/// The built text, which has no faults.
+fn built() -> String {
+    let mut drawn = load(CELL, SEQUENCER).chart;
+    let mut files = files(&SEQUENCER.replace("import Parcels", "import ../Parcels"));
+    let known = Known::completed(&mut drawn, "Imports.asm", &mut files).expect("the imports have no faults");
+    assert_eq!(chart::unbuilt(&drawn, &known), []);
+    let built = build(&drawn, &known, None).expect("there was no file").text;
+    let checked = model::check(SourceFile::new("Cell.asm", built.as_str()), &mut files);
+    assert_eq!(checked.diagnostics, [], "{built}");
+    // Building again changes nothing, and chart and model agree.
+    assert_eq!(build(&drawn, &known, Some(&built)).expect("what was built parses").text, built);
+    let probed = chart::probed(&drawn, &built).expect("the model parses");
+    assert_eq!(chart::check(&drawn, &probed, &checked, &mut NoSolver), []);
+    let changed = built.replace("sequencer_lamp", "lamp").replace("lamp := 1", "lamp := 2");
+    assert_ne!(changed, built);
+    let probed = chart::probed(&drawn, &changed).expect("the model parses");
+    let checked = model::check(SourceFile::new("Cell.asm", changed.as_str()), &mut files);
+    let told = chart::check(&drawn, &probed, &checked, &mut NoSolver);
+    assert_eq!(told.iter().map(|fault| fault.id).collect::<Vec<_>>(), ["system-differs"]);
+    built
+}
+
+#[test]
+fn a_machine_becomes_a_part_of_its_component() {
+    let loaded = load(CELL, SEQUENCER);
+    assert_eq!(loaded.diagnostics, []);
+    // The machine's module is not imported: its names would not be the component's.
+    assert_eq!(loaded.chart.imports, ["Parcels", "patterns/ControlTask"]);
+    let system = loaded.chart.system.expect("a system");
+    let machine = &system.computing.machines[0];
+    let named = |name: &str| name.to_string();
+    let feeds =
+        [(named("codes"), Feed::Channel(0)), (named("isNewCodes"), Feed::IsNew(0)), (named("stop"), Feed::Sensor(0))];
+    assert_eq!((machine.component, machine.phase, &machine.feeds[..]), (1, 1, &feeds[..]));
+    assert_eq!(machine.takes, [(named("orders"), Take::Channel(1)), (named("lamp"), Take::Actuator(1))]);
+    let text = built();
+    for part in [
+        "enum domain SequencerMode = {SEQUENCER_IDLE | SEQUENCER_BUSY}",
+        "domain SequencerCount = {0 : 3}",
+        "derived sequencer_codes: Code",
+        "function sequencer_codes = codes_value(mq_taken(codes))",
+        "function sequencer_isNewCodes = mq_taken(codes) != sequencer_taken_codes",
+        "monitored stop: Boolean",
+        "out lamp: Integer",
+        "orders_value(sv_sequence(orders) + 1) := sequencer_orders",
+        "monitored reader_codes: Code",
+        "codes_value(mq_sent(codes) + 1) := reader_codes",
+        "rule r_sequencer_decide($m in SequencerMode) =",
+        "function sequencer_mode = SEQUENCER_IDLE",
+        "case sequencer_decide: r_end_sequencer_decide[]",
+    ] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+    // What the machine has to keep is about the machine alone.
+    assert!(!text.contains("inv_lamp"), "{text}");
+}
+
+#[test]
+fn faults_of_the_chart() {
+    let check = |from: &str, to: &str, expected: &[&str]| {
+        assert!(CELL.contains(from), "{from}");
+        assert_eq!(faults(&CELL.replacen(from, to, 1), SEQUENCER), expected, "{to}");
+    };
+    check(
+        "by Sequencer",
+        "by Sequenzer",
+        &["component-machine: there is no machine `Sequenzer` (did you mean `Sequencer`?)"],
+    );
+    check(
+        "channel codes : Code from",
+        "channel codes from",
+        &[
+            "unfed-function: nothing feeds the monitored function `codes` of the machine (say what the channel carries: `channel codes : DOMAIN from …`)",
+            "unfed-function: nothing feeds the monitored function `isNewCodes` of the machine (say what the channel carries: `channel codes : DOMAIN from …`)",
+        ],
+    );
+    check(
+        "\tstop -> sequencer\n",
+        "",
+        &[
+            "unfed-function: nothing feeds the monitored function `stop` of the machine (connect the two: `stop -> sequencer`)",
+        ],
+    );
+    check(
+        "channel orders : Boolean",
+        "channel orders : Code",
+        &[
+            "message-domain: the function `orders` of the machine is of Boolean, what goes through is of Code (give both the same domain: one that a module declares which the chart and the machine import)",
+        ],
+    );
+    check(
+        "channel codes : Code",
+        "channel codes : Cod",
+        &[
+            "message-domain: there is no domain `Cod` (declare it in a module, and import that in the chart and in the machines)",
+        ],
+    );
+    check(
+        "elaborate look 1 ms",
+        "elaborate look 1 ms by Sequencer {r_look[]}",
+        &["component-machine: this elaboration has a machine and a rule (remove one of the two)"],
+    );
+    check(
+        "\t\telaborate look 1 ms\n",
+        "",
+        &[
+            "unwritten-channel: `reader` writes `codes` before it has elaborated anything (put an `elaborate` phase before it)",
+        ],
+    );
+}
+
+#[test]
+fn faults_of_the_machine() {
+    let check = |from: &str, to: &str, expected: &[&str]| {
+        assert!(SEQUENCER.contains(from), "{from}");
+        let found = faults(CELL, &SEQUENCER.replace(from, to));
+        assert_eq!(found.len(), expected.len(), "{found:#?}");
+        found.iter().zip(expected).for_each(|(found, expected)| assert!(found.starts_with(expected), "{found}"));
+    };
+    check("main rule r_Main", "rule r_Main", &["component-machine: `Sequencer` cannot be the machine of a component"]);
+    check("stop: Boolean", "stop: Booleen", &["component-machine: `Sequencer` cannot be the machine of a component"]);
+    check(
+        "isNewCodes",
+        "isNewCode",
+        &[
+            "unfed-function: nothing feeds the monitored function `isNewCode` of the machine (did you mean `isNewCodes`?)",
+        ],
+    );
+    check("out orders", "controlled orders", &["unwritten-channel: the machine has no out function `orders`"]);
+    check("orders := $m = BUSY", "skip", &["unwritten-channel: the machine never updates `orders`"]);
+    check(
+        "lamp",
+        "lamps",
+        &["untaken-function: nothing takes the out function `lamps` of the machine (did you mean `lamp`?)"],
+    );
+    check(
+        "controlled mode: Mode",
+        "controlled mode: Mode\n\tshared common: Integer",
+        &["unfed-function: nothing feeds"],
+    );
+}
+
+#[test]
+fn names_that_meet() {
+    let mut drawn = load(CELL, &SEQUENCER.replace("isBusy", "wait")).chart;
+    let mut files = files(&SEQUENCER.replace("isBusy", "wait").replace("import Parcels", "import ../Parcels"));
+    let known = Known::completed(&mut drawn, "Imports.asm", &mut files).expect("the imports have no faults");
+    let told: Vec<String> = chart::unbuilt(&drawn, &known).into_iter().map(|fault| fault.message).collect();
+    assert_eq!(told, ["a second `sequencer_wait` would be made"]);
+}
