@@ -13,7 +13,7 @@ pub(super) fn data(system: &System, space: &str) -> String {
          //\n// A function `bool valid(const T&)` beside a type says which data may be handed over: one that is not valid is not\n\
          // published, but counted.\n#pragma once\n\nnamespace {space} {{\n"
     );
-    for channel in &system.channels {
+    for channel in system.channels.iter().filter(|channel| channel.message.is_none()) {
         let (from, to) = (&system.components[channel.from].name, &system.components[channel.to].name);
         let _ = write!(text, "\n/// From {from} to {to}.\nstruct {} {{\n}};\n", pascal(&channel.name));
     }
@@ -57,7 +57,15 @@ pub(super) fn main(system: &System, space: &str) -> String {
     text
 }
 
-pub(super) fn cmake(chart: &str, name: &str) -> String {
+pub(super) fn cmake(chart: &str, name: &str, machines: bool) -> String {
+    let (find, sources, rounding) = match machines {
+        false => ("", "", ""),
+        true => (
+            "file(GLOB machines CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/generated/machines/*.cpp)\n",
+            " ${machines}",
+            " -ffp-contract=off",
+        ),
+    };
     format!(
         "# The program of {chart}. This file is yours: it is written once, and never touched again.\n\
          cmake_minimum_required(VERSION 3.16)\nproject({name} LANGUAGES CXX)\n\n\
@@ -65,10 +73,10 @@ pub(super) fn cmake(chart: &str, name: &str) -> String {
          set({name}_runtime \"${{CMAKE_CURRENT_SOURCE_DIR}}/generated\")\nif(GROUNDSTATE_CPP)\n  \
          set({name}_runtime \"${{GROUNDSTATE_CPP}}\")\nendif()\n\
          if(NOT CMAKE_BUILD_TYPE)\n  set(CMAKE_BUILD_TYPE RelWithDebInfo)\nendif()\n\
-         find_package(Threads REQUIRED)\n\nadd_executable({name} main.cpp)\n\
+         find_package(Threads REQUIRED)\n\n{find}add_executable({name} main.cpp{sources})\n\
          target_include_directories({name} PRIVATE ${{CMAKE_CURRENT_SOURCE_DIR}} ${{{name}_runtime}}/include)\n\
          target_compile_features({name} PRIVATE cxx_std_20)\n\
-         target_compile_options({name} PRIVATE -Wall -Wextra -Wconversion)\n\
+         target_compile_options({name} PRIVATE -Wall -Wextra -Wconversion{rounding})\n\
          target_link_libraries({name} PRIVATE Threads::Threads)\n"
     )
 }

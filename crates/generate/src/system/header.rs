@@ -6,6 +6,7 @@ use chart::build::busy;
 use chart::system::{Action, Channel, ChannelKind, Component, System, Timing};
 
 use super::cycle::cycle;
+use super::machines::has_messages;
 use super::names::{hook, member, pascal};
 use super::plan::{Access, Form, access, ends, numbers, ranks, stopping};
 
@@ -18,9 +19,10 @@ pub(super) fn header(system: &System, file: &str, name: &str, form: &Form) -> St
     for channel in &system.channels {
         let _ = writeln!(text, "//   {}", placement(system, channel, form));
     }
+    let messages = if has_messages(system) { "#include \"messages.hpp\"\n" } else { "" };
     let _ = write!(
         text,
-        "#pragma once\n\n#include <groundstate/program.hpp>\n\n#include \"../data.hpp\"\n\nnamespace {name} {{\n\n\
+        "#pragma once\n\n#include <groundstate/program.hpp>\n\n{messages}#include \"../data.hpp\"\n\nnamespace {name} {{\n\n\
          using groundstate::Cycle;\nusing groundstate::Seen;\n"
     );
     for component in &system.components {

@@ -8,6 +8,7 @@
 mod cycle;
 mod files;
 mod header;
+mod machines;
 mod names;
 mod plan;
 mod refuse;
@@ -17,7 +18,7 @@ use chart::system::System;
 
 use crate::names::snake;
 
-pub use plan::Form;
+pub use plan::{Form, MachineClass};
 pub use refuse::ungenerated;
 
 /// The files of a program.
@@ -35,15 +36,22 @@ pub fn generate(chart: &Chart, system: &System, file: &str, form: &Form) -> Gene
     let space = form.namespace.clone().unwrap_or_else(|| name.clone());
     let header = header::header(system, file, &space, form);
     let mut once = vec![
-        ("CMakeLists.txt".to_string(), files::cmake(&chart.name, &name)),
+        ("CMakeLists.txt".to_string(), files::cmake(&chart.name, &name, !form.classes.is_empty())),
         ("main.cpp".to_string(), files::main(system, &space)),
         ("data.hpp".to_string(), files::data(system, &space)),
     ];
-    once.extend(
-        system
-            .components
-            .iter()
-            .map(|component| (format!("{}.hpp", component.name), files::component(component, &name, &space))),
-    );
-    Generated { decided: vec![(format!("generated/{name}.hpp"), header)], once }
+    once.extend(system.components.iter().enumerate().map(|(index, component)| {
+        let text = match machines::class_of(system, index, form) {
+            Some(class) => machines::file(system, index, class, &name, &space),
+            None => files::component(component, &name, &space),
+        };
+        (format!("{}.hpp", component.name), text)
+    }));
+    let mut decided = vec![(format!("generated/{name}.hpp"), header)];
+    if machines::has_messages(system) {
+        decided.push(("generated/messages.hpp".to_string(), machines::messages(system, file, &space)));
+    }
+    let computing = machines::header(system, file, &name, &space, form);
+    decided.extend(computing.map(|text| (format!("generated/{name}_machines.hpp"), text)));
+    Generated { decided, once }
 }

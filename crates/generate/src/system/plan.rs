@@ -10,6 +10,30 @@ pub struct Form {
     pub wait_free: bool,
     /// The namespace of the generated and the user's classes; derived from the system's name if not given.
     pub namespace: Option<String>,
+    /// The classes of the components' machines. A component whose machine has none here gets an empty hook.
+    pub classes: Vec<MachineClass>,
+}
+
+/// The class that `generate::model` makes of a component's machine.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MachineClass {
+    /// The machine's file, as the chart's system names it.
+    pub file: String,
+    /// The machine's name.
+    pub machine: String,
+    /// The namespace of the class and the stem of its files.
+    pub name: String,
+    /// The text of its header.
+    pub header: String,
+    /// Names that differ in C++: `(the model's, the class's)`.
+    pub renamed: Vec<(String, String)>,
+}
+
+impl MachineClass {
+    /// A function of the machine as the class calls it.
+    pub(super) fn called<'n>(&'n self, function: &'n str) -> &'n str {
+        self.renamed.iter().find(|(model, _)| model == function).map_or(function, |(_, cpp)| cpp)
+    }
 }
 
 /// How a channel is used at one of its ends.

@@ -1,5 +1,6 @@
 //! Finds what cannot be generated of a system, and why.
 
+use chart::Content;
 use chart::build::late;
 use chart::system::{Action, System};
 use syntax::{Diagnostic, Span};
@@ -32,7 +33,34 @@ pub fn ungenerated(system: &System) -> Vec<Diagnostic> {
             }
         }
     }
+    let computing = &system.computing;
+    let said = |name: &str| {
+        let channels = system.channels.iter().map(|channel| (&channel.name, &channel.message));
+        let devices = system.devices.iter().map(|device| (&device.name, &device.message));
+        let found = channels.chain(devices).find(|(known, _)| *known == name);
+        found.and_then(|(_, message)| message.as_ref()).map_or(system.span, |message| message.span)
+    };
     let mut types: Vec<(String, Span)> = Vec::new();
+    for (name, content) in &computing.contents {
+        match content {
+            Content::Other(domain) => faults.push(not_generated(
+                said(name),
+                format!("data of {domain} cannot be generated"),
+                "channels and devices of a program carry Booleans, numbers and literals of enums",
+                "split the datum into several channels, or number what it says",
+            )),
+            Content::Enum { name: made, .. } => {
+                if !types.iter().any(|(known, _)| known == made) {
+                    types.push((made.clone(), said(name)));
+                }
+            }
+            Content::Boolean | Content::Integer | Content::Real => {}
+        }
+    }
+    for machine in &computing.machines {
+        let component = &system.components[machine.component];
+        types.push((super::machines::name(component), component.span));
+    }
     let all = system.channels.iter().map(|channel| (&channel.name, channel.span));
     for (name, span) in all.chain(system.components.iter().map(|component| (&component.name, component.span))) {
         let made = pascal(name);

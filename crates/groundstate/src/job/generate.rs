@@ -9,7 +9,7 @@ use std::sync::Arc;
 use chart::Chart;
 use generate::headers;
 use generate::model::{Generated, Options};
-use generate::system::{Form, ungenerated};
+use generate::system::{Form, MachineClass, ungenerated};
 use machine::{Closed, Limits, Machine};
 use program::Program;
 use serde_json::{Value, json};
@@ -72,6 +72,25 @@ pub fn generate_model(
         let decided = files.chain(headers::MACHINE.iter().map(runtime)).chain(maps).collect();
         told(&port, Folder { decided, once: Vec::new(), renamed: generated.renamed })
     })
+}
+
+/// What [`generate_model`] made of a component's machine, for the program of its system: the class for [`Form::classes`], and the files
+/// within the program's folder. `file` is the machine's file as the chart's system names it.
+pub fn machine_of_component(file: String, machine: String, folder: Folder) -> (MachineClass, Vec<(String, String)>) {
+    let header = folder.decided.iter().find(|(path, _)| path.ends_with(".hpp") && !path.contains('/'));
+    let (path, header) = header.cloned().unwrap_or_default();
+    let name = path.trim_end_matches(".hpp").to_string();
+    let runtime = "runtime/include/";
+    let files = folder.decided.into_iter().filter_map(|(path, text)| match path.as_str() {
+        "CMakeLists.txt" | "replay.cpp" => None,
+        "source-map.json" => Some((format!("generated/machines/{name}-map.json"), text)),
+        other => match other.strip_prefix(runtime) {
+            Some(header) => Some((format!("generated/include/{header}"), text)),
+            None => Some((format!("generated/machines/{other}"), text)),
+        },
+    });
+    let files = files.collect();
+    (MachineClass { file, machine, name, header, renamed: folder.renamed }, files)
 }
 
 /// Starts to generate the program of a chart's system; comments call the chart `file`.

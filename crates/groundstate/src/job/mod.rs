@@ -28,7 +28,9 @@ pub use conform::{
     ConformEvent, ConformJob, ConformRequest, Conformed, Events, NoTail, NotConformed, Piece, Tail, conform,
 };
 pub use desk::{Command, Remote, RunEvent};
-pub use generate::{Folder, GenerateEvent, GenerateJob, NotGenerated, generate_model, generate_system};
+pub use generate::{
+    Folder, GenerateEvent, GenerateJob, NotGenerated, generate_model, generate_system, machine_of_component,
+};
 pub use generate_tests::{TestsEvent, TestsJob, TestsRequest, generate_tests};
 pub use mutate::{Hands, MutateEvent, MutateJob, Mutated, mutate};
 pub use refine::{RefineEvent, RefineJob, refine};

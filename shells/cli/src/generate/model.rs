@@ -46,7 +46,7 @@ pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
 
 /// The texts, named by their paths relative to the output folder, so that the names do not depend on the working
 /// folder.
-fn placed(sources: &Sources, folder: &Path) -> Sources {
+pub fn placed(sources: &Sources, folder: &Path) -> Sources {
     let mut placed = Sources::default();
     let whole = |path: &Path| std::fs::canonicalize(path).or_else(|_| std::path::absolute(path)).unwrap_or(path.into());
     let folder = whole(folder);

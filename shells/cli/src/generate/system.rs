@@ -1,14 +1,19 @@
-//! `groundstate generate cpp FILE.chart`: writes the program of a chart's system, with the runtime's headers.
+//! `groundstate generate cpp FILE.chart`: writes the program of a chart's system, with the runtime's headers and the classes of the
+//! components' machines.
 
 use std::io::Write;
+use std::path::Path;
 
-use generate::system::Form;
+use generate::model::Options;
+use generate::system::{Form, MachineClass};
 use groundstate::job::{self, Cancel, Folder};
 
+use super::model::placed;
 use super::{Cpp, finished, write};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::load::load;
 use crate::shell::Shell;
 
 /// Runs the command.
@@ -24,13 +29,26 @@ pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
         ));
     }
     let name = arguments.file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let form = Form { wait_free: arguments.wait_free, namespace: arguments.namespace.clone() };
+    let mut form = Form { wait_free: arguments.wait_free, namespace: arguments.namespace.clone(), classes: Vec::new() };
+    let mut of_machines = Vec::new();
+    for machine in chart.system.iter().flat_map(|system| &system.computing.machines) {
+        if form.classes.iter().any(|class| class.file == machine.source.name) {
+            continue;
+        }
+        match machine_class(shell, &machine.source.name, &arguments.output)? {
+            Ok((class, files)) => {
+                form.classes.push(class);
+                of_machines.extend(files);
+            }
+            Err(exit) => return Ok(exit),
+        }
+    }
     let job = job::generate_system(chart, name, form, Cancel::from(interrupt::request().clone()));
     let Folder { decided, once, .. } = match finished(shell, &sources, job)? {
         Ok(folder) => folder,
         Err(exit) => return Ok(exit),
     };
-    for (path, text) in &decided {
+    for (path, text) in decided.iter().chain(&of_machines) {
         write(shell, &arguments.output.join(path), text)?;
     }
     let mut kept = Vec::new();
@@ -48,4 +66,21 @@ pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
         }
     }
     Ok(Exit::Good)
+}
+
+/// The class of a component's machine, and its files within the folder of the program.
+type Made = (MachineClass, Vec<(String, String)>);
+
+fn machine_class(shell: &mut Shell, file: &str, output: &Path) -> Result<Result<Made, Exit>, Failure> {
+    let loaded = match load(shell, Path::new(file))? {
+        Ok(loaded) => loaded,
+        Err(exit) => return Ok(Err(exit)),
+    };
+    let folder = output.join("generated/machines");
+    std::fs::create_dir_all(&folder).map_err(|error| Failure::of_file("write", &folder, error))?;
+    let sources = placed(&loaded.sources, &folder);
+    let cancel = Cancel::from(interrupt::request().clone());
+    let job = job::generate_model(loaded.program, sources, Options::default(), cancel);
+    let made = finished(shell, &loaded.sources, job)?;
+    Ok(made.map(|folder| job::machine_of_component(file.to_string(), loaded.model.name.clone(), folder)))
 }

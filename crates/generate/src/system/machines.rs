@@ -1,0 +1,251 @@
+//! Generates what components compute by their machines: the types of messages, and for each component with a machine a hook class that
+//! steps the machine's generated class.
+//!
+//! In: a system whose machines' functions are fed and taken, and the machines' classes as `generate::model` makes them. Out: two headers.
+//! The class of a component is a default: a user's class may override what it decides. Only what C++ needs to compile is looked up in the
+//! text of a machine's class: an input that no rule asks for is no function there.
+
+use std::fmt::Write;
+
+use chart::system::{Action, Component, System};
+use chart::{ComponentMachine, Content, Feed, Take};
+
+use super::names::{hook, member, pascal};
+use super::plan::{Form, MachineClass};
+
+/// Whether the chart says what some channel or device carries.
+pub(super) fn has_messages(system: &System) -> bool {
+    !system.computing.contents.is_empty()
+}
+
+/// The class of the machine of a component, if it has one.
+pub(super) fn class_of<'f>(system: &System, component: usize, form: &'f Form) -> Option<&'f MachineClass> {
+    let machine = machine_of(system, component)?;
+    form.classes.iter().find(|class| class.file == machine.source.name)
+}
+
+fn machine_of(system: &System, component: usize) -> Option<&ComponentMachine> {
+    system.computing.machines.iter().find(|machine| machine.component == component)
+}
+
+/// The hook class that a component's file derives from, besides the pure one.
+pub(super) fn name(component: &Component) -> String {
+    format!("{}Machine", pascal(&component.name))
+}
+
+/// The type of a value.
+fn type_of(content: &Content) -> String {
+    match content {
+        Content::Boolean => "bool".to_string(),
+        Content::Integer => "std::int64_t".to_string(),
+        Content::Real => "double".to_string(),
+        Content::Enum { name, .. } => member(name),
+        Content::Other(text) => unreachable!("{text} is refused before"),
+    }
+}
+
+/// The header of the messages.
+pub(super) fn messages(system: &System, file: &str, space: &str) -> String {
+    let mut text = format!(
+        "// Made from {file} by `groundstate generate cpp`; do not edit. What channels and devices carry.\n#pragma once\n\n\
+         #include <cstdint>\n\nnamespace {space} {{\n"
+    );
+    let mut known: Vec<&str> = Vec::new();
+    for content in system.computing.contents.values() {
+        if let Content::Enum { name, literals } = content
+            && !known.contains(&name.as_str())
+        {
+            known.push(name);
+            let literals: Vec<String> = literals.iter().map(|literal| member(literal)).collect();
+            let _ = writeln!(text, "\nenum class {} : std::uint32_t {{ {} }};", member(name), literals.join(", "));
+        }
+    }
+    for channel in &system.channels {
+        let Some(content) = system.computing.contents.get(&channel.name) else { continue };
+        let (from, to) = (&system.components[channel.from].name, &system.components[channel.to].name);
+        let _ = write!(
+            text,
+            "\n/// From {from} to {to}.\nstruct {} {{\n    {} value{{}};\n}};\n",
+            pascal(&channel.name),
+            type_of(content)
+        );
+    }
+    let _ = writeln!(text, "\n}}  // namespace {space}");
+    text
+}
+
+/// The header of the components that have machines; none if no component has one.
+pub(super) fn header(system: &System, file: &str, name: &str, space: &str, form: &Form) -> Option<String> {
+    let with: Vec<(usize, &MachineClass)> =
+        (0..system.components.len()).filter_map(|index| Some((index, class_of(system, index, form)?))).collect();
+    if with.is_empty() {
+        return None;
+    }
+    let mut includes: Vec<String> =
+        with.iter().map(|(_, class)| format!("#include \"machines/{}.hpp\"\n", class.name)).collect();
+    includes.sort();
+    includes.dedup();
+    let mut text = format!(
+        "// Made from {file} by `groundstate generate cpp`; do not edit. What components do by their machines.\n#pragma once\n\n\
+         #include <utility>\n\n#include <groundstate/component.hpp>\n\n#include \"{name}.hpp\"\n{}\nnamespace {space} {{\n",
+        includes.concat()
+    );
+    for (index, class) in with {
+        if let Some(machine) = machine_of(system, index) {
+            one(&mut text, system, machine, class);
+        }
+    }
+    let _ = writeln!(text, "\n}}  // namespace {space}");
+    Some(text)
+}
+
+fn one(text: &mut String, system: &System, machine: &ComponentMachine, class: &MachineClass) {
+    let component = &system.components[machine.component];
+    let phase = &component.phases[machine.phase];
+    let (name, made) = (name(component), &class.machine);
+    let _ = write!(
+        text,
+        "\n/// {} as {made} decides: one step of the machine in each `{}`.\nclass {name} : public {} {{\n  public:\n    \
+         {name}() {{ groundstate::made(machine_.start(), \"{made}\"); }}\n",
+        component.name,
+        phase.subject,
+        pascal(&component.name)
+    );
+    let _ = write!(
+        text,
+        "    bool {}(const Cycle& cycle, const In& in, [[maybe_unused]] Out& out) override {{\n        \
+         inputs_.cycle = &cycle;\n        inputs_.in = &in;\n        groundstate::made(machine_.step(), \"{made}\");\n        \
+         bool ready = true;\n",
+        hook(&phase.subject)
+    );
+    for (function, take) in &machine.takes {
+        let called = class.called(function);
+        match take {
+            Take::Channel(channel) => {
+                let out = member(&system.channels[*channel].name);
+                let _ = writeln!(text, "        ready &= groundstate::decided(machine_.{called}(), out.{out}.value);");
+            }
+            Take::Actuator(device) => {
+                let device = &system.devices[*device];
+                let content = type_of(&system.computing.contents[&device.name]);
+                let _ = writeln!(
+                    text,
+                    "        if ({content} value{{}}; groundstate::decided(machine_.{called}(), value)) {{\n            \
+                     {}(cycle, value);\n        }}",
+                    hook(&device.name)
+                );
+            }
+        }
+    }
+    text.push_str("        return ready;\n    }\n");
+    for (device, is_sensor) in devices(machine) {
+        let device = &system.devices[device];
+        let content = type_of(&system.computing.contents[&device.name]);
+        let called = hook(&device.name);
+        let _ = match is_sensor {
+            true => writeln!(
+                text,
+                "    /// What the sensor {} says.\n    virtual {content} {called}(const Cycle& cycle) = 0;",
+                device.name
+            ),
+            false => writeln!(
+                text,
+                "    /// Sets the actuator {}.\n    virtual void {called}(const Cycle& cycle, {content} value) = 0;",
+                device.name
+            ),
+        };
+    }
+    let space = &class.name;
+    let _ = write!(
+        text,
+        "    /// The machine, to look at.\n    const ::{space}::Machine& machine() const noexcept {{ return machine_; }}\n\n  private:\n    \
+         struct Inputs final : ::{space}::Environment {{\n        explicit Inputs({name}& given) : owner{{given}} {{}}\n"
+    );
+    for (function, feed) in &machine.feeds {
+        let called = class.called(function);
+        if !class.header.contains(&format!(" {called}() = 0;")) {
+            continue;
+        }
+        let answer = format!("decltype(std::declval<::{space}::Environment&>().{called}())");
+        let value = match feed {
+            Feed::Channel(channel) => {
+                let read = member(&system.channels[*channel].name);
+                format!("in == nullptr ? Answer{{}} : groundstate::carried<Answer>(in->{read})")
+            }
+            Feed::IsNew(channel) => {
+                let read = member(&system.channels[*channel].name);
+                format!("in == nullptr ? Answer{{}} : Answer{{in->{read}.fresh}}")
+            }
+            Feed::Sensor(device) => {
+                let device = hook(&system.devices[*device].name);
+                format!("cycle == nullptr ? Answer{{}} : groundstate::sensed<Answer>(owner.{device}(*cycle))")
+            }
+        };
+        let _ = writeln!(
+            text,
+            "        {answer} {called}() override {{\n            using Answer = {answer};\n            return {value};\n        }}"
+        );
+    }
+    let _ = write!(
+        text,
+        "        /// The first candidate.\n        std::size_t choose(std::size_t, groundstate::machine::Site) override {{ return 0; }}\n\n        \
+         [[maybe_unused]] {name}& owner;\n        const Cycle* cycle = nullptr;\n        const In* in = nullptr;\n    }};\n\n    \
+         Inputs inputs_{{*this}};\n    ::{space}::Machine machine_{{inputs_}};\n}};\n"
+    );
+}
+
+/// The sensors and actuators of a machine's component.
+fn devices(machine: &ComponentMachine) -> Vec<(usize, bool)> {
+    let sensors = machine.feeds.iter().filter_map(|(_, feed)| match feed {
+        Feed::Sensor(device) => Some((*device, true)),
+        Feed::Channel(_) | Feed::IsNew(_) => None,
+    });
+    let actuators = machine.takes.iter().filter_map(|(_, take)| match take {
+        Take::Actuator(device) => Some((*device, false)),
+        Take::Channel(_) => None,
+    });
+    sensors.chain(actuators).collect()
+}
+
+/// The user's file for a component with a machine.
+pub(super) fn file(system: &System, index: usize, class: &MachineClass, name: &str, space: &str) -> String {
+    let component = &system.components[index];
+    let machine = machine_of(system, index);
+    let mut text = format!(
+        "// {}. This file is yours: it is written once, and never touched again.\n#pragma once\n\n\
+         #include \"generated/{name}_machines.hpp\"\n\nnamespace {space} {{\n\n\
+         /// It does what {} decides. What that decides can be overridden, as each elaboration of a component without a machine is.\n\
+         class {}Hooks final : public {} {{\n  public:\n",
+        component.text.split_whitespace().collect::<Vec<_>>().join(" "),
+        class.machine,
+        pascal(&component.name),
+        self::name(component)
+    );
+    for (device, is_sensor) in machine.map(devices).unwrap_or_default() {
+        let device = &system.devices[device];
+        let content = type_of(&system.computing.contents[&device.name]);
+        let _ = match is_sensor {
+            true => writeln!(
+                text,
+                "    {content} {}(const Cycle& /*cycle*/) override {{ return {{}}; }}",
+                hook(&device.name)
+            ),
+            false => writeln!(
+                text,
+                "    void {}(const Cycle& /*cycle*/, {content} /*value*/) override {{}}",
+                hook(&device.name)
+            ),
+        };
+    }
+    for (at, phase) in component.phases.iter().enumerate() {
+        if matches!(phase.action, Action::Elaborate(_)) && machine.is_none_or(|machine| machine.phase != at) {
+            let _ = writeln!(
+                text,
+                "    bool {}(const Cycle& /*cycle*/, const In& /*in*/, Out& /*out*/) override {{ return true; }}",
+                hook(&phase.subject)
+            );
+        }
+    }
+    let _ = writeln!(text, "}};\n\n}}  // namespace {space}");
+    text
+}
