@@ -17,32 +17,33 @@
 namespace groundstate {
 
 /// What happened. Of phases: begins to passes; of a buffer's lock: asks to releases; of data: swaps to invalid; of cycles:
-/// meets to faults.
+/// meets to faults; of what a component's machine says: gets and decides.
 enum class Kind : std::uint8_t {
     begins, ends, passes,
     asks, enters, gives_up, releases,
     swaps, writes, reads, sends, refuses, takes, stores, loads, invalid,
     meets, misses, faults,
+    gets, decides,
 };
 
 /// The word of a kind, in the log.
 constexpr std::string_view word(Kind kind) noexcept {
     constexpr std::array words{"begins", "ends",   "passes", "asks",    "enters", "gives_up", "releases",
                                "swaps",  "writes", "reads",  "sends",   "refuses", "takes",   "stores",
-                               "loads",  "invalid", "meets", "misses",  "faults"};
+                               "loads",  "invalid", "meets", "misses",  "faults", "gets",    "decides"};
     return words[static_cast<std::size_t>(kind)];
 }
 
 /// One event of a task.
 struct Event {
     std::int64_t time_ns = 0;   ///< since the origin of the run
-    std::uint64_t number = 0;   ///< of the datum, message or cycle
+    std::uint64_t number = 0;   ///< of the datum, message or cycle; of what is got or decided, the value's bits
     std::uint32_t order = 0;    ///< of the task's events, from 0 on
     std::uint16_t object = 0;   ///< the phase or channel, as the plan of the system numbers them
     Kind kind = Kind::begins;
-    std::uint8_t array = 0;     ///< the array worked on; of a swap: the index read
+    std::uint8_t array = 0;     ///< the array worked on; of a swap: the index read; of a value: 1 if there is one
     std::uint8_t next = 0;      ///< of a swap: the index written
-    bool fresh = false;         ///< of a reading
+    bool fresh = false;         ///< of a reading, and of what is got from a channel
 };
 
 /// The events of one task on their way to the writer.

@@ -7,7 +7,10 @@
 // copy, because the pattern's index section must stay short.
 #pragma once
 
+#include <bit>
+#include <cstdint>
 #include <optional>
+#include <type_traits>
 
 #include "message_queue.hpp"
 #include "observation.hpp"
@@ -29,6 +32,16 @@ struct Message {
     std::int64_t stamp_ns = 0;
 };
 
+/// A value as the log has it: an enum by its place, a number by its bits.
+template <class T>
+constexpr std::uint64_t bits_of(const T& value) noexcept {
+    if constexpr (std::is_floating_point_v<T>) {
+        return std::bit_cast<std::uint64_t>(static_cast<double>(value));
+    } else {
+        return static_cast<std::uint64_t>(value);
+    }
+}
+
 /// Runs the phases of one task's cycle, in order.
 template <Clock C>
 class Phases {
@@ -44,6 +57,22 @@ class Phases {
         task_.pace.spend(phase.ticks);
         end(phase);
         return ready;
+    }
+
+    /// What the component decides on: the datum that it read last from a channel, what a sensor says.
+    template <class T>
+    void gets(std::uint16_t channel, const Seen<T>& seen) {
+        task_.record(Kind::gets, channel, seen ? bits_of(seen->value) : 0, seen ? 1 : 0, 0, seen.fresh);
+    }
+    template <class T>
+    void senses(std::uint16_t sensor, const T& value) {
+        task_.record(Kind::gets, sensor, bits_of(value), 1);
+    }
+
+    /// What it has decided for a channel or an actuator, if anything.
+    template <class T>
+    void decides(std::uint16_t object, const T& value, bool is_known) {
+        task_.record(Kind::decides, object, is_known ? bits_of(value) : 0, is_known ? 1 : 0);
     }
 
     /// Reads in place: the master's array, or that of a wait-free buffer.

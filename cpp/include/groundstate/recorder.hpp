@@ -126,7 +126,8 @@ class Recorder {
         R"({"title":"groundstate.Event","type":"object","properties":{)"
         R"("order":{"type":"integer","description":"number among the task's events; a gap tells of lost ones"},)"
         R"("kind":{"type":"string"},"object":{"type":"string","description":"phase, channel or task"},)"
-        R"("number":{"type":"integer","description":"of the datum, message or cycle"},)"
+        R"("number":{"type":"integer","description":"of the datum, message or cycle; the bits of a value"},)"
+        R"("known":{"type":"boolean","description":"there is a value"},)"
         R"("array":{"type":"integer","description":"the array worked on; of a swap the index read"},)"
         R"("next":{"type":"integer","description":"of a swap the index written"},)"
         R"("fresh":{"type":"boolean","description":"the reading brought something new"}}})";
@@ -207,6 +208,11 @@ class Recorder {
                 break;
             case Kind::loads: more(R"(,"fresh":%s)", event.fresh ? "true" : "false"); break;
             case Kind::writes: more(R"(,"array":%d)", int{event.array}); break;
+            case Kind::gets:
+                more(R"(,"known":%s)", event.array != 0 ? "true" : "false");
+                more(R"(,"fresh":%s)", event.fresh ? "true" : "false");
+                break;
+            case Kind::decides: more(R"(,"known":%s)", event.array != 0 ? "true" : "false"); break;
             default: break;
         }
         more("%s", "}");

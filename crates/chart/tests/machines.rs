@@ -247,3 +247,18 @@ fn names_that_meet() {
     let told: Vec<String> = chart::unbuilt(&drawn, &known).into_iter().map(|fault| fault.message).collect();
     assert_eq!(told, ["a second `sequencer_wait` would be made"]);
 }
+
+#[test]
+fn the_example_of_the_page() {
+    let page = testkit::Page::spec("charts");
+    let block =
+        |words: &str| page.blocks().into_iter().find(|block| block.text.starts_with(words)).expect("a block").text;
+    let mut files = Files(Texts::of([("Sequencer.asm", block("asm Sequencer"))]));
+    let loaded = chart::load(SourceFile::new("Cell.chart", block("chart Cell")), &mut files);
+    assert_eq!(loaded.diagnostics, []);
+    let mut drawn = loaded.chart;
+    let known = Known::completed(&mut drawn, "Imports.asm", &mut files).expect("the imports have no faults");
+    let built = build(&drawn, &known, None).expect("there was no file").text;
+    let checked = model::check(SourceFile::new("Cell.asm", built.as_str()), &mut files);
+    assert_eq!(checked.diagnostics, [], "{built}");
+}

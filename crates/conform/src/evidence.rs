@@ -37,6 +37,8 @@ pub struct Parted {
     pub claims: Vec<Claim>,
     /// Why, if the claims alone do not say it.
     pub reason: Option<String>,
+    /// The two decide otherwise: `reason` says what, and no event does.
+    pub decides: bool,
     /// How many events agreed before.
     pub agreed: usize,
     /// The last events of all tasks before, oldest first.

@@ -4,13 +4,14 @@
 //! whole or still being written. Out of a [`Session`]: a [`Verdict`]. The changes of a machine's step show which events
 //! the tasks have in it (`claims`); these and the recorded ones must be the same. In virtual time that follows the
 //! model, each tick is a step of the main rule (`timed`). In any other time one task steps at a time, in an order that
-//! agrees with the recorded instants (`untimed`). The meaning of a rule stays in the machine; a run that was not wholly
+//! agrees with the recorded instants (`untimed`). What components' machines decide is replayed apart (`functions`). The meaning of a rule stays in the machine; a run that was not wholly
 //! recorded never conforms.
 
 mod claims;
 mod events;
 mod evidence;
 mod fault;
+mod functions;
 mod order;
 mod session;
 mod steps;
@@ -22,7 +23,7 @@ mod waiting;
 pub use events::Events;
 pub use evidence::{Claim, Parted, Recorded};
 pub use fault::{IDS as FAULT_IDS, diagnose_parted};
-pub use recording::{Event, Kind, Malformed, Reader, Recording, Track};
+pub use recording::{Decision, Event, Kind, Malformed, Reader, Recording, Track};
 pub use session::{Refusal, Session, Way};
 
 /// The result.

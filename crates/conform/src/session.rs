@@ -13,6 +13,7 @@ use program::Program;
 use syntax::{Diagnostic, Sources};
 
 use crate::Verdict;
+use crate::functions::Functions;
 use crate::steps::Steps;
 use crate::vocabulary::Vocabulary;
 use crate::{timed, untimed};
@@ -61,6 +62,7 @@ pub struct Session {
     steps: Steps,
     limits: Limits,
     replay: Replay,
+    functions: Functions,
     /// A difference that is reported once everything is known up to this instant.
     suspected_ns: Option<i64>,
     /// For each track, how many events are known not to go back in time.
@@ -120,21 +122,23 @@ impl Session {
         };
         let program = Arc::new(program);
         let replay = Replay::begin(&program, limits.clone(), &steps, head, by_order)?;
+        let functions = Functions::new(&program, limits.clone(), &steps)?;
         Ok(Session {
             sources,
             program,
             steps,
             limits,
             replay,
+            functions,
             suspected_ns: None,
             in_order: Vec::new(),
             interrupt: Interrupt::default(),
         })
     }
 
-    /// Whether components have machines: what these decide is not compared.
-    pub fn computes(&self) -> bool {
-        self.steps.tick().is_some()
+    /// How many decisions of components' machines agree; none if no component has one.
+    pub fn decisions(&self) -> Option<usize> {
+        self.steps.tick().map(|_| self.functions.agreed())
     }
 
     /// From now on, an interrupt ends the comparison within [`Session::go_on`]; the verdict is then unknown.
@@ -149,6 +153,7 @@ impl Session {
     /// It cannot be replayed.
     pub fn begin_again(&mut self, head: &Recording, by_order: bool) -> Result<(), Refusal> {
         self.replay = Replay::begin(&self.program, self.limits.clone(), &self.steps, head, by_order)?;
+        self.functions = Functions::new(&self.program, self.limits.clone(), &self.steps)?;
         match &mut self.replay {
             Replay::Timed(replay) => replay.interpret(),
             Replay::Untimed(replay) => replay.interpret(),
@@ -171,6 +176,9 @@ impl Session {
         }
         // Nothing is known after a lost event.
         let more = more && recording.tracks.iter().all(|track| !track.lost);
+        if let Some(parted) = self.functions.go_on(recording, more) {
+            return Ok(Some(Verdict::Parts(Box::new(parted))));
+        }
         let verdict = match &mut self.replay {
             Replay::Timed(replay) => replay.go_on(recording, more, &self.interrupt)?,
             Replay::Untimed(_) => return self.by_order(recording, more),

@@ -41,6 +41,9 @@ const TICK: &str = "par \
 /// The rule of the tasks of such a system, as `chart build` names it.
 const COMPUTING: &str = "r_computingTask";
 
+/// What the names of the rules that end elaborations begin with.
+const END: &str = "r_end_";
+
 /// Adds the steps of tasks to a program.
 #[derive(Debug, Clone)]
 pub struct Steps {
@@ -49,6 +52,8 @@ pub struct Steps {
     step: ProcedureId,
     /// All components step, without their machines. None if none has one: the main rule is then such a step.
     tick: Option<ProcedureId>,
+    /// For each phase in which a machine decides, the rule of its end.
+    ends: Vec<(String, ProcedureId)>,
     /// One for each wait-free channel, by its name: it becomes a shared value.
     cells: Vec<(String, ProcedureId)>,
 }
@@ -79,6 +84,10 @@ impl Steps {
         let computes = computes(model);
         let mut add = |text: &str| rule(text, sources, model, program);
         let tick = if computes { Some(add(TICK)?) } else { None };
+        let phases = ends_of(model);
+        let end = |phase: String| Ok((phase.clone(), rule(&format!("{END}{phase}[]"), sources, model, program)?));
+        let ends = phases.into_iter().map(end).collect::<Result<Vec<_>, Vec<Diagnostic>>>()?;
+        let mut add = |text: &str| rule(text, sources, model, program);
         let cell = |name: &String| {
             format!(
                 "extend SharedValue with $v do par \
@@ -94,7 +103,7 @@ impl Steps {
         };
         let cells: Result<Vec<_>, _> =
             wait_free.iter().map(|name| add(&cell(name)).map(|procedure| (name.clone(), procedure))).collect();
-        Ok(Steps { loosen, step, tick, cells: cells? })
+        Ok(Steps { loosen, step, tick, ends, cells: cells? })
     }
 
     /// The model in its initial state, with the wait-free channels as shared values, and what is known of it.
@@ -131,6 +140,11 @@ impl Steps {
         self.tick
     }
 
+    /// For each phase in which a machine decides, the rule of its end.
+    pub fn ends(&self) -> &[(String, ProcedureId)] {
+        &self.ends
+    }
+
     /// From now on phases take no time, and a rest follows each.
     ///
     /// # Errors
@@ -143,6 +157,14 @@ impl Steps {
 /// Whether components of the system have machines.
 fn computes(model: &Model) -> bool {
     model.rules.iter().any(|rule| rule.name == COMPUTING)
+}
+
+/// The phases that have a rule of their end.
+fn ends_of(model: &Model) -> Vec<String> {
+    if !computes(model) {
+        return Vec::new();
+    }
+    model.rules.iter().filter_map(|rule| rule.name.strip_prefix(END)).map(str::to_string).collect()
 }
 
 fn run(machine: &mut Machine, procedure: ProcedureId) -> Result<(), String> {

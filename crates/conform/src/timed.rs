@@ -126,6 +126,7 @@ impl Replay {
                     reason: out_of_turn(event.as_ref(), &claims),
                     event,
                     claims,
+                    decides: false,
                     agreed: self.agreed,
                     before: before(&self.vocabulary, tracks, recording, tick),
                     state,

@@ -588,6 +588,7 @@ impl Replay {
             task: self.vocabulary.components[component].name.clone(),
             event,
             claims,
+            decides: false,
             reason: Some(reason),
             agreed: self.agreed,
             before: before.split_off(before.len().saturating_sub(SHOWN)),

@@ -275,7 +275,8 @@ impl Vocabulary {
         self.get(machine, named, std::slice::from_ref(argument)).show(machine.program()).to_string()
     }
 
-    fn channel(&self, machine: &Machine, phase: &Value) -> Value {
+    /// The channel that a phase works on; undef if it elaborates.
+    pub fn channel(&self, machine: &Machine, phase: &Value) -> Value {
         [Named::SharedMemory, Named::MessageQueue, Named::SharedValue]
             .into_iter()
             .map(|named| self.get(machine, named, std::slice::from_ref(phase)))

@@ -5,6 +5,7 @@ mod decision;
 mod invariants;
 mod jobs;
 mod labels;
+mod machines;
 mod operations;
 mod pages;
 mod picks;

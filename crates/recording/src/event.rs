@@ -24,6 +24,23 @@ pub struct Event {
     pub fresh: Option<bool>,
 }
 
+/// A value that a component's machine got or decided.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Decision {
+    /// Since the origin of the run.
+    pub time_ns: i64,
+    /// It was got; otherwise it was decided.
+    pub is_got: bool,
+    /// The channel, sensor or actuator.
+    pub object: Arc<str>,
+    /// The bits of the value: 0 or 1, the place of a literal, a number.
+    pub bits: u64,
+    /// There is a value.
+    pub known: bool,
+    /// Of what is got from a channel, whether it was new.
+    pub fresh: bool,
+}
+
 /// What happened.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Kind {

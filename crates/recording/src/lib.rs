@@ -8,7 +8,7 @@ mod checksum;
 mod event;
 mod mcap;
 
-pub use event::{Event, Kind};
+pub use event::{Decision, Event, Kind};
 pub use mcap::{Malformed, Reader};
 
 /// When the cycles of a synchronous task are due: at the offset, and a period after another.
@@ -33,6 +33,8 @@ pub struct Track {
     pub awaits: Option<String>,
     /// Its events, in order.
     pub events: Vec<Event>,
+    /// What its machine got and decided, in order: apart from the events, since neither has an instant in the model.
+    pub decisions: Vec<Decision>,
     /// An event after these was lost.
     pub lost: bool,
 }

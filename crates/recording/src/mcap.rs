@@ -12,7 +12,7 @@ use std::sync::Arc;
 use serde::Deserialize;
 
 use crate::checksum::Checksum;
-use crate::{Event, Kind, Recording, Rhythm, Track};
+use crate::{Decision, Event, Kind, Recording, Rhythm, Track};
 
 /// What is wrong with a file that is no recording.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -84,6 +84,7 @@ struct Said<'a> {
     array: Option<u64>,
     next: Option<u64>,
     fresh: Option<bool>,
+    known: Option<bool>,
 }
 
 /// Reads a file that may still be written, in pieces of any size.
@@ -306,7 +307,7 @@ impl Reader {
                     recording.ended = true;
                     for track in &mut recording.tracks {
                         let all: usize = text(&format!("events {}", track.task)).parse().unwrap_or(usize::MAX);
-                        track.lost |= all != track.events.len();
+                        track.lost |= all != track.events.len() + track.decisions.len();
                     }
                 }
             }
@@ -333,13 +334,19 @@ impl Reader {
         let Ok(said) = serde_json::from_slice::<Said<'_>>(cursor.0) else {
             return Some(malformed("a message is no event"));
         };
-        if track.lost || late || said.order != track.events.len() as u64 {
+        if track.lost || late || said.order != (track.events.len() + track.decisions.len()) as u64 {
             track.lost = true;
             return Some(Ok(()));
         }
-        let Some(kind) = Kind::of(&said.kind) else {
-            return Some(malformed(format!("an event is of no known kind: `{}`", said.kind)));
+        let decision = match said.kind.as_ref() {
+            "gets" => Some(true),
+            "decides" => Some(false),
+            _ => None,
         };
+        let kind = Kind::of(&said.kind);
+        if kind.is_none() && decision.is_none() {
+            return Some(malformed(format!("an event is of no known kind: `{}`", said.kind)));
+        }
         let object = match self.objects.get(said.object.as_ref()) {
             Some(known) => Arc::clone(known),
             None => {
@@ -348,7 +355,12 @@ impl Reader {
                 object
             }
         };
-        let Said { number, array, next, fresh, .. } = said;
+        let Said { number, array, next, fresh, known, .. } = said;
+        let Some(kind) = kind else {
+            let (known, fresh, is_got) = (known.unwrap_or(false), fresh.unwrap_or(false), decision.unwrap_or(false));
+            track.decisions.push(Decision { time_ns, is_got, object, bits: number, known, fresh });
+            return Some(Ok(()));
+        };
         track.events.push(Event { time_ns, kind, object, number, array, next, fresh });
         match track.disorder(track.events.len() - 1) {
             Some(words) => Some(malformed(format!("time goes back: {words}"))),

@@ -4,8 +4,9 @@ use std::fmt::Write;
 
 use chart::system::{Action, System, Timing};
 
+use super::machines::elaboration;
 use super::names::{hook, member, pascal};
-use super::plan::{Access, Form, access, ends, numbers};
+use super::plan::{Access, Form, access, numbers, places};
 
 /// The function for the cycle of the component with this index.
 pub(super) fn cycle(text: &mut String, system: &System, index: usize, form: &Form) {
@@ -25,6 +26,13 @@ pub(super) fn cycle(text: &mut String, system: &System, index: usize, form: &For
         match phase.action {
             Action::Elaborate(_) => {
                 let assigned = if writes(at) { "ready = " } else { "" };
+                if let Some(body) = elaboration(system, index, at, form) {
+                    let _ = write!(
+                        text,
+                        "            {assigned}phases.elaborate({number}, [&] {{\n{body}            }});\n"
+                    );
+                    continue;
+                }
                 let _ = write!(
                     text,
                     "            {assigned}phases.elaborate({number}, [&] {{\n                typename {}::Out out{{{}}};\n                \
@@ -73,18 +81,4 @@ pub(super) fn cycle(text: &mut String, system: &System, index: usize, form: &For
         let _ = writeln!(text, "        this->rest_for_a_cycle({index}, cycle);");
     }
     text.push_str("    }\n\n");
-}
-
-/// Where a component prepares its results, in the order of `Out`.
-fn places(system: &System, index: usize, form: &Form) -> String {
-    let (_, written) = ends(&system.components[index]);
-    let place = |channel: &usize| {
-        let channel = &system.channels[*channel];
-        match access(channel, index, form) {
-            Access::InPlace | Access::Cell => format!("{}_channel_.own()", channel.name),
-            Access::Copy => format!("{}_staged_", channel.name),
-            Access::Message => format!("{}_staged_.datum", channel.name),
-        }
-    };
-    written.iter().map(place).collect::<Vec<_>>().join(", ")
 }

@@ -6,7 +6,7 @@ use chart::build::busy;
 use chart::system::{Action, Channel, ChannelKind, Component, System, Timing};
 
 use super::cycle::cycle;
-use super::machines::has_messages;
+use super::machines::{devices, has_messages};
 use super::names::{hook, member, pascal};
 use super::plan::{Access, Form, access, ends, numbers, ranks, stopping};
 
@@ -26,7 +26,7 @@ pub(super) fn header(system: &System, file: &str, name: &str, form: &Form) -> St
          using groundstate::Cycle;\nusing groundstate::Seen;\n"
     );
     for component in &system.components {
-        hook_class(&mut text, system, component);
+        hook_class(&mut text, system, component, form);
     }
     text.push_str("\n/// The user's code. It must outlive the system.\nstruct Hooks {\n");
     for component in &system.components {
@@ -56,7 +56,7 @@ fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-fn hook_class(text: &mut String, system: &System, component: &Component) {
+fn hook_class(text: &mut String, system: &System, component: &Component, form: &Form) {
     let when = match component.timing {
         Timing::Synchronous { period, .. } => format!("every {}", duration(period * system.tick_ns)),
         Timing::Asynchronous { awaits: Some(channel) } => {
@@ -71,12 +71,35 @@ fn hook_class(text: &mut String, system: &System, component: &Component) {
         let name = &system.channels[channel].name;
         let _ = writeln!(text, "        Seen<{}> {}{{}};", pascal(name), member(name));
     }
+    let (sensors, actuators) = devices(system, component, form);
+    for (device, value) in &sensors {
+        let _ = writeln!(text, "        {value} {}{{}};", member(&device.name));
+    }
     text.push_str("    };\n    struct Out {\n");
     for channel in written {
         let name = &system.channels[channel].name;
         let _ = writeln!(text, "        {}& {};", pascal(name), member(name));
     }
+    for (device, value) in &actuators {
+        let _ = writeln!(text, "        std::optional<{value}>& {};", member(&device.name));
+    }
     let _ = write!(text, "    }};\n    virtual ~{}() = default;\n", pascal(&component.name));
+    for (device, value) in &sensors {
+        let called = hook(&device.name);
+        let _ = write!(
+            text,
+            "    /// What the sensor {} says.\n    virtual {value} {called}(const Cycle& cycle) = 0;\n",
+            device.name
+        );
+    }
+    for (device, value) in &actuators {
+        let called = hook(&device.name);
+        let _ = write!(
+            text,
+            "    /// Sets the actuator {}.\n    virtual void {called}(const Cycle& cycle, {value} value) = 0;\n",
+            device.name
+        );
+    }
     for phase in component.phases.iter().filter(|phase| matches!(phase.action, Action::Elaborate(_))) {
         let _ = write!(
             text,
@@ -134,7 +157,9 @@ fn plan(text: &mut String, system: &System, form: &Form) {
     let phases = system.components.iter().flat_map(|c| &c.phases).map(|phase| phase.name.as_str());
     let channels = system.channels.iter().map(|channel| channel.name.as_str());
     let components = system.components.iter().map(|component| component.name.as_str());
-    let names = quoted(phases.chain(channels).chain(components).collect());
+    // Devices are named in the log only where a machine has to do with them.
+    let devices = system.devices.iter().filter(|_| !form.classes.is_empty()).map(|device| device.name.as_str());
+    let names = quoted(phases.chain(channels).chain(components).chain(devices).collect());
     let wait_free = system.channels.iter().filter(|c| form.wait_free && matches!(c.kind, ChannelKind::Buffer { .. }));
     let wait_free = quoted(wait_free.map(|channel| channel.name.as_str()).collect());
     let order = stopping(system).iter().map(usize::to_string).collect::<Vec<_>>().join(", ");

@@ -7,11 +7,11 @@
 
 use std::fmt::Write;
 
-use chart::system::{Action, Component, System};
+use chart::system::{Action, Component, Device, System};
 use chart::{ComponentMachine, Content, Feed, Take};
 
 use super::names::{hook, member, pascal};
-use super::plan::{Form, MachineClass};
+use super::plan::{Form, MachineClass, numbers, places};
 
 /// Whether the chart says what some channel or device carries.
 pub(super) fn has_messages(system: &System) -> bool {
@@ -113,8 +113,8 @@ fn one(text: &mut String, system: &System, machine: &ComponentMachine, class: &M
     );
     let _ = write!(
         text,
-        "    bool {}(const Cycle& cycle, const In& in, [[maybe_unused]] Out& out) override {{\n        \
-         inputs_.cycle = &cycle;\n        inputs_.in = &in;\n        groundstate::made(machine_.step(), \"{made}\");\n        \
+        "    bool {}(const Cycle&, const In& in, [[maybe_unused]] Out& out) override {{\n        \
+         inputs_.in = &in;\n        groundstate::made(machine_.step(), \"{made}\");\n        \
          bool ready = true;\n",
         hook(&phase.subject)
     );
@@ -131,35 +131,18 @@ fn one(text: &mut String, system: &System, machine: &ComponentMachine, class: &M
                 let _ = writeln!(
                     text,
                     "        if ({content} value{{}}; groundstate::decided(machine_.{called}(), value)) {{\n            \
-                     {}(cycle, value);\n        }}",
-                    hook(&device.name)
+                     out.{} = value;\n        }}",
+                    member(&device.name)
                 );
             }
         }
     }
     text.push_str("        return ready;\n    }\n");
-    for (device, is_sensor) in devices(machine) {
-        let device = &system.devices[device];
-        let content = type_of(&system.computing.contents[&device.name]);
-        let called = hook(&device.name);
-        let _ = match is_sensor {
-            true => writeln!(
-                text,
-                "    /// What the sensor {} says.\n    virtual {content} {called}(const Cycle& cycle) = 0;",
-                device.name
-            ),
-            false => writeln!(
-                text,
-                "    /// Sets the actuator {}.\n    virtual void {called}(const Cycle& cycle, {content} value) = 0;",
-                device.name
-            ),
-        };
-    }
     let space = &class.name;
     let _ = write!(
         text,
         "    /// The machine, to look at.\n    const ::{space}::Machine& machine() const noexcept {{ return machine_; }}\n\n  private:\n    \
-         struct Inputs final : ::{space}::Environment {{\n        explicit Inputs({name}& given) : owner{{given}} {{}}\n"
+         struct Inputs final : ::{space}::Environment {{\n"
     );
     for (function, feed) in &machine.feeds {
         let called = class.called(function);
@@ -177,8 +160,8 @@ fn one(text: &mut String, system: &System, machine: &ComponentMachine, class: &M
                 format!("in == nullptr ? Answer{{}} : Answer{{in->{read}.fresh}}")
             }
             Feed::Sensor(device) => {
-                let device = hook(&system.devices[*device].name);
-                format!("cycle == nullptr ? Answer{{}} : groundstate::sensed<Answer>(owner.{device}(*cycle))")
+                let device = member(&system.devices[*device].name);
+                format!("in == nullptr ? Answer{{}} : groundstate::sensed<Answer>(in->{device})")
             }
         };
         let _ = writeln!(
@@ -189,26 +172,106 @@ fn one(text: &mut String, system: &System, machine: &ComponentMachine, class: &M
     let _ = write!(
         text,
         "        /// The first candidate.\n        std::size_t choose(std::size_t, groundstate::machine::Site) override {{ return 0; }}\n\n        \
-         [[maybe_unused]] {name}& owner;\n        const Cycle* cycle = nullptr;\n        const In* in = nullptr;\n    }};\n\n    \
-         Inputs inputs_{{*this}};\n    ::{space}::Machine machine_{{inputs_}};\n}};\n"
+         const In* in = nullptr;\n    }};\n\n    \
+         Inputs inputs_{{}};\n    ::{space}::Machine machine_{{inputs_}};\n}};\n"
     );
 }
 
-/// The sensors and actuators of a machine's component.
-fn devices(machine: &ComponentMachine) -> Vec<(usize, bool)> {
+/// A sensor or actuator, and the type of its values.
+type Typed<'s> = (&'s Device, String);
+
+/// The sensors and actuators that the machine of a component has to do with, if its class is generated.
+pub(super) fn devices<'s>(system: &'s System, component: &Component, form: &Form) -> (Vec<Typed<'s>>, Vec<Typed<'s>>) {
+    let index = system.components.iter().position(|known| known.name == component.name);
+    let machine =
+        index.filter(|index| class_of(system, *index, form).is_some()).and_then(|index| machine_of(system, index));
+    let Some(machine) = machine else { return (Vec::new(), Vec::new()) };
+    let typed = |device: &usize| {
+        let device = &system.devices[*device];
+        (device, type_of(&system.computing.contents[&device.name]))
+    };
     let sensors = machine.feeds.iter().filter_map(|(_, feed)| match feed {
-        Feed::Sensor(device) => Some((*device, true)),
+        Feed::Sensor(device) => Some(typed(device)),
         Feed::Channel(_) | Feed::IsNew(_) => None,
     });
     let actuators = machine.takes.iter().filter_map(|(_, take)| match take {
-        Take::Actuator(device) => Some((*device, false)),
+        Take::Actuator(device) => Some(typed(device)),
         Take::Channel(_) => None,
     });
-    sensors.chain(actuators).collect()
+    (sensors.collect(), actuators.collect())
+}
+
+/// What an elaboration with a machine does: the sensors, what is got, the hook, what is decided, the actuators.
+pub(super) fn elaboration(system: &System, index: usize, phase: usize, form: &Form) -> Option<String> {
+    class_of(system, index, form)?;
+    let machine = machine_of(system, index).filter(|machine| machine.phase == phase)?;
+    let component = &system.components[index];
+    let (name, class) = (&component.name, pascal(&component.name));
+    let (numbers, hooks) = (numbers(system), format!("hooks_.{}", member(name)));
+    let mut text = String::new();
+    let mut line = |words: String| _ = writeln!(text, "                {words}");
+    let mut places = places(system, index, form);
+    let mut got = Vec::new();
+    for (_, feed) in &machine.feeds {
+        match feed {
+            Feed::Sensor(device) => {
+                let (sensor, number) = (&system.devices[*device].name, numbers.devices + device);
+                let (read, called) = (member(sensor), hook(sensor));
+                line(format!("{name}_in_.{read} = {hooks}.{called}(cycle);"));
+                got.push(format!("phases.senses({number}, {name}_in_.{read});"));
+            }
+            Feed::Channel(channel) | Feed::IsNew(channel) => {
+                let (read, number) = (member(&system.channels[*channel].name), numbers.channels + channel);
+                let call = format!("phases.gets({number}, {name}_in_.{read});");
+                if !got.contains(&call) {
+                    got.push(call);
+                }
+            }
+        }
+    }
+    let (_, actuators) = devices(system, component, form);
+    for (device, value) in &actuators {
+        line(format!("std::optional<{value}> set_{}{{}};", device.name));
+        places = [places.as_str(), &format!("set_{}", device.name)]
+            .into_iter()
+            .filter(|one| !one.is_empty())
+            .collect::<Vec<_>>()
+            .join(", ");
+    }
+    line(format!("typename {class}::Out out{{{places}}};"));
+    got.into_iter().for_each(&mut line);
+    let subject = hook(&component.phases[phase].subject);
+    line(format!("const bool done = {hooks}.{subject}(cycle, {name}_in_, out);"));
+    for (_, take) in &machine.takes {
+        match take {
+            Take::Channel(channel) => {
+                let (written, number) = (member(&system.channels[*channel].name), numbers.channels + channel);
+                line(format!("phases.decides({number}, out.{written}.value, done);"));
+            }
+            Take::Actuator(device) => {
+                let (set, number) = (format!("set_{}", system.devices[*device].name), numbers.devices + device);
+                let called = hook(&system.devices[*device].name);
+                let value = type_of(&system.computing.contents[&system.devices[*device].name]);
+                line(format!("phases.decides({number}, {set}.value_or({value}{{}}), {set}.has_value());"));
+                line(format!("if ({set}) {{"));
+                line(format!("    {hooks}.{called}(cycle, *{set});"));
+                line("}".to_string());
+            }
+        }
+    }
+    line("return done;".to_string());
+    Some(text)
 }
 
 /// The user's file for a component with a machine.
-pub(super) fn file(system: &System, index: usize, class: &MachineClass, name: &str, space: &str) -> String {
+pub(super) fn file(
+    system: &System,
+    index: usize,
+    class: &MachineClass,
+    name: &str,
+    space: &str,
+    form: &Form,
+) -> String {
     let component = &system.components[index];
     let machine = machine_of(system, index);
     let mut text = format!(
@@ -221,21 +284,14 @@ pub(super) fn file(system: &System, index: usize, class: &MachineClass, name: &s
         pascal(&component.name),
         self::name(component)
     );
-    for (device, is_sensor) in machine.map(devices).unwrap_or_default() {
-        let device = &system.devices[device];
-        let content = type_of(&system.computing.contents[&device.name]);
-        let _ = match is_sensor {
-            true => writeln!(
-                text,
-                "    {content} {}(const Cycle& /*cycle*/) override {{ return {{}}; }}",
-                hook(&device.name)
-            ),
-            false => writeln!(
-                text,
-                "    void {}(const Cycle& /*cycle*/, {content} /*value*/) override {{}}",
-                hook(&device.name)
-            ),
-        };
+    let (sensors, actuators) = devices(system, component, form);
+    for (device, value) in sensors {
+        let _ =
+            writeln!(text, "    {value} {}(const Cycle& /*cycle*/) override {{ return {{}}; }}", hook(&device.name));
+    }
+    for (device, value) in actuators {
+        let called = hook(&device.name);
+        let _ = writeln!(text, "    void {called}(const Cycle& /*cycle*/, {value} /*value*/) override {{}}");
     }
     for (at, phase) in component.phases.iter().enumerate() {
         if matches!(phase.action, Action::Elaborate(_)) && machine.is_none_or(|machine| machine.phase != at) {

@@ -42,7 +42,7 @@ pub fn generate(chart: &Chart, system: &System, file: &str, form: &Form) -> Gene
     ];
     once.extend(system.components.iter().enumerate().map(|(index, component)| {
         let text = match machines::class_of(system, index, form) {
-            Some(class) => machines::file(system, index, class, &name, &space),
+            Some(class) => machines::file(system, index, class, &name, &space, form),
             None => files::component(component, &name, &space),
         };
         (format!("{}.hpp", component.name), text)

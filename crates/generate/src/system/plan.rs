@@ -68,6 +68,20 @@ pub(super) fn ends(component: &Component) -> (Vec<usize>, Vec<usize>) {
     (of(read), of(written))
 }
 
+/// Where a component prepares its results, in the order of `Out`.
+pub(super) fn places(system: &System, index: usize, form: &Form) -> String {
+    let (_, written) = ends(&system.components[index]);
+    let place = |channel: &usize| {
+        let channel = &system.channels[*channel];
+        match access(channel, index, form) {
+            Access::InPlace | Access::Cell => format!("{}_channel_.own()", channel.name),
+            Access::Copy => format!("{}_staged_", channel.name),
+            Access::Message => format!("{}_staged_.datum", channel.name),
+        }
+    };
+    written.iter().map(place).collect::<Vec<_>>().join(", ")
+}
+
 /// The indices of phases, channels and components among the names.
 pub(super) struct Numbers {
     /// For each component, the number of its first phase.
@@ -76,6 +90,8 @@ pub(super) struct Numbers {
     pub(super) channels: usize,
     /// The number of the first component.
     pub(super) components: usize,
+    /// The number of the first device.
+    pub(super) devices: usize,
 }
 
 /// The numbers of a system's parts.
@@ -86,7 +102,8 @@ pub(super) fn numbers(system: &System) -> Numbers {
         phases.push(next);
         next += component.phases.len();
     }
-    Numbers { phases, channels: next, components: next + system.channels.len() }
+    let components = next + system.channels.len();
+    Numbers { phases, channels: next, components, devices: components + system.components.len() }
 }
 
 /// The priority of each task: among tasks that are ready at the same instant, the one with the shorter period goes

@@ -88,8 +88,8 @@ pub struct Conformed {
     pub verdict: Verdict,
     /// How the two were compared.
     pub way: Way,
-    /// Components have machines: what these decide was not compared.
-    pub computes: bool,
+    /// How many decisions of components' machines agree; none if no component has one.
+    pub decisions: Option<usize>,
 }
 
 /// Why there is no verdict.
@@ -137,8 +137,8 @@ fn follow<T: Tail>(
             session.heed(cancel.interrupt().clone());
             let verdict = session.go_on(&recording, false).map_err(NotConformed::Refused)?;
             let Some(verdict) = verdict else { unreachable!("nothing more comes") };
-            let (sources, way, computes) = (session.sources().clone(), session.way(), session.computes());
-            return Ok(Conformed { sources, recording, verdict, way, computes });
+            let (sources, way, decisions) = (session.sources().clone(), session.way(), session.decisions());
+            return Ok(Conformed { sources, recording, verdict, way, decisions });
         }
     };
     let mut begin = Some(begin);
@@ -161,8 +161,8 @@ fn follow<T: Tail>(
             match session.go_on(recording, more).map_err(NotConformed::Refused)? {
                 Some(verdict) => {
                     let verdict = if stops { verdict.left() } else { verdict };
-                    let (sources, way, computes) = (session.sources().clone(), session.way(), session.computes());
-                    return Ok(Conformed { sources, recording: recording.clone(), verdict, way, computes });
+                    let (sources, way, decisions) = (session.sources().clone(), session.way(), session.decisions());
+                    return Ok(Conformed { sources, recording: recording.clone(), verdict, way, decisions });
                 }
                 None => tell(ConformEvent::Agrees(session.progress(recording))),
             }

@@ -104,7 +104,7 @@ fn refused(shell: &mut Shell, path: &Path, refusal: Refusal) -> Result<Exit, Fai
 }
 
 fn tell(shell: &mut Shell, conformed: &Conformed) -> Result<Exit, Failure> {
-    let Conformed { sources, recording, verdict, way, computes } = conformed;
+    let Conformed { sources, recording, verdict, way, decisions } = conformed;
     let way = way.words();
     if shell.json() {
         shell.object(&wire::Conformance::new(sources, verdict, way))?;
@@ -118,8 +118,8 @@ fn tell(shell: &mut Shell, conformed: &Conformed) -> Result<Exit, Failure> {
                     more => format!("; {more} events after the tasks were asked to stop are not compared"),
                 };
                 writeln!(shell.out(), "conforms {way}: {events} events, {steps} steps of the model{after}")?;
-                if *computes {
-                    writeln!(shell.out(), "not compared: what the components' machines decide")?;
+                if let Some(decisions) = decisions {
+                    writeln!(shell.out(), "{decisions} decisions are those of the components' machines")?;
                 }
             }
             Ok(Exit::Good)
@@ -150,7 +150,16 @@ fn parting(
     let ms = |ns: i64| format!("{:.4}", ns as f64 / 1e6);
     let out = shell.out();
     let at = ms(parted.event.as_ref().map_or(parted.tick * recording.tick_ns, |event| event.time_ns));
-    writeln!(out, "parts {way}, at {at} ms (tick {}), after {} events", parted.tick, parted.agreed)?;
+    let agreed = if parted.decides { "decisions" } else { "events" };
+    writeln!(out, "parts {way}, at {at} ms (tick {}), after {} {agreed}", parted.tick, parted.agreed)?;
+    if parted.decides {
+        writeln!(out, "  {} {}", parted.task, parted.reason.as_deref().unwrap_or_default())?;
+        writeln!(out, "\n  its machine's state, after the step:")?;
+        for (location, value) in &parted.state {
+            writeln!(out, "    {location} = {value}")?;
+        }
+        return Ok(());
+    }
     let did = match &parted.event {
         Some(event) => event.words(),
         None => "nothing more".to_string(),

@@ -1,0 +1,233 @@
+//! Replays what components' machines decide: each decision by the machine alone, from what the program got.
+//!
+//! In: the model, and the recorded decisions of each task. Out: the first that the machine makes otherwise. A decision is a group of
+//! records: what was got, then what was decided. What was got is set in a machine of the model of its own, in which nothing else happens,
+//! and the rule of the elaboration's end makes the step there. So when it was decided does not matter, and the way in which events are
+//! compared neither. INVARIANT: the state of a component is that after its own decisions, and no other component's step changes it.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use machine::{Choice, Environment, Limits, Location, LocationRef, Machine, Show, TimeUnit, Value};
+use model::Basic;
+use program::{DomainId, DomainKind, FunctionId, ProcedureId, Program};
+use recording::{Decision, Recording};
+
+use crate::evidence::Parted;
+use crate::steps::Steps;
+use crate::vocabulary::Vocabulary;
+
+/// The machines of a model's components, and how far each has come.
+#[derive(Debug)]
+pub(crate) struct Functions {
+    machine: Machine,
+    tasks: Vec<Task>,
+    /// The channels by their names.
+    channels: BTreeMap<String, Value>,
+    /// How many decisions agree.
+    agreed: usize,
+}
+
+#[derive(Debug)]
+struct Task {
+    name: String,
+    end: ProcedureId,
+    /// The next decision.
+    cursor: usize,
+}
+
+impl Functions {
+    /// Starts the machines; none has decided yet.
+    ///
+    /// # Errors
+    /// The model does not start, in words.
+    pub(crate) fn new(program: &Arc<Program>, limits: Limits, steps: &Steps) -> Result<Functions, String> {
+        let mut machine = Machine::new(Arc::clone(program), limits);
+        machine.start(&mut Got::default()).map_err(|fault| fault.show(program).to_string())?;
+        let (mut tasks, mut channels) = (Vec::new(), BTreeMap::new());
+        if !steps.ends().is_empty() {
+            let vocabulary = Vocabulary::new(program, &machine)?;
+            for (index, component) in vocabulary.components.iter().enumerate() {
+                let end =
+                    |(phase, end): &(String, ProcedureId)| vocabulary.phase_named(&machine, index, phase).map(|_| *end);
+                for phase in &component.phases {
+                    let channel = vocabulary.channel(&machine, phase);
+                    channels.insert(channel.show(program).to_string(), channel);
+                }
+                if let Some(end) = steps.ends().iter().find_map(end) {
+                    tasks.push(Task { name: component.name.clone(), end, cursor: 0 });
+                }
+            }
+        }
+        Ok(Functions { machine, tasks, channels, agreed: 0 })
+    }
+
+    /// How many decisions agree.
+    pub(crate) fn agreed(&self) -> usize {
+        self.agreed
+    }
+
+    /// Goes on as far as decisions are known; the first that the machine makes otherwise.
+    pub(crate) fn go_on(&mut self, recording: &Recording, more: bool) -> Option<Parted> {
+        for index in 0..self.tasks.len() {
+            let Some(track) = recording.tracks.iter().find(|track| track.task == self.tasks[index].name) else {
+                continue;
+            };
+            while let Some(group) = next(&track.decisions[self.tasks[index].cursor..], more) {
+                let decisions = &track.decisions[self.tasks[index].cursor..][..group];
+                if let Some(reason) = self.decide(index, decisions) {
+                    return Some(self.parted(index, recording, decisions, reason));
+                }
+                self.tasks[index].cursor += group;
+                self.agreed += 1;
+            }
+        }
+        None
+    }
+
+    fn parted(&self, index: usize, recording: &Recording, decisions: &[Decision], reason: String) -> Parted {
+        let time_ns = decisions.last().map_or(0, |decision| decision.time_ns);
+        Parted {
+            tick: time_ns.div_euclid(recording.tick_ns.max(1)),
+            task: self.tasks[index].name.clone(),
+            event: None,
+            claims: Vec::new(),
+            reason: Some(reason),
+            decides: true,
+            agreed: self.agreed,
+            before: Vec::new(),
+            state: self.state(index),
+        }
+    }
+
+    /// The component's own part of the state.
+    fn state(&self, index: usize) -> Vec<(String, String)> {
+        let program = self.machine.program();
+        let prefix = format!("{}_", self.tasks[index].name);
+        let own = |location: &Location| {
+            let function = &program.function(location.function);
+            function.name.starts_with(&prefix) && function.kind == program::FunctionKind::Controlled
+        };
+        let all = self.machine.locations().into_iter().filter(|(location, _)| own(location));
+        all.map(|(location, value)| (location.show(program).to_string(), value.show(program).to_string())).collect()
+    }
+
+    /// Makes a decision; why it is another one.
+    fn decide(&mut self, index: usize, decisions: &[Decision]) -> Option<String> {
+        let program = Arc::clone(self.machine.program());
+        let mut got = Got::default();
+        let mut words = Vec::new();
+        for decision in decisions.iter().filter(|decision| decision.is_got) {
+            match self.give(&program, index, decision, &mut got) {
+                Ok(text) => words.push(text),
+                Err(reason) => return Some(reason),
+            }
+        }
+        let from = if words.is_empty() { String::new() } else { format!(" from {}", words.join(", ")) };
+        let end = self.tasks[index].end;
+        if let Err(fault) = self.machine.prepare_procedure(end, &mut got) {
+            return Some(format!("its machine cannot decide{from}: {}", fault.show(&program)));
+        }
+        self.machine.commit();
+        for decision in decisions.iter().filter(|decision| !decision.is_got) {
+            let own = format!("{}_{}", self.tasks[index].name, decision.object);
+            let function = program.find_function(&own, 0).or_else(|| program.find_function(&decision.object, 0));
+            let Some(function) = function else {
+                return Some(format!("the model does not know what it decides for {}", decision.object));
+            };
+            let decided = self.machine.value_at(LocationRef { function, arguments: &[] });
+            let recorded = if decision.known { value(&program, function, decision.bits) } else { Value::Undef };
+            if decided != recorded {
+                let (name, did, does) = (&decision.object, recorded.show(&program), decided.show(&program));
+                return Some(format!("decided {name} = {did}, its machine {does},{from}"));
+            }
+        }
+        None
+    }
+
+    /// Sets what was got; says it in words.
+    fn give(&mut self, program: &Program, index: usize, decision: &Decision, got: &mut Got) -> Result<String, String> {
+        let name = decision.object.as_ref();
+        let unknown = || format!("the model does not know what it gets from {name}");
+        let function = |name: &str, arity| program.find_function(name, arity).ok_or_else(unknown);
+        let Some(table) = program.find_function(&format!("{name}_value"), 1) else {
+            let sensor = function(name, 0)?;
+            let value = value(program, sensor, decision.bits);
+            let text = format!("{name} = {}", value.show(program));
+            got.0.push((sensor, value));
+            return Ok(text);
+        };
+        let element = function(name, 0)?;
+        let domain = program.domain(program.function(element).codomain).name.clone();
+        let channel = self.channels.get(name).cloned().ok_or_else(unknown)?;
+        let value = if decision.known { value(program, table, decision.bits) } else { Value::Undef };
+        let text = format!("{name} = {}{}", value.show(program), if decision.fresh { " (new)" } else { "" });
+        // Nothing was read here, so the number of what was read last is that of the initial state.
+        self.set(Location { function: table, arguments: vec![Value::Integer(0)] }, value)?;
+        let (fresh, arguments, is_new) = match domain.as_str() {
+            "SwingingBuffer" => (function("sb_fresh", 1)?, vec![channel], Value::Boolean(decision.fresh)),
+            "SharedValue" => (function("sv_fresh", 1)?, vec![channel], Value::Boolean(decision.fresh)),
+            // None of a queue was taken; to have seen another number is to be told of a new one.
+            _ => match program.find_function(&format!("{}_taken_{name}", self.tasks[index].name), 0) {
+                Some(taken) => (taken, Vec::new(), Value::Integer(if decision.fresh { -1 } else { 0 })),
+                None => return Ok(text),
+            },
+        };
+        self.set(Location { function: fresh, arguments }, is_new)?;
+        Ok(text)
+    }
+
+    fn set(&mut self, location: Location, value: Value) -> Result<(), String> {
+        self.machine.set(&location, value).map_err(|fault| fault.show(self.machine.program()).to_string())
+    }
+}
+
+/// How many of these records are the first decision, if it is known to be whole.
+fn next(decisions: &[Decision], more: bool) -> Option<usize> {
+    let got = decisions.iter().take_while(|decision| decision.is_got).count();
+    let mut decided: Vec<&str> = Vec::new();
+    for decision in &decisions[got..] {
+        if decision.is_got || decided.contains(&decision.object.as_ref()) {
+            return Some(got + decided.len());
+        }
+        decided.push(&decision.object);
+    }
+    // What comes last may go on; a hook that threw has decided nothing.
+    (!more && !decided.is_empty()).then_some(got + decided.len())
+}
+
+/// The value of a function's domain with these bits.
+fn value(program: &Program, function: FunctionId, bits: u64) -> Value {
+    let codomain = program.function(function).codomain;
+    let domain = match &program.domain(codomain).kind {
+        DomainKind::Concrete { base, .. } => *base,
+        _ => codomain,
+    };
+    match &program.domain(domain).kind {
+        DomainKind::Enum { literals } if bits < literals.len() as u64 => Value::Enum(domain, bits as u32),
+        DomainKind::Basic(Basic::Boolean) => Value::Boolean(bits != 0),
+        DomainKind::Basic(Basic::Integer | Basic::Natural) => Value::Integer(bits as i64),
+        DomainKind::Basic(Basic::Real) => machine::Real::new(f64::from_bits(bits)).map_or(Value::Undef, Value::Real),
+        // The generator refuses data of other domains.
+        _ => Value::Undef,
+    }
+}
+
+/// What sensors said; of several candidates the first one, as in the program.
+#[derive(Default)]
+struct Got(Vec<(FunctionId, Value)>);
+
+impl Environment for Got {
+    fn monitored(&mut self, _: &Program, location: LocationRef<'_>, _: DomainId) -> Result<Value, String> {
+        let found = self.0.iter().find(|(function, _)| *function == location.function);
+        Ok(found.map_or(Value::Undef, |(_, value)| value.clone()))
+    }
+
+    fn choose(&mut self, _: &Program, _: &Choice<'_>) -> Result<usize, String> {
+        Ok(0)
+    }
+
+    fn time(&mut self, _: TimeUnit) -> Result<i64, String> {
+        Ok(0)
+    }
+}

@@ -1,0 +1,191 @@
+//! Components' own machines, from the chart to the recording: data are late and lost as their channels are; a decision that the machine
+//! would not make is found, with what it was made from.
+
+use groundstate::conform::{Decision, Events as Run, Recording, Track, Verdict};
+use groundstate::job::{self, Cancel, ConformRequest, Conformed, Events, NoTail};
+use groundstate::{Loaded, build_chart, load};
+use machine::{Choice, Environment, Limits, LocationRef, TimeUnit, Value};
+use model::Loader;
+use program::{DomainId, Program};
+use syntax::SourceFile;
+use testkit::Texts;
+
+const TANK: &str = "chart Tank
+system tank
+	sensor level : Integer
+	actuator valve : Boolean
+	component gauge synchronous period 4 ms
+		elaborate measure by Gauge
+		write levels
+	endcomponent
+	component control synchronous period 12 ms
+		read levels
+		elaborate decide by Control
+	endcomponent
+	channel levels : Integer from gauge to control swinging buffer 2
+	level -> gauge
+	control -> valve
+endsystem
+";
+
+const GAUGE: &str = "asm Gauge
+import StandardLibrary
+signature:
+	monitored level: Integer
+	out levels: Integer
+definitions:
+	main rule r_Main = levels := level * 10
+";
+
+/// Opens the valve for a level that is new and higher than all before.
+const CONTROL: &str = "asm Control
+import StandardLibrary
+signature:
+	monitored levels: Integer
+	monitored isNewLevels: Boolean
+	out valve: Boolean
+	controlled highest: Integer
+definitions:
+	main rule r_Main =
+		if isNewLevels and levels > highest then par highest := levels valve := true endpar else valve := false endif
+default init s0:
+	function highest = 0
+	function valve = false
+";
+
+struct Files(Texts);
+
+impl Loader for Files {
+    fn load(&mut self, importer: &SourceFile, path: &str) -> Result<SourceFile, String> {
+        self.0.load(importer, path).or_else(|reason| groundstate::patterns::pattern(&importer.name, path).ok_or(reason))
+    }
+}
+
+fn model() -> Loaded {
+    let mut files = Files(Texts::of([("Gauge.asm", GAUGE), ("Control.asm", CONTROL)]));
+    let built = build_chart(SourceFile::new("Tank.chart", TANK), "Tank.asm", None, &mut files);
+    let text = built.built.unwrap_or_else(|| panic!("{:#?}", built.faults)).text;
+    load(SourceFile::new("Tank.asm", text), &mut files).unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics))
+}
+
+/// The level is the number of the tick.
+struct Rising(i64);
+
+impl Environment for Rising {
+    fn monitored(&mut self, program: &Program, location: LocationRef<'_>, _: DomainId) -> Result<Value, String> {
+        assert_eq!(location.show(program).to_string(), "level");
+        Ok(Value::Integer(self.0))
+    }
+
+    fn choose(&mut self, _: &Program, _: &Choice<'_>) -> Result<usize, String> {
+        Err("nothing is to be chosen".to_string())
+    }
+
+    fn time(&mut self, _: TimeUnit) -> Result<i64, String> {
+        Err("no time is asked for".to_string())
+    }
+}
+
+const TICK_NS: i64 = 1_000_000;
+
+/// A run of the model as a program that follows it would record it, and all that its machines decide.
+fn recorded(loaded: &Loaded) -> Recording {
+    let program = &loaded.program;
+    let mut level = Rising(0);
+    let mut run = Run::start(program, Limits::default(), &mut level).expect("it starts");
+    let track = |task: &str| Track { task: task.to_string(), ..Track::default() };
+    let mut tracks = vec![track("gauge"), track("control")];
+    for tick in 0..60 {
+        level.0 = tick;
+        let read = match value(loaded, &mut run, "sb_receivedSequence(levels)") {
+            Value::Integer(number) => value(loaded, &mut run, &format!("levels_value({number})")),
+            _ => Value::Undef,
+        };
+        let is_new = value(loaded, &mut run, "sb_fresh(levels)") == Value::Boolean(true);
+        let events = run.step(&mut level).expect("a step");
+        for (task, mut event) in events {
+            event.time_ns = tick * TICK_NS;
+            let track = usize::from(task == "control");
+            let decision = |is_got: bool, object: &str, value: &Value, fresh: bool| {
+                let (bits, known) = match value {
+                    Value::Integer(number) => (*number as u64, true),
+                    Value::Boolean(truth) => (u64::from(*truth), true),
+                    _ => (0, false),
+                };
+                Decision { time_ns: tick * TICK_NS, is_got, object: object.into(), bits, known, fresh }
+            };
+            if event.kind.word() == "ends" && event.object.as_ref() == "gauge_measure" {
+                let decided = value(loaded, &mut run, "gauge_levels");
+                tracks[0].decisions.push(decision(true, "level", &Value::Integer(tick), false));
+                tracks[0].decisions.push(decision(false, "levels", &decided, false));
+            }
+            if event.kind.word() == "ends" && event.object.as_ref() == "control_decide" {
+                let decided = value(loaded, &mut run, "valve");
+                tracks[1].decisions.push(decision(true, "levels", &read, is_new));
+                tracks[1].decisions.push(decision(false, "valve", &decided, false));
+            }
+            tracks[track].events.push(event);
+        }
+    }
+    Recording {
+        tracks,
+        system: "tank".to_string(),
+        tick_ns: TICK_NS,
+        pace: "modelled".to_string(),
+        stopped_ns: Some(60 * TICK_NS),
+        ended: true,
+        ..Recording::default()
+    }
+}
+
+/// The value of the location that is shown so.
+fn value(loaded: &Loaded, run: &mut Run, location: &str) -> Value {
+    let all = run.machine().locations();
+    let found = all.into_iter().find(|(known, _)| known.show(&loaded.program).to_string() == location);
+    found.map_or(Value::Undef, |(_, value)| value)
+}
+
+fn conformed(loaded: &Loaded, recording: Recording, by_order: bool) -> Conformed {
+    let request = ConformRequest {
+        loaded: loaded.clone(),
+        events: Events::<NoTail>::Whole(recording),
+        limits: Limits::default(),
+        by_order,
+    };
+    let job = job::conform(request, Cancel::new()).expect("a thread");
+    job.finish().expect("no panic").expect("of this system")
+}
+
+#[test]
+fn data_go_through_channels_and_decisions_are_held_to_their_machines() {
+    let loaded = model();
+    let good = recorded(&loaded);
+    // Of three levels that the gauge measures, the control reads one: the others are lost. The first time there is none.
+    let measured: Vec<u64> = good.tracks[0].decisions.iter().filter(|one| !one.is_got).map(|one| one.bits).collect();
+    let got: Vec<_> = good.tracks[1].decisions.iter().filter(|one| one.is_got).collect();
+    assert!(
+        !got[0].known && got[1..].iter().all(|one| one.known && one.fresh && measured.contains(&one.bits)),
+        "{got:?}"
+    );
+    assert!(got[1..].windows(2).all(|two| two[0].bits < two[1].bits), "{got:?}");
+    assert!(measured.len() > 2 * got.len() && got.len() > 3, "{measured:?}");
+    let first = got[1].bits;
+    let whole = conformed(&loaded, good.clone(), false);
+    assert!(matches!(whole.verdict, Verdict::Conforms { .. }), "{:#?}", whole.verdict);
+    assert_eq!(whole.decisions, Some(measured.len() + got.len()));
+    for by_order in [false, true] {
+        // The valve stays shut, and the machine would open it.
+        let mut wrong = good.clone();
+        wrong.tracks[1].decisions[3].bits ^= 1;
+        let Verdict::Parts(parted) = conformed(&loaded, wrong, by_order).verdict else { panic!("it is found") };
+        let reason = format!("decided valve = false, its machine true, from levels = {first} (new)");
+        assert_eq!(parted.reason, Some(reason));
+        assert_eq!((parted.task.as_str(), parted.decides), ("control", true));
+        // Nothing is handed over, and the machine would.
+        let mut silent = good.clone();
+        silent.tracks[0].decisions[1].known = false;
+        let Verdict::Parts(parted) = conformed(&loaded, silent, by_order).verdict else { panic!("it is found") };
+        let reason = parted.reason.unwrap_or_default();
+        assert!(reason.starts_with("decided levels = undef, its machine "), "{reason}");
+    }
+}
