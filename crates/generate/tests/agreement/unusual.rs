@@ -66,6 +66,13 @@ fn unusual_models() {
             "par n <- r_fibonacci(m) m := m + 3 endpar",
             "\tfunction m = 2",
         ),
+        case(
+            "Coerced",
+            "\tmonitored given: Integer\n\tcontrolled sum: Real\n",
+            "",
+            "sum := sum + given * 0.5",
+            "\tfunction sum = 0.0",
+        ),
         case("Nested", counted, "", &format!("par {nested} m := m + 1 endpar"), "\tfunction n = 0\n\tfunction m = 1"),
     ];
     judge("unusual", cases);
