@@ -5,7 +5,7 @@ use model::Loader;
 use syntax::SourceFile;
 use testkit::{NoSolver, Patterns, Texts};
 
-const PARCELS: &str = "module Parcels
+const MESSAGES: &str = "module Messages
 export *
 signature:
 	enum domain Code = {LETTER | PARCEL}
@@ -14,7 +14,7 @@ definitions:
 
 const SEQUENCER: &str = "asm Sequencer
 import StandardLibrary
-import Parcels
+import Messages
 signature:
 	enum domain Mode = {IDLE | BUSY}
 	domain Count subsetof Integer
@@ -39,7 +39,7 @@ default init s0:
 ";
 
 const CELL: &str = "chart Cell
-import Parcels
+import Messages
 import machines/Sequencer
 import patterns/ControlTask
 system cell
@@ -78,14 +78,14 @@ impl Loader for Files {
 
 fn files(sequencer: &str) -> Files {
     Files(Texts::of([
-        ("Parcels.asm", PARCELS),
-        ("machines/Parcels.asm", PARCELS),
+        ("Messages.asm", MESSAGES),
+        ("machines/Messages.asm", MESSAGES),
         ("machines/Sequencer.asm", sequencer),
     ]))
 }
 
 fn load(cell: &str, sequencer: &str) -> chart::Loaded {
-    let sequencer = sequencer.replace("import Parcels", "import ../Parcels");
+    let sequencer = sequencer.replace("import Messages", "import ../Messages");
     chart::load(SourceFile::new("Cell.chart", cell), &mut files(&sequencer))
 }
 
@@ -100,7 +100,7 @@ fn faults(cell: &str, sequencer: &str) -> Vec<String> {
 /// The built text, which has no faults.
 fn built() -> String {
     let mut drawn = load(CELL, SEQUENCER).chart;
-    let mut files = files(&SEQUENCER.replace("import Parcels", "import ../Parcels"));
+    let mut files = files(&SEQUENCER.replace("import Messages", "import ../Messages"));
     let known = Known::completed(&mut drawn, "Imports.asm", &mut files).expect("the imports have no faults");
     assert_eq!(chart::unbuilt(&drawn, &known), []);
     let built = build(&drawn, &known, None).expect("there was no file").text;
@@ -124,7 +124,7 @@ fn a_machine_becomes_a_part_of_its_component() {
     let loaded = load(CELL, SEQUENCER);
     assert_eq!(loaded.diagnostics, []);
     // The machine's module is not imported: its names would not be the component's.
-    assert_eq!(loaded.chart.imports, ["Parcels", "patterns/ControlTask"]);
+    assert_eq!(loaded.chart.imports, ["Messages", "patterns/ControlTask"]);
     let system = loaded.chart.system.expect("a system");
     let machine = &system.computing.machines[0];
     let named = |name: &str| name.to_string();
@@ -242,7 +242,7 @@ fn faults_of_the_machine() {
 #[test]
 fn names_that_meet() {
     let mut drawn = load(CELL, &SEQUENCER.replace("isBusy", "wait")).chart;
-    let mut files = files(&SEQUENCER.replace("isBusy", "wait").replace("import Parcels", "import ../Parcels"));
+    let mut files = files(&SEQUENCER.replace("isBusy", "wait").replace("import Messages", "import ../Messages"));
     let known = Known::completed(&mut drawn, "Imports.asm", &mut files).expect("the imports have no faults");
     let told: Vec<String> = chart::unbuilt(&drawn, &known).into_iter().map(|fault| fault.message).collect();
     assert_eq!(told, ["a second `sequencer_wait` would be made"]);

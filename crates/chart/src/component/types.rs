@@ -13,6 +13,9 @@ use crate::computing::Content;
 use crate::fault::component as fault;
 use crate::system::{Named, System};
 
+/// The name of the text in which the domains are declared: long enough that no module of a user has it.
+const NAME: &str = "CarriedByChannelsAndDevices";
+
 /// The domain of each channel and device that says one, by name.
 pub(super) type Types = BTreeMap<String, Carried>;
 
@@ -121,7 +124,7 @@ pub(super) fn types(
     let devices = system.devices.iter().filter_map(|device| Some((&device.name, device.message.as_ref()?)));
     let named: Vec<(&String, &Named)> = channels.chain(devices).collect();
     // Declared one a line, behind the imports, so that a fault's line says whose it is.
-    let mut text = "module Messages\n".to_string();
+    let mut text = format!("module {NAME}\n");
     for import in &chart.imports {
         text.push_str(&format!("import \"{import}\"\n"));
     }
@@ -132,7 +135,7 @@ pub(super) fn types(
     }
     text.push_str("definitions:\n");
     let folder = root.name.rfind(['/', '\\']).map_or("", |end| &root.name[..=end]);
-    let checked = model::check(SourceFile::new(format!("{folder}Messages.asm"), text), loader);
+    let checked = model::check(SourceFile::new(format!("{folder}{NAME}.asm"), text), loader);
     let mut faults = Vec::new();
     for found in checked.diagnostics.iter().filter(|found| found.severity == Severity::Error) {
         let span = found.primary.span;
