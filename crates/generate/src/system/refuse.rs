@@ -1,8 +1,8 @@
 //! Finds what cannot be generated of a system, and why.
 
-use chart::Content;
 use chart::build::late;
 use chart::system::{Action, System};
+use chart::{Content, Feed, Take};
 use syntax::{Diagnostic, Span};
 
 use super::names::pascal;
@@ -59,6 +59,21 @@ pub fn ungenerated(system: &System) -> Vec<Diagnostic> {
     }
     for machine in &computing.machines {
         let component = &system.components[machine.component];
+        let is_hook = |name: &str| {
+            let elaborations = component.phases.iter().filter(|phase| matches!(phase.action, Action::Elaborate(_)));
+            elaborations.into_iter().any(|phase| snake(&phase.subject) == snake(name))
+        };
+        let sensors = machine.feeds.iter().filter(|(_, feed)| matches!(feed, Feed::Sensor(_))).map(|(name, _)| name);
+        let actuators =
+            machine.takes.iter().filter(|(_, take)| matches!(take, Take::Actuator(_))).map(|(name, _)| name);
+        for name in sensors.chain(actuators).filter(|name| is_hook(name)) {
+            faults.push(not_generated(
+                component.span,
+                format!("`{}` has an elaboration and a device `{name}`", component.name),
+                "both are functions of the component's hook class",
+                "rename one of them",
+            ));
+        }
         types.push((super::machines::name(component), component.span));
     }
     let all = system.channels.iter().map(|channel| (&channel.name, channel.span));

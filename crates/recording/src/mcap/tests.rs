@@ -85,6 +85,41 @@ fn pieces_of_any_size_say_what_the_whole_says() {
     }
 }
 
+/// They count in the order of a task's events, and stand apart from them.
+#[test]
+fn decisions_are_read() {
+    let said = |order: u32, rest: &str| {
+        let text = format!(r#"{{"order":{order},{rest}}}"#);
+        record(
+            0x05,
+            &[
+                &0_u16.to_le_bytes()[..],
+                &order.to_le_bytes(),
+                &5_u64.to_le_bytes(),
+                &5_u64.to_le_bytes(),
+                text.as_bytes(),
+            ]
+            .concat(),
+        )
+    };
+    let events = [
+        event(0, 0, 5),
+        said(1, r#""kind":"gets","object":"codes","number":7,"known":true,"fresh":true"#),
+        said(2, r#""kind":"decides","object":"orders","number":18446744073709551615,"known":true"#),
+        said(3, r#""kind":"decides","object":"lamp","number":0,"known":false"#),
+        event(0, 4, 6),
+    ];
+    let read = Recording::read(&[head(), channel(0, "/task"), chunk(&events.concat())].concat()).expect("a recording");
+    let track = &read.tracks[0];
+    assert_eq!((track.events.len(), track.decisions.len(), track.lost), (2, 3, false));
+    let shown: Vec<_> =
+        track.decisions.iter().map(|one| (one.is_got, &*one.object, one.bits, one.known, one.fresh)).collect();
+    assert_eq!(
+        shown,
+        [(true, "codes", 7, true, true), (false, "orders", u64::MAX, true, false), (false, "lamp", 0, false, false)]
+    );
+}
+
 /// Damage anywhere in a file is reported, or the file counts as one without an end.
 #[test]
 fn a_changed_byte_is_noticed() {
