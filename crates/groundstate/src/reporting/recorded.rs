@@ -33,6 +33,16 @@ pub fn held_in_words(verdict: &Verdict, way: Way, recording: &Recording) -> Held
                 many(*events)
             ),
         },
+        Verdict::Parts(parted) if parted.decides => {
+            let at = (parted.tick * recording.tick_ns) as f64 / 1e6;
+            let reason = parted.reason.as_deref().unwrap_or_default();
+            let words = format!(
+                "parts from the model {way}, at {at:.4} ms, after {} decisions: {} {reason}",
+                many(parted.agreed),
+                parted.task
+            );
+            Held { conforms: Some(false), words }
+        }
         Verdict::Parts(parted) => {
             let Parted { event, tick, task, claims, agreed, .. } = parted.as_ref();
             let at_ns = event.as_ref().map_or(tick * recording.tick_ns, |event| event.time_ns);
