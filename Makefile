@@ -103,6 +103,7 @@ msrv: ## the workspace, checked by the oldest Rust that Cargo.toml promises, if 
 
 verify: $(GROUNDSTATE) ## the pattern library's properties in every state, its seeded faults found, the reference systems counted: minutes, 4 GB
 	sh library/verification/verify.sh $(GROUNDSTATE) expected.txt expected-long.txt
+	sh library/verification/mutants.sh $(GROUNDSTATE) mutants.txt
 
 cpp: ## the C++ runtime and the cameras: their tests as they are; the runtime's under ThreadSanitizer and by clang++, too
 	sh cpp/run.sh plain thread clang

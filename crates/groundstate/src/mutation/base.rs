@@ -311,8 +311,9 @@ fn counting(report: &Report, asked: &Asked) -> Result<Counting, String> {
                     matches!(reason, Reason::Bounded(_) | Reason::Stopped(Stop::States | Stop::Depth | Stop::Memory))
                 };
                 match subject {
-                    _ if !reasons.is_empty() && reasons.iter().all(bounded) => {}
+                    // With bounds no state is known to have no step.
                     Subject::NoDeadlock => counting.may_rest = true,
+                    _ if !reasons.is_empty() && reasons.iter().all(bounded) => {}
                     Subject::Property(index) => counting.left_out[index] = true,
                     Subject::Consistent | Subject::InDomain | Subject::Defined => {}
                 }

@@ -151,6 +151,10 @@ fn verified(bench: &Bench, judge: &Judge, asked: &Asked, interrupt: &Interrupt) 
         Err(NoStart::Fault(_)) => return Err(killed("the initial state can be made".to_string(), 0)),
         Err(_) => return Ok(Said::Open(limit(None, interrupt))),
     };
+    // Without any run, everything holds.
+    if report.progress.states == 0 && judge.states.is_some_and(|states| states > 0) && report.stop.is_none() {
+        return Err(killed("some initial state satisfies the assumptions".to_string(), 0));
+    }
     let mut violated: Vec<(Subject, u64)> = report
         .verdicts
         .iter()
