@@ -166,6 +166,9 @@ definitions:
 	// Mutual exclusion on the index section; who has updated the indexes is inside.
 	invariant inv_mutualExclusion over sem_state: sem_sound(lock) and not (isInside(producer) and isInside(consumer))
 	invariant inv_indexSection over indexUpdated: indexUpdated(buffer) implies isInside(master)
+	// and works on its array outside, so that the slave need not wait for that
+	invariant inv_masterOutside over sb_ctrlState:
+		contains({WRITING, READING}, sb_ctrlState(scheduler_currentPhase(master))) implies not isInside(master)
 	// what was pending is handed over there
 	invariant inv_swapped over indexUpdated:
 		indexUpdated(buffer) implies (not sb_pending(buffer) and handedOver = newestWritten)

@@ -17,12 +17,14 @@ definitions:
 		let ($written = sb_written(buffer), $read = indexRead(buffer), $wasReading = isDef(sb_readingArray(buffer))) in
 			seq
 				r_setTimes[]
+				r_noteTimes[]
 				par
 					forall $c in Scheduler with true do r_scheduler_execute[$c]
 					r_sem_arbitrate[lock]
 					clock := clock + 1
 				endpar
 				r_observe[$written, $read, $wasReading]
+				r_observeTimes[]
 				r_shiftTimes[]
 			endseq
 		endlet
@@ -79,6 +81,9 @@ default init s0:
 	function unaccounted = 0
 	function isUnread = false
 	function mustBeFresh = false
+	function stays($c in Scheduler) = false
+	function isCutShort = false
+	function lasted($c in Scheduler) = 0
 
 	function task_period($t in Task) = if $t = producer_task then 6 else 7 endif
 	function task_timeForElaboration($t in Task) =

@@ -77,6 +77,9 @@ default init s0:
 	function unaccounted = 0
 	function isUnread = false
 	function mustBeFresh = false
+	function stays($c in Scheduler) = false
+	function isCutShort = false
+	function lasted($c in Scheduler) = 0
 
 	function task_period($t in Task) = if $t = producer_task then 6 else 7 endif
 	function task_timeForElaboration($t in Task) =

@@ -14,9 +14,20 @@ signature:
 	// asked for in the initial state: a synchronous slave has no time to wait at all, and so leaves out what it cannot do at once
 	monitored isHasty: Boolean
 
+	// within a step: whose action may not end yet, and where he was
+	controlled stays: Scheduler -> Boolean
+	controlled phaseBefore: Scheduler -> SchedulePhase
+	controlled stateBefore: Scheduler -> PatternState
+	controlled isCutShort: Boolean
+	// ticks that an action has lasted, two at most
+	controlled lasted: Scheduler -> Integer
+
 	static longest: SchedulePhase -> Integer
 	derived isElaborating: Scheduler -> Boolean
 	derived isManagingNow: Scheduler -> Boolean
+	// at an action that takes time
+	derived isTimed: Scheduler -> Boolean
+	derived hasMoved: Scheduler -> Boolean
 	// a slave has no time to wait, and may so leave out every access
 	derived leavesOut: Boolean
 
@@ -30,6 +41,12 @@ definitions:
 	function longest($p in SchedulePhase) =
 		if phaseAction($p) = WAITING_TRIGGER then 0 else 2 endif
 
+	function isTimed($c in Scheduler) =
+		isElaborating($c) or contains({WRITING, READING}, sb_ctrlState(scheduler_currentPhase($c)))
+
+	function hasMoved($c in Scheduler) =
+		scheduler_currentPhase($c) != phaseBefore($c) or sb_ctrlState(scheduler_currentPhase($c)) != stateBefore($c)
+
 	function leavesOut =
 		(exists $t in Task with
 			$t != owner(master) and task_kind($t) = SYNCHRONOUS and task_timeForElaboration($t) = task_period($t))
@@ -38,6 +55,28 @@ definitions:
 	rule r_setTimes =
 		forall $c in Scheduler with longest(scheduler_currentPhase($c)) > 0 and not isManagingNow($c) do
 			time(scheduler_currentPhase($c)) := if endsEarly($c) then 1 else 2 endif
+
+	rule r_noteTimes =
+		forall $c in Scheduler with true do
+			par
+				stays($c) := isTimed($c) and lasted($c) < time(scheduler_currentPhase($c))
+				phaseBefore($c) := scheduler_currentPhase($c)
+				stateBefore($c) := sb_ctrlState(scheduler_currentPhase($c))
+			endpar
+
+	// An action whose time is not over goes on.
+	rule r_observeTimes =
+		par
+			isCutShort := (exists $c in Scheduler with stays($c) and hasMoved($c))
+			forall $d in Scheduler with true do
+				par
+					lasted($d) :=
+						if not isTimed($d) then 0 else if hasMoved($d) then 1 else min(lasted($d) + 1, 2) endif endif
+					stays($d) := false
+					phaseBefore($d) := undef
+					stateBefore($d) := undef
+				endpar
+		endpar
 
 	rule r_shiftTimes =
 		par
@@ -56,6 +95,8 @@ definitions:
 				scheduler_actionStart($c) := max(scheduler_actionStart($c) - clock, -2)
 		endpar
 
+	// no action is shorter than its time
+	invariant inv_times over scheduler_currentPhase: not isCutShort
 	// a synchronous task never waits past its watchdog
 	invariant inv_watchdog over task_timeInWait:
 		(forall $t in Task with
