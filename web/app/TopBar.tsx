@@ -5,7 +5,7 @@ import { type ReactNode, useState } from 'react'
 import { status } from '../diagram/sync'
 import { Icon } from '../editor/icons'
 import { Menu } from '../editor/Menu'
-import { startRun } from '../editor/RunPanel'
+import { runsInFront, startRun } from '../editor/RunPanel'
 import { useStore } from '../editor/store'
 import type { Doc } from '../editor/document'
 import type { Layout, Studio } from '../editor/studio'
@@ -22,7 +22,6 @@ export function TopBar({ studio, sidebar, showSidebar }: { studio: Studio; sideb
   const name = useStore(studio.store, (state) => state.hello?.name ?? '')
   useStore(studio.store, (state) => state.opened)
   useStore(studio.store, (state) => state.files)
-  const session = useStore(studio.runner.store, (state) => state.session !== null)
   const [colours, setColours] = useState(theme())
   const [menu, setMenu] = useState<{ x: number; y: number } | null>(null)
   const doc = studio.doc(active)
@@ -98,7 +97,7 @@ export function TopBar({ studio, sidebar, showSidebar }: { studio: Studio; sideb
         </div>
       )}
       {doc && ['chart', 'model', 'scenario'].includes(doc.file.kind) && (
-        <button className="primary" onClick={() => (session ? studio.store.set({ panel: 'run' }) : void startRun(studio))}>
+        <button className="primary" onClick={() => (runsInFront(studio) ? studio.store.set({ panel: 'run' }) : void startRun(studio))}>
           <Icon name="play" size={14} />
           {words.run.start}
         </button>

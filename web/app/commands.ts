@@ -5,7 +5,7 @@
 import { formatDocument } from '@codemirror/lsp-client'
 
 import type { JobKind } from '../diagram/protocol'
-import { startRun } from '../editor/RunPanel'
+import { runsInFront, startRun } from '../editor/RunPanel'
 import type { Command } from '../editor/Search'
 import type { Layout, Studio } from '../editor/studio'
 import { words } from '../words'
@@ -101,13 +101,18 @@ export function shortcut(studio: Studio, event: KeyboardEvent): void {
   const run = runner.store.get()
   if (event.key === 'F5') {
     done()
-    if (!run.session) return void startRun(studio)
+    if (!runsInFront(studio)) return void startRun(studio)
     return run.playing ? runner.pause() : runner.play()
   }
   if (event.key === 'F10') {
     done()
-    if (!run.session) return void startRun(studio)
-    return event.shiftKey ? void runner.back() : void runner.step()
+    if (!runsInFront(studio)) return void startRun(studio)
+    studio.store.set({ panel: 'run' })
+    if (event.shiftKey) return void runner.back()
+    // A step that waits for an answer: the first that is offered gets the focus.
+    if (run.session?.waiting === 'step') return void runner.step()
+    document.querySelector<HTMLElement>('.asked button, .asked input, .asked select')?.focus()
+    return
   }
   if (event.key === '?' && !typing) {
     done()

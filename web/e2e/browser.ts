@@ -7,8 +7,10 @@ import { type Browser, type Locator, type Page, chromium } from 'playwright-core
 
 const SHOTS = resolve(import.meta.dirname, '../shots')
 
-export const opened = (): Promise<Browser> =>
-  chromium.launch({ executablePath: process.env['CHROMIUM'] ?? '/usr/bin/chromium', args: ['--no-sandbox'] })
+export function opened(): Promise<Browser> {
+  if (Number(process.versions.node.split('.')[0]) < 20) throw new Error('The tests in the browser need Node 20 or newer.')
+  return chromium.launch({ executablePath: process.env['CHROMIUM'] ?? '/usr/bin/chromium', args: ['--no-sandbox'] })
+}
 
 export interface Trouble {
   told: string[]
@@ -22,7 +24,7 @@ export async function page(browser: Browser, address: string, trouble: Trouble, 
     reducedMotion: 'reduce',
   })
   const page = await context.newPage()
-  page.on('pageerror', (error) => trouble.told.push(error.message))
+  page.on('pageerror', (error) => trouble.told.push(error.stack ?? error.message))
   page.on('console', (message) => message.type() === 'error' && trouble.told.push(message.text()))
   page.setDefaultTimeout(8_000)
   await page.goto(address)

@@ -23,6 +23,8 @@ const KINDS: Record<string, string> = {
 export interface Served {
   address: string
   folder: string
+  // Breaks connections, and lets none come until it is told so.
+  cut: (broken: boolean) => void
   stop: () => void
 }
 
@@ -78,7 +80,9 @@ export async function served(folder: string, port = 0): Promise<Served> {
     }
   })
   const sockets = new WebSocketServer({ server, path: '/ws' })
+  let broken = false
   sockets.on('connection', (near) => {
+    if (broken) return near.terminate()
     const far = new WebSocket(`${origin.replace('http', 'ws')}/ws`, { origin, headers: { cookie } })
     const early: string[] = []
     near.on('message', (data) => (far.readyState === WebSocket.OPEN ? far.send(String(data)) : early.push(String(data))))
@@ -94,6 +98,10 @@ export async function served(folder: string, port = 0): Promise<Served> {
   return {
     address: `http://127.0.0.1:${listening}/`,
     folder,
+    cut: (now) => {
+      broken = now
+      if (now) sockets.clients.forEach((client) => client.terminate())
+    },
     stop: () => {
       sockets.clients.forEach((client) => client.terminate())
       server.close()

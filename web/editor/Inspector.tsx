@@ -20,6 +20,8 @@ export function Inspector({ studio, chart }: { studio: Studio; chart: Chart }): 
   const drawing = useStore(chart.store, () => chart.drawing)
   const selection = useStore(chart.store, (state) => state.selection)
   const [folded, setFolded] = useState(false)
+  // A shape that is renamed keeps its fields, and what is being typed in them.
+  const [renamed, setRenamed] = useState<{ from: string; to: string } | null>(null)
   if (!drawing || (selection.boxes.length === 0 && selection.lines.length === 0)) return null
   const boxes = drawing.picture.boxes.filter((box) => selection.boxes.includes(box.id))
   const [box] = boxes
@@ -45,13 +47,30 @@ export function Inspector({ studio, chart }: { studio: Studio; chart: Chart }): 
           </span>
         </button>
       </header>
-      {!folded && boxes.length === 1 && box && <OneBox key={box.id} studio={studio} chart={chart} drawing={drawing} box={box} />}
+      {!folded && boxes.length === 1 && box && (
+        <OneBox
+          key={renamed?.to === box.id ? renamed.from : box.id}
+          studio={studio}
+          chart={chart}
+          drawing={drawing}
+          box={box}
+          naming={(to) => setRenamed((old) => ({ from: old?.to === box.id ? old.from : box.id, to }))}
+        />
+      )}
       {!folded && boxes.length === 0 && <OneLine drawing={drawing} index={selection.lines[0] ?? -1} />}
     </aside>
   )
 }
 
-function OneBox({ studio, chart, drawing, box }: { studio: Studio; chart: Chart; drawing: Drawing; box: Box }): ReactNode {
+interface OneBoxProps {
+  studio: Studio
+  chart: Chart
+  drawing: Drawing
+  box: Box
+  naming: (name: string) => void
+}
+
+function OneBox({ studio, chart, drawing, box, naming }: OneBoxProps): ReactNode {
   const readOnly = chart.doc.readOnly
   const faults = useStore(studio.store, (state) => state.faults.get(chart.doc.file.uri))
   const breaks = useStore(studio.runner.store, (state) => state.breaks)
@@ -60,7 +79,10 @@ function OneBox({ studio, chart, drawing, box }: { studio: Studio; chart: Chart;
   const ends = box.figure === 'enter' || box.figure === 'exit'
   const system = drawing.kind === 'system'
   const links = !system && !ends
-  const rename = async (name: string): Promise<boolean> => (await chart.operate({ kind: 'rename', id: box.id, name })) !== null
+  const rename = async (name: string): Promise<boolean> => {
+    naming(name)
+    return (await chart.operate({ kind: 'rename', id: box.id, name })) !== null
+  }
   const set = (operation: Parameters<Chart['operate']>[0]): Promise<boolean> =>
     chart.operate(operation, { select: false }).then((done) => done !== null)
   return (

@@ -27,11 +27,16 @@ export async function buildAndRun(studio: Studio, uri: string): Promise<void> {
   if (!chart) return
   const done = await studio.jobs.run('build', chart)
   if (!done || done.code !== 0) return
-  for (let tries = 0; tries < 40; tries++) {
-    const model = studio.sibling(chart, 'asm')
-    if (model) return studio.runner.open(model)
-    await new Promise((resolve) => setTimeout(resolve, 50))
-  }
+  await studio.look()
+  const model = studio.sibling(chart, 'asm')
+  if (model) await studio.runner.open(model)
+}
+
+// Whether what is in front is what runs; another file that could run means a new run.
+export function runsInFront(studio: Studio): boolean {
+  const { session, file } = studio.runner.store.get()
+  const front = runnable(studio, studio.store.get().active)
+  return session !== null && (front.file === null ? front.missing === null : front.file.uri === file?.uri)
 }
 
 export async function startRun(studio: Studio, seed: number | null = null): Promise<void> {

@@ -12,9 +12,6 @@ import type { Doc } from './document'
 import { Store } from './store'
 import type { Studio } from './studio'
 
-// The server gave an answer up because the text changed.
-const CONTENT_MODIFIED = -32801
-
 export interface ChartState {
   pictures: Pictures | null
   // The text has a fault that keeps it from being drawn: the picture is an earlier one.
@@ -36,6 +33,8 @@ export class Chart {
   private queue: Promise<unknown> = Promise.resolve()
   // Shapes that an operation made, until a picture has them.
   private wanted: string[] = []
+  // Names that were changed, until a picture has the new ones: what is said of the old one meanwhile is meant for the new one.
+  private renamed = new Map<string, string>()
 
   constructor(
     private readonly studio: Studio,
@@ -72,9 +71,8 @@ export class Chart {
       const known = this.store.get().pictures
       if (pictures.drawings.length === 0 && known && known.drawings.length > 0 && this.doc.text.trim() !== '') this.store.set({ stale: true })
       else this.show(pictures)
-    } catch (error) {
-      if ((error as { code?: number }).code === CONTENT_MODIFIED) this.again = true
-      else this.store.set({ stale: true })
+    } catch {
+      if (this.studio.server.online === 'open') this.store.set({ stale: true })
     } finally {
       this.busy = false
       if (this.again) {
@@ -90,6 +88,7 @@ export class Chart {
     const there = (id: string): boolean => drawing?.picture.boxes.some((box) => box.id === id) ?? false
     const made = this.wanted.length > 0 && this.wanted.every(there) ? this.wanted : null
     if (made) this.wanted = []
+    for (const [old, name] of this.renamed) if (there(name)) this.renamed.delete(old)
     const boxes = made ?? selection.boxes.filter(there)
     // Lines are known by their index alone: a new picture may count them otherwise.
     const same = this.store.get().pictures?.drawings.find((old) => old.name === drawing?.name)
@@ -142,7 +141,9 @@ export class Chart {
     return next
   }
 
-  private async perform(operation: Operation, options: { select?: boolean }): Promise<string[] | null> {
+  private async perform(asked: Operation, options: { select?: boolean }): Promise<string[] | null> {
+    const known = 'id' in asked ? this.renamed.get(asked.id) : undefined
+    const operation = known === undefined ? asked : ({ ...asked, id: known } as Operation)
     const shown = this.drawing
     const drawing = shown?.name ?? ''
     if (this.doc.readOnly) return null
@@ -157,6 +158,7 @@ export class Chart {
         changes = carried
       }
       if (changes.length > 0) this.doc.change(changes)
+      if (operation.kind === 'rename') this.renamed.set(operation.id, operation.name)
       if (operation.kind === 'machine') this.store.set({ shown: operation.name, selection: NOTHING })
       else if (options.select !== false && operation.kind !== 'move') this.selectWhenThere(select)
       return select

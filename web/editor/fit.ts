@@ -53,5 +53,5 @@ export function useKeptWhole(beyond: boolean, fit: () => void): void {
 
 // What can be read at this distance: everything, the texts of shapes, or outlines alone.
 export function useDetail(): 'near' | 'far' | 'farther' {
-  return useStore(({ transform: [, , zoom] }) => (zoom < 0.34 ? 'farther' : zoom < 0.5 ? 'far' : 'near'))
+  return useStore(({ transform: [, , zoom] }) => (zoom < 0.2 ? 'farther' : zoom < 0.3 ? 'far' : 'near'))
 }

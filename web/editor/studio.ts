@@ -17,7 +17,8 @@ import { Doc } from './document'
 import { Jobs } from './jobs'
 import { Runner } from './run'
 import { sanitized } from './sanitize'
-import type { Server } from './server'
+import { quiet } from './quiet'
+import type { Server, Transport } from './server'
 import { Store } from './store'
 
 export type Layout = 'both' | 'picture' | 'text'
@@ -59,6 +60,10 @@ interface Published {
   version?: number
   diagnostics: { range: Range; severity?: number; message: string; code?: string | number }[]
 }
+
+// The server gave an answer up because the text changed.
+const CONTENT_MODIFIED = -32801
+const TRIES = 8
 
 const SEVERITIES: Severity[] = ['error', 'error', 'warning', 'info', 'hint']
 
@@ -143,6 +148,7 @@ export class Studio {
   private readonly charts = new Map<string, Chart>()
   private readonly opening = new Map<string, Promise<Doc | null>>()
   private notices = 0
+  private readonly transport: Transport
 
   constructor(
     readonly server: Server,
@@ -161,7 +167,8 @@ export class Studio {
     this.runner = new Runner(this)
     this.jobs = new Jobs(this)
     this.store.set({ online: server.online, hello, files: hello.files })
-    this.client.connect(server.transport)
+    this.transport = quiet(server.transport)
+    this.client.connect(this.transport)
     server.on<Changed>('studio/changed', (params) => this.changedOutside(params))
     server.on<{ files: File[] }>('studio/files', ({ files }) => this.store.set({ files }))
     server.watch((online) => this.connection(online))
@@ -169,10 +176,18 @@ export class Studio {
 
   // A question about texts: the language server has them as they are now. INVARIANT: the client sends changes after a promise, so a
   // question waits for the same one, or it would come before them.
+  // If the text changed before the answer was there, it asks again.
   async ask<Result>(method: string, params: unknown): Promise<Result> {
-    this.client.sync()
-    await this.client.initializing
-    return this.server.request<Result>(method, params)
+    for (let tries = 0; ; tries++) {
+      this.client.sync()
+      await this.client.initializing
+      try {
+        return await this.server.request<Result>(method, params)
+      } catch (error) {
+        if ((error as { code?: number }).code !== CONTENT_MODIFIED || tries >= TRIES) throw error
+        await new Promise((resolve) => setTimeout(resolve, 20 * tries))
+      }
+    }
   }
 
   private connection(online: StudioState['online']): void {
@@ -183,13 +198,14 @@ export class Studio {
       this.runner.lost()
       this.jobs.lost()
     }
-    if (online === 'open') void this.again()
+    // If it breaks again meanwhile, the next connection begins anew.
+    if (online === 'open') void this.again().catch(() => undefined)
   }
 
   // After the connection came back: a new language session with the texts as they are, and a look at the files.
   private async again(): Promise<void> {
     this.client.workspace.syncFiles()
-    this.client.connect(this.server.transport)
+    this.client.connect(this.transport)
     const hello = await this.server.request<Hello>('studio/hello', {})
     this.store.set({ hello, files: hello.files })
     for (const doc of this.docs.values()) doc.event({ kind: 'online' })
@@ -402,12 +418,17 @@ export class Studio {
     return true
   }
 
+  // Looks at the folder's files at once, without waiting to be told.
+  async look(): Promise<void> {
+    const { files } = await this.server.request<Hello>('studio/hello', {})
+    this.store.set({ files })
+  }
+
   // A new project from a template.
   async create(template: string, name: string): Promise<boolean> {
     try {
       const { open } = await this.server.request<{ open: string }>('studio/new', { template, name })
-      const hello = await this.server.request<Hello>('studio/hello', {})
-      this.store.set({ files: hello.files })
+      await this.look()
       const file = this.fileAt(open)
       if (file) await this.open(file.uri)
       return true
@@ -421,8 +442,7 @@ export class Studio {
   async write(path: string, text: string): Promise<boolean> {
     try {
       await this.server.request('studio/write', { path, text, base: null })
-      const hello = await this.server.request<Hello>('studio/hello', {})
-      this.store.set({ files: hello.files })
+      await this.look()
       const file = this.fileAt(path)
       if (file) await this.open(file.uri)
       return true
