@@ -1,0 +1,120 @@
+// The pictures of the README and of docs/studio.md: `npm run pictures` writes them anew.
+
+import { cpSync, writeFileSync } from 'node:fs'
+import { join, resolve } from 'node:path'
+
+import type { Browser, Page } from 'playwright-core'
+import { afterAll, beforeAll, test } from 'vitest'
+
+import { type Trouble, drag, middle, opened, page as newPage, shape } from './browser'
+import { type Served, copied, removed, served } from './served'
+import { small } from './small'
+
+const ROOT = resolve(import.meta.dirname, '../..')
+const DOCS = join(ROOT, 'docs')
+const COMPONENT = 'examples/visual_servoing/VisualServoingComponent.chart'
+
+let browser: Browser
+let studio: Served
+const trouble: Trouble = { told: [] }
+
+// A name of its own in the bar, not that of a temporary folder.
+async function kept(page: Page, name: string): Promise<void> {
+  await page.evaluate(() => {
+    const brand = document.querySelector('.brand b')
+    if (brand) brand.textContent = 'robots'
+  })
+  await page.mouse.move(5, 500)
+  await page.waitForTimeout(500)
+  writeFileSync(join(DOCS, `${name}.png`), small(await page.screenshot()))
+}
+
+const at = (path: string): string => `${studio.address}#/${path}`
+
+beforeAll(async () => {
+  const folder = copied('library')
+  for (const example of ['coffee_machine', 'mutual_exclusion', 'pick_and_place', 'visual_servoing'])
+    cpSync(join(ROOT, 'examples', example), join(folder, 'examples', example), { recursive: true })
+  studio = await served(folder)
+  browser = await opened()
+})
+
+afterAll(async () => {
+  await browser?.close()
+  studio?.stop()
+  if (studio) removed(studio.folder)
+})
+
+async function run(page: Page, steps: number): Promise<void> {
+  await page.keyboard.press('F5')
+  const build = page.getByRole('button', { name: 'Build the model and run' })
+  await build.or(page.locator('.state-table')).first().waitFor()
+  if (await build.isVisible()) await build.click()
+  await page.locator('.state-table').waitFor({ timeout: 20_000 })
+  await page.getByRole('button', { name: 'Show all (F)' }).click()
+  for (let step = 0; step < steps; step++) {
+    const yes = page.locator('.offers button', { hasText: 'true' })
+    await page.keyboard.press('F10')
+    await page.waitForTimeout(250)
+    if ((await yes.count()) > 0) await yes.first().click()
+    await page.waitForTimeout(250)
+  }
+}
+
+test('running, and the picture of the README', async () => {
+  const page = await newPage(browser, studio.address, trouble)
+  await page.evaluate(() => localStorage.setItem('groundstate-panel', '200'))
+  await page.goto(at(COMPONENT))
+  await page.reload()
+  await shape(page, 'waiting').waitFor()
+  await run(page, 5)
+  await kept(page, 'studio')
+  await page.goto(at('examples/pick_and_place/PlacingSystem.chart'))
+  await page.keyboard.press('Control+2')
+  await shape(page, 'planner').waitFor()
+  await run(page, 24)
+  await kept(page, 'studio-running')
+  await page.context().close()
+})
+
+test('drawing', async () => {
+  const page = await newPage(browser, at(COMPONENT), trouble)
+  await shape(page, 'elaborated').click()
+  await shape(page, 'elaborated').hover()
+  await drag(page, await middle(page.locator('.port.no')), [390, 590])
+  await page.getByRole('menuitem', { name: 'State' }).click()
+  await page.locator('.inspector input[name=name][value^=waiting]').waitFor()
+  await page.locator('.inspector input[name=name]').fill('lost')
+  await page.keyboard.press('Tab')
+  await page.keyboard.type('Image lost')
+  await page.keyboard.press('Enter')
+  await page.locator('.figure text', { hasText: 'lost' }).waitFor()
+  await kept(page, 'studio-drawing')
+  await page.context().close()
+})
+
+test('checking', async () => {
+  const page = await newPage(browser, at('examples/mutual_exclusion/Peterson.asm'), trouble, { dark: true })
+  await page.getByRole('button', { name: 'Verify' }).click()
+  await page.locator('.verdict', { hasText: 'violated' }).waitFor({ timeout: 60_000 })
+  await page.getByRole('button', { name: /Play its/ }).first().click()
+  for (let step = 0; step < 3; step++) await page.getByRole('button', { name: 'One step on' }).click()
+  await kept(page, 'studio-checking')
+  await page.context().close()
+})
+
+test('conflict', async () => {
+  const lamp = (action: string): string =>
+    `chart Lamp\n\nmachine lamp "Lamp"\n\tcontrol light\n\tinitial state off "Off"\n\tstate on "On"\n\tguard pressed "Pressed"\n\taction count "${action}"\n\toff -> pressed yes -> count -> on\n\ton -> pressed\n\tpressed no -> off\nendmachine\n`
+  const file = join(studio.folder, 'Lamp.chart')
+  writeFileSync(file, lamp('COUNT'))
+  const page = await newPage(browser, studio.address, trouble)
+  await page.getByRole('button', { name: 'Lamp.chart' }).first().click()
+  await page.locator('.cm-line', { hasText: 'action count' }).click()
+  await page.keyboard.press('End')
+  await page.keyboard.type(' {r_count}')
+  writeFileSync(file, lamp('COUNT PRESSES'))
+  await page.locator('.conflict').waitFor()
+  await kept(page, 'studio-conflict')
+  await page.context().close()
+})
