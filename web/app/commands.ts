@@ -4,22 +4,39 @@
 
 import { formatDocument } from '@codemirror/lsp-client'
 
-import type { JobKind } from '../diagram/protocol'
+import type { File, JobKind } from '../diagram/protocol'
 import { runsInFront, startRun } from '../editor/RunPanel'
 import type { Command } from '../editor/Search'
 import type { Layout, Studio } from '../editor/studio'
 import { words } from '../words'
 import { following, setTheme, theme } from './theme'
 
-// The jobs that fit a file; verification and tests of a chart are those of its model.
+// A chart's model; it is built first if it is not there.
+async function modelOf(studio: Studio, chart: File): Promise<File | null> {
+  const known = studio.sibling(chart, 'asm')
+  if (known) return known
+  const built = await studio.jobs.run('build', chart)
+  if (built?.code !== 0) return null
+  await studio.look()
+  return studio.sibling(chart, 'asm') ?? null
+}
+
+// The jobs that fit a file. A system is verified as it is drawn; a chart of machines alone by its model.
 export function jobsFor(studio: Studio, uri: string | null): { job: JobKind; act: () => void }[] {
   const file = uri === null ? undefined : studio.file(uri)
   if (!file || studio.isLibrary(file.uri)) return []
   const start = (job: JobKind, at = file) => ({ job, act: () => void studio.jobs.start(job, at) })
+  const onModel = (job: JobKind) => ({
+    job,
+    act: () => void modelOf(studio, file).then((model) => model && studio.jobs.start(job, model)),
+  })
   switch (file.kind) {
     case 'chart': {
-      const model = studio.sibling(file, 'asm')
-      return [start('build'), ...(model ? [start('check'), start('verify', model), start('generate', model)] : [start('verify')])]
+      const drawings = studio.chart(uri)?.store.get().pictures?.drawings ?? []
+      const isSystem = drawings.some((drawing) => drawing.kind === 'system')
+      const verify = isSystem ? start('verify') : onModel('verify')
+      const rest = studio.sibling(file, 'asm') ? [start('check'), onModel('test'), onModel('generate')] : []
+      return [start('build'), verify, ...rest]
     }
     case 'model':
       return [start('verify'), start('test'), start('review'), start('generate')]

@@ -3,7 +3,7 @@
 // Owns: starting and ending the program, and a small server before it that gives the files of `dist` with the program's own
 // headers and hands the WebSocket on. So the front end is tried without building the program anew.
 
-import { type ChildProcess, spawn } from 'node:child_process'
+import { type ChildProcess, execFileSync, spawn } from 'node:child_process'
 import { cpSync, mkdtempSync, readFileSync, rmSync } from 'node:fs'
 import { type IncomingMessage, type Server, createServer, get } from 'node:http'
 import { tmpdir } from 'node:os'
@@ -111,3 +111,30 @@ export async function served(folder: string, port = 0): Promise<Served> {
 }
 
 export const removed = (folder: string): void => rmSync(folder, { recursive: true, force: true })
+
+// The folder as a site of files alone, with the front end of this tree.
+export async function exported(folder: string): Promise<Served> {
+  const site = join(mkdtempSync(join(tmpdir(), 'studio-')), 'site')
+  execFileSync(program(), ['studio', '--export', site, folder], { stdio: 'ignore' })
+  const server = createServer((request, response) => {
+    const path = new URL(request.url ?? '/', 'http://localhost').pathname
+    try {
+      const body =
+        path === '/'
+          ? readFileSync(join(DIST, 'index.html'), 'utf8').replace('<head>', '<head><meta name="groundstate-project" content="project.json" />')
+          : readFileSync(path === '/project.json' ? join(site, 'project.json') : join(DIST, path))
+      response.writeHead(200, { 'content-type': KINDS[extname(path === '/' ? '.html' : path)] ?? (path === '/' ? KINDS['.html'] : 'application/json') })
+      response.end(body)
+    } catch {
+      response.writeHead(404).end()
+    }
+  })
+  await new Promise<void>((done) => server.listen(0, '127.0.0.1', done))
+  const own = server.address()
+  const port = typeof own === 'object' && own ? own.port : 0
+  const stop = (): void => {
+    server.close()
+    removed(site)
+  }
+  return { address: `http://127.0.0.1:${port}/`, folder, cut: () => undefined, stop }
+}

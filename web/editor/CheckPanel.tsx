@@ -111,6 +111,7 @@ function Findings({ studio, job }: { studio: Studio; job: Job }): ReactNode {
   const rest = job.lines.filter((line) => typeof line === 'string' || !['verdict', 'scenario', 'summary', 'progress'].includes(String(line['type'])))
   return (
     <>
+      {job.running && <p className="faint-note doing">{words.check.doing[job.job]}</p>}
       {found.length > 0 && (
         <ul className="verdicts">
           {found.map((verdict) => (

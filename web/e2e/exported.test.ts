@@ -1,0 +1,60 @@
+// An exported project: charts, runs and verdicts without a program behind them; nothing can be changed.
+
+import { writeFileSync } from 'node:fs'
+import { join } from 'node:path'
+
+import type { Browser, Page } from 'playwright-core'
+import { afterAll, beforeAll, expect, test } from 'vitest'
+
+import { type Trouble, opened, page as newPage, shape, shot } from './browser'
+import { type Served, copied, exported, removed } from './served'
+
+let browser: Browser
+let site: Served
+let page: Page
+const trouble: Trouble = { told: [] }
+
+beforeAll(async () => {
+  const folder = copied('examples/mutual_exclusion')
+  writeFileSync(
+    join(folder, 'Lamp.chart'),
+    'chart Lamp\n\nmachine lamp "Lamp"\n\tcontrol light\n\tinitial state off "Off"\n\tstate on "On"\n\tguard pressed "Pressed"\n\toff -> pressed yes -> on\n\ton -> pressed\n\tpressed no -> off\nendmachine\n',
+  )
+  site = await exported(folder)
+  browser = await opened()
+})
+
+afterAll(async () => {
+  await browser?.close()
+  site?.stop()
+  if (site) removed(site.folder)
+})
+
+test('a chart is looked at, and cannot be changed', async () => {
+  trouble.told = []
+  page = await newPage(browser, `${site.address}#/Lamp.chart`, trouble)
+  await shape(page, 'off').waitFor()
+  await page.locator('.state-chip', { hasText: 'Read only' }).waitFor()
+  expect(await page.locator('.palette').count()).toBe(0)
+  await shape(page, 'on').click()
+  await page.locator('.inspector').waitFor()
+  await page.locator('.cm-picked', { hasText: 'on' }).first().waitFor()
+  await shot(page, 'exported')
+  expect(trouble.told).toEqual([])
+  await page.context().close()
+})
+
+test('a recorded run is stepped through', async () => {
+  trouble.told = []
+  page = await newPage(browser, `${site.address}#/mutual_exclusion/Peterson.asm`, trouble)
+  await page.locator('.cm-content').waitFor()
+  await page.keyboard.press('F5')
+  await page.locator('.state-table').waitFor()
+  await page.keyboard.press('F10')
+  await page.locator('.run-step', { hasText: 'Step 1' }).waitFor()
+  await page.keyboard.press('Shift+F10')
+  await page.locator('.run-step', { hasText: 'Step 0' }).waitFor()
+  await shot(page, 'exported-run')
+  expect(trouble.told).toEqual([])
+  await page.context().close()
+})
