@@ -64,9 +64,11 @@ export function Sidebar({ studio, hide }: { studio: Studio; hide: () => void }):
     <nav className="sidebar" aria-label={words.shell.files}>
       <div className="sidebar-head">
         <input type="search" aria-label={words.shell.filter} placeholder={words.shell.filter} value={question} onChange={(event) => setQuestion(event.target.value)} />
-        <button className="quiet" title={words.shell.new} aria-label={words.shell.new} onClick={() => studio.store.set({ dialog: { kind: 'new' } })}>
-          <Icon name="plus" />
-        </button>
+        {!studio.hello.readOnly && (
+          <button className="quiet" title={words.shell.new} aria-label={words.shell.new} onClick={() => studio.store.set({ dialog: { kind: 'new' } })}>
+            <Icon name="plus" />
+          </button>
+        )}
         <button className="quiet" title={words.shell.hideFiles} aria-label={words.shell.hideFiles} onClick={hide}>
           <Icon name="sidebar" />
         </button>

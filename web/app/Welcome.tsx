@@ -26,10 +26,12 @@ export function Welcome({ studio }: { studio: Studio }): ReactNode {
         <h1>{empty ? words.welcome.emptyTitle : words.welcome.title(hello?.name ?? '')}</h1>
         <p>{empty ? words.welcome.emptyHint : words.welcome.hint}</p>
         <div className="row">
-          <button className="primary" onClick={start}>
-            <Icon name="plus" />
-            {words.welcome.start}
-          </button>
+          {!studio.hello.readOnly && (
+            <button className="primary" onClick={start}>
+              <Icon name="plus" />
+              {words.welcome.start}
+            </button>
+          )}
           <button onClick={() => window.dispatchEvent(new Event('groundstate-tour'))}>
             <Icon name="flag" />
             {words.welcome.tour}

@@ -21,6 +21,13 @@ async function modelOf(studio: Studio, chart: File): Promise<File | null> {
   return studio.sibling(chart, 'asm') ?? null
 }
 
+// Whether a chart has a system, by its picture, or by its text while there is none.
+function hasSystem(studio: Studio, chart: File): boolean {
+  const pictures = studio.chart(chart.uri)?.store.get().pictures
+  if (pictures) return pictures.drawings.some((drawing) => drawing.kind === 'system')
+  return /^\s*system\s+\w/m.test(studio.doc(chart.uri)?.text ?? '')
+}
+
 // The jobs that fit a file. A system is verified as it is drawn; a chart of machines alone by its model.
 export function jobsFor(studio: Studio, uri: string | null): { job: JobKind; act: () => void }[] {
   const file = uri === null ? undefined : studio.file(uri)
@@ -32,11 +39,9 @@ export function jobsFor(studio: Studio, uri: string | null): { job: JobKind; act
   })
   switch (file.kind) {
     case 'chart': {
-      const drawings = studio.chart(uri)?.store.get().pictures?.drawings ?? []
-      const isSystem = drawings.some((drawing) => drawing.kind === 'system')
-      const verify = isSystem ? start('verify') : onModel('verify')
+      const verify = { job: 'verify' as const, act: () => (hasSystem(studio, file) ? start('verify') : onModel('verify')).act() }
       const rest = studio.sibling(file, 'asm') ? [start('check'), onModel('test'), onModel('generate')] : []
-      return [start('build'), verify, ...rest]
+      return [...(studio.hello.readOnly ? [] : [start('build')]), verify, ...rest]
     }
     case 'model':
       return [start('verify'), start('test'), start('review'), start('generate')]
@@ -63,8 +68,8 @@ export function commands(studio: Studio): Command[] {
     )
   }
   if (doc && !doc.readOnly) all.push({ name: words.commands.format, icon: 'text', key: 'Shift Alt F', act: () => void formatDocument(doc.view) })
+  if (!studio.hello.readOnly) all.push({ name: words.commands.newProject, icon: 'plus', act: () => studio.store.set({ dialog: { kind: 'new' } }) })
   all.push(
-    { name: words.commands.newProject, icon: 'plus', act: () => studio.store.set({ dialog: { kind: 'new' } }) },
     { name: words.commands.problems, icon: 'warning', act: () => studio.store.set({ panel: 'problems' }) },
     { name: words.commands.layoutBoth, icon: 'both', key: 'Ctrl 1', act: show('both') },
     { name: words.commands.layoutPicture, icon: 'picture', key: 'Ctrl 2', act: show('picture') },

@@ -68,7 +68,7 @@ function Start({ studio, active, busy }: { studio: Studio; active: string | null
             {words.run.startModel(file.path.split('/').at(-1) ?? file.path)}
           </button>
         )}
-        {file?.kind === 'model' && (
+        {file?.kind === 'model' && !studio.hello.readOnly && (
           <button disabled={busy} onClick={() => void startRun(studio, 1)}>
             {words.run.random}
           </button>
@@ -142,7 +142,7 @@ function Controls({ studio, run, session }: { studio: Studio; run: RunState; ses
         ))}
       </select>
       <span className="grow" />
-      {button('record', words.run.record, () => void runner.record(), session.step > 0 && run.file?.kind === 'model')}
+      {button('record', words.run.record, () => void runner.record(), session.step > 0 && run.file?.kind === 'model' && !studio.hello.readOnly)}
       {button('close', words.run.close, () => void runner.close(), true)}
     </div>
   )
