@@ -249,6 +249,25 @@ test('a model is verified, and its counterexample plays', async () => {
   await shot(page, 'verdicts')
 })
 
+test('differences between chart and model are shown on the shapes, failed checks in the scenario', async () => {
+  await lamp()
+  writeFileSync(path('Lamp.asm'), file('Lamp.asm').replace('light := ON', 'light := OFF'))
+  await page.getByRole('button', { name: 'More to do with this file' }).click()
+  await page.getByRole('menuitem', { name: 'Compare with model' }).click()
+  await page.locator('.fault-told').first().waitFor({ timeout: 20_000 })
+  await shape(page, 'off').locator('.fault-badge').waitFor()
+  await shot(page, 'differences')
+  await page.locator('.fault-told .label').last().click()
+  await page.getByRole('tab', { name: 'Model', selected: true }).or(page.locator('.tab.on', { hasText: 'Lamp.asm' })).first().waitFor()
+  const scenario = 'examples/coffee_machine/BuyCoffee.avalla'
+  const text = file(scenario)
+  writeFileSync(path(scenario), text.replace('missing 20', 'missing 30'))
+  await open(scenario)
+  await page.locator('.joined').getByRole('button', { name: 'Test', exact: true }).click()
+  await page.locator('.cm-lintRange-error').first().waitFor({ timeout: 20_000 })
+  writeFileSync(path(scenario), text)
+})
+
 test('what is written outside appears; what clashes is shown side by side', async () => {
   await lamp()
   writeFileSync(path('Lamp.chart'), LAMP.replace('"On"', '"Shining"'))

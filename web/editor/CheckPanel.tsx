@@ -4,17 +4,14 @@ import { type ReactNode, useEffect, useState } from 'react'
 
 import { words } from '../words'
 import { Icon } from './icons'
-import { type Job, type LinePlace, type ScenarioResult, type Verdict, scenarios, verdicts } from './jobs'
+import { type Job, type LinePlace, type ScenarioResult, type ToldFault, type Verdict, faultLines, scenarios, verdicts } from './jobs'
 import { useFrame } from './shown'
 import { useStore } from './store'
 import type { Studio } from './studio'
 
 export async function goTo(studio: Studio, place: LinePlace | undefined): Promise<void> {
   if (!place) return
-  const { files } = studio.store.get()
-  const path = place.file.replaceAll('\\', '/')
-  // The job names files as it was given them: the end of the path decides.
-  const file = files.find((file) => path === file.path || path.endsWith(`/${file.path}`)) ?? files.find((file) => file.path.endsWith(`/${path}`))
+  const file = studio.named(place.file)
   if (!file) return
   const start = { line: place.line - 1, character: place.column - 1 }
   const end = { line: (place.end_line ?? place.line) - 1, character: (place.end_column ?? place.column) - 1 }
@@ -108,7 +105,8 @@ function Outcome({ job, named = false }: { job: Job; named?: boolean }): ReactNo
 function Findings({ studio, job }: { studio: Studio; job: Job }): ReactNode {
   const found = verdicts(job)
   const played = scenarios(job)
-  const rest = job.lines.filter((line) => typeof line === 'string' || !['verdict', 'scenario', 'summary', 'progress'].includes(String(line['type'])))
+  const faults = faultLines(job)
+  const rest = job.lines.filter((line) => typeof line === 'string' || !['verdict', 'scenario', 'summary', 'progress', 'fault'].includes(String(line['type'])))
   return (
     <>
       {job.running && <p className="faint-note doing">{words.check.doing[job.job]}</p>}
@@ -123,6 +121,13 @@ function Findings({ studio, job }: { studio: Studio; job: Job }): ReactNode {
         <ul className="verdicts">
           {played.map((scenario) => (
             <ScenarioLine key={scenario.file} studio={studio} scenario={scenario} />
+          ))}
+        </ul>
+      )}
+      {faults.length > 0 && (
+        <ul className="verdicts">
+          {faults.map((fault, index) => (
+            <FaultLine key={index} studio={studio} fault={fault} />
           ))}
         </ul>
       )}
@@ -162,6 +167,28 @@ function VerdictLine({ studio, job, verdict }: { studio: Studio; job: Job; verdi
   )
 }
 
+// A fault with the other places that it speaks of.
+function FaultLine({ studio, fault }: { studio: Studio; fault: ToldFault }): ReactNode {
+  return (
+    <li className="verdict fault-told">
+      <span className={`outcome ${fault.severity === 'warning' ? 'unknown' : 'bad'}`}>
+        <Icon name="warning" size={13} />
+        {fault.severity}
+      </span>
+      <div>
+        <button className="link-button" onClick={() => void goTo(studio, fault)}>
+          {fault.message}
+        </button>
+        {(fault.labels ?? []).map((label, index) => (
+          <button key={index} className="link-button label" onClick={() => void goTo(studio, label)}>
+            {label.text}
+          </button>
+        ))}
+      </div>
+    </li>
+  )
+}
+
 function ScenarioLine({ studio, scenario }: { studio: Studio; scenario: ScenarioResult }): ReactNode {
   const good = scenario.result === 'passed' || scenario.result === 'failed-as-expected'
   const fault = scenario.faults[0]
@@ -171,7 +198,7 @@ function ScenarioLine({ studio, scenario }: { studio: Studio; scenario: Scenario
         <Icon name={good ? 'check' : 'cross'} size={13} />
         {scenario.result}
       </span>
-      <button className="link-button mono" onClick={() => void goTo(studio, fault?.at ?? { file: scenario.file, line: 1, column: 1 })}>
+      <button className="link-button mono" onClick={() => void goTo(studio, fault ?? { file: scenario.file, line: 1, column: 1 })}>
         {scenario.name}
       </button>
       <span className="faint">

@@ -5,6 +5,7 @@
 
 import type { File, JobKind } from '../diagram/protocol'
 import type { RunStep } from '../diagram/light'
+import type { Fault } from '../diagram/pick'
 import { Store } from './store'
 import type { Studio } from './studio'
 
@@ -111,9 +112,25 @@ export class Jobs {
   }
 
   private after(job: Job): void {
+    this.studio.find(this.findings(job))
     if (job.job === 'build' || job.job === 'generate') this.studio.redraw()
     this.waiting.get(job.id)?.(job)
     this.waiting.delete(job.id)
+  }
+
+  // The faults that a job told, by the files that they are in.
+  private findings(job: Job): Map<string, Fault[]> {
+    const out = new Map<string, Fault[]>()
+    for (const fault of faultsOf(job)) {
+      const file = this.studio.named(fault.file)
+      if (!file) continue
+      const start = { line: fault.line - 1, character: fault.column - 1 }
+      const end = { line: (fault.end_line ?? fault.line) - 1, character: (fault.end_column ?? fault.column) - 1 }
+      const severity = fault.severity === 'warning' ? 'warning' : 'error'
+      const message = fault.help ? `${fault.message}\nhelp: ${fault.help}` : fault.message
+      out.set(file.uri, [...(out.get(file.uri) ?? []), { uri: file.uri, range: { start, end }, severity, message, code: fault.id }])
+    }
+    return out
   }
 
   private waiting = new Map<number, (job: Job) => void>()
@@ -163,6 +180,15 @@ const told = (line: Record<string, unknown>): string =>
 export const verdicts = (job: Job): Verdict[] =>
   job.lines.filter((line) => typeof line === 'object' && line['type'] === 'verdict') as unknown as Verdict[]
 
+export interface ToldFault extends LinePlace {
+  id: string
+  severity: string
+  message: string
+  reason?: string
+  help?: string | null
+  labels?: (LinePlace & { text: string })[]
+}
+
 export interface ScenarioResult {
   name: string
   file: string
@@ -170,8 +196,15 @@ export interface ScenarioResult {
   steps: number
   checks: number
   failed_checks: number
-  faults: { message?: string; at?: LinePlace; id?: string }[]
+  faults: ToldFault[]
 }
+
+const isFault = (line: unknown): line is ToldFault =>
+  typeof line === 'object' && line !== null && (line as { type?: unknown }).type === 'fault' && typeof (line as ToldFault).file === 'string'
 
 export const scenarios = (job: Job): ScenarioResult[] =>
   job.lines.filter((line) => typeof line === 'object' && line['type'] === 'scenario') as unknown as ScenarioResult[]
+
+export const faultLines = (job: Job): ToldFault[] => (job.lines as unknown[]).filter(isFault)
+
+const faultsOf = (job: Job): ToldFault[] => [...faultLines(job), ...scenarios(job).flatMap((scenario) => scenario.faults.filter(isFault))]

@@ -147,6 +147,9 @@ export class Studio {
   private readonly docs = new Map<string, Doc>()
   private readonly charts = new Map<string, Chart>()
   private readonly opening = new Map<string, Promise<Doc | null>>()
+  // Faults by what told them: the language server, and the last job.
+  private readonly told = new Map<string, Fault[]>()
+  private found = new Map<string, Fault[]>()
   private notices = 0
   private readonly transport: Transport
 
@@ -236,6 +239,19 @@ export class Studio {
         code: String(item.code ?? ''),
       }),
     )
+    this.told.set(uri, faults)
+    this.merge(uri)
+  }
+
+  // What the last job found, until the text is another.
+  find(findings: ReadonlyMap<string, Fault[]>): void {
+    const before = [...this.found.keys()]
+    this.found = new Map(findings)
+    for (const uri of new Set([...before, ...findings.keys()])) this.merge(uri)
+  }
+
+  private merge(uri: string): void {
+    const faults = [...(this.told.get(uri) ?? []), ...(this.found.get(uri) ?? [])]
     const all = new Map(this.store.get().faults)
     if (faults.length > 0) all.set(uri, faults)
     else all.delete(uri)
@@ -256,6 +272,13 @@ export class Studio {
 
   fileAt(path: string): File | undefined {
     return this.store.get().files.find((file) => file.path === path)
+  }
+
+  // The file that a job speaks of: it names files as they were given to it, so the end of the path decides.
+  named(path: string): File | undefined {
+    const { files } = this.store.get()
+    const clean = path.replaceAll('\\', '/').replace(/^\.\//, '')
+    return files.find((file) => clean === file.path || clean.endsWith(`/${file.path}`)) ?? files.find((file) => file.path.endsWith(`/${clean}`))
   }
 
   // A file with the same name but another ending: the model of a chart.
@@ -299,6 +322,9 @@ export class Studio {
       const readOnly = !own || this.hello.readOnly
       const doc = new Doc(this, file, text, hash ?? null, readOnly)
       this.docs.set(uri, doc)
+      doc.onText.push(() => {
+        if (this.found.delete(uri)) this.merge(uri)
+      })
       if (file.kind === 'chart') this.charts.set(uri, new Chart(this, doc))
       const faults = this.store.get().faults.get(uri)
       if (faults) doc.diagnose(faults)
