@@ -15,7 +15,7 @@ export async function goTo(studio: Studio, place: LinePlace | undefined): Promis
   if (!file) return
   const start = { line: place.line - 1, character: place.column - 1 }
   const end = { line: (place.end_line ?? place.line) - 1, character: (place.end_column ?? place.column) - 1 }
-  await studio.open(file.uri, { range: { start, end } })
+  await studio.show({ uri: file.uri, range: { start, end } })
 }
 
 export function CheckPanel({ studio }: { studio: Studio }): ReactNode {
