@@ -75,6 +75,7 @@ beforeEach(async () => {
 })
 
 afterEach(async ({ task }) => {
+  if (task.result?.state === 'fail') console.log(await page.locator('.notice').allTextContents())
   if (task.result?.state === 'fail') await shot(page, `failed: ${task.name}`.replace(/\W+/g, '-'))
   await page.context().close()
   expect(trouble.told).toEqual([])

@@ -63,7 +63,7 @@ interface Published {
 
 // The server gave an answer up because the text changed.
 const CONTENT_MODIFIED = -32801
-const TRIES = 8
+const PATIENCE_MS = 6000
 
 const SEVERITIES: Severity[] = ['error', 'error', 'warning', 'info', 'hint']
 
@@ -181,14 +181,15 @@ export class Studio {
   // question waits for the same one, or it would come before them.
   // If the text changed before the answer was there, it asks again.
   async ask<Result>(method: string, params: unknown): Promise<Result> {
+    const until = performance.now() + PATIENCE_MS
     for (let tries = 0; ; tries++) {
       this.client.sync()
       await this.client.initializing
       try {
         return await this.server.request<Result>(method, params)
       } catch (error) {
-        if ((error as { code?: number }).code !== CONTENT_MODIFIED || tries >= TRIES) throw error
-        await new Promise((resolve) => setTimeout(resolve, 20 * tries))
+        if ((error as { code?: number }).code !== CONTENT_MODIFIED || performance.now() > until) throw error
+        await new Promise((resolve) => setTimeout(resolve, Math.min(20 * tries, 150)))
       }
     }
   }
