@@ -16,18 +16,38 @@ import { breakTerm } from './shown'
 import { useStore } from './store'
 import type { Studio } from './studio'
 
+const WIDTH = 236
+const HEIGHT = 480
+
 export function Inspector({ studio, chart }: { studio: Studio; chart: Chart }): ReactNode {
   const drawing = useStore(chart.store, () => chart.drawing)
   const selection = useStore(chart.store, (state) => state.selection)
   const [folded, setFolded] = useState(false)
   // A shape that is renamed keeps its fields, and what is being typed in them.
   const [renamed, setRenamed] = useState<{ from: string; to: string } | null>(null)
+  // It does not lie on the shape that it speaks of.
+  const [aside, setAside] = useState(false)
+  const id = selection.boxes.length === 1 ? selection.boxes[0] : undefined
+  useEffect(() => {
+    // A shape that was just made is on the page a little later.
+    const look = (): void => {
+      const node = id === undefined ? null : document.querySelector(`.react-flow__node[data-id="${CSS.escape(id)}"]`)
+      const pane = node?.closest('.picture-pane')
+      if (!node || !pane) return setAside(false)
+      const [shape, whole] = [node.getBoundingClientRect(), pane.getBoundingClientRect()]
+      const covered = shape.right > whole.right - WIDTH - 20 && shape.top < whole.top + HEIGHT
+      setAside(covered && shape.left > whole.left + WIDTH + 90)
+    }
+    look()
+    const timer = setTimeout(look, 60)
+    return () => clearTimeout(timer)
+  }, [id])
   if (!drawing || (selection.boxes.length === 0 && selection.lines.length === 0)) return null
   const boxes = drawing.picture.boxes.filter((box) => selection.boxes.includes(box.id))
   const [box] = boxes
   const title = boxes.length > 1 ? words.inspector.several(boxes.length) : box ? words.spoken.figure[box.figure] : words.inspector.arrow
   return (
-    <aside className={`inspector${folded ? ' folded' : ''}`} aria-label={words.inspector.label}>
+    <aside className={`inspector${folded ? ' folded' : ''}${aside ? ' aside' : ''}`} aria-label={words.inspector.label}>
       <header>
         <h2>{title}</h2>
         {!chart.doc.readOnly && (
