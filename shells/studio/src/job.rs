@@ -189,10 +189,10 @@ fn follow(jobs: &Jobs, number: u64, mut child: Child, out: &Sender<Out>) -> Opti
         if is_stopped || begun.elapsed() > Duration::from_secs(SECONDS) || out.is_closed() {
             match asked {
                 None => {
-                    signal(&mut child, "-INT");
+                    end(&mut child, End::Asked);
                     asked = Some(Instant::now());
                 }
-                Some(then) if then.elapsed() > GRACE => signal(&mut child, "-KILL"),
+                Some(then) if then.elapsed() > GRACE => end(&mut child, End::Killed),
                 Some(_) => {}
             }
         }
@@ -200,24 +200,37 @@ fn follow(jobs: &Jobs, number: u64, mut child: Child, out: &Sender<Out>) -> Opti
     };
     if asked.is_some() {
         // What it left behind would keep its output open.
-        signal(&mut child, "-KILL");
+        end(&mut child, End::Killed);
     }
     readers.into_iter().for_each(|reader| _ = reader.join());
     code
 }
 
-/// Signals a process and what it has started: `-INT` is what Ctrl-C does, so it may still say what it knows.
+/// How a process is to end.
+#[derive(Debug, Clone, Copy)]
+enum End {
+    /// As by Ctrl-C: it may still say what it knows.
+    Asked,
+    /// At once.
+    Killed,
+}
+
+/// Ends a process and what it has started.
 #[cfg(unix)]
-fn signal(child: &mut Child, signal: &str) {
-    let group = format!("-{}", child.id());
-    let sent = Command::new("kill").args([signal, "--", &group]).stderr(Stdio::null()).status();
-    if !sent.is_ok_and(|status| status.success()) {
-        _ = child.kill();
+fn end(child: &mut Child, how: End) {
+    use rustix::process::{Pid, Signal, kill_process_group};
+    let signal = match how {
+        End::Asked => Signal::INT,
+        End::Killed => Signal::KILL,
+    };
+    if let Some(group) = Pid::from_raw(child.id() as i32) {
+        // It may have ended already.
+        _ = kill_process_group(group, signal);
     }
 }
 
 #[cfg(not(unix))]
-fn signal(child: &mut Child, _signal: &str) {
+fn end(child: &mut Child, _how: End) {
     _ = child.kill();
 }
 

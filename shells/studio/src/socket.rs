@@ -10,11 +10,12 @@ use axum::extract::ws::{Message as Frame, WebSocket, WebSocketUpgrade};
 use axum::response::Response;
 use lsp_server::{Connection, Message, Notification};
 use serde_json::{Value, json};
+use tokio::sync::Notify;
 use tokio::sync::mpsc::{Receiver, Sender, channel};
 
 use crate::folder::BYTES;
 use crate::request;
-use crate::studio::Studio;
+use crate::studio::{Studio, Tab};
 use crate::tell::{Out, WAITING};
 
 /// LIMIT: tabs at a time.
@@ -29,14 +30,18 @@ pub async fn connect(State(studio): State<Arc<Studio>>, upgrade: WebSocketUpgrad
 
 async fn serve(studio: Arc<Studio>, mut socket: WebSocket) {
     let (out, outgoing) = channel(WAITING);
-    let Some(tab) = studio.enter(out.clone(), TABS) else {
+    let gone = Arc::new(Notify::new());
+    let Some(tab) = studio.enter(Tab { out: out.clone(), gone: Arc::clone(&gone) }, TABS) else {
         let sorry = json!({ "jsonrpc": "2.0", "method": "studio/refused",
                             "params": { "reason": format!("{TABS} tabs are open: close one first") } });
         _ = socket.send(Frame::Text(sorry.to_string().into())).await;
         return;
     };
     let server = language_server(&studio, out.clone());
-    talk(&studio, tab, &mut socket, out, outgoing, &server).await;
+    tokio::select! {
+        () = talk(&studio, tab, &mut socket, out, outgoing, &server) => {}
+        () = gone.notified() => {}
+    }
     studio.leave(tab);
     // The server ends with its connection.
     drop(server);
@@ -47,9 +52,8 @@ fn language_server(studio: &Arc<Studio>, out: Sender<Out>) -> lsp_server::Connec
     let (own, its) = Connection::memory();
     let root = studio.folder.root().to_path_buf();
     std::thread::spawn(move || {
-        if let Err(reason) = lsp::serve_within(&its, &root) {
-            eprintln!("groundstate: {reason}");
-        }
+        // A tab that is closed before it has begun is no trouble.
+        _ = lsp::serve_within(&its, &root);
     });
     let answers = own.receiver.clone();
     std::thread::spawn(move || {

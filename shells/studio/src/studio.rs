@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use serde_json::Value;
+use tokio::sync::Notify;
 use tokio::sync::mpsc::Sender;
 use tokio::sync::mpsc::error::TrySendError;
 
@@ -13,6 +14,15 @@ use crate::folder::Folder;
 use crate::job::Jobs;
 use crate::store::Store;
 use crate::tell::{Out, notification};
+
+/// A tab that listens.
+#[derive(Debug, Clone)]
+pub struct Tab {
+    /// Where its messages go.
+    pub out: Sender<Out>,
+    /// Told when it is let go.
+    pub gone: Arc<Notify>,
+}
 
 /// See the module.
 #[derive(Debug)]
@@ -30,7 +40,7 @@ pub struct Studio {
     /// Processes that run.
     pub jobs: Arc<Jobs>,
     store: Mutex<Store>,
-    tabs: Mutex<BTreeMap<u64, Sender<Out>>>,
+    tabs: Mutex<BTreeMap<u64, Tab>>,
     last: AtomicU64,
 }
 
@@ -62,19 +72,19 @@ impl Studio {
         self.store.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn tabs(&self) -> MutexGuard<'_, BTreeMap<u64, Sender<Out>>> {
+    fn tabs(&self) -> MutexGuard<'_, BTreeMap<u64, Tab>> {
         self.tabs.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// A new tab, if fewer than so many are open.
-    pub fn enter(&self, out: Sender<Out>, limit: usize) -> Option<u64> {
+    pub fn enter(&self, tab: Tab, limit: usize) -> Option<u64> {
         let mut tabs = self.tabs();
         if tabs.len() >= limit {
             return None;
         }
-        let tab = self.last.fetch_add(1, Ordering::Relaxed);
-        tabs.insert(tab, out);
-        Some(tab)
+        let number = self.last.fetch_add(1, Ordering::Relaxed);
+        tabs.insert(number, tab);
+        Some(number)
     }
 
     /// A tab is gone.
@@ -94,10 +104,13 @@ impl Studio {
     }
 
     fn send(&self, news: &Out, but: Option<u64>) {
-        let goes_on = |out: &Sender<Out>| match out.try_send(news.clone()) {
+        let goes_on = |tab: &Tab| match tab.out.try_send(news.clone()) {
             Ok(()) => true,
-            Err(TrySendError::Closed(_) | TrySendError::Full(_)) => false,
+            Err(TrySendError::Closed(_) | TrySendError::Full(_)) => {
+                tab.gone.notify_one();
+                false
+            }
         };
-        self.tabs().retain(|tab, out| Some(*tab) == but || goes_on(out));
+        self.tabs().retain(|number, tab| Some(*number) == but || goes_on(tab));
     }
 }
