@@ -10,8 +10,8 @@ use std::sync::Arc;
 
 use machine::{Choice, Environment, Limits, Location, LocationRef, Machine, Show, TimeUnit, Value};
 use model::Basic;
-use program::{DomainId, DomainKind, FunctionId, ProcedureId, Program};
-use recording::{Decision, Recording};
+use program::{DomainId, DomainKind, FunctionId, FunctionKind, ProcedureId, Program};
+use recording::{Decision, Event, Kind, Recording};
 
 use crate::evidence::Parted;
 use crate::steps::Steps;
@@ -31,9 +31,17 @@ pub(crate) struct Functions {
 #[derive(Debug)]
 struct Task {
     name: String,
+    /// The elaboration.
+    phase: String,
     end: ProcedureId,
+    /// The channels from which its machine gets something, and those for which it decides.
+    parts: [Vec<String>; 2],
+    /// What the first decision was made of: what was got, then what was decided.
+    shape: Option<Vec<(bool, Arc<str>)>>,
     /// The next decision.
     cursor: usize,
+    /// How many agree.
+    agreed: usize,
 }
 
 impl Functions {
@@ -48,15 +56,29 @@ impl Functions {
         if !steps.ends().is_empty() {
             let vocabulary = Vocabulary::new(program, &machine)?;
             for (index, component) in vocabulary.components.iter().enumerate() {
-                let end =
-                    |(phase, end): &(String, ProcedureId)| vocabulary.phase_named(&machine, index, phase).map(|_| *end);
+                let end = |(phase, end): &(String, ProcedureId)| {
+                    vocabulary.phase_named(&machine, index, phase).map(|_| (phase.clone(), *end))
+                };
                 for phase in &component.phases {
                     let channel = vocabulary.channel(&machine, phase);
                     channels.insert(channel.show(program).to_string(), channel);
                 }
-                if let Some(end) = steps.ends().iter().find_map(end) {
-                    tasks.push(Task { name: component.name.clone(), end, cursor: 0 });
+                if let Some((phase, end)) = steps.ends().iter().find_map(end) {
+                    let (name, parts) = (component.name.clone(), [Vec::new(), Vec::new()]);
+                    tasks.push(Task { name, phase, end, parts, shape: None, cursor: 0, agreed: 0 });
                 }
+            }
+            // What a component writes without a machine is an input of the model: the program says nothing of it.
+            let of = |task: &Task, kind: FunctionKind| -> Vec<String> {
+                let is_kind = |channel: &&String| {
+                    let own = program.find_function(&format!("{}_{channel}", task.name), 0);
+                    own.is_some_and(|own| program.function(own).kind == kind)
+                };
+                channels.keys().filter(is_kind).cloned().collect()
+            };
+            tasks.retain(|task| of(task, FunctionKind::Monitored).is_empty());
+            for task in &mut tasks {
+                task.parts = [of(task, FunctionKind::Derived), of(task, FunctionKind::Controlled)];
             }
         }
         Ok(Functions { machine, tasks, channels, agreed: 0 })
@@ -75,14 +97,55 @@ impl Functions {
             };
             while let Some(group) = next(&track.decisions[self.tasks[index].cursor..], more) {
                 let decisions = &track.decisions[self.tasks[index].cursor..][..group];
-                if let Some(reason) = self.decide(index, decisions) {
+                let reason = self.unlike(index, decisions).or_else(|| self.decide(index, decisions));
+                if let Some(reason) = reason {
                     return Some(self.parted(index, recording, decisions, reason));
                 }
                 self.tasks[index].cursor += group;
+                self.tasks[index].agreed += 1;
                 self.agreed += 1;
+            }
+            // Each elaboration that has ended has decided, and is recorded.
+            let task = &self.tasks[index];
+            let is_end = |event: &&Event| event.kind == Kind::Ends && *event.object == *task.phase;
+            let ended = track.events.iter().filter(is_end).count();
+            if !more && ended > task.agreed {
+                let times = |count| if count == 1 { "once".to_string() } else { format!("{count} times") };
+                let reason = format!(
+                    "ended {} {}, but what it decided is recorded {}",
+                    task.phase,
+                    times(ended),
+                    if task.agreed == 0 { "never".to_string() } else { times(task.agreed) },
+                );
+                return Some(self.parted(index, recording, &[], reason));
             }
         }
         None
+    }
+
+    /// What of a decision is missing or too much, if it is not made of what decisions of this task are made of.
+    fn unlike(&mut self, index: usize, decisions: &[Decision]) -> Option<String> {
+        let task = &mut self.tasks[index];
+        let shape: Vec<(bool, Arc<str>)> =
+            decisions.iter().map(|decision| (decision.is_got, Arc::clone(&decision.object))).collect();
+        for (is_got, parts) in [(true, &task.parts[0]), (false, &task.parts[1])] {
+            let has = |part: &&String| shape.iter().any(|(got, object)| *got == is_got && **object == ***part);
+            if let Some(part) = parts.iter().find(|part| !has(part)) {
+                return Some(match is_got {
+                    true => format!("decided, and it is not recorded what it got from {part}"),
+                    false => format!("decided, and it is not recorded what for {part}"),
+                });
+            }
+        }
+        let first = task.shape.get_or_insert_with(|| shape.clone());
+        if *first == shape {
+            return None;
+        }
+        let other =
+            first.iter().find(|part| !shape.contains(part)).or_else(|| shape.iter().find(|part| !first.contains(part)));
+        let (is_got, object) = other.or_else(|| shape.first())?;
+        let verb = if *is_got { "got" } else { "decided" };
+        Some(format!("{verb} other things than in its first decision: see {object}"))
     }
 
     fn parted(&self, index: usize, recording: &Recording, decisions: &[Decision], reason: String) -> Parted {
@@ -106,7 +169,7 @@ impl Functions {
         let prefix = format!("{}_", self.tasks[index].name);
         let own = |location: &Location| {
             let function = &program.function(location.function);
-            function.name.starts_with(&prefix) && function.kind == program::FunctionKind::Controlled
+            function.name.starts_with(&prefix) && function.kind == FunctionKind::Controlled
         };
         let all = self.machine.locations().into_iter().filter(|(location, _)| own(location));
         all.map(|(location, value)| (location.show(program).to_string(), value.show(program).to_string())).collect()

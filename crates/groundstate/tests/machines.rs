@@ -187,5 +187,22 @@ fn data_go_through_channels_and_decisions_are_held_to_their_machines() {
         let Verdict::Parts(parted) = conformed(&loaded, silent, by_order).verdict else { panic!("it is found") };
         let reason = parted.reason.unwrap_or_default();
         assert!(reason.starts_with("decided levels = undef, its machine "), "{reason}");
+        // What is missing is noticed: all decisions of a task, the last one, what it got, what it decided.
+        let found = |change: &dyn Fn(&mut Vec<Decision>)| {
+            let mut less = good.clone();
+            change(&mut less.tracks[1].decisions);
+            let Verdict::Parts(parted) = conformed(&loaded, less, by_order).verdict else { panic!("it is found") };
+            assert_eq!(parted.task, "control");
+            parted.reason.unwrap_or_default()
+        };
+        let reason = found(&|decisions| decisions.clear());
+        assert!(reason.ends_with("but what it decided is recorded never"), "{reason}");
+        let reason = found(&|decisions| decisions.truncate(decisions.len() - 2));
+        assert!(reason.contains("but what it decided is recorded"), "{reason}");
+        let reason = found(&|decisions| _ = decisions.remove(2));
+        assert_eq!(reason, "decided, and it is not recorded what it got from levels");
+        let reason = found(&|decisions| decisions.retain(|one| one.is_got));
+        assert!(reason.ends_with("but what it decided is recorded never"), "{reason}");
+        found(&|decisions| decisions.swap(2, 3));
     }
 }
