@@ -33,8 +33,8 @@ pub struct Mutant<'a> {
     /// If it survived: in how many reachable states more or fewer it differs, if that is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     states: Option<u64>,
-    /// Of what is equivalent, the proof: `never-runs` or `same-steps`. Of what survived: `states`, `steps`, `nowhere` or
-    /// `unmeasured`. Otherwise a clause.
+    /// Of what is equivalent, the proof: `never-runs` or `same-steps`. Of what survived: `states`, `steps`, `nowhere`,
+    /// `within-bounds` or `unmeasured`. Otherwise a clause.
     #[serde(skip_serializing_if = "Option::is_none")]
     why: Option<&'a str>,
 }
@@ -79,6 +79,7 @@ impl<'a> Mutant<'a> {
                     }
                     Unseen::Steps => "steps",
                     Unseen::Nowhere => "nowhere",
+                    Unseen::WithinBounds => "within-bounds",
                     Unseen::Unmeasured => "unmeasured",
                 });
             }

@@ -210,6 +210,7 @@ fn compared(
     interrupt: &Interrupt,
 ) -> Outcome {
     let runs = !variants.is_empty();
+    let is_bounded = candidate.models.iter().any(|index| !bench.judges[*index].asked.bounds.is_empty());
     let (mut more, mut steps, mut unmeasured) = (0, false, false);
     for (judge, mutated, states) in variants {
         match (judge.states, states) {
@@ -232,6 +233,8 @@ fn compared(
     }
     match (more, steps, unmeasured) {
         (0, false, false) if !bench.wanted.whole => Outcome::Survived(Unseen::Nowhere),
+        // Other values of the inputs may get to where it shows.
+        (0, false, false) if is_bounded => Outcome::Survived(Unseen::WithinBounds),
         (0, false, false) if runs => Outcome::Equivalent(Proof::SameSteps),
         (0, false, false) => Outcome::Equivalent(Proof::NeverRuns),
         (0, true, _) => Outcome::Survived(Unseen::Steps),

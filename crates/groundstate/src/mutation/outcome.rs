@@ -56,6 +56,8 @@ pub enum Unseen {
     Steps,
     /// In no reachable state of any of the models, which are not all that the text is for.
     Nowhere,
+    /// In no reachable state within the bounds of inputs, which leave values out.
+    WithinBounds,
     /// The models' states were not all visited.
     Unmeasured,
 }
@@ -151,7 +153,7 @@ pub fn surprising<'o>(judged: &'o [(Candidate, Outcome)]) -> Vec<(&'o Candidate,
         Unseen::States(more) => (0, u64::MAX - more),
         Unseen::Steps => (1, 0),
         Unseen::Unmeasured => (2, 0),
-        Unseen::Nowhere => (3, 0),
+        Unseen::Nowhere | Unseen::WithinBounds => (3, 0),
     };
     survivors.sort_by(|(one, one_seen), (other, other_seen)| {
         let key = |candidate: &Candidate, unseen| {

@@ -77,6 +77,7 @@ fn mutants(shell: &mut Shell, judged: &[(Candidate, Outcome)], all: bool) -> Res
             Unseen::States(more) => format!("{more} reachable states more or fewer"),
             Unseen::Steps => "as many states, other steps".to_string(),
             Unseen::Nowhere => "no reachable state differs".to_string(),
+            Unseen::WithinBounds => "no reachable state differs within the bounds of inputs".to_string(),
             Unseen::Unmeasured => "not compared in every state".to_string(),
         };
         one(shell, "survived", candidate, &told)?;
