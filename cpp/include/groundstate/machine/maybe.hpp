@@ -5,9 +5,11 @@
 #pragma once
 
 #include <compare>
+#include <cstdint>
 #include <type_traits>
 
 #include "fault.hpp"
+#include "numbers.hpp"
 
 // A lambda that is called at once is part of the code around it.
 #define GROUNDSTATE_CALLED __attribute__((always_inline))
@@ -100,6 +102,10 @@ constexpr Maybe<bool> implication(Maybe<bool> left, Right right) {
 
 constexpr Maybe<bool> negation(Maybe<bool> operand) {
     return operand.defined ? Maybe<bool>{!operand.value} : operand;
+}
+
+constexpr Maybe<double> to_real(const Maybe<std::int64_t>& a) {
+    return a.defined ? Maybe<double>{to_real(a.value)} : Maybe<double>{};
 }
 
 }  // namespace groundstate::machine

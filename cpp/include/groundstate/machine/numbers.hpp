@@ -9,7 +9,6 @@
 #include <limits>
 
 #include "fault.hpp"
-#include "maybe.hpp"
 
 namespace groundstate::machine {
 
@@ -85,9 +84,6 @@ constexpr std::int64_t natural(std::int64_t a, Site site) {
 }
 
 constexpr double to_real(std::int64_t a) { return static_cast<double>(a); }
-constexpr Maybe<double> to_real(const Maybe<std::int64_t>& a) {
-    return a.defined ? Maybe<double>{to_real(a.value)} : Maybe<double>{};
-}
 
 /// A result as a Real.
 inline double real(double a, Site site) {
