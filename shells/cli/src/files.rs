@@ -11,6 +11,7 @@ use syntax::{NotText, SourceFile};
 use crate::failure::Failure;
 use crate::overwrite;
 use crate::sink::Sink;
+use crate::within;
 
 /// Reads a text file of at most `limit` bytes.
 pub fn read_text(path: &Path, limit: u64) -> Result<String, Failure> {
@@ -54,6 +55,7 @@ fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, Failure> {
 }
 
 fn bytes_of(path: &Path, limit: u64) -> Result<Vec<u8>, Failure> {
+    within::may_read(path)?;
     let wrap = |error| Failure::of_file("read", path, error);
     let file = File::open(path).map_err(wrap)?;
     if file.metadata().map_err(wrap)?.is_dir() {
@@ -80,6 +82,7 @@ pub struct Bounded {
 impl Bounded {
     /// Opens a file of at most `limit` bytes.
     pub fn open(path: &Path, limit: u64) -> Result<Self, Failure> {
+        within::may_read(path)?;
         let wrap = |error| Failure::of_file("read", path, error);
         let file = File::open(path).map_err(wrap)?;
         if file.metadata().map_err(wrap)?.is_dir() {
@@ -160,6 +163,7 @@ impl Unfinished {
 
     /// Begins a file that may replace one that the command has read.
     pub fn replace(path: &Path) -> Result<Self, Failure> {
+        within::may_write(path)?;
         let wrap = |error| Failure::of_file("write", path, error);
         let special = path.starts_with("/dev") || path.starts_with("/proc");
         let path = match std::fs::metadata(path) {

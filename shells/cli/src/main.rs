@@ -49,6 +49,7 @@ mod studio;
 mod test;
 mod tracefile;
 mod verify;
+mod within;
 
 use std::process::ExitCode;
 
@@ -147,7 +148,12 @@ fn main() -> ExitCode {
 }
 
 fn work(arguments: Arguments) -> Exit {
+    let folder = arguments.global.within.clone();
     let mut shell = Shell::new(arguments.global);
+    if let Some(failure) = folder.and_then(|folder| within::keep(&folder).err()) {
+        shell.report_failure(&failure);
+        return Exit::World;
+    }
     let outcome = match arguments.command {
         Command::Check(arguments) => check::run(&mut shell, &arguments),
         Command::Run(arguments) => run::run(&mut shell, &arguments),

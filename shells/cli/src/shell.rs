@@ -3,6 +3,7 @@
 //! Text: results on stdout, faults and failures on stderr. JSON: everything on stdout, one object per line, in order.
 
 use std::io::{self, BufWriter, IsTerminal, Write};
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -27,6 +28,9 @@ pub struct Global {
     /// Write faults only
     #[arg(long, short, global = true)]
     pub quiet: bool,
+    /// Read and write no file outside this folder
+    #[arg(long, global = true, value_name = "FOLDER", help_heading = "Limits")]
+    pub within: Option<PathBuf>,
     #[command(flatten)]
     pub limits: Limits,
 }

@@ -161,7 +161,8 @@ pub fn words(job: &str, path: &str, options: &Value) -> Result<Vec<String>, Stri
         "generate" => words.extend(["-o".to_string(), format!("./{stem}.generated")]),
         _ => {}
     }
-    words.extend(["--format".to_string(), "json".to_string()]);
+    // What a model imports may lie anywhere; the studio shows one folder.
+    words.extend(["--within", ".", "--format", "json"].map(str::to_string));
     Ok(words)
 }
 
@@ -270,13 +271,16 @@ mod tests {
     #[test]
     fn a_browser_names_no_options() {
         let check = |job: &str, path: &str, options: Value| words(job, path, &options).map(|words| words.join(" "));
-        assert_eq!(check("verify", "a/-b.chart", json!({})), Ok("verify ./a/-b.chart --format json".into()));
+        assert_eq!(check("verify", "a/-b.chart", json!({})), Ok("verify ./a/-b.chart --within . --format json".into()));
         assert_eq!(
             check("verify", "a.asm", json!({ "time": 5, "first": true, "counterexample": "/etc/x" })),
-            Ok("verify ./a.asm --time 5 --first --format json".into())
+            Ok("verify ./a.asm --time 5 --first --within . --format json".into())
         );
-        assert_eq!(check("build", "--help.chart", json!({})), Ok("chart build ./--help.chart --format json".into()));
-        assert_eq!(check("test", "", json!({})), Ok("test ./ --format json".into()));
+        assert_eq!(
+            check("build", "--help.chart", json!({})),
+            Ok("chart build ./--help.chart --within . --format json".into())
+        );
+        assert_eq!(check("test", "", json!({})), Ok("test ./ --within . --format json".into()));
         assert_eq!(check("build", "a.asm", json!({})), Err("there is nothing to build in a.asm".into()));
         assert_eq!(check("rm -rf", "a.asm", json!({})), Err("`rm -rf` is no job".into()));
     }

@@ -183,7 +183,7 @@ fn jobs_run_are_stopped_and_are_bounded() {
     assert_eq!(one.hear("studio/done", |params| params["job"] == quick)["code"], 3);
     // One that does not listen is ended all the same.
     let slow = job(&mut one, "verify").expect("started");
-    one.hear("studio/line", |params| params["line"] == "verify ./a.asm --format json");
+    one.hear("studio/line", |params| params["line"] == "verify ./a.asm --within . --format json");
     assert!(other.ask("studio/stop", json!({ "job": slow })).is_err(), "it is another tab's");
     one.ask("studio/stop", json!({ "job": slow })).expect("stopped");
     assert!(one.hear("studio/done", |params| params["job"] == slow)["code"].is_null());

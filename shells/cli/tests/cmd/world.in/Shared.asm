@@ -1,0 +1,10 @@
+module Shared
+
+import StandardLibrary
+
+export *
+
+signature:
+	controlled opened: Boolean
+
+definitions:
