@@ -1,6 +1,6 @@
 // The pictures of the README and of docs/studio.md: `npm run pictures` writes them anew.
 
-import { cpSync, writeFileSync } from 'node:fs'
+import { cpSync, rmSync, writeFileSync } from 'node:fs'
 import { join, resolve } from 'node:path'
 
 import type { Browser, Page } from 'playwright-core'
@@ -94,8 +94,10 @@ test('drawing', async () => {
 })
 
 test('checking', async () => {
+  // Without the fairness that it says, a process may wait for ever.
+  rmSync(join(studio.folder, 'examples/mutual_exclusion/Peterson.verify.yaml'))
   const page = await newPage(browser, at('examples/mutual_exclusion/Peterson.asm'), trouble, { dark: true })
-  await page.getByRole('button', { name: 'Verify' }).click()
+  await page.getByRole('button', { name: 'Verify', exact: true }).click()
   await page.locator('.verdict', { hasText: 'violated' }).waitFor({ timeout: 60_000 })
   await page.getByRole('button', { name: /Play its/ }).first().click()
   for (let step = 0; step < 3; step++) await page.getByRole('button', { name: 'One step on' }).click()

@@ -240,9 +240,24 @@ test('a run pauses at a breakpoint', async () => {
   await shape(page, 'on').locator('.box.lit').waitFor()
 })
 
+// It moves on for ever, and its domain ends.
+const AXIS = `asm Axis
+import StandardLibrary
+signature:
+	domain Millimetre subsetof Integer
+	monitored stop: Boolean
+	controlled position: Millimetre
+definitions:
+	domain Millimetre = {0 : 2}
+	main rule r_Main = if not stop then position := position + 1 endif
+default init s0:
+	function position = 0
+`
+
 test('a model is verified, and its counterexample plays', async () => {
-  await open('examples/mutual_exclusion/Peterson.asm')
-  await page.getByRole('button', { name: 'Verify' }).click()
+  writeFileSync(join(studio.folder, 'Axis.asm'), AXIS)
+  await open('Axis.asm')
+  await page.getByRole('button', { name: 'Verify', exact: true }).click()
   await page.locator('.verdict', { hasText: 'violated' }).waitFor({ timeout: 40_000 })
   await page.getByRole('button', { name: /Play its/ }).first().click()
   await page.getByRole('button', { name: 'One step on' }).click()
