@@ -20,6 +20,7 @@ use crate::failure::Failure;
 use crate::load::load;
 use crate::run::{Show, Teller, options};
 use crate::shell::Shell;
+use crate::within;
 
 /// Arguments of `replay`.
 #[derive(Debug, Args)]
@@ -135,6 +136,7 @@ struct Lines {
 
 impl Lines {
     fn open(path: &Path, limit: u64) -> Result<Lines, Failure> {
+        within::may_read(path)?;
         let wrap = |error| Failure::of_file("read", path, error);
         let file = File::open(path).map_err(wrap)?;
         if file.metadata().map_err(wrap)?.is_dir() {

@@ -1,7 +1,7 @@
 //! Keeps a command in one folder: nothing outside is read or written, whatever a model imports and wherever links lead.
 //!
-//! In: the folder of `--within`; the files about to be read or written. Out: a refusal. INVARIANT: all files of users go through `files`,
-//! which asks here first; the built-in libraries are no files.
+//! In: the folder of `--within`; the files about to be read or written. Out: a refusal. INVARIANT: who opens a file of users asks here
+//! first: `files`, and what reads along or keeps states on the disk; the built-in libraries are no files.
 
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;

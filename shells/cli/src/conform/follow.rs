@@ -18,6 +18,7 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::load::load;
 use crate::shell::Shell;
+use crate::within;
 
 /// How often the file is looked at.
 const PAUSE: Duration = Duration::from_millis(50);
@@ -84,7 +85,7 @@ impl Tail {
         let wrong = |error| Failure::of_file("read", path, error);
         let file = match &mut self.file {
             Some(file) => file,
-            none => match File::open(path) {
+            none => match within::may_read(path).map(|()| File::open(path))? {
                 Ok(file) => none.insert(file),
                 Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
                 Err(error) => return Err(wrong(error)),

@@ -11,6 +11,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use groundstate::verify::{Disk, Tape};
 
 use crate::failure::Failure;
+use crate::within;
 
 /// A folder for such files.
 #[derive(Debug)]
@@ -43,6 +44,7 @@ impl Folder {
                 "name one with as much room as the states need",
             ));
         }
+        within::may_write(&path.join("states"))?;
         // An unwritable folder is better reported before the search than after it.
         tempfile::tempfile_in(path).map_err(|error| Failure::of_file("write", path, error))?;
         Ok(Arc::new(Folder { path: path.to_path_buf(), failure: Arc::default() }))
