@@ -53,8 +53,8 @@ pub use test::{SeededChoices, Suite, Tested, own_files};
 pub use verified_system::{GroundRun, VerifiedSystem, not_kept, verified_system};
 pub use workspace::Workspace;
 pub use {
-    chart, conform, generate, inputs, machine, model, mutate, program, refine, scenario, simulate, solve, syntax,
-    verify,
+    chart, conform, generate, inputs, machine, model, mutate, program, refine, report, scenario, simulate, solve,
+    syntax, verify,
 };
 
 /// A model that is ready to run. It never changes: use an [`Overlay`] to add terms and properties.

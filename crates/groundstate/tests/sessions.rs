@@ -4,10 +4,13 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use groundstate::reporting::{Watched, specification_beside};
 use groundstate::scenario::{FirstCandidate, Judgement, Options};
 use groundstate::session::{Break, Breaks, Heard, Hit, On, Scene, Session, SessionOptions, Waits};
-use groundstate::{Suite, load};
+use groundstate::workspace::{Absent, Files};
+use groundstate::{Overlay, Suite, load};
 use machine::{Limits, Show};
+use model::Loader;
 use syntax::SourceFile;
 use testkit::{Disk, NoFiles, Texts};
 
@@ -32,7 +35,14 @@ default init s0:
 ";
 
 fn options(seed: Option<u64>) -> SessionOptions {
-    SessionOptions { seed, history: 100, passes_violations: false, given: Vec::new(), limits: Limits::default() }
+    SessionOptions {
+        seed,
+        history: 100,
+        passes_violations: false,
+        given: Vec::new(),
+        limits: Limits::default(),
+        watched: None,
+    }
 }
 
 fn meter(seed: Option<u64>) -> Session {
@@ -213,4 +223,61 @@ fn breaks_stop_forth_and_back() {
     session.rewind().expect("it can");
     wait(&mut session);
     assert_eq!(session.moment().expect("a moment").step, 0);
+}
+
+/// A folder without files.
+struct Bare;
+
+impl Files for Bare {
+    fn read(&mut self, _: &str) -> Result<SourceFile, Absent> {
+        Err(Absent::Missing)
+    }
+}
+
+impl Loader for Bare {
+    fn load(&mut self, _: &SourceFile, _: &str) -> Result<SourceFile, String> {
+        Err("there is no such file".to_string())
+    }
+}
+
+/// What a session's timeline shows, as it is drawn.
+fn lanes(session: &Session) -> String {
+    report::render_timeline(&session.timeline().expect("an initial state")).run
+}
+
+/// A session on the meter whose timeline shows what the model says.
+fn watched(seed: Option<u64>) -> Session {
+    let loaded = load(SourceFile::new("Meter.asm", METER), &mut NoFiles).expect("it has no errors");
+    let mut asked = loaded.overlay();
+    let says = specification_beside("Meter.asm", &loaded.program, &mut Bare).expect("nothing is beside it");
+    assert!(says.text.contains("\"sum\": { value: \"sum\" }"), "{}", says.text);
+    let watched = Watched::new(&mut asked, says).expect("its own specification has no faults");
+    let Overlay { sources, model, program } = asked;
+    let scene = Scene { sources, model, program, ..Scene::from(&loaded) };
+    let options = SessionOptions { watched: Some(Arc::new(watched)), ..options(seed) };
+    let mut session = Session::open(Arc::new(scene), options).expect("it starts");
+    wait(&mut session);
+    session
+}
+
+#[test]
+fn a_timeline_is_that_of_the_run_whatever_was_taken_back() {
+    let mut straight = watched(Some(3));
+    straight.step(30).expect("it can");
+    wait(&mut straight);
+    let mut winding = watched(Some(3));
+    assert_eq!(winding.timeline().map(|report| report.ticks), Some(0));
+    for (forth, back) in [(10, 4), (7, 12), (1, 2), (29, 0), (1, 0)] {
+        winding.step(forth).expect("it can");
+        wait(&mut winding);
+        for _ in 0..back {
+            winding.back().expect("it can");
+            wait(&mut winding);
+        }
+    }
+    assert_eq!((straight.moment().unwrap().step, winding.moment().unwrap().step), (30, 30));
+    assert_eq!(lanes(&straight), lanes(&winding));
+    straight.back().expect("it can");
+    wait(&mut straight);
+    assert_ne!(lanes(&straight), lanes(&winding), "a step was taken back");
 }

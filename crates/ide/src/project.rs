@@ -8,6 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
 
+use groundstate::program::Program;
+use groundstate::reporting::specification_beside;
 use groundstate::session::Scene;
 use groundstate::workspace::{Absent, Files, Findings, NotLoaded, Outdated, Reads, STOPPED, imported, tidy};
 use groundstate::{Kind, Loaded, Suite, Workspace, model_of, patterns};
@@ -182,6 +184,15 @@ impl<F: Files> Project<F> {
         let staged = Suite::new().stage(source, &mut self.workspace.texts());
         self.not_stopped().map_err(|absent| absent.told(path))?;
         staged.map_err(|_| format!("{path} or its model has errors: mend them first"))
+    }
+
+    /// What a run of the model at a path is to show: the report specification beside it, or what its chart or the model says.
+    ///
+    /// # Errors
+    /// It is there and cannot be read; a sentence.
+    pub fn specification(&mut self, model: &str, program: &Arc<Program>) -> Result<SourceFile, String> {
+        let beside = specification_beside(model, program, &mut self.workspace.texts());
+        beside.map_err(|(path, absent)| absent.told(&path))
     }
 
     /// The chart at a path with the patterns that it imports, as whole as its text allows.

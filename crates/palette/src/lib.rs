@@ -98,13 +98,22 @@ pub fn colour(name: &str) -> Option<&'static Colour> {
 
 /// A style sheet with the colours of a paper in the place of their names. A name that is none stays, with its `$`.
 pub fn painted(sheet: &str, paper: Paper) -> String {
+    replaced(sheet, |colour| colour.on(paper).to_owned())
+}
+
+/// A style sheet with variables in the place of names: `$ink` becomes `var(--ink)`, for pages that define them.
+pub fn named(sheet: &str) -> String {
+    replaced(sheet, |colour| format!("var(--{})", colour.name))
+}
+
+fn replaced(sheet: &str, by: impl Fn(&Colour) -> String) -> String {
     let mut out = String::with_capacity(sheet.len());
     let mut parts = sheet.split('$');
     out.push_str(parts.next().unwrap_or_default());
     for part in parts {
         let end = part.find(|c: char| !c.is_ascii_lowercase() && c != '-').unwrap_or(part.len());
         match colour(&part[..end]) {
-            Some(colour) => out.push_str(colour.on(paper)),
+            Some(colour) => out.push_str(&by(colour)),
             None => {
                 out.push('$');
                 out.push_str(&part[..end]);
@@ -130,6 +139,7 @@ mod tests {
         let sheet = "a{fill:$ink;stroke:$on-work}b{c:$nothing}";
         assert_eq!(painted(sheet, Paper::Light), "a{fill:#22282e;stroke:#26405c}b{c:$nothing}");
         assert_eq!(painted("no names", Paper::Dark), "no names");
+        assert_eq!(named(sheet), "a{fill:var(--ink);stroke:var(--on-work)}b{c:$nothing}");
         assert_eq!(
             both("p{fill:$paper}\n"),
             "p{fill:#ffffff}\n@media (prefers-color-scheme: dark) {\np{fill:#14181b}\n}\n"

@@ -81,7 +81,10 @@ pub(crate) struct Graph<'a> {
 /// The lanes of a report and the height of them all.
 pub(crate) fn lanes(report: &Report) -> (Vec<Lane<'_>>, f64) {
     let groups: [(&'static str, Vec<Lane>); 3] = [
-        ("Tasks", report.tasks.iter().map(|task| task_lane(report, task)).collect()),
+        (
+            if report.has_tasks() { "Tasks" } else { "States" },
+            report.tasks.iter().map(|task| task_lane(report, task)).collect(),
+        ),
         ("Channels", channels(report)),
         ("Over time", report.series.iter().map(|series| series_lane(report, series)).collect()),
     ];

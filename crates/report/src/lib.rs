@@ -27,7 +27,7 @@ mod track;
 
 pub use builder::{ReportBuilder, SHOWN_TICKS};
 pub use flow::{Flow, Journey};
-pub use html::{render_html, render_program};
+pub use html::{LiveTimeline, render_html, render_program, render_timeline};
 pub use levels::Levels;
 pub use program::{ChannelAge, ClosedLoop, Held, Joint, Program, ProgramRun, TaskTiming, View};
 pub use report::{

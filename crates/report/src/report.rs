@@ -268,6 +268,21 @@ impl Report {
         self.scenarios.iter().filter(|scenario| !matches!(scenario.verdict, Verdict::Failed(_))).count()
     }
 
+    /// Whether there was anything that could have gone wrong: invariants, deadlines, bounds or scenarios.
+    pub fn is_checked(&self) -> bool {
+        let (met, missed) = self.deadlines();
+        let bounded = self.series.iter().any(|series| series.bound.is_some());
+        met + missed > 0 || bounded || !self.invariants.is_empty() || !self.scenarios.is_empty()
+    }
+
+    /// Whether its lanes are tasks, which have cycles and wait; else they are functions of a model, which just have values.
+    pub fn has_tasks(&self) -> bool {
+        self.tasks.iter().any(|task| {
+            let counts = [task.period, task.completed, task.met, task.missed, task.skipped];
+            counts.iter().any(Option::is_some) || !task.waits.is_empty()
+        })
+    }
+
     /// What went wrong, one sentence each; none: the run is as it should be.
     pub fn troubles(&self) -> Vec<String> {
         let mut troubles = Vec::new();
@@ -311,6 +326,10 @@ impl Report {
         troubles
     }
 }
+
+/// What is said of a run in which nothing could go wrong.
+pub(crate) const UNCHECKED: &str =
+    "Nothing was checked: the run has no invariants, no deadlines, no bounds and no scenarios.";
 
 impl Task {
     /// Its period and its caption.

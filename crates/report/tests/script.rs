@@ -28,15 +28,15 @@ fn drawn(page: &str, start: u64, end: u64, width: f64) -> String {
     let (_, rest) = page.split_once("id=\"run\">").expect("the data");
     let (data, rest) = rest.split_once("</script>").expect("its end");
     let (_, script) = rest.split_once("<script>").expect("the script");
-    let (draw, _) = script.split_once("// Moves the window").expect("the part that draws");
+    let (draw, _) = script.split_once("// Moves the window over a run").expect("the part that draws");
     let program = format!(
         "const data = {data};
          globalThis.document = {{
-           getElementById: () => ({{ textContent: JSON.stringify(data) }}),
            createElement: () => ({{ getContext: () => ({{ measureText: (text) => ({{ width: text.length * 6 }}) }}) }}),
          }};
          {draw}
-         process.stdout.write(drawTimeline(viewOf({start}, {end}, {width})));"
+         const drawing = drawingOf(data);
+         process.stdout.write(drawing.drawTimeline(drawing.viewOf({start}, {end}, {width})));"
     );
     let node = Command::new("node").arg("-").stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
     let mut node = node.expect("Node is needed to test the script");

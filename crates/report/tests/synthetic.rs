@@ -92,7 +92,7 @@ fn nothing_to_show_is_shown_as_well() {
         Nothing: 0 steps
 
 
-        ✓ Everything that was checked held.
+        ? Nothing was checked: the run has no invariants, no deadlines, no bounds and no scenarios.
     "#]]
     .assert_eq(&summarise(&report, &SummaryOptions::default()));
     render_html(&report);

@@ -258,3 +258,21 @@ fn the_run_of_a_failing_scenario_can_be_seen() {
     let said = check(folder.path(), &["test", "Fails.avalla", "--runs"], 1);
     assert!(said.contains("102 steps before those that follow") && said.contains("  step 301\n"), "{said}");
 }
+
+#[test]
+fn what_is_shown_by_default_is_written_once_and_can_be_refined() {
+    let above = folder();
+    check(above.path(), &["new", "Lamp", "--template", "machine"], 0);
+    let folder = above.path().join("Lamp");
+    let said = check(&folder, &["report", "Lamp.asm", "--write-specification"], 0);
+    assert_eq!(said, "written: Lamp.report.yaml\n");
+    let without = check(&folder, &["report", "Lamp.asm", "--random", "-n", "20", "-o", "given.html"], 0);
+    fs::rename(folder.join("Lamp.report.yaml"), folder.join("shown.yaml")).expect("it is there");
+    let derived = check(&folder, &["report", "Lamp.asm", "--random", "-n", "20", "-o", "given.html"], 0);
+    assert_eq!(without, derived, "what was written shows what is shown without it");
+    // A file that is there is never written over, nor read as if it had been named.
+    fs::write(folder.join("mine.yaml"), "mine: [").expect("a file");
+    let said = check(&folder, &["report", "Lamp.asm", "--write-specification", "--spec", "mine.yaml"], 2);
+    assert!(said.contains("mine.yaml is there already, and stays as it is"), "{said}");
+    assert_eq!(fs::read_to_string(folder.join("mine.yaml")).expect("a file"), "mine: [");
+}

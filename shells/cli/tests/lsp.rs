@@ -469,6 +469,13 @@ default init s0:
         (&json!(1), &json!({ "light": "ON", "count": "1", "pressed": "true" })),
         "{made}"
     );
+    let lanes = ask("timeline", json!({}));
+    assert_eq!((&lanes["steps"], &lanes["empty"], &lanes["run"]["shown"]), (&json!(1), &json!(false), &json!(1)));
+    let names: Vec<&Value> = lanes["run"]["lanes"].as_array().unwrap().iter().map(|lane| &lane["n"]).collect();
+    assert_eq!(names, ["light", "count"]);
+    assert!(
+        lanes["markup"].as_str().unwrap().contains("id=\"detail\"") && !lanes["style"].as_str().unwrap().contains('$')
+    );
     let lines = |list: &Value| -> Vec<(String, u64)> {
         let of = |one: &Value| {
             let name = one["location"].as_str().or(one["name"].as_str()).unwrap_or_default();

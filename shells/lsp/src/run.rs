@@ -9,9 +9,11 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-use groundstate::Kind;
 use groundstate::machine::{Limits, Show, Value as ModelValue};
+use groundstate::report::{LiveTimeline, render_timeline};
+use groundstate::reporting::Watched;
 use groundstate::session::{Heard, Scene, Session, SessionOptions, Waits};
+use groundstate::{Kind, Overlay};
 use ide::{Encoding, Lines};
 use lsp_server::ErrorCode;
 use lsp_types::{Position, Range};
@@ -61,6 +63,8 @@ struct Open {
     /// What stops [`Open::resume`] when it becomes true.
     breaks: Vec<String>,
     refused: Option<String>,
+    /// Why there is no timeline.
+    unwatched: Option<String>,
 }
 
 /// The texts that a session was opened with, and how columns are counted.
@@ -110,10 +114,10 @@ pub fn answer(
         return Ok(Value::Null);
     }
     let mut open = sessions.open.remove(&id).ok_or_else(|| wrong(format!("there is no session {id}")))?;
-    if method == "evaluate" {
-        let values = open.values(params);
+    if let "evaluate" | "timeline" = method {
+        let told = if method == "evaluate" { open.values(params) } else { open.timeline() };
         sessions.open.insert(id, open);
-        return values;
+        return told;
     }
     open.refused = None;
     let kept = open.carry_out(method, params, stop);
@@ -145,7 +149,11 @@ impl Sessions {
         if scene.script.is_none() && scene.program.main.is_none() {
             return Err(failed("a module has no main rule to run"));
         }
-        let files = scene.sources.iter().filter(|(_, source)| ide::library_text(&source.name).is_none());
+        let (scene, watched) = watched(answers, scene);
+        let files = scene
+            .sources
+            .iter()
+            .filter(|(_, source)| ide::library_text(&source.name).is_none() && !source.name.starts_with('<'));
         let lines = files.map(|(_, source)| (source.name.clone(), Lines::new(Arc::clone(&source.text)))).collect();
         let texts = Texts { lines, encoding: answers.settings.encoding };
         let options = SessionOptions {
@@ -154,11 +162,34 @@ impl Sessions {
             passes_violations: false,
             given: Vec::new(),
             limits: Limits { work: WORK, ..Limits::default() },
+            watched: watched.as_ref().ok().map(Arc::clone),
         };
         let session = Session::open(Arc::new(scene), options).map_err(|error| failed(error.to_string()))?;
         self.last += 1;
-        self.open.insert(self.last, Open { session, texts, breaks: Vec::new(), refused: None });
+        let unwatched = watched.err();
+        self.open.insert(self.last, Open { session, texts, breaks: Vec::new(), refused: None, unwatched });
         Ok(self.last)
+    }
+}
+
+/// What the timeline of a scene shows, with its terms in the scene; or why there is no timeline.
+fn watched(answers: &mut Answers, scene: Scene) -> (Scene, Result<Arc<Watched>, String>) {
+    let Some(place) = scene.main_place() else { return (scene, Err("there is no main rule".to_string())) };
+    let model = scene.sources.file(place.file).name.clone();
+    let mut asked = scene.overlay();
+    let watched = answers.project.specification(&model, &scene.program).and_then(|specification| {
+        let name = specification.name.clone();
+        Watched::new(&mut asked, specification).map_err(|faults| {
+            let fault = faults.first().map_or_else(String::new, |fault| fault.message.clone());
+            format!("{name}: {fault}")
+        })
+    });
+    match watched {
+        Ok(watched) => {
+            let Overlay { sources, model, program } = asked;
+            (Scene { sources, model, program, ..scene }, Ok(Arc::new(watched)))
+        }
+        Err(reason) => (scene, Err(reason)),
     }
 }
 
@@ -173,6 +204,21 @@ impl Open {
         };
         let values: Vec<Option<String>> = terms.iter().map(shown).collect();
         Ok(serde_json::json!({ "values": values }))
+    }
+
+    /// The lanes of the run so far, as the page of a report has them.
+    fn timeline(&self) -> Result<Value, Refused> {
+        if let Some(reason) = &self.unwatched {
+            return Err(failed(reason.as_str()));
+        }
+        let Some(report) = self.session.timeline() else { return Ok(Value::Null) };
+        let LiveTimeline { markup, run, style } = render_timeline(&report);
+        let run: Value =
+            serde_json::from_str(&run).map_err(|error| Refused::new(ErrorCode::InternalError, error.to_string()))?;
+        let steps = report.ticks;
+        Ok(serde_json::json!({
+            "steps": steps, "empty": !report.has_lanes(), "markup": markup, "run": run, "style": style
+        }))
     }
 
     /// Makes steps until a term of the breaks becomes true, the run waits for something or ends, or so many are made. Out: whether the

@@ -1,27 +1,52 @@
-//! Derives a report specification from a chart's system, for a model that was built from it and has no specification of
-//! its own.
+//! The report specification of a model: the one beside it, or one derived from the chart beside it, or from the model itself.
 //!
-//! In: the chart beside the model. Out: the text of a specification, like one written by hand: a lane for each
-//! component and channel, the deadlines, the picture of the system.
+//! In: the model's path and program, and the files beside it. Out: the text of a specification. One that is derived from a system
+//! is like one written by hand: a lane for each component and channel, the deadlines, the picture of the system.
 
 use std::fmt::Write;
 use std::path::Path;
+use std::sync::Arc;
 
 use chart::Chart;
 use chart::system::{Channel, ChannelKind, Component, System, Timing};
 use model::Loader;
+use program::Program;
 use syntax::SourceFile;
 
 use crate::has_errors;
+use crate::reporting::of_model::model_specification;
+use crate::workspace::{Absent, Files};
 
-/// The specification for the model built from this chart; `None` if the chart has errors or no system.
-pub fn derived_specification(root: SourceFile, loader: &mut dyn Loader) -> Option<String> {
-    let name = Path::new(&root.name).file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let loaded = chart::load(root, loader);
-    if has_errors(&loaded.diagnostics) {
-        return None;
+/// The specification `MODEL.report.yaml` beside a model, or what `MODEL.chart` or the model itself says.
+///
+/// # Errors
+/// There is a specification or a chart, and it cannot be read: its path, and why.
+pub fn specification_beside<F: Files + Loader>(
+    model: &str,
+    program: &Arc<Program>,
+    files: &mut F,
+) -> Result<SourceFile, (String, Absent)> {
+    let beside = |extension: &str| Path::new(model).with_extension(extension).to_string_lossy().into_owned();
+    let mut read = |path: String| match files.read(&path) {
+        Ok(source) => Ok(Some(source)),
+        Err(Absent::Missing) => Ok(None),
+        Err(absent) => Err((path, absent)),
+    };
+    if let Some(written) = read(beside("report.yaml"))? {
+        return Ok(written);
     }
-    specification(&loaded.chart, &name)
+    let path = beside("chart");
+    let file = Path::new(&path).file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let loaded = read(path.clone())?.map(|source| chart::load(source, files));
+    let chart = loaded.filter(|loaded| !has_errors(&loaded.diagnostics)).map(|loaded| loaded.chart);
+    let of_system = chart.as_ref().and_then(|chart| specification(chart, &file));
+    Ok(match of_system {
+        Some(text) => SourceFile::new(format!("<what {path} says>"), text),
+        None => {
+            let text = model_specification(program, chart.as_ref().map(|chart| (chart, file.as_str())));
+            SourceFile::new(format!("<what {model} says>"), text)
+        }
+    })
 }
 
 fn specification(chart: &Chart, file: &str) -> Option<String> {

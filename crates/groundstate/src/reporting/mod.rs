@@ -7,8 +7,10 @@
 mod charts;
 mod derived;
 mod evidence;
+mod of_model;
 mod recorded;
 mod watch;
+mod watched;
 
 use std::sync::Arc;
 
@@ -23,9 +25,10 @@ use crate::workspace::Files;
 use crate::{Overlay, diagnose_fault, has_errors};
 use watch::Watch;
 
-pub use derived::derived_specification;
+pub use derived::specification_beside;
 pub use evidence::{reported_coverage, reported_scenario};
 pub use recorded::{held_in_words, run_name};
+pub use watched::Watched;
 
 /// The result of reading a specification.
 #[derive(Debug)]

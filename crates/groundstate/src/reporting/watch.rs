@@ -47,6 +47,11 @@ impl Watch {
         Ok(Watch { terms: lowered, values })
     }
 
+    /// The terms.
+    pub fn into_terms(self) -> Vec<Expression> {
+        self.terms
+    }
+
     /// Evaluates the terms in the present state. A term that cannot be evaluated, for want of an input, is undef.
     pub fn look(&mut self, machine: &mut Machine, builder: &mut ReportBuilder) {
         for (index, (term, last)) in self.terms.iter().zip(&mut self.values).enumerate() {

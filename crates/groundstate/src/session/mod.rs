@@ -10,6 +10,8 @@ mod model;
 mod moment;
 mod scenario;
 mod scene;
+mod shared;
+mod tape;
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -22,18 +24,20 @@ use std::time::Duration;
 use ::scenario::Script;
 use machine::{Limits, Location, Show, Value};
 use program::DomainId;
+use report::Report;
 use simulate::read_value;
 use syntax::Span;
 
 use crate::job::desk::{Desk, Turn};
 use crate::job::{Cancel, Command, Job, Remote, RunEvent};
+use crate::reporting::Watched;
 
 pub use breaks::{Break, Breaks, Hit, On};
 pub use evaluate::Evaluator;
 pub use moment::Moment;
 pub use scene::Scene;
 
-use moment::Shared;
+use shared::Shared;
 
 /// How a session runs.
 #[derive(Debug, Clone)]
@@ -49,6 +53,8 @@ pub struct SessionOptions {
     pub given: Vec<(Location, Value)>,
     /// The machine's limits.
     pub limits: Limits,
+    /// What a timeline shows; its terms are part of the scene's program. None: there is no timeline.
+    pub watched: Option<Arc<Watched>>,
 }
 
 /// What a session waits for.
@@ -104,6 +110,7 @@ pub struct Session {
     given: BTreeMap<Location, Value>,
     evaluator: Evaluator,
     conditions: Evaluator,
+    watched: Option<Arc<Watched>>,
 }
 
 impl Session {
@@ -121,6 +128,7 @@ impl Session {
         let conditions = Evaluator::new(&scene.sources, &scene.model, &scene.program, limits).keep();
         let given: BTreeMap<Location, Value> = options.given.iter().cloned().collect();
         let (theirs, played) = (Arc::clone(&shared), Arc::clone(&scene));
+        let watched = options.watched.clone();
         let job = Job::start("session", cancel, move |port| {
             let desk = Desk::new(Rc::new(port), commands, Turn::Steps(0));
             let desk = Rc::new(RefCell::new(desk));
@@ -131,7 +139,7 @@ impl Session {
             }
         })?;
         let (waits, asked, remote) = (Waits::Runs, Waits::Runs, Remote(sender));
-        Ok(Session { scene, job, remote, shared, waits, asked, given, evaluator, conditions })
+        Ok(Session { scene, job, remote, shared, waits, asked, given, evaluator, conditions, watched })
     }
 
     /// What it is about.
@@ -147,6 +155,11 @@ impl Session {
     /// The present moment; none as long as the initial state is being set. While it runs, the moment is of some step just made.
     pub fn moment(&self) -> Option<Arc<Moment>> {
         self.shared.moment()
+    }
+
+    /// The lanes of the run so far; none if nothing is watched, or as long as the initial state is being set.
+    pub fn timeline(&self) -> Option<Report> {
+        self.shared.tape.report(self.watched.as_ref()?, &self.scene.program.name)
     }
 
     /// Whether it asks for an input or a choice.

@@ -16,8 +16,10 @@ use crate::job::desk::{Asking, Desk, Do, Given, Turn};
 use crate::session::SessionOptions;
 use crate::session::breaks::Happened;
 use crate::session::evaluate::Player;
-use crate::session::moment::{Moment, Ran, Shared};
+use crate::session::moment::{Moment, Ran};
 use crate::session::scene::Scene;
+use crate::session::shared::Shared;
+use crate::session::tape::Recorder;
 
 /// Runs the model until it is stopped.
 pub(crate) fn run(
@@ -41,7 +43,10 @@ pub(crate) fn run(
     let player = Player::new(options.limits.clone());
     let first = Arc::new(run.machine().snapshot());
     let (ran, past) = (Ran::default(), VecDeque::new());
-    let mut thread = Thread { shared, history: options.history, ran, past, first, initial: Vec::new(), player };
+    let recorder = options.watched.as_ref();
+    let recorder = recorder.map(|watched| Recorder::new(watched, &scene.program, Player::new(options.limits.clone())));
+    let mut thread =
+        Thread { shared, history: options.history, ran, past, first, initial: Vec::new(), player, recorder };
     let mut initial = true;
     loop {
         // The initial state is made before the first pause.
@@ -83,6 +88,7 @@ struct Thread<'a> {
     first: Arc<Snapshot>,
     initial: Vec<(Location, Value)>,
     player: Player,
+    recorder: Option<Recorder>,
 }
 
 impl Thread<'_> {
@@ -122,7 +128,7 @@ impl Thread<'_> {
                 self.ran.since(run.machine().coverage());
                 self.judge(&mut moment, false);
                 let stops = moment.hit.is_some();
-                self.shared.set_moment(moment);
+                self.show(moment);
                 return stops;
             }
             Record::End(_) => {
@@ -145,8 +151,16 @@ impl Thread<'_> {
             (kept.hit, kept.snapshot) = (None, Arc::clone(&self.first));
             self.past.push_back(kept);
         }
-        self.shared.set_moment(moment);
+        self.show(moment);
         stops
+    }
+
+    /// From now on this is the present moment.
+    fn show(&mut self, moment: Moment) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.note(&self.shared.tape, &moment, &self.initial);
+        }
+        self.shared.set_moment(moment);
     }
 
     fn made(&mut self, step: StepRecord, run: &Run) -> Moment {

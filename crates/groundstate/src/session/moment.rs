@@ -2,13 +2,13 @@
 //!
 //! In: what a thread that runs a model or a scenario has seen. Out: a [`Moment`], which its owner reads. It never changes.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use machine::{Change, Coverage, Location, Snapshot, Value};
 use program::{Program, Rule, RuleId};
 use syntax::{Diagnostic, Span};
 
-use crate::session::breaks::{Breaks, Hit};
+use crate::session::breaks::Hit;
 
 /// See the module.
 #[derive(Debug, Clone)]
@@ -84,34 +84,5 @@ impl Ran {
         let ran = grown.map(|(_, rule)| RuleId(rule)).collect();
         self.0.clone_from(executed);
         ran
-    }
-}
-
-/// What the thread of a session and its owner share.
-#[derive(Debug, Default)]
-pub(crate) struct Shared {
-    moment: Mutex<Option<Arc<Moment>>>,
-    breaks: Mutex<Arc<Breaks>>,
-}
-
-impl Shared {
-    /// The present moment; none as long as the initial state is being set.
-    pub fn moment(&self) -> Option<Arc<Moment>> {
-        self.moment.lock().unwrap_or_else(PoisonError::into_inner).clone()
-    }
-
-    /// From now on this is the present moment.
-    pub fn set_moment(&self, moment: Moment) {
-        *self.moment.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::new(moment));
-    }
-
-    /// What stops the run.
-    pub fn breaks(&self) -> Arc<Breaks> {
-        Arc::clone(&self.breaks.lock().unwrap_or_else(PoisonError::into_inner))
-    }
-
-    /// From now on this stops it.
-    pub fn set_breaks(&self, breaks: Breaks) {
-        *self.breaks.lock().unwrap_or_else(PoisonError::into_inner) = Arc::new(breaks);
     }
 }

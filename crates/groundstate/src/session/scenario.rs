@@ -18,8 +18,10 @@ use crate::job::desk::{Desk, Do, Turn};
 use crate::session::SessionOptions;
 use crate::session::breaks::Happened;
 use crate::session::evaluate::Player;
-use crate::session::moment::{Moment, Ran, Shared};
+use crate::session::moment::{Moment, Ran};
 use crate::session::scene::Scene;
+use crate::session::shared::Shared;
+use crate::session::tape::Recorder;
 
 /// Choices whose state can be kept.
 #[derive(Debug, Clone)]
@@ -53,7 +55,16 @@ pub(crate) fn run(
     let mut past: VecDeque<(Saved, Option<SplitMix>, Moment)> = VecDeque::new();
     let mut moment = Moment::new(play.machine().snapshot());
     moment.next = play.next_place();
-    shared.set_moment(moment.clone());
+    let recorder = options.watched.as_ref();
+    let mut recorder =
+        recorder.map(|watched| Recorder::new(watched, &scene.program, Player::new(options.limits.clone())));
+    let mut show = |moment: &Moment| {
+        if let Some(recorder) = &mut recorder {
+            recorder.note(&shared.tape, moment, &[]);
+        }
+        shared.set_moment(moment.clone());
+    };
+    show(&moment);
     loop {
         let what = desk.borrow_mut().next();
         match what {
@@ -89,7 +100,7 @@ pub(crate) fn run(
         if moment.hit.is_some() || moment.end.is_some() {
             desk.borrow_mut().turn = Turn::Steps(0);
         }
-        shared.set_moment(moment.clone());
+        show(&moment);
     }
 }
 

@@ -9,7 +9,7 @@ use scenario::Script;
 use simulate::{read_location, read_value};
 use syntax::{Diagnostic, Sources, Span};
 
-use crate::Loaded;
+use crate::{Loaded, Overlay};
 
 /// See the module.
 #[derive(Debug, Clone)]
@@ -40,6 +40,12 @@ impl From<&Loaded> for Scene {
 }
 
 impl Scene {
+    /// An overlay of this scene, with nothing added yet.
+    pub fn overlay(&self) -> Overlay {
+        let Scene { sources, model, program, .. } = self;
+        Overlay { sources: sources.clone(), model: Arc::clone(model), program: Arc::clone(program) }
+    }
+
     /// Reads an input and its value.
     ///
     /// # Errors

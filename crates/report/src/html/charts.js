@@ -1,5 +1,7 @@
 // Lights in the charts where each machine is at a moment of the run. SYNC(run data)
-{
+function lightCharts(run, drawing, timeline) {
+  const { px, escaped, spans, lower, timed, textWidth } = drawing;
+  let moment = null;
   const slider = document.getElementById("tick"), now = document.getElementById("now"), play = document.getElementById("play");
   const boxes = [...document.querySelectorAll(".chartbox")].map((box, index) => {
     const { named, lights } = run.charts[index], svg = box.querySelector(".chart"), parts = new Map();
@@ -61,8 +63,10 @@
     slider.setAttribute("aria-valuetext", `${timed(moment)}, step ${moment + 1}`);
     now.textContent = `${timed(moment)}, step ${moment + 1}`;
     light(moment);
-    if (moment < from || moment >= to) show(moment - (to - from) / 4, moment + (to - from) * 3 / 4);
-    else if (view) mark();
+    timeline.place(moment);
+    const [from, to] = timeline.window();
+    if (moment < from || moment >= to) timeline.show(moment - (to - from) / 4, moment + (to - from) * 3 / 4);
+    else timeline.mark();
   }
 
   let last = 0, place = 0;
@@ -89,7 +93,7 @@
   for (const button of document.querySelectorAll("[data-step]")) {
     button.addEventListener("click", () => { stop(); set(moment + Number(button.dataset.step)); });
   }
-  pointed.push((tick) => { stop(); set(tick); });
+  timeline.pointed.push((tick) => { stop(); set(tick); });
   for (const { box, svg } of boxes) {
     const button = box.querySelector(".enlarge");
     button.hidden = false;

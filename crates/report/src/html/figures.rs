@@ -2,7 +2,7 @@
 
 use crate::html::go;
 use crate::markup::{Text, put};
-use crate::report::Report;
+use crate::report::{Report, UNCHECKED};
 use crate::time::count;
 
 /// Writes the head.
@@ -25,6 +25,10 @@ pub(super) fn header(out: &mut String, report: &Report) {
 
 fn verdict(out: &mut String, report: &Report) {
     let troubles = report.troubles();
+    if troubles.is_empty() && !report.is_checked() {
+        put!(out, "<p class=\"verdict unknown\"><span class=\"mark\" aria-hidden=\"true\">?</span>{UNCHECKED}</p>\n");
+        return;
+    }
     if troubles.is_empty() {
         out.push_str("<p class=\"verdict good\"><span class=\"mark\" aria-hidden=\"true\">\u{2713}</span>Everything that was checked held.</p>\n");
         return;
@@ -74,7 +78,7 @@ fn waiting(out: &mut String, report: &Report) {
             let remark = format!("{}, at {}", Text(&task.name), go(at, &report.time.show(at)));
             figure(out, "Longest wait", &report.time.show(ticks), &remark, false);
         }
-        None if report.tasks.is_empty() => {}
+        None if !report.has_tasks() => {}
         None => figure(out, "Longest wait", "none", "no task ever waited", false),
     }
 }

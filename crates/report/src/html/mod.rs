@@ -60,6 +60,25 @@ pub fn render_html(report: &Report) -> String {
     out
 }
 
+/// A timeline to be put into another page, which runs the scripts `draw.js` and `explore.js` on it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LiveTimeline {
+    /// The section, with the first window as a still drawing.
+    pub markup: String,
+    /// The run, as the scripts read it: JSON.
+    pub run: String,
+    /// The style sheet, for a tree of its own (a shadow root); colours are the variables of the palette, `var(--ink)`.
+    pub style: String,
+}
+
+/// The timeline of a report, without its page.
+pub fn render_timeline(report: &Report) -> LiveTimeline {
+    let mut markup = String::new();
+    lanes::timeline_section(&mut markup, report);
+    let style = format!("{}{}", include_str!("page.css"), crate::svg::svg_css_of(palette::named));
+    LiveTimeline { markup, run: data::run_data(report), style }
+}
+
 /// The style sheet of every page.
 fn page_css() -> String {
     format!("{}{}", palette::both(include_str!("colours.css")), include_str!("page.css"))
@@ -79,7 +98,8 @@ fn open(out: &mut String, title: &str, style: &str) {
 /// The lanes as data, and the script that draws other windows of them.
 fn scripts(out: &mut String, data: &str, more: &str) {
     put!(out, "<script type=\"application/json\" id=\"run\">\n{data}</script>\n");
-    put!(out, "<script>\n{}{}{more}</script>\n", include_str!("draw.js"), include_str!("explore.js"));
+    let (draw, explore, page) = (include_str!("draw.js"), include_str!("explore.js"), include_str!("page.js"));
+    put!(out, "<script>\n{draw}{explore}{more}{page}</script>\n");
 }
 
 /// A link that moves the timeline to a tick; without the script it leads to the timeline.

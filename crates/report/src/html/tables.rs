@@ -12,7 +12,7 @@ const BAR: f64 = 132.0;
 
 /// Writes the table of tasks.
 pub(super) fn tasks(out: &mut String, report: &Report) {
-    if report.tasks.is_empty() {
+    if !report.has_tasks() {
         return;
     }
     section(

@@ -48,8 +48,13 @@ impl Default for SvgOptions {
 
 /// The style sheet of every drawing.
 pub(crate) fn svg_css() -> String {
+    svg_css_of(palette::both)
+}
+
+/// The same with colours put in by `painted`.
+pub(crate) fn svg_css_of(painted: impl Fn(&str) -> String) -> String {
     let colours = format!("{}{}", include_str!("colours.css"), tone_css());
-    format!("{}{}", include_str!("drawing.css"), palette::both(&colours))
+    format!("{}{}", include_str!("drawing.css"), painted(&colours))
 }
 
 /// The timeline of a window as a picture of its own, light or dark like the reader's system.

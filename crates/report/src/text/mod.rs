@@ -10,7 +10,7 @@ mod table;
 pub use program::{RunSummary, summarise_program};
 
 use crate::markup::put;
-use crate::report::{Report, Series, Task};
+use crate::report::{Report, Series, Task, UNCHECKED};
 use crate::time::count;
 use table::Table;
 
@@ -69,7 +69,7 @@ fn optional(n: Option<u64>) -> String {
 }
 
 fn tasks(out: &mut String, report: &Report) {
-    if report.tasks.is_empty() {
+    if !report.has_tasks() {
         return;
     }
     let mut table = Table::new(&[
@@ -195,7 +195,9 @@ fn verdict(out: &mut String, report: &Report, options: &SummaryOptions) {
     };
     let troubles = report.troubles();
     out.push('\n');
-    if troubles.is_empty() {
+    if troubles.is_empty() && !report.is_checked() {
+        put!(out, "{} {UNCHECKED}\n", paint("33", "?"));
+    } else if troubles.is_empty() {
         put!(out, "{} Everything that was checked held.\n", paint("32", "\u{2713}"));
     }
     for trouble in troubles {

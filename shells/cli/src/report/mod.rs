@@ -16,7 +16,7 @@ use ::report::{Fact, Report, SummaryOptions, SvgOptions};
 use clap::Args;
 use groundstate::Overlay;
 use groundstate::job::{self, Cancel, RunEvent, RunRequest};
-use groundstate::reporting::{Prepared, Reporter, derived_specification, prepare_report};
+use groundstate::reporting::{Prepared, Reporter, prepare_report, specification_beside};
 use groundstate::simulate::{Invariants, Options, Run};
 use program::Program;
 use syntax::{SourceFile, Sources};
@@ -75,9 +75,13 @@ A report specification is a YAML file that says which terms of the model make wh
 pub struct Arguments {
     /// The model
     model: PathBuf,
-    /// What to show. Default: MODEL.report.yaml beside the model, else the system of MODEL.chart
+    /// What to show. Default: MODEL.report.yaml beside the model, else what the system of MODEL.chart or the model itself says
     #[arg(long, value_name = "FILE")]
     spec: Option<PathBuf>,
+    /// Write what is shown by default as a report specification, to be refined by hand, and make no run: to the file that
+    /// --spec names, or MODEL.report.yaml
+    #[arg(long, conflicts_with_all = ["output", "svg", "scenarios", "InputArguments"])]
+    write_specification: bool,
     /// The steps to make
     #[arg(long, short = 'n', value_name = "N", default_value_t = 10_000, value_parser = crate::limits::count, allow_negative_numbers = true)]
     steps: u64,
@@ -119,10 +123,11 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Err(exit) => return Ok(exit),
     };
     let path = arguments.spec.clone().unwrap_or_else(|| arguments.model.with_extension("report.yaml"));
-    let wanted = match wanted(shell, &path, arguments.spec.is_some())? {
-        Some(wanted) => wanted,
-        None => return Err(nothing_wanted(&path, false)),
-    };
+    let named = arguments.spec.as_deref().filter(|_| !arguments.write_specification);
+    let wanted = wanted(shell, named, &arguments.model, &loaded.program)?;
+    if arguments.write_specification {
+        return write_specification(shell, &path, &wanted);
+    }
     let origin = wanted.name.clone();
     let mut asked = loaded.overlay();
     let Some(reporter) = prepare(shell, &mut asked, wanted, &path)? else { return Ok(Exit::World) };
@@ -176,7 +181,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
 /// The page of a given run, as the specification beside the model says; `None` if there is no specification.
 pub fn page_of(shell: &mut Shell, mut asked: Overlay, model: &Path, run: RunOf<'_>) -> Result<Option<String>, Failure> {
     let path = model.with_extension("report.yaml");
-    let Some(wanted) = wanted(shell, &path, false)? else { return Ok(None) };
+    let wanted = wanted(shell, None, model, &asked.program)?;
     let Some(mut reporter) = prepare(shell, &mut asked, wanted, &path)? else { return Ok(None) };
     let Overlay { sources, program, .. } = asked;
     let mut run = run(&program);
@@ -197,39 +202,28 @@ pub fn page_of(shell: &mut Shell, mut asked: Overlay, model: &Path, run: RunOf<'
 /// Makes a run of a program.
 pub type RunOf<'a> = &'a dyn Fn(&Arc<Program>) -> Run;
 
-/// The text of the specification: from the file, or, if it does not exist and was not named, from the system of the
-/// chart beside the model; `None` if there is neither.
-fn wanted(shell: &mut Shell, path: &Path, given: bool) -> Result<Option<SourceFile>, Failure> {
-    match read_text(path, shell.global.limits.max_file_size) {
-        Ok(text) => Ok(Some(SourceFile::new(path.display().to_string(), text))),
-        Err(Failure::Missing(_)) if given => Err(nothing_wanted(path, true)),
-        Err(Failure::Missing(_)) => {
-            let chart = chart_beside(path);
-            if !chart.is_file() {
-                return Ok(None);
-            }
-            let mut disk = shell.disk();
-            let text = derived_specification(disk.root(&chart)?, &mut disk);
-            Ok(text.map(|text| SourceFile::new(format!("<what {} says>", chart.display()), text)))
-        }
-        Err(failure) => Err(failure),
+/// The text of the specification: from the file that was named, or what stands beside the model, or what the model itself says.
+fn wanted(
+    shell: &mut Shell,
+    named: Option<&Path>,
+    model: &Path,
+    program: &Arc<Program>,
+) -> Result<SourceFile, Failure> {
+    if let Some(path) = named {
+        return match read_text(path, shell.global.limits.max_file_size) {
+            Ok(text) => Ok(SourceFile::new(path.display().to_string(), text)),
+            Err(Failure::Missing(_)) => Err(nothing_wanted(path)),
+            Err(failure) => Err(failure),
+        };
     }
+    let beside = specification_beside(&model.display().to_string(), program, &mut shell.disk());
+    beside.map_err(|(path, absent)| Failure::usage(absent.told(&path)))
 }
 
-/// The chart that may replace a missing specification.
-fn chart_beside(specification: &Path) -> PathBuf {
-    // MODEL.report.yaml, then MODEL.report.
-    specification.with_extension("").with_extension("chart")
-}
-
-fn nothing_wanted(path: &Path, given: bool) -> Failure {
+fn nothing_wanted(path: &Path) -> Failure {
     let message = format!("there is no file {}, so nothing says what to show of the model", path.display());
-    let mut help = "name a report specification with --spec FILE".to_string();
-    if !given {
-        let chart = chart_beside(path);
-        help += &format!(", or build the model from a chart with a system ({})", chart.display());
-    }
-    Failure::usage_with_help(message, help)
+    let help = "leave --spec out: then the chart beside the model, or the model itself, says what to show";
+    Failure::usage_with_help(message, help.to_string())
 }
 
 /// Reads the specification and checks its terms. If it has faults, shows them and returns `None`.
@@ -264,6 +258,19 @@ fn facts(arguments: &Arguments, spec: &str, sources: &Sources) -> Vec<Fact> {
     }
     facts.push(fact("Groundstate", env!("CARGO_PKG_VERSION").to_string()));
     facts
+}
+
+/// Writes the specification into a file that is not there yet.
+fn write_specification(shell: &mut Shell, path: &Path, wanted: &SourceFile) -> Result<Exit, Failure> {
+    if path.exists() {
+        let message = format!("{} is there already, and stays as it is", path.display());
+        return Err(Failure::usage_with_help(message, "name another file with --spec FILE".to_string()));
+    }
+    write_beside(path, &wanted.text)?;
+    if shell.talks() {
+        writeln!(shell.out(), "written: {}", path.display())?;
+    }
+    Ok(Exit::Good)
 }
 
 fn write(shell: &mut Shell, arguments: &Arguments, report: &Report) -> Result<(), Failure> {

@@ -1,0 +1,128 @@
+//! Derives a report specification from a model that has none of its own.
+//!
+//! In: the program, and the chart beside it, if there is one. Out: the text of a specification, like one written by hand: a lane for
+//! each location that takes values of an enumeration, Booleans or named elements, a curve for each that takes numbers, and the chart's
+//! machines. What cannot be listed, or is too much to look at, is left out; a comment in the text says so.
+
+use std::fmt::Write;
+use std::sync::Arc;
+
+use chart::{Chart, subjects};
+use machine::{Limits, Machine, Show, Value};
+use model::Basic;
+use program::{DomainId, DomainKind, Function, FunctionKind, Program};
+
+/// LIMIT: lanes of one function; a function with more locations is left out.
+const LOCATIONS: usize = 16;
+/// LIMIT: lanes in all.
+const LANES: usize = 40;
+/// LIMIT: curves in all.
+const CURVES: usize = 12;
+
+/// How the values of a function are shown.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Shown {
+    Lane,
+    Curve,
+}
+
+/// The specification of a model's run; `chart` is the chart beside it, and its file's name.
+pub fn model_specification(program: &Arc<Program>, chart: Option<(&Chart, &str)>) -> String {
+    let mut machine = Machine::new(Arc::clone(program), Limits::default());
+    let (mut lanes, mut curves, mut left) = (Vec::new(), Vec::new(), Vec::new());
+    for function in program.functions.iter().filter(|function| is_state(function)) {
+        let Some(shown) = shown(program, function.codomain) else { continue };
+        let (group, most) = match shown {
+            Shown::Lane => (&mut lanes, LANES),
+            Shown::Curve => (&mut curves, CURVES),
+        };
+        match locations(&mut machine, function) {
+            Some(found) if group.len() + found.len() <= most => group.extend(found),
+            _ => left.push(function.name.as_str()),
+        }
+    }
+    let mut out = String::new();
+    let _ = writeln!(out, "note: {}", quoted("The functions of the model that take few values, and its numbers."));
+    if !left.is_empty() {
+        let _ = writeln!(out, "# Left out, since there would be too many lanes: {}", left.join(", "));
+    }
+    out.push_str("activities:\n  \"false\": [\"false\", idle]\n  \"true\": [\"true\", work]\n");
+    if !lanes.is_empty() {
+        out.push_str("tasks:\n  each:\n");
+        for lane in &lanes {
+            let _ = writeln!(out, "    {}: {{ name: {} }}", quoted(lane), quoted(lane));
+        }
+        out.push_str("  terms:\n    activity: \"{}\"\n");
+    }
+    if !curves.is_empty() {
+        out.push_str("series:\n");
+        for curve in &curves {
+            let _ = writeln!(out, "  {}: {{ value: {} }}", quoted(curve), quoted(curve));
+        }
+    }
+    if let Some((chart, file)) = chart {
+        let (mut open, mut each) = (false, Vec::new());
+        for subject in subjects(chart) {
+            // What a machine with a parameter stands for is said by nobody.
+            each.push(subject.machine().is_none_or(|machine| !machine.parameters.is_empty()));
+            open |= each.last() == Some(&false);
+        }
+        if open && each.iter().all(|parametric| !parametric) {
+            let _ = writeln!(out, "charts: {{ {}: {{}} }}", quoted(file));
+        }
+    }
+    out
+}
+
+/// Its values are part of the state, and the model writes them.
+fn is_state(function: &Function) -> bool {
+    !function.library && matches!(function.kind, FunctionKind::Controlled | FunctionKind::Out | FunctionKind::Shared)
+}
+
+fn shown(program: &Program, domain: DomainId) -> Option<Shown> {
+    match &program.domain(domain).kind {
+        DomainKind::Basic(Basic::Boolean) | DomainKind::Enum { .. } => Some(Shown::Lane),
+        DomainKind::Basic(Basic::Integer | Basic::Natural) => Some(Shown::Curve),
+        DomainKind::Abstract { elements, .. } => (!elements.is_empty()).then_some(Shown::Lane),
+        DomainKind::Concrete { base, .. } => shown(program, *base),
+        DomainKind::Error
+        | DomainKind::Any
+        | DomainKind::Basic(Basic::Complex | Basic::Real | Basic::Char | Basic::String | Basic::Undef)
+        | DomainKind::Prod(_)
+        | DomainKind::Seq(_)
+        | DomainKind::Powerset(_)
+        | DomainKind::Bag(_)
+        | DomainKind::Map(..)
+        | DomainKind::Rule(_) => None,
+    }
+}
+
+/// The terms of a function's locations, if they can be listed and are few.
+fn locations(machine: &mut Machine, function: &Function) -> Option<Vec<String>> {
+    let program = Arc::clone(machine.program());
+    let mut found: Vec<Vec<String>> = vec![Vec::new()];
+    for parameter in &function.parameters {
+        if !program.is_listable(*parameter) || program.waits_for_start(*parameter) {
+            return None;
+        }
+        let elements: Vec<Value> = machine.elements(*parameter).ok()?;
+        if elements.len() * found.len() > LOCATIONS {
+            return None;
+        }
+        let with = |arguments: &Vec<String>, element: &Value| {
+            let shown = element.show(&program).to_string();
+            arguments.iter().cloned().chain([shown]).collect::<Vec<String>>()
+        };
+        found = found.iter().flat_map(|some| elements.iter().map(|element| with(some, element))).collect();
+    }
+    let term = |arguments: Vec<String>| match arguments.is_empty() {
+        true => function.name.clone(),
+        false => format!("{}({})", function.name, arguments.join(", ")),
+    };
+    Some(found.into_iter().map(term).collect())
+}
+
+/// A text as a YAML scalar, quoted as in JSON.
+fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
