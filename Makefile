@@ -36,7 +36,7 @@ timed-%:
 	@$(TIMED) $* $(MAKE) --no-print-directory $*
 
 # What is not newer than what it was made of is not made again.
-WEB := $(shell find web -name node_modules -prune -o -name dist -prune -o -type f -print 2>/dev/null)
+WEB := $(shell find web crates/report/src/html -name node_modules -prune -o -name dist -prune -o -type f -print 2>/dev/null)
 
 web/node_modules/.package-lock.json: web/package.json web/package-lock.json
 	cd web && npm ci --no-audit --no-fund

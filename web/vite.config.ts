@@ -2,7 +2,10 @@
 
 import { defineConfig } from 'vite'
 
+import { reportScripts } from './report-scripts'
+
 export default defineConfig({
+  plugins: [reportScripts()],
   esbuild: { jsx: 'automatic' },
   // An exported project may lie anywhere.
   base: './',
@@ -15,6 +18,7 @@ export default defineConfig({
     chunkSizeWarningLimit: 900,
   },
   server: {
+    fs: { allow: ['..'] },
     proxy: { '/ws': { target: process.env['STUDIO'] ?? 'http://127.0.0.1:7171', ws: true } },
   },
 })

@@ -72,7 +72,7 @@ export const words = {
     theme: { system: 'Colours as the system has them', light: 'Light colours', dark: 'Dark colours' },
     layout: { both: 'Picture and text', picture: 'Picture only', text: 'Text only' },
     layouts: 'What is shown',
-    panels: { problems: 'Problems', run: 'Run', check: 'Results' },
+    panels: { problems: 'Problems', run: 'Run', timeline: 'Timeline', check: 'Results' },
     panelTabs: 'Panels',
     closePanel: 'Close the panel',
     resize: 'Change the size',
@@ -80,6 +80,12 @@ export const words = {
     more: 'More to do with this file',
     keys: 'Keys',
     run: 'Run',
+  },
+  timeline: {
+    title: 'Timeline',
+    none: 'Nothing runs. A run draws its tasks, channels and values here, step by step.',
+    noStep: 'The lanes begin with the first step.',
+    empty: 'This model has no functions of few values and no numbers to draw. A report specification beside it can say what to show.',
   },
   save: {
     saved: 'Saved',

@@ -27,6 +27,7 @@ import type { Server } from '../editor/server'
 import { useStore } from '../editor/store'
 import { type Panel, Studio } from '../editor/studio'
 import { TextPane } from '../editor/TextPane'
+import { TimelinePanel } from '../editor/TimelinePanel'
 import { words } from '../words'
 import { commands, shortcut } from './commands'
 import { Sidebar, fileName, kindIcon } from './Sidebar'
@@ -184,6 +185,7 @@ function Drawings({ studio, chart }: { studio: Studio; chart: Chart }): ReactNod
 const PANELS: { panel: Panel; icon: string }[] = [
   { panel: 'problems', icon: 'warning' },
   { panel: 'run', icon: 'play' },
+  { panel: 'timeline', icon: 'timeline' },
   { panel: 'check', icon: 'shield' },
 ]
 
@@ -223,6 +225,7 @@ function Panels({ studio }: { studio: Studio }): ReactNode {
         <div className="panel" role="tabpanel" aria-label={words.shell.panels[panel]} style={{ height }}>
           {panel === 'problems' && <Problems studio={studio} />}
           {panel === 'run' && <RunPanel studio={studio} />}
+          {panel === 'timeline' && <TimelinePanel studio={studio} />}
           {panel === 'check' && <CheckPanel studio={studio} />}
         </div>
       )}

@@ -77,6 +77,28 @@ test('running, and the picture of the README', async () => {
   await page.context().close()
 })
 
+test('the timeline', async () => {
+  const page = await newPage(browser, studio.address, trouble)
+  await page.evaluate(() => localStorage.setItem('groundstate-panel', '430'))
+  await page.reload()
+  await page.goto(at('examples/pick_and_place/PlacingSystem.chart'))
+  await page.keyboard.press('Control+2')
+  await shape(page, 'planner').waitFor()
+  await page.locator('.canvas').click({ position: { x: 8, y: 8 } })
+  await run(page, 2)
+  await page.getByLabel('Speed', { exact: true }).selectOption({ label: 'As fast as can be' })
+  await page.getByRole('tab', { name: 'Timeline' }).click()
+  await page.keyboard.press('F5')
+  const where = page.locator('.timeline #where')
+  await where.filter({ hasText: /[4-9]\d{1,}(\.\d+)?\D*ms/ }).waitFor({ timeout: 60_000 })
+  await page.keyboard.press('F5')
+  await page.waitForTimeout(900)
+  await page.locator('.timeline').getByRole('button', { name: 'First view' }).click()
+  await page.evaluate(() => localStorage.removeItem('groundstate-panel'))
+  await kept(page, 'studio-timeline')
+  await page.context().close()
+})
+
 test('drawing', async () => {
   const page = await newPage(browser, at(COMPONENT), trouble)
   await shape(page, 'elaborated').click()

@@ -254,6 +254,41 @@ default init s0:
 	function position = 0
 `
 
+test('the timeline grows with the run, and a click on it goes to that step', async () => {
+  await open('examples/visual_servoing/CompleteController.asm')
+  await page.getByRole('tab', { name: 'Run', exact: true }).click()
+  await page.getByRole('button', { name: 'Run with random inputs' }).click()
+  await page.locator('.run-step', { hasText: 'Step 0' }).waitFor()
+  await page.getByLabel('Speed', { exact: true }).selectOption({ label: 'As fast as can be' })
+  await page.getByRole('button', { name: 'Run (F5)' }).click()
+  await page.getByRole('tab', { name: 'Timeline' }).click()
+  const lanes = page.locator('.timeline #detail')
+  await lanes.locator('path.work').first().waitFor()
+  const steps = async (): Promise<number> => Number(/([\d.,]+)\D*$/.exec((await page.locator('.timeline #where').textContent()) ?? '')?.[1] ?? 0)
+  const before = await steps()
+  await until(async () => (await steps()) > before, 'more steps')
+  await page.keyboard.press('F5')
+  await page.locator('.timeline').getByRole('button', { name: 'Whole run' }).click()
+  await shot(page, 'timeline')
+  const box = await lanes.boundingBox()
+  if (!box) throw new Error('the lanes are drawn')
+  // Each pixel is several steps: what lies there is some steps before the end.
+  const reached = await steps()
+  await page.mouse.click(box.x + box.width - 24, box.y + 40)
+  await until(async () => (await steps()) < reached, 'fewer steps')
+  // Going back is over when nothing changes any more.
+  let [known, same] = [-1, 0]
+  await until(async () => {
+    const now = await steps()
+    same = now === known ? same + 1 : 0
+    known = now
+    return same === 20
+  }, 'an end of going back')
+  await page.getByRole('tab', { name: 'Run', exact: true }).click()
+  // A tick is 0.1 ms.
+  await page.locator('.run-step', { hasText: `Step ${Math.round(known * 10)}` }).waitFor()
+})
+
 test('a model is verified, and its counterexample plays', async () => {
   writeFileSync(join(studio.folder, 'Axis.asm'), AXIS)
   await open('Axis.asm')

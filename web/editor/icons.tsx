@@ -17,6 +17,7 @@ const PATHS: Record<string, string> = {
   auto: 'M8 2.500a5.5 5.5 0 1 0 0 11 5.5 5.5 0 0 0 0-11ZM8 2.500v11M8 5h3.800M8 8h5M8 11h3.8',
   play: 'M5 3.200v9.600l7.5-4.800z',
   pause: 'M5 3.500v9M11 3.500v9',
+  timeline: 'M2.5 3v10.500h11M5 5.500h4M7 8h5M5 10.500h3',
   step: 'M4 3.500v9l6-4.500zM12 3.500v9',
   back: 'M12 3.500v9l-6-4.500zM4 3.500v9',
   restart: 'M3.2 8a4.8 4.8 0 1 0 1.6-3.600M3 2.500v2.800h2.8',

@@ -128,6 +128,19 @@ export class Runner {
     this.store.set({ broke: null })
   }
 
+  // Goes to a step: back, or on from here.
+  async goTo(step: number): Promise<void> {
+    this.pause()
+    for (;;) {
+      const { session } = this.store.get()
+      if (!session || session.step === step || session.refused !== null) return
+      if (session.step > step) await this.back()
+      else if (session.waiting !== 'step' || !(await this.step())) return
+      const now = this.store.get().session
+      if (now && now.session === session.session && now.step === session.step) return
+    }
+  }
+
   async set(location: string, value: string | null): Promise<void> {
     const sets = new Map(this.store.get().sets)
     if (value === null) sets.delete(location)
