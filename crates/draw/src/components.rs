@@ -2,7 +2,7 @@
 //! their own between them, as in the paper's Figures 1 and 2, and devices.
 
 use chart::Layout;
-use chart::system::{Action, ChannelKind, Component, System};
+use chart::system::{Action, ChannelKind, Component, Device, System};
 
 use crate::measure::{LEADING, RULE, SMALL, SMALL_LEADING, TEXT, bold_width, extent, text_width, wrapped};
 use crate::picture::{Detail, Figure};
@@ -14,20 +14,21 @@ pub fn of_system(system: &System, layout: Option<&Layout>) -> Scene {
     let mut scene = Scene { free: true, ..Scene::default() };
     let devices = |sensors: bool| system.devices.iter().filter(move |device| device.is_sensor == sensors);
     for device in devices(true) {
-        scene.nodes.push(node(&device.name, Figure::Device, &device.text, vec![plain("sensor")]));
+        scene.nodes.push(node(&device.name, Figure::Device, &device.text, vec![plain(&carrying("sensor", device))]));
     }
     for component in &system.components {
         scene.nodes.push(node(&component.name, Figure::Component, &component.text, about(component, system)));
     }
     for channel in &system.channels {
-        let mut small = vec![plain(&words::channel(channel.kind))];
+        let mut small: Vec<Detail> = channel.message.iter().map(|message| plain(&message.text)).collect();
+        small.push(plain(&words::channel(channel.kind)));
         if let ChannelKind::Buffer { master, .. } = channel.kind {
             small.push(plain(&format!("master: {}", system.components[master].text)));
         }
         scene.nodes.push(node(&channel.name, Figure::Channel, &channel.name, small));
     }
     for device in devices(false) {
-        scene.nodes.push(node(&device.name, Figure::Device, &device.text, vec![plain("actuator")]));
+        scene.nodes.push(node(&device.name, Figure::Device, &device.text, vec![plain(&carrying("actuator", device))]));
     }
     let place = |name: &str| scene.nodes.iter().position(|node| node.id == name);
     let component = |index: usize| place(&system.components[index].name);
@@ -44,6 +45,11 @@ pub fn of_system(system: &System, layout: Option<&Layout>) -> Scene {
     scene
 }
 
+/// What a device is, and of which domain its values are.
+fn carrying(kind: &str, device: &Device) -> String {
+    device.message.as_ref().map_or(kind.to_string(), |message| format!("{kind}: {}", message.text))
+}
+
 fn plain(text: &str) -> Detail {
     Detail { id: None, text: text.to_string(), right: None }
 }
@@ -55,7 +61,10 @@ fn about(component: &Component, system: &System) -> Vec<Detail> {
         let what = match phase.action {
             Action::Read(channel) => format!("read {}", system.channels[channel].name),
             Action::Write(channel) => format!("write {}", system.channels[channel].name),
-            Action::Elaborate(_) => format!("elaborate {}", phase.subject),
+            Action::Elaborate(_) => {
+                let machine = phase.machine.as_ref().map_or(String::new(), |machine| format!(" by {}", machine.text));
+                format!("elaborate {}{machine}", phase.subject)
+            }
         };
         let id = Some(format!("{}/{}", component.name, phase.name));
         lines.push(Detail { id, text: what, right: Some(words::duration(phase, system.tick_ns)) });

@@ -22,13 +22,13 @@ pub struct Reference {
     pub role: Role,
 }
 
-/// Where what is named at an offset is declared; for a path in an import, the beginning of the file.
+/// Where what is named at an offset is declared; for a path in an import, and for the machine of an elaboration, the beginning of the file.
 pub fn definition<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -> Vec<Place> {
     let Ok(analysis) = project.analysis(path) else { return Vec::new() };
     if let Some((_, target)) = path_at(project, &analysis, offset) {
         return vec![Place { path: target, range: (0, 0) }];
     }
-    if let Some(place) = block_at(project, &analysis, offset) {
+    if let Some(place) = block_at(project, &analysis, offset).or_else(|| drawn_at(&analysis, offset)) {
         return vec![place];
     }
     let names = analysis.names_at(offset).iter();
@@ -140,8 +140,7 @@ pub fn highlights<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -
 pub fn links<F: Files>(project: &mut Project<F>, path: &str) -> Vec<(Place, String)> {
     let Ok(analysis) = project.analysis(path) else { return Vec::new() };
     let mut found = Vec::new();
-    for token in paths(&analysis) {
-        let written = token.text().trim_matches('"').to_string();
+    for (token, written) in paths(&analysis) {
         if let Some(target) = project.target(analysis.source(), &written) {
             found.push((analysis.place(Span::new(analysis.file, token.text_range())), target));
         }
@@ -149,21 +148,48 @@ pub fn links<F: Files>(project: &mut Project<F>, path: &str) -> Vec<(Place, Stri
     found
 }
 
-fn paths(analysis: &Analysis) -> Vec<SyntaxToken> {
+/// The words that lead to files, and the paths of these.
+fn paths(analysis: &Analysis) -> Vec<(SyntaxToken, String)> {
     let Some(tree) = analysis.tree() else { return Vec::new() };
     let scenario = ast::ScenarioFile::cast(tree.clone()).and_then(|file| file.model_token());
     let imports = tree.children().filter_map(ast::Import::cast).filter_map(|import| import.path_token());
-    scenario.into_iter().chain(imports).collect()
+    let mut paths: Vec<(SyntaxToken, String)> = scenario
+        .into_iter()
+        .chain(imports)
+        .map(|token| (token.clone(), token.text().trim_matches('"').to_string()))
+        .collect();
+    // The machine of an elaboration is imported, or lies beside the chart.
+    let imported: Vec<String> = paths.iter().map(|(_, path)| path.clone()).collect();
+    for machine in tree.descendants().filter_map(ast::Phase::cast).filter_map(|phase| phase.machine()) {
+        let import = imported.iter().find(|import| stem(import) == machine.text());
+        paths.push((machine.clone(), import.cloned().unwrap_or_else(|| machine.text().to_string())));
+    }
+    paths
+}
+
+/// The last part of a path, without its ending.
+pub(crate) fn stem(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or(path).trim_end_matches(".asm")
 }
 
 fn path_at<F: Files>(project: &mut Project<F>, analysis: &Analysis, offset: u32) -> Option<(SyntaxToken, String)> {
-    let covers = |token: &SyntaxToken| {
-        let range = token.text_range();
-        u32::from(range.start()) <= offset && offset <= u32::from(range.end())
-    };
-    let token = paths(analysis).into_iter().find(covers)?;
-    let target = project.target(analysis.source(), token.text().trim_matches('"'))?;
+    let (token, written) = paths(analysis).into_iter().find(|(token, _)| covers(token, offset))?;
+    let target = project.target(analysis.source(), &written)?;
     Some((token, target))
+}
+
+fn covers(token: &SyntaxToken, offset: u32) -> bool {
+    let range = token.text_range();
+    u32::from(range.start()) <= offset && offset <= u32::from(range.end())
+}
+
+/// The machine of the same chart by which the shape at an offset is to be refined.
+fn drawn_at(analysis: &Analysis, offset: u32) -> Option<Place> {
+    let chart = ast::ChartFile::cast(analysis.tree()?)?;
+    let named = chart.syntax().descendants().filter_map(ast::Refinement::cast).filter_map(|node| node.by());
+    let named = named.into_iter().find(|name| covers(name, offset))?;
+    let drawn = chart.machines().filter_map(|machine| machine.name()).find(|name| name.text() == named.text())?;
+    Some(analysis.place(Span::new(analysis.file, drawn.text_range())))
 }
 
 /// The block of a scenario that is called at an offset.

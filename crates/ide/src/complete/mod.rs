@@ -13,9 +13,11 @@ use std::path::{Path, PathBuf};
 use groundstate::workspace::Files;
 use groundstate::{Kind, patterns};
 use model::{DomainId, DomainKind, Domains, FunctionKind, Referent};
+use syntax::ast::{self, AstNode};
 
 use crate::analysis::Analysis;
 use crate::hover::{declaration, rule_signature, signature};
+use crate::navigate::stem;
 use crate::project::Project;
 pub use item::{Item, ItemKind};
 use place::{Expected, Where};
@@ -47,6 +49,8 @@ pub fn completion<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -
         Where::Term(expected) => terms(&analysis, &place, *expected),
         Where::Operator => snippet::operators(),
         Where::ChartItem => snippet::chart_items(),
+        Where::Machine => machines(project, &analysis),
+        Where::Drawn => drawn(&analysis),
         Where::Nothing => Vec::new(),
     };
     items.sort_by(|a, b| (a.rank, &a.label, a.kind, &a.detail).cmp(&(b.rank, &b.label, b.kind, &b.detail)));
@@ -71,6 +75,37 @@ fn paths<F: Files>(project: &mut Project<F>, analysis: &Analysis, scenario: bool
         }
     }
     items
+}
+
+/// Machines that an elaboration can name: those beside the chart, and those that it imports.
+fn machines<F: Files>(project: &mut Project<F>, analysis: &Analysis) -> Vec<Item> {
+    let own = analysis.source().name.clone();
+    let folder = Path::new(&own).parent().unwrap_or(Path::new("")).to_path_buf();
+    let imports = analysis.tree().into_iter().flat_map(|tree| tree.children().filter_map(ast::Import::cast));
+    let imported = imports.filter_map(|import| import.path()).collect::<Vec<String>>();
+    let mut files: Vec<String> =
+        imported.iter().filter_map(|import| project.target(analysis.source(), import)).collect();
+    let beside =
+        |file: &String| Path::new(file).parent() == Some(&folder) && Kind::of(Path::new(file)) == Some(Kind::Model);
+    files.extend(project.all_files().into_iter().filter(beside));
+    let mut items = Vec::new();
+    for file in files {
+        let Ok(source) = project.text(&file) else { continue };
+        let parse = syntax::parse_asmetal(syntax::FileId(0), &source.text);
+        let model = ast::SourceFile::cast(parse.syntax());
+        // What is imported by the name of a library, or has no main rule, is no machine.
+        if model.is_some_and(|model| model.main_rule().is_some()) {
+            items.push(Item::new(stem(&file), ItemKind::File, "machine", 0));
+        }
+    }
+    items
+}
+
+/// The machines that the chart itself draws.
+fn drawn(analysis: &Analysis) -> Vec<Item> {
+    let chart = analysis.tree().and_then(ast::ChartFile::cast);
+    let machines = chart.into_iter().flat_map(|chart| chart.machines().filter_map(|machine| machine.name()));
+    machines.map(|name| Item::new(name.text(), ItemKind::Rule, "machine of this chart", 0)).collect()
 }
 
 /// A path as it is written in a file of a folder.

@@ -29,6 +29,10 @@ pub(super) enum Where {
     Command,
     /// An item of a machine in a chart.
     ChartItem,
+    /// The machine of an elaboration.
+    Machine,
+    /// The machine of the same chart by which a shape is to be refined.
+    Drawn,
     /// A domain.
     Domain,
     /// A rule.
@@ -369,6 +373,11 @@ fn in_chart(analysis: &Analysis, before: Option<&SyntaxToken>) -> Where {
     let Some(token) = before else { return Where::ChartItem };
     if token.kind() == SyntaxKind::IMPORT_KW {
         return Where::Path { scenario: false };
+    }
+    // In a text with faults the word after `by` may be of no phase.
+    if token.text() == "by" {
+        let of_shape = previous(token).is_some_and(|before| before.text() == "refine");
+        return if of_shape { Where::Drawn } else { Where::Machine };
     }
     let in_link = token.parent_ancestors().any(|node| node.kind() == SyntaxKind::LINK);
     if !in_link || token.kind() == SyntaxKind::R_BRACE {
