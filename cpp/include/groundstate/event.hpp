@@ -42,7 +42,7 @@ struct Event {
     std::uint16_t object = 0;   ///< the phase or channel, as the plan of the system numbers them
     Kind kind = Kind::begins;
     std::uint8_t array = 0;     ///< the array worked on; of a swap: the index read; of a value: 1 if there is one
-    std::uint8_t next = 0;      ///< of a swap: the index written
+    std::uint8_t next = 0;      ///< of a swap: the index written; of a tuple: which part, from 0 on
     bool fresh = false;         ///< of a reading, and of what is got from a channel
 };
 

@@ -16,6 +16,7 @@
 #include "observation.hpp"
 #include "seen.hpp"
 #include "task.hpp"
+#include "tuple.hpp"
 
 namespace groundstate {
 
@@ -59,20 +60,31 @@ class Phases {
         return ready;
     }
 
+    /// A step of the component's machine. In virtual time it is made when the phase ends, on what the sensors say then, as in the model.
+    template <class Step>
+    bool decide(Phase phase, Step&& step) {
+        begin(phase);
+        task_.pace.spend(phase.ticks);
+        const bool ready = step();
+        task_.progress(phase.number);
+        end(phase);
+        return ready;
+    }
+
     /// What the component decides on: the datum that it read last from a channel, what a sensor says.
     template <class T>
     void gets(std::uint16_t channel, const Seen<T>& seen) {
-        task_.record(Kind::gets, channel, seen ? bits_of(seen->value) : 0, seen ? 1 : 0, 0, seen.fresh);
+        values(Kind::gets, channel, seen && seen->known ? &seen->value : nullptr, seen.fresh);
     }
     template <class T>
     void senses(std::uint16_t sensor, const T& value) {
-        task_.record(Kind::gets, sensor, bits_of(value), 1);
+        values(Kind::gets, sensor, &value, false);
     }
 
     /// What it has decided for a channel or an actuator, if anything.
     template <class T>
     void decides(std::uint16_t object, const T& value, bool is_known) {
-        task_.record(Kind::decides, object, is_known ? bits_of(value) : 0, is_known ? 1 : 0);
+        values(Kind::decides, object, is_known ? &value : nullptr, false);
     }
 
     /// Reads in place: the master's array, or that of a wait-free buffer.
@@ -185,6 +197,16 @@ class Phases {
     }
 
   private:
+    // One event for each part that is no tuple.
+    template <class T>
+    void values(Kind kind, std::uint16_t object, const T* value, bool fresh) {
+        const bool known = value != nullptr;
+        std::size_t part = 0;
+        each_scalar(known ? *value : T{}, [&](const auto& scalar) {
+            task_.record(kind, object, known ? bits_of(scalar) : 0, known ? 1 : 0, part++, fresh);
+        });
+    }
+
     template <class Reading, class T>
     static void show(const Reading& reading, const T* datum, Seen<T>& seen) {
         if (datum != nullptr) {

@@ -128,6 +128,7 @@ class Recorder {
         R"("kind":{"type":"string"},"object":{"type":"string","description":"phase, channel or task"},)"
         R"("number":{"type":"integer","description":"of the datum, message or cycle; the bits of a value"},)"
         R"("known":{"type":"boolean","description":"there is a value"},)"
+        R"("part":{"type":"integer","description":"of a tuple, which part the value is, from 0 on; 0 if left out"},)"
         R"("array":{"type":"integer","description":"the array worked on; of a swap the index read"},)"
         R"("next":{"type":"integer","description":"of a swap the index written"},)"
         R"("fresh":{"type":"boolean","description":"the reading brought something new"}}})";
@@ -211,8 +212,16 @@ class Recorder {
             case Kind::gets:
                 more(R"(,"known":%s)", event.array != 0 ? "true" : "false");
                 more(R"(,"fresh":%s)", event.fresh ? "true" : "false");
+                if (event.next != 0) {
+                    more(R"(,"part":%d)", int{event.next});
+                }
                 break;
-            case Kind::decides: more(R"(,"known":%s)", event.array != 0 ? "true" : "false"); break;
+            case Kind::decides:
+                more(R"(,"known":%s)", event.array != 0 ? "true" : "false");
+                if (event.next != 0) {
+                    more(R"(,"part":%d)", int{event.next});
+                }
+                break;
             default: break;
         }
         more("%s", "}");

@@ -111,6 +111,19 @@ pub enum Content {
         /// Its literals.
         literals: Vec<String>,
     },
+    /// A tuple of two to five values.
+    Tuple(Vec<Content>),
     /// Any other domain, as a model writes it.
     Other(String),
+}
+
+impl Content {
+    /// The enums in it, with their literals.
+    pub fn enums(&self) -> Vec<(&str, &[String])> {
+        match self {
+            Content::Enum { name, literals } => vec![(name, literals)],
+            Content::Tuple(parts) => parts.iter().flat_map(Content::enums).collect(),
+            Content::Boolean | Content::Integer | Content::Real | Content::Other(_) => Vec::new(),
+        }
+    }
 }

@@ -13,6 +13,7 @@ use model::Basic;
 use program::{DomainId, DomainKind, FunctionId, FunctionKind, ProcedureId, Program};
 use recording::{Decision, Event, Kind, Recording};
 
+use crate::carried::{Carried, Unlike};
 use crate::evidence::Parted;
 use crate::steps::Steps;
 use crate::vocabulary::Vocabulary;
@@ -26,6 +27,8 @@ pub(crate) struct Functions {
     channels: BTreeMap<String, Value>,
     /// How many decisions agree.
     agreed: usize,
+    /// What went through the channels.
+    carried: Carried,
 }
 
 #[derive(Debug)]
@@ -37,7 +40,7 @@ struct Task {
     /// The channels from which its machine gets something, and those for which it decides.
     parts: [Vec<String>; 2],
     /// What the first decision was made of: what was got, then what was decided.
-    shape: Option<Vec<(bool, Arc<str>)>>,
+    shape: Option<Vec<(bool, Arc<str>, u64)>>,
     /// The next decision.
     cursor: usize,
     /// How many agree.
@@ -81,7 +84,7 @@ impl Functions {
                 task.parts = [of(task, FunctionKind::Derived), of(task, FunctionKind::Controlled)];
             }
         }
-        Ok(Functions { machine, tasks, channels, agreed: 0 })
+        Ok(Functions { machine, tasks, channels, agreed: 0, carried: Carried::default() })
     }
 
     /// How many decisions agree.
@@ -120,16 +123,37 @@ impl Functions {
                 return Some(self.parted(index, recording, &[], reason));
             }
         }
-        None
+        let unlike = self.carried.go_on(recording)?;
+        self.changed_on_the_way(recording, &unlike)
+    }
+
+    /// A datum that came out of its channel as another one.
+    fn changed_on_the_way(&self, recording: &Recording, unlike: &Unlike) -> Option<Parted> {
+        let task = &recording.tracks[unlike.track].task;
+        let index = self.tasks.iter().position(|known| known.name == *task)?;
+        let program = self.machine.program();
+        let name = &unlike.got[0].object;
+        let table = program.find_function(&format!("{name}_value"), 1)?;
+        let got = recorded(program, table, &unlike.got);
+        let reason = match &unlike.decided[..] {
+            [] => format!("got {name} = {} before there was a datum", got.show(program)),
+            decided => format!(
+                "got {name} = {} as datum {}, which was decided as {}",
+                got.show(program),
+                unlike.number,
+                recorded(program, table, decided).show(program)
+            ),
+        };
+        Some(self.parted(index, recording, &unlike.got, reason))
     }
 
     /// What of a decision is missing or too much, if it is not made of what decisions of this task are made of.
     fn unlike(&mut self, index: usize, decisions: &[Decision]) -> Option<String> {
         let task = &mut self.tasks[index];
-        let shape: Vec<(bool, Arc<str>)> =
-            decisions.iter().map(|decision| (decision.is_got, Arc::clone(&decision.object))).collect();
+        let shape: Vec<(bool, Arc<str>, u64)> =
+            decisions.iter().map(|one| (one.is_got, Arc::clone(&one.object), one.part)).collect();
         for (is_got, parts) in [(true, &task.parts[0]), (false, &task.parts[1])] {
-            let has = |part: &&String| shape.iter().any(|(got, object)| *got == is_got && **object == ***part);
+            let has = |part: &&String| shape.iter().any(|(got, object, _)| *got == is_got && **object == ***part);
             if let Some(part) = parts.iter().find(|part| !has(part)) {
                 return Some(match is_got {
                     true => format!("decided, and it is not recorded what it got from {part}"),
@@ -143,7 +167,7 @@ impl Functions {
         }
         let other =
             first.iter().find(|part| !shape.contains(part)).or_else(|| shape.iter().find(|part| !first.contains(part)));
-        let (is_got, object) = other.or_else(|| shape.first())?;
+        let (is_got, object, _) = other.or_else(|| shape.first())?;
         let verb = if *is_got { "got" } else { "decided" };
         Some(format!("{verb} other things than in its first decision: see {object}"))
     }
@@ -180,8 +204,8 @@ impl Functions {
         let program = Arc::clone(self.machine.program());
         let mut got = Got::default();
         let mut words = Vec::new();
-        for decision in decisions.iter().filter(|decision| decision.is_got) {
-            match self.give(&program, index, decision, &mut got) {
+        for values in whole(decisions).filter(|values| values[0].is_got) {
+            match self.give(&program, index, values, &mut got) {
                 Ok(text) => words.push(text),
                 Err(reason) => return Some(reason),
             }
@@ -192,14 +216,15 @@ impl Functions {
             return Some(format!("its machine cannot decide{from}: {}", fault.show(&program)));
         }
         self.machine.commit();
-        for decision in decisions.iter().filter(|decision| !decision.is_got) {
+        for values in whole(decisions).filter(|values| !values[0].is_got) {
+            let decision = &values[0];
             let own = format!("{}_{}", self.tasks[index].name, decision.object);
             let function = program.find_function(&own, 0).or_else(|| program.find_function(&decision.object, 0));
             let Some(function) = function else {
                 return Some(format!("the model does not know what it decides for {}", decision.object));
             };
             let decided = self.machine.value_at(LocationRef { function, arguments: &[] });
-            let recorded = if decision.known { value(&program, function, decision.bits) } else { Value::Undef };
+            let recorded = recorded(&program, function, values);
             if decided != recorded {
                 let (name, did, does) = (&decision.object, recorded.show(&program), decided.show(&program));
                 return Some(format!("decided {name} = {did}, its machine {does},{from}"));
@@ -209,13 +234,14 @@ impl Functions {
     }
 
     /// Sets what was got; says it in words.
-    fn give(&mut self, program: &Program, index: usize, decision: &Decision, got: &mut Got) -> Result<String, String> {
+    fn give(&mut self, program: &Program, index: usize, values: &[Decision], got: &mut Got) -> Result<String, String> {
+        let decision = &values[0];
         let name = decision.object.as_ref();
         let unknown = || format!("the model does not know what it gets from {name}");
         let function = |name: &str, arity| program.find_function(name, arity).ok_or_else(unknown);
         let Some(table) = program.find_function(&format!("{name}_value"), 1) else {
             let sensor = function(name, 0)?;
-            let value = value(program, sensor, decision.bits);
+            let value = recorded(program, sensor, values);
             let text = format!("{name} = {}", value.show(program));
             got.0.push((sensor, value));
             return Ok(text);
@@ -223,7 +249,7 @@ impl Functions {
         let element = function(name, 0)?;
         let domain = program.domain(program.function(element).codomain).name.clone();
         let channel = self.channels.get(name).cloned().ok_or_else(unknown)?;
-        let value = if decision.known { value(program, table, decision.bits) } else { Value::Undef };
+        let value = recorded(program, table, values);
         let text = format!("{name} = {}{}", value.show(program), if decision.fresh { " (new)" } else { "" });
         // Nothing was read here, so the number of what was read last is that of the initial state.
         self.set(Location { function: table, arguments: vec![Value::Integer(0)] }, value)?;
@@ -248,32 +274,53 @@ impl Functions {
 /// How many of these records are the first decision, if it is known to be whole.
 fn next(decisions: &[Decision], more: bool) -> Option<usize> {
     let got = decisions.iter().take_while(|decision| decision.is_got).count();
-    let mut decided: Vec<&str> = Vec::new();
+    let mut decided: Vec<(&str, u64)> = Vec::new();
     for decision in &decisions[got..] {
-        if decision.is_got || decided.contains(&decision.object.as_ref()) {
+        let part = (decision.object.as_ref(), decision.part);
+        if decision.is_got || decided.contains(&part) {
             return Some(got + decided.len());
         }
-        decided.push(&decision.object);
+        decided.push(part);
     }
     // What comes last may go on; a hook that threw has decided nothing.
     (!more && !decided.is_empty()).then_some(got + decided.len())
 }
 
-/// The value of a function's domain with these bits.
-fn value(program: &Program, function: FunctionId, bits: u64) -> Value {
-    let codomain = program.function(function).codomain;
-    let domain = match &program.domain(codomain).kind {
+/// The values of decisions, each with the records of all its parts.
+fn whole(decisions: &[Decision]) -> impl Iterator<Item = &[Decision]> {
+    let goes_on =
+        |one: &Decision, next: &Decision| next.part != 0 && one.is_got == next.is_got && one.object == next.object;
+    decisions.chunk_by(goes_on)
+}
+
+/// The value of a function that is recorded in these parts. A tuple that lacks a part, or has one too many, has no value.
+fn recorded(program: &Program, function: FunctionId, parts: &[Decision]) -> Value {
+    let in_order = parts.iter().zip(0..).all(|(part, number)| part.part == number && part.known);
+    let mut bits = parts.iter().map(|part| part.bits);
+    let value = value(program, program.function(function).codomain, &mut bits);
+    if in_order && bits.next().is_none() { value.unwrap_or(Value::Undef) } else { Value::Undef }
+}
+
+/// The value of a domain with these bits.
+fn value(program: &Program, domain: DomainId, bits: &mut impl Iterator<Item = u64>) -> Option<Value> {
+    let domain = match &program.domain(domain).kind {
         DomainKind::Concrete { base, .. } => *base,
-        _ => codomain,
+        _ => domain,
     };
-    match &program.domain(domain).kind {
+    if let DomainKind::Prod(parts) = &program.domain(domain).kind {
+        let parts: Option<Vec<Value>> = parts.iter().map(|part| value(program, *part, bits)).collect();
+        return parts.map(Value::tuple);
+    }
+    let bits = bits.next()?;
+    let value = match &program.domain(domain).kind {
         DomainKind::Enum { literals } if bits < literals.len() as u64 => Value::Enum(domain, bits as u32),
         DomainKind::Basic(Basic::Boolean) => Value::Boolean(bits != 0),
         DomainKind::Basic(Basic::Integer | Basic::Natural) => Value::Integer(bits as i64),
         DomainKind::Basic(Basic::Real) => machine::Real::new(f64::from_bits(bits)).map_or(Value::Undef, Value::Real),
         // The generator refuses data of other domains.
         _ => Value::Undef,
-    }
+    };
+    Some(value)
 }
 
 /// What sensors said; of several candidates the first one, as in the program.

@@ -7,6 +7,7 @@
 //! agrees with the recorded instants (`untimed`). What components' machines decide is replayed apart (`functions`). The meaning of a rule stays in the machine; a run that was not wholly
 //! recorded never conforms.
 
+mod carried;
 mod claims;
 mod events;
 mod evidence;

@@ -62,8 +62,12 @@ impl Loader for Files {
 }
 
 fn model() -> Loaded {
-    let mut files = Files(Texts::of([("Gauge.asm", GAUGE), ("Control.asm", CONTROL)]));
-    let built = build_chart(SourceFile::new("Tank.chart", TANK), "Tank.asm", None, &mut files);
+    model_of(TANK, GAUGE, CONTROL)
+}
+
+fn model_of(chart: &str, gauge: &str, control: &str) -> Loaded {
+    let mut files = Files(Texts::of([("Gauge.asm", gauge), ("Control.asm", control)]));
+    let built = build_chart(SourceFile::new("Tank.chart", chart), "Tank.asm", None, &mut files);
     let text = built.built.unwrap_or_else(|| panic!("{:#?}", built.faults)).text;
     load(SourceFile::new("Tank.asm", text), &mut files).unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics))
 }
@@ -88,8 +92,9 @@ impl Environment for Rising {
 
 const TICK_NS: i64 = 1_000_000;
 
-/// A run of the model as a program that follows it would record it, and all that its machines decide.
-fn recorded(loaded: &Loaded) -> Recording {
+/// A run of the model as a program that follows it would record it, and all that its machines decide. What goes through the channel has
+/// so many parts.
+fn recorded(loaded: &Loaded, width: usize) -> Recording {
     let program = &loaded.program;
     let mut level = Rising(0);
     let mut run = Run::start(program, Limits::default(), &mut level).expect("it starts");
@@ -106,23 +111,41 @@ fn recorded(loaded: &Loaded) -> Recording {
         for (task, mut event) in events {
             event.time_ns = tick * TICK_NS;
             let track = usize::from(task == "control");
+            let before = tracks[track].events.len();
             let decision = |is_got: bool, object: &str, value: &Value, fresh: bool| {
-                let (bits, known) = match value {
-                    Value::Integer(number) => (*number as u64, true),
-                    Value::Boolean(truth) => (u64::from(*truth), true),
-                    _ => (0, false),
+                let parts = match value {
+                    Value::Tuple(parts) => parts.to_vec(),
+                    Value::Undef if object == "levels" => vec![Value::Undef; width],
+                    scalar => vec![scalar.clone()],
                 };
-                Decision { time_ns: tick * TICK_NS, is_got, object: object.into(), bits, known, fresh }
+                let record = move |(value, part): (Value, u64)| {
+                    let (bits, known) = match value {
+                        Value::Integer(number) => (number as u64, true),
+                        Value::Boolean(truth) => (u64::from(truth), true),
+                        _ => (0, false),
+                    };
+                    Decision {
+                        time_ns: tick * TICK_NS,
+                        is_got,
+                        object: object.into(),
+                        part,
+                        bits,
+                        known,
+                        fresh,
+                        events: before,
+                    }
+                };
+                parts.into_iter().zip(0..).map(record).collect::<Vec<_>>()
             };
             if event.kind.word() == "ends" && event.object.as_ref() == "gauge_measure" {
                 let decided = value(loaded, &mut run, "gauge_levels");
-                tracks[0].decisions.push(decision(true, "level", &Value::Integer(tick), false));
-                tracks[0].decisions.push(decision(false, "levels", &decided, false));
+                tracks[0].decisions.extend(decision(true, "level", &Value::Integer(tick), false));
+                tracks[0].decisions.extend(decision(false, "levels", &decided, false));
             }
             if event.kind.word() == "ends" && event.object.as_ref() == "control_decide" {
                 let decided = value(loaded, &mut run, "valve");
-                tracks[1].decisions.push(decision(true, "levels", &read, is_new));
-                tracks[1].decisions.push(decision(false, "valve", &decided, false));
+                tracks[1].decisions.extend(decision(true, "levels", &read, is_new));
+                tracks[1].decisions.extend(decision(false, "valve", &decided, false));
             }
             tracks[track].events.push(event);
         }
@@ -159,7 +182,7 @@ fn conformed(loaded: &Loaded, recording: Recording, by_order: bool) -> Conformed
 #[test]
 fn data_go_through_channels_and_decisions_are_held_to_their_machines() {
     let loaded = model();
-    let good = recorded(&loaded);
+    let good = recorded(&loaded, 1);
     // Of three levels that the gauge measures, the control reads one: the others are lost. The first time there is none.
     let measured: Vec<u64> = good.tracks[0].decisions.iter().filter(|one| !one.is_got).map(|one| one.bits).collect();
     let got: Vec<_> = good.tracks[1].decisions.iter().filter(|one| one.is_got).collect();
@@ -181,6 +204,18 @@ fn data_go_through_channels_and_decisions_are_held_to_their_machines() {
         let reason = format!("decided valve = false, its machine true, from levels = {first} (new)");
         assert_eq!(parted.reason, Some(reason));
         assert_eq!((parted.task.as_str(), parted.decides), ("control", true));
+        // What was got is another datum than was written, and all that was decided from it is as the machine decides.
+        let mut other = good.clone();
+        let unlike = other.tracks[1].decisions[2].bits + 1;
+        other.tracks[1].decisions[2].bits = unlike;
+        let Verdict::Parts(parted) = conformed(&loaded, other, by_order).verdict else { panic!("it is found") };
+        let reason = parted.reason.unwrap_or_default();
+        assert!(reason.starts_with(&format!("got levels = {unlike} as datum ")), "{reason}");
+        assert!(reason.ends_with(&format!(", which was decided as {first}")), "{reason}");
+        let mut early = good.clone();
+        (early.tracks[1].decisions[0].known, early.tracks[1].decisions[0].bits) = (true, 0);
+        let Verdict::Parts(parted) = conformed(&loaded, early, by_order).verdict else { panic!("it is found") };
+        assert_eq!(parted.reason.as_deref(), Some("got levels = 0 before there was a datum"));
         // Nothing is handed over, and the machine would.
         let mut silent = good.clone();
         silent.tracks[0].decisions[1].known = false;
@@ -205,4 +240,40 @@ fn data_go_through_channels_and_decisions_are_held_to_their_machines() {
         assert!(reason.ends_with("but what it decided is recorded never"), "{reason}");
         found(&|decisions| decisions.swap(2, 3));
     }
+}
+
+#[test]
+fn tuples_are_replayed_by_their_parts() {
+    let pair = "Prod(Integer, Boolean)";
+    let loaded = model_of(
+        &TANK.replace("levels : Integer", &format!("levels : {pair}")),
+        &GAUGE.replace("levels: Integer", &format!("levels: {pair}")).replace("level * 10", "(level * 10, level > 3)"),
+        &CONTROL
+            .replace("levels: Integer", &format!("levels: {pair}"))
+            .replace("levels > highest", "second(levels) and first(levels) > highest")
+            .replace(":= levels", ":= first(levels)"),
+    );
+    let good = recorded(&loaded, 2);
+    let whole = conformed(&loaded, good.clone(), false);
+    assert!(matches!(whole.verdict, Verdict::Conforms { .. }), "{:#?}", whole.verdict);
+    // Two parts are one value: three records make a decision of the gauge, and three of the control.
+    let records: usize = good.tracks.iter().map(|track| track.decisions.len()).sum();
+    assert_eq!(whole.decisions.map(|decisions| decisions * 3), Some(records));
+    let found = |change: &dyn Fn(&mut Recording)| {
+        let mut wrong = good.clone();
+        change(&mut wrong);
+        let Verdict::Parts(parted) = conformed(&loaded, wrong, false).verdict else { panic!("it is found") };
+        parted.reason.unwrap_or_default()
+    };
+    let last = good.tracks[0].decisions.len() - 1;
+    let reason = found(&|wrong| wrong.tracks[0].decisions[last].bits = 0);
+    assert_eq!(reason, "decided levels = (570,false), its machine (570,true), from level = 57");
+    let reason = found(&|wrong| wrong.tracks[0].decisions[last].known = false);
+    assert_eq!(reason, "decided levels = undef, its machine (570,true), from level = 57");
+    // A part that is missing, one that comes twice, parts in another order.
+    found(&|wrong| _ = wrong.tracks[0].decisions.remove(last));
+    found(&|wrong| _ = wrong.tracks[0].decisions.remove(last - 1));
+    found(&|wrong| wrong.tracks[0].decisions[last].part = 2);
+    found(&|wrong| wrong.tracks[0].decisions.swap(last - 1, last));
+    found(&|wrong| wrong.tracks[1].decisions[1].part = 0);
 }

@@ -33,12 +33,16 @@ pub struct Decision {
     pub is_got: bool,
     /// The channel, sensor or actuator.
     pub object: Arc<str>,
+    /// Of a tuple, which of its parts, from 0 on; parts that are tuples are counted by theirs.
+    pub part: u64,
     /// The bits of the value: 0 or 1, the place of a literal, a number.
     pub bits: u64,
     /// There is a value.
     pub known: bool,
     /// Of what is got from a channel, whether it was new.
     pub fresh: bool,
+    /// How many events the task recorded before.
+    pub events: usize,
 }
 
 /// What happened.

@@ -85,6 +85,8 @@ struct Said<'a> {
     next: Option<u64>,
     fresh: Option<bool>,
     known: Option<bool>,
+    #[serde(default)]
+    part: u64,
 }
 
 /// Reads a file that may still be written, in pieces of any size.
@@ -355,10 +357,11 @@ impl Reader {
                 object
             }
         };
-        let Said { number, array, next, fresh, known, .. } = said;
+        let Said { number, array, next, fresh, known, part, .. } = said;
         let Some(kind) = kind else {
             let (known, fresh, is_got) = (known.unwrap_or(false), fresh.unwrap_or(false), decision.unwrap_or(false));
-            track.decisions.push(Decision { time_ns, is_got, object, bits: number, known, fresh });
+            let events = track.events.len();
+            track.decisions.push(Decision { time_ns, is_got, object, part, bits: number, known, fresh, events });
             return Some(Ok(()));
         };
         track.events.push(Event { time_ns, kind, object, number, array, next, fresh });

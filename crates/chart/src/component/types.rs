@@ -99,11 +99,15 @@ fn content(checked: &Checked, domain: DomainId) -> Content {
         DomainKind::Enum { literals } => {
             Content::Enum { name: entry.name.clone().unwrap_or_default(), literals: literals.clone() }
         }
+        DomainKind::Prod(parts) => {
+            let parts: Vec<Content> = parts.iter().map(|part| content(checked, *part)).collect();
+            let fits = (2..=5).contains(&parts.len()) && !parts.iter().any(|part| matches!(part, Content::Other(_)));
+            if fits { Content::Tuple(parts) } else { Content::Other(domains.display(domain)) }
+        }
         DomainKind::Basic(Basic::Complex | Basic::Char | Basic::String | Basic::Undef)
         | DomainKind::Any
         | DomainKind::Abstract { .. }
         | DomainKind::Concrete { .. }
-        | DomainKind::Prod(_)
         | DomainKind::Seq(_)
         | DomainKind::Powerset(_)
         | DomainKind::Bag(_)

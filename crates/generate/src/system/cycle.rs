@@ -27,10 +27,8 @@ pub(super) fn cycle(text: &mut String, system: &System, index: usize, form: &For
             Action::Elaborate(_) => {
                 let assigned = if writes(at) { "ready = " } else { "" };
                 if let Some(body) = elaboration(system, index, at, form) {
-                    let _ = write!(
-                        text,
-                        "            {assigned}phases.elaborate({number}, [&] {{\n{body}            }});\n"
-                    );
+                    let _ =
+                        write!(text, "            {assigned}phases.decide({number}, [&] {{\n{body}            }});\n");
                     continue;
                 }
                 let _ = write!(

@@ -40,21 +40,25 @@ fn type_of(content: &Content) -> String {
         Content::Integer => "std::int64_t".to_string(),
         Content::Real => "double".to_string(),
         Content::Enum { name, .. } => member(name),
+        Content::Tuple(parts) => {
+            let parts: Vec<String> = parts.iter().map(type_of).collect();
+            format!("groundstate::Tuple<{}>", parts.join(", "))
+        }
         Content::Other(text) => unreachable!("{text} is refused before"),
     }
 }
 
 /// The header of the messages.
 pub(super) fn messages(system: &System, file: &str, space: &str) -> String {
+    let has_tuples = system.computing.contents.values().any(|content| matches!(content, Content::Tuple(_)));
     let mut text = format!(
         "// Made from {file} by `groundstate generate cpp`; do not edit. What channels and devices carry.\n#pragma once\n\n\
-         #include <cstdint>\n\nnamespace {space} {{\n"
+         #include <cstdint>\n\n{}namespace {space} {{\n",
+        if has_tuples { "#include <groundstate/tuple.hpp>\n\n" } else { "" }
     );
     let mut known: Vec<&str> = Vec::new();
-    for content in system.computing.contents.values() {
-        if let Content::Enum { name, literals } = content
-            && !known.contains(&name.as_str())
-        {
+    for (name, literals) in system.computing.contents.values().flat_map(Content::enums) {
+        if !known.contains(&name) {
             known.push(name);
             let literals: Vec<String> = literals.iter().map(|literal| member(literal)).collect();
             let _ = writeln!(text, "\nenum class {} : std::uint32_t {{ {} }};", member(name), literals.join(", "));
@@ -65,7 +69,7 @@ pub(super) fn messages(system: &System, file: &str, space: &str) -> String {
         let (from, to) = (&system.components[channel.from].name, &system.components[channel.to].name);
         let _ = write!(
             text,
-            "\n/// From {from} to {to}.\nstruct {} {{\n    {} value{{}};\n}};\n",
+            "\n/// From {from} to {to}.\nstruct {} {{\n    {} value{{}};\n    bool known = true;  ///< false: undef, whatever the value\n}};\n",
             pascal(&channel.name),
             type_of(content)
         );
@@ -114,8 +118,7 @@ fn one(text: &mut String, system: &System, machine: &ComponentMachine, class: &M
     let _ = write!(
         text,
         "    bool {}(const Cycle&, const In& in, [[maybe_unused]] Out& out) override {{\n        \
-         inputs_.in = &in;\n        groundstate::made(machine_.step(), \"{made}\");\n        \
-         bool ready = true;\n",
+         inputs_.in = &in;\n        groundstate::made(machine_.step(), \"{made}\");\n",
         hook(&phase.subject)
     );
     for (function, take) in &machine.takes {
@@ -123,7 +126,10 @@ fn one(text: &mut String, system: &System, machine: &ComponentMachine, class: &M
         match take {
             Take::Channel(channel) => {
                 let out = member(&system.channels[*channel].name);
-                let _ = writeln!(text, "        ready &= groundstate::decided(machine_.{called}(), out.{out}.value);");
+                let _ = writeln!(
+                    text,
+                    "        out.{out}.known = groundstate::decided(machine_.{called}(), out.{out}.value);"
+                );
             }
             Take::Actuator(device) => {
                 let device = &system.devices[*device];
@@ -137,13 +143,32 @@ fn one(text: &mut String, system: &System, machine: &ComponentMachine, class: &M
             }
         }
     }
-    text.push_str("        return ready;\n    }\n");
+    text.push_str("        return true;\n    }\n");
     let space = &class.name;
+    let tuples = fed_tuples(system, machine);
+    let domains = if tuples.is_empty() { "" } else { ", Domains" };
     let _ = write!(
         text,
-        "    /// The machine, to look at.\n    const ::{space}::Machine& machine() const noexcept {{ return machine_; }}\n\n  private:\n    \
-         struct Inputs final : ::{space}::Environment {{\n"
+        "    /// The machine, to look at.\n    const ::{space}::Machine& machine() const noexcept {{ return machine_; }}\n\n  private:\n"
     );
+    if !tuples.is_empty() {
+        text.push_str("    /// The machine's numbers of the domains of enums in tuples.\n    struct Domains {\n");
+        let mut known: Vec<&str> = Vec::new();
+        for (name, _) in tuples.iter().flat_map(|content| content.enums()) {
+            if let Some((_, number)) = class.domains.iter().find(|(domain, _)| domain == name)
+                && !known.contains(&name)
+            {
+                known.push(name);
+                let _ = writeln!(
+                    text,
+                    "        static constexpr std::uint32_t of({}) noexcept {{ return {number}; }}",
+                    member(name)
+                );
+            }
+        }
+        text.push_str("    };\n");
+    }
+    let _ = writeln!(text, "    struct Inputs final : ::{space}::Environment {{");
     for (function, feed) in &machine.feeds {
         let called = class.called(function);
         if !class.header.contains(&format!(" {called}() = 0;")) {
@@ -153,7 +178,7 @@ fn one(text: &mut String, system: &System, machine: &ComponentMachine, class: &M
         let value = match feed {
             Feed::Channel(channel) => {
                 let read = member(&system.channels[*channel].name);
-                format!("in == nullptr ? Answer{{}} : groundstate::carried<Answer>(in->{read})")
+                format!("in == nullptr ? Answer{{}} : groundstate::carried<Answer{domains}>(in->{read})")
             }
             Feed::IsNew(channel) => {
                 let read = member(&system.channels[*channel].name);
@@ -161,7 +186,7 @@ fn one(text: &mut String, system: &System, machine: &ComponentMachine, class: &M
             }
             Feed::Sensor(device) => {
                 let device = member(&system.devices[*device].name);
-                format!("in == nullptr ? Answer{{}} : groundstate::sensed<Answer>(in->{device})")
+                format!("in == nullptr ? Answer{{}} : groundstate::sensed<Answer{domains}>(in->{device})")
             }
         };
         let _ = writeln!(
@@ -175,6 +200,16 @@ fn one(text: &mut String, system: &System, machine: &ComponentMachine, class: &M
          const In* in = nullptr;\n    }};\n\n    \
          Inputs inputs_{{}};\n    ::{space}::Machine machine_{{inputs_}};\n}};\n"
     );
+}
+
+/// The tuples that feed a machine.
+fn fed_tuples<'s>(system: &'s System, machine: &ComponentMachine) -> Vec<&'s Content> {
+    let carried = |(_, feed): &(String, Feed)| match feed {
+        Feed::Channel(channel) => system.computing.contents.get(&system.channels[*channel].name),
+        Feed::Sensor(device) => system.computing.contents.get(&system.devices[*device].name),
+        Feed::IsNew(_) => None,
+    };
+    machine.feeds.iter().filter_map(carried).filter(|content| matches!(content, Content::Tuple(_))).collect()
 }
 
 /// A sensor or actuator, and the type of its values.
@@ -246,7 +281,7 @@ pub(super) fn elaboration(system: &System, index: usize, phase: usize, form: &Fo
         match take {
             Take::Channel(channel) => {
                 let (written, number) = (member(&system.channels[*channel].name), numbers.channels + channel);
-                line(format!("phases.decides({number}, out.{written}.value, done);"));
+                line(format!("phases.decides({number}, out.{written}.value, done && out.{written}.known);"));
             }
             Take::Actuator(device) => {
                 let (set, number) = (format!("set_{}", system.devices[*device].name), numbers.devices + device);

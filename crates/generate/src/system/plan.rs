@@ -27,6 +27,8 @@ pub struct MachineClass {
     pub header: String,
     /// Names that differ in C++: `(the model's, the class's)`.
     pub renamed: Vec<(String, String)>,
+    /// The numbers of its domains, by their names: its dynamic values have them.
+    pub domains: Vec<(String, u32)>,
 }
 
 impl MachineClass {

@@ -46,15 +46,17 @@ pub fn ungenerated(system: &System) -> Vec<Diagnostic> {
             Content::Other(domain) => faults.push(not_generated(
                 said(name),
                 format!("data of {domain} cannot be generated"),
-                "channels and devices of a program carry Booleans, numbers and literals of enums",
+                "channels and devices of a program carry Booleans, numbers, literals of enums, and tuples of two to five of these",
                 "split the datum into several channels, or number what it says",
             )),
-            Content::Enum { name: made, .. } => {
-                if !types.iter().any(|(known, _)| known == made) {
-                    types.push((made.clone(), said(name)));
-                }
+            Content::Boolean | Content::Integer | Content::Real | Content::Enum { .. } | Content::Tuple(_) => {}
+        }
+    }
+    for (name, content) in &computing.contents {
+        for (made, _) in content.enums() {
+            if !types.iter().any(|(known, _)| known == made) {
+                types.push((made.to_string(), said(name)));
             }
-            Content::Boolean | Content::Integer | Content::Real => {}
         }
     }
     for machine in &computing.machines {

@@ -76,7 +76,14 @@ pub fn generate_model(
 
 /// What [`generate_model`] made of a component's machine, for the program of its system: the class for [`Form::classes`], and the files
 /// within the program's folder. `file` is the machine's file as the chart's system names it.
-pub fn machine_of_component(file: String, machine: String, folder: Folder) -> (MachineClass, Vec<(String, String)>) {
+pub fn machine_of_component(
+    file: String,
+    machine: String,
+    program: &Program,
+    folder: Folder,
+) -> (MachineClass, Vec<(String, String)>) {
+    let numbered = program.domains.iter().zip(0..).map(|(domain, number)| (domain.name.clone(), number));
+    let domains = numbered.filter(|(name, _)| !name.is_empty()).collect();
     let header = folder.decided.iter().find(|(path, _)| path.ends_with(".hpp") && !path.contains('/'));
     let (path, header) = header.cloned().unwrap_or_default();
     let name = path.trim_end_matches(".hpp").to_string();
@@ -90,7 +97,7 @@ pub fn machine_of_component(file: String, machine: String, folder: Folder) -> (M
         },
     });
     let files = files.collect();
-    (MachineClass { file, machine, name, header, renamed: folder.renamed }, files)
+    (MachineClass { file, machine, name, header, renamed: folder.renamed, domains }, files)
 }
 
 /// Starts to generate the program of a chart's system; comments call the chart `file`.

@@ -3,6 +3,7 @@
 
 use std::io::Write;
 use std::path::Path;
+use std::sync::Arc;
 
 use generate::model::Options;
 use generate::system::{Form, MachineClass};
@@ -80,7 +81,8 @@ fn machine_class(shell: &mut Shell, file: &str, output: &Path) -> Result<Result<
     std::fs::create_dir_all(&folder).map_err(|error| Failure::of_file("write", &folder, error))?;
     let sources = placed(&loaded.sources, &folder);
     let cancel = Cancel::from(interrupt::request().clone());
-    let job = job::generate_model(loaded.program, sources, Options::default(), cancel);
+    let job = job::generate_model(Arc::clone(&loaded.program), sources, Options::default(), cancel);
     let made = finished(shell, &loaded.sources, job)?;
-    Ok(made.map(|folder| job::machine_of_component(file.to_string(), loaded.model.name.clone(), folder)))
+    Ok(made
+        .map(|folder| job::machine_of_component(file.to_string(), loaded.model.name.clone(), &loaded.program, folder)))
 }
