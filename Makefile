@@ -109,6 +109,7 @@ msrv: ## the workspace, checked by the oldest Rust that Cargo.toml promises, if 
 verify: $(GROUNDSTATE) ## the pattern library's properties in every state, its seeded faults found, the reference systems counted: minutes, 4 GB
 	sh library/verification/verify.sh $(GROUNDSTATE) expected.txt expected-long.txt
 	sh library/verification/mutants.sh $(GROUNDSTATE) mutants.txt
+	sh examples/sorting_cell/check.sh $(GROUNDSTATE) whole
 
 cpp: ## the C++ runtime and the cameras: their tests as they are; the runtime's under ThreadSanitizer and by clang++, too
 	sh cpp/run.sh plain thread clang
@@ -118,6 +119,7 @@ cpp-full: ## the same under AddressSanitizer and UndefinedBehaviorSanitizer, too
 
 systems: $(TESTED) ## programs generated from systems: run, held to their models, with faults put in
 	sh cpp/systems/run.sh $(TESTED)
+	sh examples/sorting_cell/check.sh $(TESTED)
 
 robot: $(TESTED) ## the case study's robot: servo law, vision, the controller in closed loop, held to its model
 	sh examples/robot.sh $(TESTED) visual_servoing

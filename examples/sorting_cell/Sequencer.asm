@@ -1,0 +1,163 @@
+/* Follows the parcels along the belt, and orders the pushers to push.
+
+   A parcel lies under the camera first. While it lies there, it is known by its number what reader and classifier say of it. When the
+   belt moves, it is decided where the parcel goes; what is not known by then goes to the end of the belt. One place on is the left
+   pusher, two places on the right one. */
+asm Sequencer
+
+import ../../library/std/StandardLibrary
+import ../../library/std/CTLLibrary
+import ../../library/std/LTLLibrary
+import Parcels
+
+signature:
+	enum domain Mode = {RUNNING | STOPPED}
+	monitored stop: Boolean
+	monitored arrivals: Parcel
+	monitored codes: Prod(Parcel, Bin)
+	monitored classes: Prod(Parcel, Shape)
+	monitored way: Way
+	out leftOrders: Boolean
+	out rightOrders: Boolean
+	controlled mode: Mode
+	/* the last numbers that were seen */
+	controlled arrived: Parcel
+	controlled come: Way
+	/* the parcel under the camera, and what is known of it */
+	controlled entering: Parcel
+	controlled code: Bin
+	controlled shape: Shape
+	/* the parcel at the left pusher that goes to the right one */
+	controlled following: Parcel
+	/* the parcels that are pushed now */
+	controlled pushedLeft: Parcel
+	controlled pushedRight: Parcel
+	derived moved: Boolean
+	derived bin: Bin
+	derived isLost: Boolean
+	/* said of a parcel in this step: another bin; that it is damaged */
+	derived isOther: Prod(Parcel, Bin) -> Boolean
+	derived isDamaged: Parcel -> Boolean
+
+definitions:
+	function moved = isDef(way) and way != come
+
+	function bin = if code = undef or shape != WHOLE then END else code endif
+
+	/* a parcel that was not seen, a mark that was not seen, two parcels in one place: nobody knows any more what lies where */
+	function isLost =
+		(isDef(way) and way != come and way != (come + 1) mod 4)
+		or (
+			isDef(arrivals)
+			and arrivals != arrived
+			and (arrivals != (arrived + 1) mod 3 or (isDef(entering) and not moved)))
+
+	function isOther($p in Parcel, $bin in Bin) = isDef(codes) and first(codes) = $p and second(codes) != $bin
+	function isDamaged($p in Parcel) = isDef(classes) and first(classes) = $p and second(classes) = DAMAGED
+
+	rule r_halt =
+		par
+			mode := STOPPED
+			leftOrders := false
+			rightOrders := false
+			pushedLeft := undef
+			pushedRight := undef
+		endpar
+
+	/* the belt has moved by one place */
+	rule r_move =
+		par
+			come := way
+			leftOrders := isDef(entering) and bin = LEFT
+			pushedLeft := if isDef(entering) and bin = LEFT then entering else undef endif
+			following := if isDef(entering) and bin = RIGHT then entering else undef endif
+			rightOrders := isDef(following)
+			pushedRight := following
+		endpar
+
+	rule r_rest =
+		par
+			leftOrders := false
+			rightOrders := false
+			pushedLeft := undef
+			pushedRight := undef
+		endpar
+
+	/* what lies under the camera: another parcel, none, or the same, of which more may be known */
+	rule r_look =
+		if isDef(arrivals) and arrivals != arrived then
+			par
+				arrived := arrivals
+				entering := arrivals
+				code := undef
+				shape := undef
+			endpar
+		else
+			if moved then
+				entering := undef
+			else
+				if isDef(entering) then
+					par
+						if isDef(codes) and first(codes) = entering then code := second(codes) endif
+						if isDef(classes) and first(classes) = entering then shape := second(classes) endif
+					endpar
+				endif
+			endif
+		endif
+
+	invariant inv_orders over leftOrders, rightOrders:
+		(leftOrders iff isDef(pushedLeft)) and (rightOrders iff isDef(pushedRight))
+	invariant inv_oneBin over pushedLeft, pushedRight: not (isDef(pushedLeft) and pushedLeft = pushedRight)
+
+	/* in the step that is told of the stop, and ever after */
+	CTLSPEC ctlSpec_stopped: ag(stop implies ax(ag(not leftOrders and not rightOrders)))
+
+	/* unless it is stopped at once, each parcel may be pushed into each bin */
+	CTLSPEC ctlSpec_pushed: not stop implies (forall $p in Parcel with ef(pushedLeft = $p) and ef(pushedRight = $p))
+
+	/* since it came, a parcel that is pushed was not pushed before */
+	LTLSPEC ltlSpec_once:
+		(forall $p in Parcel with
+			g(
+				(pushedLeft = $p or pushedRight = $p)
+				implies y(s(pushedLeft != $p and pushedRight != $p, entering = $p))))
+
+	/* while it lay under the camera, the last that was said of it is that it goes there, and that it is whole */
+	LTLSPEC ltlSpec_left:
+		(forall $p in Parcel with
+			g(
+				pushedLeft = $p
+				implies y(
+					y(
+						s(entering = $p and not isOther($p, LEFT), entering = $p and codes = ($p, LEFT))
+						and s(entering = $p and not isDamaged($p), entering = $p and classes = ($p, WHOLE))))))
+	LTLSPEC ltlSpec_right:
+		(forall $p in Parcel with
+			g(
+				pushedRight = $p
+				implies s(
+					entering != $p,
+					following = $p
+					and y(
+						y(
+							s(entering = $p and not isOther($p, RIGHT), entering = $p and codes = ($p, RIGHT))
+							and s(entering = $p and not isDamaged($p), entering = $p and classes = ($p, WHOLE)))))))
+
+	main rule r_Main =
+		if mode = RUNNING then
+			if stop or isLost then
+				r_halt[]
+			else
+				par
+					if moved then r_move[] else r_rest[] endif
+					r_look[]
+				endpar
+			endif
+		endif
+
+default init s0:
+	function mode = RUNNING
+	function arrived = 2
+	function come = 0
+	function leftOrders = false
+	function rightOrders = false

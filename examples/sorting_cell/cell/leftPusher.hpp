@@ -1,0 +1,27 @@
+// Left pusher. What it decides is made from LeftPusher.asm; here is what its sensors say and its arm does.
+#pragma once
+
+#include "belt.hpp"
+#include "generated/sorting_cell_machines.hpp"
+
+namespace sorting_cell {
+
+class LeftPusherHooks final : public LeftPusherMachine {
+  public:
+    explicit LeftPusherHooks(Belt& belt) : belt_{belt} {}
+    bool stop(const Cycle& cycle) override { return belt_.stop(since_start(cycle, origin_ns_)); }
+    void left_arm(const Cycle& cycle, bool out) override {
+        const std::int64_t ms = since_start(cycle, origin_ns_);
+        if (out && !was_out_) {
+            belt_.push(ms, Belt::Goes::left);
+        }
+        was_out_ = out;
+    }
+
+  private:
+    Belt& belt_;
+    std::int64_t origin_ns_ = 0;
+    bool was_out_ = false;
+};
+
+}  // namespace sorting_cell
