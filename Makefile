@@ -20,7 +20,7 @@ help: ## this list
 
 demo: ## the model for a second with every scenario → out/report.html; the robot in closed loop, held to its model → out/robot.html
 ifneq ($(wildcard $(TESTED)),)
-	@$(LINTED) COMPILE="$(CARGO) build --locked --package cli" GROUNDSTATE=$(TESTED) sh docs/demo.sh
+	@COMPILE="$(MAKE) --no-print-directory $(TESTED)" GROUNDSTATE=$(TESTED) sh docs/demo.sh
 else
 	@COMPILE="$(CARGO) build --locked --profile demo --package cli" GROUNDSTATE=target/demo/groundstate sh docs/demo.sh
 endif
