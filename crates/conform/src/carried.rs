@@ -56,14 +56,21 @@ pub(crate) struct Unlike {
 
 impl Carried {
     /// Goes on as far as the recording is known.
-    pub(crate) fn go_on(&mut self, recording: &Recording) -> Option<Unlike> {
+    pub(crate) fn go_on(&mut self, recording: &Recording, more: bool) -> Option<Unlike> {
+        // Most programs record no decisions.
+        if recording.tracks.iter().all(|track| track.decisions.is_empty()) {
+            return None;
+        }
         self.walks.resize_with(recording.tracks.len(), Walk::default);
         for (index, track) in recording.tracks.iter().enumerate() {
             while self.walks[index].events < track.events.len() {
                 self.decide(index, track);
                 self.happen(index, track);
             }
-            self.decide(index, track);
+            // Of what comes last a part may be missing.
+            if !goes_on(recording, track, more) {
+                self.decide(index, track);
+            }
         }
         let written = &self.written;
         let mut found = None;
@@ -120,6 +127,11 @@ impl Carried {
             _ => {}
         }
     }
+}
+
+/// Whether what a task recorded last may be a part of what it got or decided: more is to come, or was lost.
+pub(crate) fn goes_on(recording: &Recording, track: &Track, more: bool) -> bool {
+    more || track.lost || !recording.ended
 }
 
 /// Whether a datum says the same as another one; none says that there is no value.

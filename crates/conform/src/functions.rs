@@ -13,7 +13,7 @@ use model::Basic;
 use program::{DomainId, DomainKind, FunctionId, FunctionKind, ProcedureId, Program};
 use recording::{Decision, Event, Kind, Recording};
 
-use crate::carried::{Carried, Unlike};
+use crate::carried::{Carried, Unlike, goes_on};
 use crate::evidence::Parted;
 use crate::steps::Steps;
 use crate::vocabulary::Vocabulary;
@@ -98,6 +98,7 @@ impl Functions {
             let Some(track) = recording.tracks.iter().find(|track| track.task == self.tasks[index].name) else {
                 continue;
             };
+            let more = goes_on(recording, track, more);
             while let Some(group) = next(&track.decisions[self.tasks[index].cursor..], more) {
                 let decisions = &track.decisions[self.tasks[index].cursor..][..group];
                 let reason = self.unlike(index, decisions).or_else(|| self.decide(index, decisions));
@@ -123,7 +124,7 @@ impl Functions {
                 return Some(self.parted(index, recording, &[], reason));
             }
         }
-        let unlike = self.carried.go_on(recording)?;
+        let unlike = self.carried.go_on(recording, more)?;
         self.changed_on_the_way(recording, &unlike)
     }
 
