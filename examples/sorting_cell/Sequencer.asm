@@ -105,6 +105,18 @@ definitions:
 			endif
 		endif
 
+	rule r_follow =
+		if mode = RUNNING then
+			if stop or isLost then
+				r_halt[]
+			else
+				par
+					if moved then r_move[] else r_rest[] endif
+					r_look[]
+				endpar
+			endif
+		endif
+
 	invariant inv_orders over leftOrders, rightOrders:
 		(leftOrders iff isDef(pushedLeft)) and (rightOrders iff isDef(pushedRight))
 	invariant inv_oneBin over pushedLeft, pushedRight: not (isDef(pushedLeft) and pushedLeft = pushedRight)
@@ -143,17 +155,7 @@ definitions:
 							s(entering = $p and not isOther($p, RIGHT), entering = $p and codes = ($p, RIGHT))
 							and s(entering = $p and not isDamaged($p), entering = $p and classes = ($p, WHOLE)))))))
 
-	main rule r_Main =
-		if mode = RUNNING then
-			if stop or isLost then
-				r_halt[]
-			else
-				par
-					if moved then r_move[] else r_rest[] endif
-					r_look[]
-				endpar
-			endif
-		endif
+	main rule r_Main = r_follow[]
 
 default init s0:
 	function mode = RUNNING

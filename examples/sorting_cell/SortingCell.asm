@@ -320,8 +320,7 @@ definitions:
 			endif
 		endif
 
-	// a step of Sequencer, the machine of sequencer
-	rule r_sequencer_Main =
+	rule r_sequencer_follow =
 		if sequencer_mode = SEQUENCER_RUNNING then
 			if stop or sequencer_isLost then
 				r_sequencer_halt[]
@@ -332,6 +331,9 @@ definitions:
 				endpar
 			endif
 		endif
+
+	// a step of Sequencer, the machine of sequencer
+	rule r_sequencer_Main = r_sequencer_follow[]
 
 	// what was read from arrivals
 	function sequencer_arrivals = arrivals_value(sb_receivedSequence(arrivals))
