@@ -26,6 +26,8 @@ mod read;
 mod subject;
 mod symbolic;
 pub mod system;
+pub mod times;
+mod ways;
 mod write;
 pub mod xml;
 

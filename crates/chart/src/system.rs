@@ -17,6 +17,10 @@ pub struct System {
     pub text: String,
     /// The length of a machine's step, in nanoseconds.
     pub tick_ns: u64,
+    /// How many processors the tasks share, and where the chart says it.
+    pub processors: Option<(u64, Span)>,
+    /// How old data may be, in the order of the file.
+    pub bounds: Vec<AgeBound>,
     /// Components in the order of the file.
     pub components: Vec<Component>,
     /// Channels in the order of the file.
@@ -28,6 +32,19 @@ pub struct System {
     /// What its components compute, if machines say so.
     pub computing: Computing,
     /// The place of its name.
+    pub span: Span,
+}
+
+/// How old data may be that come from one place to another.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct AgeBound {
+    /// The greatest age, in ticks.
+    pub limit: u64,
+    /// The component or sensor that they come from.
+    pub from: Named,
+    /// The component or actuator that gets what rests on them.
+    pub to: Named,
+    /// Where it is stated.
     pub span: Span,
 }
 

@@ -30,6 +30,7 @@ const PATTERNS: Library = Library {
         "patterns":
         "Consumer.asm",
         "ControlTask.asm",
+        "DataAges.asm",
         "DataProducer.chart",
         "MessageQueue.asm",
         "PatternMachines.asm",
@@ -48,7 +49,7 @@ const PATTERNS: Library = Library {
 const VERIFICATION: Library = Library {
     folder: "verification/",
     home: "<verification>/",
-    files: files!["verification": "Quotient.asm", "SystemInTicks.asm", "SystemProperties.asm"],
+    files: files!["verification": "AgesInTicks.asm", "Quotient.asm", "SystemInTicks.asm", "SystemProperties.asm"],
 };
 
 const LIBRARIES: [Library; 2] = [PATTERNS, VERIFICATION];

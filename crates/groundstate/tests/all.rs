@@ -1,6 +1,7 @@
 //! The tests of `groundstate` as one program, since linking takes longer than most of them run. Each file of this
 //! folder is a module here.
 
+mod aged_systems;
 mod decision;
 mod invariants;
 mod jobs;

@@ -22,6 +22,7 @@ mod scenario;
 #[cfg(test)]
 mod schema;
 mod session;
+mod times;
 mod trace;
 mod verification;
 
@@ -39,6 +40,7 @@ pub use refinement::Refinement;
 pub use review::{Finding, MetaProperty};
 pub use run::{RunFile, RunTold, Unseen};
 pub use session::{Named, Related, SESSION_VERSION, SessionState, Waiting, Written, Wrong, written_state};
+pub use times::{AgeOfData, TaskTime, TimesTold};
 pub use trace::{Ending, Head, Line, Pairs, Reader, State, Step, VERSION, Wire};
 pub use verification::{Assumed, DomainLine, Explored, ExploredLine, RunChange, RunStep, Verdict};
 

@@ -54,6 +54,7 @@ fn the_schema_of_the_output() {
             all.subschema_for::<Refinement>(),
             all.subschema_for::<ReportMade<'_>>(),
             all.subschema_for::<ScenarioResult<'_>>(),
+            all.subschema_for::<TimesTold<'_>>(),
             all.subschema_for::<Verdict>(),
             all.subschema_for::<WorldFailure>(),
         ]

@@ -92,6 +92,7 @@ fn every_command_writes_what_the_schema_says() {
         vec!["report", case_study, "--run", recording],
         vec!["conform", case_study, recording],
         vec!["conform", "examples/visual_servoing/VisionSystem.asm", recording],
+        vec!["chart", "times", "shells/cli/tests/cmd/chart.in/Conveyor.chart", "--processors", "2"],
         vec!["explain"],
         vec!["explain", "no-bound"],
         vec!["fmt", "--check", light],

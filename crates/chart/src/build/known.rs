@@ -13,13 +13,23 @@ const PATTERNS: &str = "patterns/ControlTask";
 
 /// The first declaration of the patterns that the chart's imports lack.
 pub(super) fn missing(known: &Known) -> Option<&'static str> {
-    let domain = OWNED.into_iter().find(|domain| !known.domains.contains(*domain));
+    let domain = OWNED.into_iter().take(7).find(|domain| !known.domains.contains(*domain));
     domain.or_else(|| ["r_scheduler_execute", "r_sem_arbitrate"].into_iter().find(|rule| !known.rules.contains(*rule)))
 }
 
 /// Domains whose elements the chart alone determines.
-pub(crate) const OWNED: [&str; 7] =
-    ["Scheduler", "Task", "SwingingBuffer", "Semaphore", "SchedulePhase", "MessageQueue", "SharedValue"];
+pub(crate) const OWNED: [&str; 9] = [
+    "Scheduler",
+    "Task",
+    "SwingingBuffer",
+    "Semaphore",
+    "SchedulePhase",
+    "MessageQueue",
+    "SharedValue",
+    // of the module that follows ages, which only systems with age bounds import
+    "Hop",
+    "Way",
+];
 
 /// Names that exist already.
 #[derive(Debug, Clone, Default)]

@@ -46,6 +46,9 @@ pub(super) fn into(text: &str, chart: &Chart, parts: &Parts) -> Result<(String, 
         }
     }
     if let Some(definitions) = definitions {
+        if parts.owns {
+            unbounded(&definitions, parts, &mut edits);
+        }
         items(&definitions, &parts.definitions, &mut edits);
     }
     let mut end = String::new();
@@ -111,6 +114,18 @@ fn forgotten(signature: &SyntaxNode, parts: &Parts, edits: &mut Vec<Edit>) {
         let element = text.starts_with("static") && super::known::OWNED.contains(&of);
         let name = declared(&node).unwrap_or_default();
         if element && !parts.declarations.iter().any(|item| item.name == name) {
+            let range = trimmed_range(&node);
+            edits.push(Edit { start: range.start().into(), end: range.end().into(), text: String::new() });
+        }
+    }
+}
+
+/// Removes the invariants of age bounds that are no longer in the chart: what they speak of is gone.
+fn unbounded(definitions: &SyntaxNode, parts: &Parts, edits: &mut Vec<Edit>) {
+    for node in definitions.children().filter(|node| node.kind() == INVARIANT) {
+        let name = declared(&node).unwrap_or_default();
+        let is_age = name.starts_with("inv_age") && node.text().to_string().contains("way_tooOld(bound");
+        if is_age && !parts.definitions.iter().any(|item| item.name == name) {
             let range = trimmed_range(&node);
             edits.push(Edit { start: range.start().into(), end: range.end().into(), text: String::new() });
         }

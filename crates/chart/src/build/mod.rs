@@ -4,12 +4,14 @@
 //! any. Out: the new text. What charts determine (the machines' rules, the control states) is rewritten; every other
 //! declaration and definition in the file stays as it is, and what is missing is added.
 
+mod ages;
 mod known;
 mod merge;
 mod module;
 mod rule;
 mod spelling;
 pub(crate) mod system;
+mod table;
 
 pub(crate) use known::OWNED;
 pub use known::{Known, Unknown};

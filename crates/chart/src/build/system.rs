@@ -8,9 +8,11 @@ use std::fmt::Write;
 
 use syntax::Diagnostic;
 
+use super::ages::Ages;
 use super::known::Known;
 use super::known::missing;
 use super::module::{Item, Parts};
+use super::table::{by_case, waiting};
 use crate::chart::Chart;
 use crate::computing::Made;
 use crate::fault;
@@ -79,6 +81,8 @@ pub(super) fn parts(chart: &Chart, system: &System, known: &Known) -> Parts {
         component.phases.iter().for_each(|phase| element(&phase.name, "SchedulePhase"));
         element(&waiting(component), "SchedulePhase");
     }
+    let ages = Ages::of(system);
+    ages.elements().iter().for_each(|(name, domain)| element(name, domain));
     for phase in system.components.iter().flat_map(|component| &component.phases) {
         if let Action::Elaborate(Some(link)) = &phase.action
             && !known.rules.contains(&link.name)
@@ -106,7 +110,16 @@ pub(super) fn parts(chart: &Chart, system: &System, known: &Known) -> Parts {
     let deadlines =
         "invariant inv_deadlines over task_deadlinesMissed: (forall $t in Task with task_deadlinesMissed($t) = 0)\n";
     fixed(&mut parts, "inv_deadlines", deadlines);
-    parts.main = Some(format!("main rule r_Main =\n{TICK}"));
+    if system.bounds.is_empty() {
+        parts.main = Some(format!("main rule r_Main =\n{TICK}"));
+    } else {
+        let library = super::library(chart).unwrap_or_else(|| "patterns/".to_string());
+        parts.imports.push(format!("{library}DataAges"));
+        for (name, text) in ages.invariants(system) {
+            parts.definitions.push(Item { name, text, decided: true });
+        }
+        parts.main = Some(format!("main rule r_Main =\nseq\n{TICK}r_ages[]\nendseq\n"));
+    }
     let agent = if varies(system) { VARYING_AGENT } else { AGENT };
     if system.computing.ends.is_empty() {
         parts.init = Some(initial(system) + agent);
@@ -184,6 +197,10 @@ pub(super) fn verified(chart: &Chart, system: &System, library: &str, lengths: L
         Lengths::AsDrawn => Vec::new(),
         Lengths::Any => set_free(&mut system),
     };
+    // How old data are says nothing where elaborations take any time.
+    if !free.is_empty() {
+        system.bounds.clear();
+    }
     let mut parts = parts(chart, &system, &Known::default());
     // The tick lets actions end, whatever the tasks' rule.
     parts.definitions.retain(|item| item.name != "r_varyingTask");
@@ -192,7 +209,11 @@ pub(super) fn verified(chart: &Chart, system: &System, library: &str, lengths: L
     parts.imports = standard.into_iter().chain([format!("{library}ControlTask")]).collect();
     parts.imports.extend(verification.map(|name| format!("{VERIFICATION}{name}")));
     fixed(&mut parts, "r_system", &format!("// a tick of the system as it is drawn\nrule r_system =\n{TICK}"));
-    parts.main = Some("main rule r_Main = r_tick[<<r_system>>]\n".to_string());
+    let tick = if system.bounds.is_empty() { "r_tick" } else { "r_agedTick" };
+    if !system.bounds.is_empty() {
+        parts.imports.extend([format!("{library}DataAges"), format!("{VERIFICATION}AgesInTicks")]);
+    }
+    parts.main = Some(format!("main rule r_Main = {tick}[<<r_system>>]\n"));
     fixed(&mut parts, "ctlSpec_works", WORKS);
     let task = |name: &String| format!("JUSTICE not isFree({name}_task)\n");
     for (name, _) in &free {
@@ -206,6 +227,9 @@ pub(super) fn verified(chart: &Chart, system: &System, library: &str, lengths: L
     define("before_written($b in SwingingBuffer)", "0");
     define("before_phase($c in Scheduler)", "scheduler_currentPhase($c)");
     define("lostSilently($v in SharedValue)", "false");
+    if let Some(oldest) = system.bounds.iter().map(|bound| bound.limit).max() {
+        define("tooOld", &(oldest + 1).to_string());
+    }
     if !free.is_empty() {
         let is_free = |phase: &String| free.iter().any(|(_, phases)| phases.contains(phase));
         let all = system
@@ -260,30 +284,8 @@ fn task(component: &Component) -> String {
     format!("{}_task", component.name)
 }
 
-fn waiting(component: &Component) -> String {
-    format!("{}_wait", component.name)
-}
-
 fn lock(channel: &str) -> String {
     format!("{channel}_lock")
-}
-
-/// `switch $x case a: b … otherwise z`, or `z` if there are no cases. The most frequent value becomes the last one.
-fn by_case(subject: &str, cases: &[(String, String)]) -> String {
-    let count = |value: &str| cases.iter().filter(|(_, other)| other == value).count();
-    let Some(rest) = cases.iter().map(|(_, value)| value).max_by_key(|value| (count(value), *value == "undef")) else {
-        return "undef".to_string();
-    };
-    let others: Vec<&(String, String)> = cases.iter().filter(|(_, value)| value != rest).collect();
-    if others.is_empty() {
-        return rest.clone();
-    }
-    let mut text = format!("\nswitch {subject}\n");
-    for (name, value) in others {
-        let _ = writeln!(text, "case {name}: {value}");
-    }
-    let _ = write!(text, "otherwise {rest}\nendswitch");
-    text
 }
 
 fn initial(system: &System) -> String {
@@ -294,6 +296,9 @@ fn initial(system: &System) -> String {
     channels(system, &mut define);
     schedulers(system, &mut define);
     phases(system, &mut define);
+    if !system.bounds.is_empty() {
+        Ages::of(system).define(system, &mut define);
+    }
     text
 }
 

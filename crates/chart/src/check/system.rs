@@ -310,6 +310,10 @@ impl Comparison<'_> {
                 None => (format!("the component `{}`", component.name), component.span),
             };
         }
+        let number = element.strip_prefix("bound").and_then(|rest| rest.split('_').next()?.parse::<usize>().ok());
+        if let Some(bound) = number.and_then(|number| self.system.bounds.get(number.checked_sub(1)?)) {
+            return (format!("the age bound from `{}` to `{}`", bound.from.text, bound.to.text), bound.span);
+        }
         let bare = element.strip_suffix("_lock").unwrap_or(element);
         let channels = || self.system.channels.iter();
         match channels().find(|channel| channel.name == element).or(channels().find(|channel| channel.name == bare)) {
@@ -321,8 +325,15 @@ impl Comparison<'_> {
 
     /// A value in the system's terms.
     fn shown(&self, function: &str, value: &str) -> String {
-        let ticks =
-            ["task_period", "task_deadline", "task_timeForElaboration", "task_periodStart", "time", "timeAtLeast"];
+        let ticks = [
+            "task_period",
+            "task_deadline",
+            "task_timeForElaboration",
+            "task_periodStart",
+            "time",
+            "timeAtLeast",
+            "way_limit",
+        ];
         if value == "undef" {
             return "none".to_string();
         }
@@ -376,6 +387,7 @@ fn what(function: &str) -> String {
         "mq_capacity" => "the number of messages",
         "sem_users" => "the order at the lock",
         "scheduler_currentPhase" => "the phase it begins in",
+        "way_limit" => "the age that is allowed",
         other => return format!("`{other}`"),
     }
     .to_string()
@@ -391,6 +403,8 @@ fn bare(domain: &str) -> &'static str {
         "SharedValue" => "shared value",
         "Semaphore" => "lock",
         "SchedulePhase" => "phase",
+        "Hop" => "hop",
+        "Way" => "way",
         _ => "element",
     }
 }

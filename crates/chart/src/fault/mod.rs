@@ -5,11 +5,13 @@
 pub(crate) mod component;
 pub(crate) mod foreign;
 pub(crate) mod import;
+pub(crate) mod times;
 
 use syntax::{Diagnostic, Span};
 
 /// The ids of all faults this crate reports, in alphabetical order.
 pub const IDS: &[&str] = &[
+    "age-bound",
     "broken-link",
     "channel-ends",
     "channel-master",
@@ -26,6 +28,7 @@ pub const IDS: &[&str] = &[
     "guard-exit",
     "initial-state",
     "instance-arguments",
+    "late-response",
     "long-cycle",
     "machine-state",
     "made-name",
@@ -35,6 +38,7 @@ pub const IDS: &[&str] = &[
     "not-control-state",
     "not-verified",
     "overlapping-paths",
+    "overloaded",
     "system-differs",
     "time-unit",
     "to-refine",
@@ -81,6 +85,14 @@ pub(crate) fn dead_end(span: Span, kind: &str, name: &str) -> Diagnostic {
     Diagnostic::error("dead-end", span, format!("no arrow leads on from the {kind} `{name}`"))
         .here("a path ends at a control state or, in a pattern, at `exit`")
         .with_help(format!("write a path `{name} -> …` on to a control state"))
+}
+
+/// Something of the whole system that is stated twice.
+pub(crate) fn stated_twice(span: Span, word: &str, first: Span) -> Diagnostic {
+    Diagnostic::error("duplicate-shape", span, format!("a second `{word}`"))
+        .here("a system states it once")
+        .with_label(first, "the first one")
+        .with_help("remove one of them")
 }
 
 /// Two things with the same name.

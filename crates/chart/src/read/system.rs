@@ -4,14 +4,14 @@
 //! one, of a mixed pair the asynchronous one. If the two do not differ in this, the chart must name the master.
 
 use syntax::ast::{self, AstNode, PhaseKind};
-use syntax::{Span, SyntaxKind, SyntaxToken};
+use syntax::{Severity, Span, SyntaxKind, SyntaxToken};
 
 use super::Reader;
 use super::link::{flat, link};
 use super::machine::spoken;
 use crate::build::system::{busy, taken};
-use crate::fault;
-use crate::system::{Action, Channel, ChannelKind, Component, Device, Named, Phase, System, Timing, length};
+use crate::system::{Action, AgeBound, Channel, ChannelKind, Component, Device, Named, Phase, System, Timing, length};
+use crate::{fault, times, ways};
 
 /// The default length of a step: a millisecond.
 const TICK_NS: u64 = 1_000_000;
@@ -20,15 +20,20 @@ impl Reader {
     pub(super) fn system(&mut self, node: &ast::SystemChart) -> Option<System> {
         let name = node.name()?;
         let mut ticks = node.ticks();
-        let tick = ticks.next().and_then(|tick| tick.quantity());
+        let first = ticks.next();
+        let tick = first.as_ref().and_then(ast::Tick::quantity);
         let tick_ns = tick.and_then(|quantity| self.nanoseconds(&quantity)).filter(|tick| *tick > 0).unwrap_or(TICK_NS);
         for second in ticks {
-            self.faults.push(fault::duplicate(Span::new(self.file, second.range()), "`tick`", "", self.span(&name)));
+            let place = |tick: &ast::Tick| Span::new(self.file, tick.range());
+            let first = first.as_ref().map_or_else(|| self.span(&name), place);
+            self.faults.push(fault::stated_twice(place(&second), "tick", first));
         }
         let mut system = System {
             name: name.text().to_string(),
             text: node.text().unwrap_or_else(|| spoken(name.text())),
             tick_ns,
+            processors: None,
+            bounds: Vec::new(),
             components: Vec::new(),
             channels: Vec::new(),
             devices: Vec::new(),
@@ -76,10 +81,65 @@ impl Reader {
             }
             system.connections.push((from.text().to_string(), to.text().to_string()));
         }
+        self.processors(node, &mut system);
+        for bound in node.age_bounds() {
+            self.age_bound(&bound, &mut system);
+        }
         if self.faults.is_empty() {
             self.long_cycles(&system);
         }
+        if !self.faults.iter().any(|fault| fault.severity == Severity::Error) {
+            self.faults.extend(times::faults(&system));
+        }
         Some(system)
+    }
+
+    fn processors(&mut self, node: &ast::SystemChart, system: &mut System) {
+        for stated in node.processors() {
+            let span = Span::new(self.file, stated.range());
+            let number = stated.number().and_then(|number| number.text().parse::<u64>().ok());
+            match (system.processors, number) {
+                (Some((_, first)), _) => self.faults.push(fault::stated_twice(span, "processors", first)),
+                (None, Some(0)) => self.faults.push(fault::times::no_processor(span)),
+                (None, Some(number)) => system.processors = Some((number, span)),
+                (None, None) => {}
+            }
+        }
+    }
+
+    fn age_bound(&mut self, node: &ast::AgeBound, system: &mut System) {
+        let (Some(quantity), Some(from), Some(to)) = (node.quantity(), node.from(), node.to()) else { return };
+        let span = Span::new(self.file, node.range());
+        let limit = self.ticks(&quantity, system.tick_ns);
+        let mut known: Vec<&str> = system.components.iter().map(|component| component.name.as_str()).collect();
+        known.extend(system.devices.iter().map(|device| device.name.as_str()));
+        let mut strangers = false;
+        for end in [&from, &to] {
+            if !known.contains(&end.text()) {
+                strangers = true;
+                self.faults.push(fault::unknown(self.span(end), "component or device", end.text(), &known));
+            }
+        }
+        let named = |token: &SyntaxToken, span| Named { text: token.text().to_string(), span };
+        let bound = AgeBound { limit, from: named(&from, self.span(&from)), to: named(&to, self.span(&to)), span };
+        let device = |name: &str| system.devices.iter().find(|device| device.name == name);
+        let reason = match (device(from.text()), device(to.text())) {
+            _ if strangers => None,
+            (Some(device), _) if !device.is_sensor => Some(format!("`{}` is an actuator", device.name)),
+            (_, Some(device)) if device.is_sensor => Some(format!("`{}` is a sensor", device.name)),
+            _ => match ways::ways(system, &bound).len() {
+                0 => Some("no channels connect them".to_string()),
+                count if count > ways::WAYS => {
+                    self.faults.push(fault::times::many_ways(span, ways::WAYS));
+                    None
+                }
+                _ => None,
+            },
+        };
+        if let Some(reason) = reason {
+            self.faults.push(fault::times::no_way(span, from.text(), to.text(), &reason));
+        }
+        system.bounds.push(bound);
     }
 
     /// Reports cycles that take too long even without waiting.

@@ -262,6 +262,8 @@ fn is_item(kind: SyntaxKind) -> bool {
             | SEQUENCE
             | CHART_PATH
             | TICK
+            | PROCESSORS
+            | AGE_BOUND
             | COMPONENT
             | CHANNEL
             | DEVICE

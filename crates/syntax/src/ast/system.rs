@@ -9,6 +9,8 @@ nodes! {
     SystemChart = SYSTEM_CHART,
     /// `tick Q`: how long a step of the machine is.
     Tick = TICK,
+    /// `processors N`: how many the tasks share.
+    Processors = PROCESSORS,
     /// `component NAME "text" KIND … endcomponent`
     Component = COMPONENT,
     /// `synchronous period Q offset Q deadline Q`, `asynchronous awaits NAME`
@@ -21,6 +23,8 @@ nodes! {
     ChannelKind = CHANNEL_KIND,
     /// `sensor NAME : DOMAIN "text"`, `actuator NAME : DOMAIN "text"`
     Device = DEVICE,
+    /// `within Q from NAME to NAME`: how old data may be.
+    AgeBound = AGE_BOUND,
     /// `NAME -> NAME`
     Connection = CONNECTION,
     /// `NUMBER UNIT`
@@ -42,6 +46,14 @@ impl SystemChart {
     }
     /// How long a step is; more than one is a fault.
     pub fn ticks(&self) -> Children<Tick> {
+        children(self.syntax())
+    }
+    /// How many processors the tasks share; more than one is a fault.
+    pub fn processors(&self) -> Children<Processors> {
+        children(self.syntax())
+    }
+    /// How old data may be.
+    pub fn age_bounds(&self) -> Children<AgeBound> {
         children(self.syntax())
     }
     /// The components.
@@ -66,6 +78,28 @@ impl Tick {
     /// The length.
     pub fn quantity(&self) -> Option<Quantity> {
         child(self.syntax())
+    }
+}
+
+impl Processors {
+    /// The number.
+    pub fn number(&self) -> Option<SyntaxToken> {
+        token(self.syntax(), INTEGER)
+    }
+}
+
+impl AgeBound {
+    /// The greatest age.
+    pub fn quantity(&self) -> Option<Quantity> {
+        child(self.syntax())
+    }
+    /// The component or sensor that the data come from.
+    pub fn from(&self) -> Option<SyntaxToken> {
+        names(self.syntax()).next()
+    }
+    /// The component or actuator that gets what rests on them.
+    pub fn to(&self) -> Option<SyntaxToken> {
+        names(self.syntax()).nth(1)
     }
 }
 

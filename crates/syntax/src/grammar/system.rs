@@ -4,7 +4,7 @@
 
 use super::chart_part::{block, eat_word, expect_word, keyword, no_item, rule_link, shape_name};
 use super::domain::domain;
-use crate::SyntaxKind::*;
+use crate::SyntaxKind::{self, *};
 use crate::fault;
 use crate::parser::Parser;
 
@@ -18,12 +18,15 @@ pub(super) fn system(p: &mut Parser<'_>) {
     p.finish();
 }
 
+/// The words that items start with; a connection starts with a name.
+const ITEMS: [SyntaxKind; 7] = [TICK_KW, PROCESSORS_KW, COMPONENT_KW, CHANNEL_KW, SENSOR_KW, ACTUATOR_KW, WITHIN_KW];
+
 fn starts_item(p: &Parser<'_>) -> bool {
-    keyword(p, &[TICK_KW, COMPONENT_KW, CHANNEL_KW, SENSOR_KW, ACTUATOR_KW]).is_some() || p.peek(1) == ARROW
+    keyword(p, &ITEMS).is_some() || p.peek(1) == ARROW
 }
 
 fn item(p: &mut Parser<'_>) {
-    match keyword(p, &[TICK_KW, COMPONENT_KW, CHANNEL_KW, SENSOR_KW, ACTUATOR_KW]) {
+    match keyword(p, &ITEMS) {
         _ if p.peek(1) == ARROW => connection(p),
         Some(TICK_KW) => {
             p.start(TICK);
@@ -31,6 +34,13 @@ fn item(p: &mut Parser<'_>) {
             quantity(p);
             p.finish();
         }
+        Some(PROCESSORS_KW) => {
+            p.start(PROCESSORS);
+            p.bump_as(PROCESSORS_KW);
+            p.expect(INTEGER, "as the number of processors");
+            p.finish();
+        }
+        Some(WITHIN_KW) => age_bound(p),
         Some(COMPONENT_KW) => component(p),
         Some(CHANNEL_KW) => channel(p),
         Some(device) => {
@@ -42,7 +52,7 @@ fn item(p: &mut Parser<'_>) {
             }
             p.finish();
         }
-        None => no_item(p, "a component, channel, sensor, actuator or connection", starts_item),
+        None => no_item(p, "a component, channel, sensor, actuator, age bound or connection", starts_item),
     }
 }
 
@@ -63,7 +73,8 @@ fn length(p: &mut Parser<'_>, varies: bool) {
     }
     if complete {
         // The next line is another item, and a word that goes on here is not a unit.
-        if p.on_new_line() || p.at(EOF) || keyword(p, &[OFFSET_KW, DEADLINE_KW, BY_KW]).is_some() {
+        if p.on_new_line() || p.at(EOF) || p.at(DOT) || keyword(p, &[OFFSET_KW, DEADLINE_KW, BY_KW, FROM_KW]).is_some()
+        {
             let found = p.missing();
             p.fault(fault::expected_unit(found));
         } else {
@@ -78,6 +89,20 @@ fn message(p: &mut Parser<'_>) {
     if p.eat(COLON) {
         domain(p);
     }
+}
+
+/// `within Q from NAME to NAME`: how old data may be
+fn age_bound(p: &mut Parser<'_>) {
+    p.start(AGE_BOUND);
+    p.bump_as(WITHIN_KW);
+    quantity(p);
+    if expect_word(p, FROM_KW, "behind the age that data may have") {
+        shape_name(p);
+        if expect_word(p, TO_KW, "behind the place that data come from") {
+            shape_name(p);
+        }
+    }
+    p.finish();
 }
 
 /// `NAME -> NAME`: a physical connection
@@ -281,6 +306,43 @@ mod tests {
                     c
                     CHANNEL_KIND(queue 2))
                   endsystem)"#]],
+        );
+    }
+
+    #[test]
+    fn processors_and_age_bounds() {
+        check(
+            "chart C system s processors 2 within 50 ms from camera to arm within -> a processors -> b endsystem",
+            expect![[r#"
+                chart
+                C
+                SYSTEM_CHART(
+                  system
+                  s
+                  PROCESSORS(processors 2)
+                  AGE_BOUND(within QUANTITY(50 ms) from camera to arm)
+                  CONNECTION(within -> a)
+                  CONNECTION(processors -> b)
+                  endsystem)"#]],
+        );
+        check(
+            "chart C system s processors within 50 from a within 5 ms to b endsystem",
+            expect![[r#"
+            chart
+            C
+            SYSTEM_CHART(
+              system
+              s
+              PROCESSORS(processors)
+              AGE_BOUND(within QUANTITY(50) from a)
+              AGE_BOUND(within QUANTITY(5 ms))
+              ERROR(to b)
+              endsystem)
+            !expected-token
+            !expected-token
+            !expected-token
+            !expected-token
+            !expected-shape"#]],
         );
     }
 

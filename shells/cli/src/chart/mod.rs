@@ -7,6 +7,7 @@ mod export;
 mod extract;
 mod import;
 mod place;
+mod times;
 
 use std::path::Path;
 
@@ -42,6 +43,8 @@ enum Command {
     Draw(draw::Arguments),
     /// Write the places of a chart's shapes into the chart, so that they stay there
     Place(place::Arguments),
+    /// Tell load, responses and ages of data before anything runs
+    Times(times::Arguments),
 }
 
 /// Runs the command.
@@ -54,6 +57,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         Command::Import(arguments) => import::run(shell, arguments),
         Command::Draw(arguments) => draw::run(shell, arguments),
         Command::Place(arguments) => place::run(shell, arguments),
+        Command::Times(arguments) => times::run(shell, arguments),
     }
 }
 

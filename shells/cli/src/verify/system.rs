@@ -127,7 +127,10 @@ pub fn general(
     let until = arguments.bounded.time.map(|seconds| Instant::now() + Duration::from_secs(seconds) / 2);
     let own = general.program.properties.len();
     // That some run does a thing may be true only of times that the system does not have: a formula of CTL may ask for that.
-    let mut left_out = leave_out(&mut asked, own, &|kind| kind == PropertyKind::Ctl);
+    // Ages are those of the times as they are drawn, too.
+    let has_ages = system.chart.system.as_ref().is_some_and(|system| !system.bounds.is_empty());
+    let mut left_out = has_ages;
+    left_out |= leave_out(&mut asked, own, &|kind| kind == PropertyKind::Ctl);
     let mut searched = search(&asked.program, &options, *agents, (&mut watch, until))?;
     // What was asked may need the times as they are drawn; the rest may not.
     if matches!(searched, Searched::Violated(Subject::Property(index)) if index >= own) {

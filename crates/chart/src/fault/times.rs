@@ -1,0 +1,62 @@
+//! The faults of a system's times: what cannot hold on its processors, and how old data may be.
+
+use syntax::{Diagnostic, Span};
+
+fn on(processors: u64) -> String {
+    if processors == 1 { "one processor".to_string() } else { format!("{processors} processors") }
+}
+
+/// No processor at all.
+pub(crate) fn no_processor(span: Span) -> Diagnostic {
+    Diagnostic::error("overloaded", span, "a system without a processor does nothing")
+        .here("the tasks share these")
+        .with_help("write `processors 1`, or more")
+}
+
+/// More synchronous work than the processors can do.
+pub(crate) fn overloaded(span: Span, needed: f64, processors: u64) -> Diagnostic {
+    let message = format!("the synchronous tasks need {needed:.2} processors, more than there are");
+    Diagnostic::error("overloaded", span, message)
+        .here(format!("the tasks share {}", on(processors)))
+        .with_help("shorten phases, make periods longer, or give the system more processors")
+}
+
+/// A task that may end after its deadline.
+pub(crate) fn late_response(
+    span: Span,
+    name: &str,
+    certain: bool,
+    reason: &str,
+    deadline: &str,
+    processors: u64,
+) -> Diagnostic {
+    let message = match certain {
+        true => format!("`{name}` misses its deadline of {deadline} on {}: {reason}", on(processors)),
+        false => format!("`{name}` may miss its deadline of {deadline} on {}: {reason}", on(processors)),
+    };
+    Diagnostic::warning("late-response", span, message)
+        .here("more urgent tasks and locks keep it waiting")
+        .with_help("`groundstate chart times` shows the times of all tasks; shorten phases, or use more processors")
+}
+
+/// An age bound below what the phases alone take.
+pub(crate) fn never_fresh(span: Span, from: &str, to: &str, limit: &str, least: &str) -> Diagnostic {
+    let message = format!("what `{to}` gets from `{from}` is never as young as {limit}: the phases alone take {least}");
+    Diagnostic::error("age-bound", span, message)
+        .here("the age that data may have")
+        .with_help("allow more time, or shorten the phases on the way")
+}
+
+/// An age bound between places that no channel connects.
+pub(crate) fn no_way(span: Span, from: &str, to: &str, reason: &str) -> Diagnostic {
+    Diagnostic::error("age-bound", span, format!("no data come from `{from}` to `{to}`: {reason}"))
+        .here("an age is that of data on their way through channels")
+        .with_help("name a component or sensor, and a component or actuator, that channels connect")
+}
+
+/// More ways than are told apart.
+pub(crate) fn many_ways(span: Span, most: usize) -> Diagnostic {
+    Diagnostic::error("age-bound", span, format!("data take more than {most} ways between these"))
+        .here("each way is followed by itself")
+        .with_help("state bounds for parts of the way")
+}

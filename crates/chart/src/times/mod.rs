@@ -1,0 +1,348 @@
+//! What can be told of a system's times before anything runs: for each task its load and its longest response, for each age bound the
+//! greatest age.
+//!
+//! In: a system without errors, how many processors its tasks share, and in which order they are urgent. Out: [`Times`]. A cycle takes as
+//! long as its phases, with the ticks that the model spends at locks. Tasks are preempted by more urgent ones; a lock makes its holder
+//! as urgent as the task that waits (`cpp/include/groundstate/pair_lock.hpp`). Offsets are not used: all tasks may be released at once.
+//! INVARIANT: a response or an age that is given is never exceeded while every task keeps its deadline; none is given otherwise.
+
+mod ages;
+mod locks;
+mod response;
+
+use std::cmp::Ordering;
+
+use syntax::Diagnostic;
+
+use crate::build::busy;
+use crate::fault;
+use crate::system::{System, Timing, length};
+use response::{Demand, on_one, on_several};
+
+pub use ages::{Age, Way};
+
+/// What the tasks share, and which goes first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Platform {
+    /// The number of processors.
+    pub processors: u64,
+    /// The order of the synchronous tasks.
+    pub order: Order,
+}
+
+impl Platform {
+    /// As the chart says; one processor if it says nothing.
+    pub fn of(system: &System) -> Platform {
+        Platform { processors: system.processors.map_or(1, |(number, _)| number), order: Order::Rate }
+    }
+}
+
+/// Which of two synchronous tasks is more urgent. Asynchronous ones come after all of them; otherwise equal ones in the order of the
+/// chart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Order {
+    /// That with the shorter period, as in the program that is generated.
+    Rate,
+    /// That with the shorter deadline.
+    Deadline,
+}
+
+/// The times of a system.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Times {
+    /// What they are for.
+    pub platform: Platform,
+    /// One for each component, in the order of the chart.
+    pub tasks: Vec<TaskTimes>,
+    /// What all tasks together need, as a number of processors; without asynchronous tasks that may start at any time.
+    pub load: f64,
+    /// The load of the synchronous tasks is more than there are processors.
+    pub overloaded: bool,
+    /// One for each age bound, in the order of the chart.
+    pub ages: Vec<Age>,
+}
+
+/// The times of a task, in ticks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TaskTimes {
+    /// 1 is the most urgent.
+    pub priority: usize,
+    /// The shortest and the longest time of a cycle that never waits.
+    pub execution: (u64, u64),
+    /// The shortest time between two cycles: the period, or that of the data that are awaited.
+    pub interval: Option<u64>,
+    /// The part of a processor that it needs; none if it may start at any time.
+    pub load: Option<f64>,
+    /// How long others keep it waiting at channels, at most: on one processor also by a lock that a more urgent task waits for.
+    pub blocking: Option<u64>,
+    /// The longest time from its release, or from the arrival of what it awaits, until the end of the cycle.
+    pub response: Option<u64>,
+    /// What follows for its deadline.
+    pub verdict: Verdict,
+}
+
+/// Whether a task keeps its deadline.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Verdict {
+    /// Always.
+    Meets,
+    /// Not in the run in which all are released at once and take as long as they may.
+    Misses,
+    /// The analysis does not show it, for this reason.
+    Open(String),
+    /// It has none.
+    None,
+}
+
+/// What is known while the responses are computed.
+struct Analysis<'s> {
+    system: &'s System,
+    platform: Platform,
+    /// The indices of the components, the most urgent first.
+    urgency: Vec<usize>,
+    blocking: Vec<Result<u64, String>>,
+    responses: Vec<Option<u64>>,
+}
+
+/// LIMIT: a response of a task without a deadline is sought up to so many ticks.
+const LONGEST: u64 = 1 << 40;
+/// LIMIT: rounds in which the responses of tasks that start each other are computed anew.
+const ROUNDS: usize = 64;
+
+/// The times of a system on a platform.
+pub fn times(system: &System, platform: Platform) -> Times {
+    let count = system.components.len();
+    let urgency = urgency(system, platform.order);
+    let shares = !is_apart(system, platform);
+    let blocking = locks::blocking(system, platform, &urgency);
+    let mut analysis = Analysis { system, platform, urgency, blocking, responses: vec![None; count] };
+    analysis.respond();
+    let interval = |index: usize| analysis.interval(index);
+    // What comes faster than a task can take it is left out by it; a synchronous one is late.
+    let capped = |index: usize, load: f64| match system.components[index].timing {
+        Timing::Synchronous { .. } => load,
+        Timing::Asynchronous { .. } => load.min(1.0),
+    };
+    let loads: Vec<Option<f64>> = (0..count)
+        .map(|index| {
+            let load = |interval: u64| executed(system, index).1 as f64 / interval.max(1) as f64;
+            interval(index).map(|interval| capped(index, load(interval)))
+        })
+        .collect();
+    let synchronous = |index: &usize| system.components[*index].timing.period().is_some();
+    let needed: f64 = (0..count).filter(synchronous).filter_map(|index| loads[index]).sum();
+    // What just fits must not fail by rounding.
+    let overloaded = shares && needed > platform.processors as f64 + 1e-9;
+    let tasks = (0..count).map(|index| TaskTimes {
+        priority: analysis.urgency.iter().position(|other| *other == index).map_or(0, |place| place + 1),
+        execution: executed(system, index),
+        interval: interval(index),
+        load: loads[index],
+        blocking: analysis.blocking[index].as_ref().ok().copied(),
+        response: analysis.responses[index],
+        verdict: analysis.verdict(index),
+    });
+    let tasks: Vec<TaskTimes> = tasks.collect();
+    let load = loads.iter().flatten().map(|load| load.min(1.0)).sum();
+    let ages = ages::ages(system, &analysis);
+    Times { platform, tasks, load, overloaded, ages }
+}
+
+/// What a chart must be told: of its age bounds, and of its processors, if it says how many there are.
+pub(crate) fn faults(system: &System) -> Vec<Diagnostic> {
+    let times = times(system, Platform::of(system));
+    let mut faults = system.processors.map(|(_, place)| told(system, &times, place)).unwrap_or_default();
+    let shown = |ticks: u64| length(ticks as i64, system.tick_ns);
+    for (bound, age) in system.bounds.iter().zip(&times.ages) {
+        if let Some(least) = age.least.filter(|least| *least > bound.limit) {
+            let (limit, least) = (shown(bound.limit), shown(least));
+            faults.push(fault::times::never_fresh(bound.span, &bound.from.text, &bound.to.text, &limit, &least));
+        }
+    }
+    faults
+}
+
+/// The faults of a system on its platform. `place` is where that is stated.
+pub fn told(system: &System, times: &Times, place: syntax::Span) -> Vec<Diagnostic> {
+    let shown = |ticks: u64| length(ticks as i64, system.tick_ns);
+    let processors = times.platform.processors;
+    if times.overloaded {
+        let synchronous = system.components.iter().zip(&times.tasks).filter(|(one, _)| one.timing.period().is_some());
+        let needed: f64 = synchronous.filter_map(|(_, task)| task.load).sum();
+        return vec![fault::times::overloaded(place, needed, processors)];
+    }
+    let mut faults = Vec::new();
+    for (component, task) in system.components.iter().zip(&times.tasks) {
+        let Timing::Synchronous { deadline, .. } = component.timing else { continue };
+        // A cycle that is too long by itself is told anyway.
+        if task.execution.1 > deadline || task.verdict == Verdict::Meets {
+            continue;
+        }
+        let certain = task.verdict == Verdict::Misses;
+        let reason = match (&task.verdict, task.response) {
+            (Verdict::Open(reason), _) => reason.clone(),
+            (_, Some(response)) => format!("it may take {}", shown(response)),
+            _ => "the more urgent tasks leave it too little time".to_string(),
+        };
+        faults.push(fault::times::late_response(
+            component.span,
+            &component.name,
+            certain,
+            &reason,
+            &shown(deadline),
+            processors,
+        ));
+    }
+    faults
+}
+
+/// The shortest and the longest time of a cycle that never waits.
+fn executed(system: &System, index: usize) -> (u64, u64) {
+    let component = &system.components[index];
+    let most = busy(system, component);
+    let spared: u64 = component.phases.iter().map(|phase| phase.time - phase.least).sum();
+    (most - spared, most)
+}
+
+/// Whether each task has a processor of its own.
+fn is_apart(system: &System, platform: Platform) -> bool {
+    platform.processors >= system.components.len() as u64
+}
+
+/// The components, the most urgent first.
+fn urgency(system: &System, order: Order) -> Vec<usize> {
+    let key = |index: &usize| match system.components[*index].timing {
+        Timing::Synchronous { period, .. } if order == Order::Rate => period,
+        Timing::Synchronous { deadline, .. } => deadline,
+        Timing::Asynchronous { .. } => u64::MAX,
+    };
+    let mut all: Vec<usize> = (0..system.components.len()).collect();
+    all.sort_by(|one, other| match key(one).cmp(&key(other)) {
+        Ordering::Equal => one.cmp(other),
+        differ => differ,
+    });
+    all
+}
+
+impl Analysis<'_> {
+    /// The shortest time between two cycles of a component, without jitter.
+    fn interval(&self, index: usize) -> Option<u64> {
+        let mut at = index;
+        for _ in 0..=self.system.components.len() {
+            match self.system.components[at].timing {
+                Timing::Synchronous { period, .. } => return Some(period),
+                Timing::Asynchronous { awaits: None } => return None,
+                Timing::Asynchronous { awaits: Some(channel) } => at = self.system.channels[channel].from,
+            }
+        }
+        None
+    }
+
+    /// What a component asks of its processor: an asynchronous one starts when the writer of what it awaits has written.
+    fn demand(&self, index: usize) -> Option<Demand> {
+        let execution = executed(self.system, index).1;
+        let jitter = match self.system.components[index].timing {
+            Timing::Synchronous { .. } => 0,
+            Timing::Asynchronous { awaits: None } => return None,
+            Timing::Asynchronous { awaits: Some(channel) } => {
+                let writer = self.system.channels[channel].from;
+                let before = self.demand(writer).map_or(0, |demand| demand.jitter);
+                before.saturating_add(self.responses[writer]?)
+            }
+        };
+        Some(Demand { execution, period: self.interval(index)?, jitter })
+    }
+
+    /// Computes all responses. Asynchronous tasks start after others, so theirs follow from one another.
+    fn respond(&mut self) {
+        for index in 0..self.responses.len() {
+            let awaits_in_a_circle = self.interval(index).is_none() && self.awaited(index).is_some();
+            self.responses[index] = (!awaits_in_a_circle).then(|| executed(self.system, index).1);
+        }
+        for _ in 0..ROUNDS {
+            let before = self.responses.clone();
+            for place in 0..self.urgency.len() {
+                let index = self.urgency[place];
+                if self.responses[index].is_some() {
+                    self.responses[index] = self.response(place);
+                }
+            }
+            if self.responses == before {
+                return;
+            }
+        }
+        // They grow on: only what does not depend on itself is known.
+        for index in 0..self.responses.len() {
+            if self.system.components[index].timing.period().is_none() {
+                self.responses[index] = None;
+            }
+        }
+    }
+
+    fn awaited(&self, index: usize) -> Option<usize> {
+        match self.system.components[index].timing {
+            Timing::Asynchronous { awaits } => awaits,
+            Timing::Synchronous { .. } => None,
+        }
+    }
+
+    /// The response of the component at this place of the order, by the present responses of the others.
+    fn response(&self, place: usize) -> Option<u64> {
+        let index = self.urgency[place];
+        let execution = executed(self.system, index).1;
+        let blocking = *self.blocking[index].as_ref().ok()?;
+        if is_apart(self.system, self.platform) {
+            return Some(execution.saturating_add(blocking));
+        }
+        let limit = self.system.components[index].timing.period().unwrap_or(LONGEST);
+        let higher = &self.urgency[..place];
+        let demands = higher.iter().map(|other| self.demand(*other)).collect::<Option<Vec<Demand>>>()?;
+        let needed: f64 = demands.iter().map(|demand| demand.execution as f64 / demand.period.max(1) as f64).sum();
+        if needed >= self.platform.processors as f64 && !demands.is_empty() {
+            return None;
+        }
+        if self.platform.processors == 1 {
+            return on_one(execution, blocking, &demands, limit);
+        }
+        let with_responses = |(demand, other): (Demand, &usize)| {
+            // A job of an asynchronous task may still be at work when the next one could begin.
+            let response = self.responses[*other].filter(|response| *response <= demand.period)?;
+            Some((demand, response.saturating_add(demand.jitter)))
+        };
+        let all = demands.into_iter().zip(higher).map(with_responses).collect::<Option<Vec<_>>>()?;
+        on_several(self.platform.processors, execution.saturating_add(blocking), &all, limit)
+    }
+
+    fn verdict(&self, index: usize) -> Verdict {
+        let Timing::Synchronous { deadline, offset, .. } = self.system.components[index].timing else {
+            return Verdict::None;
+        };
+        if executed(self.system, index).1 > deadline {
+            return Verdict::Misses;
+        }
+        let response = self.responses[index];
+        if response.is_some_and(|response| response <= deadline) {
+            return Verdict::Meets;
+        }
+        let blocking = match &self.blocking[index] {
+            Ok(blocking) => *blocking,
+            Err(reason) => return Verdict::Open(reason.clone()),
+        };
+        if is_apart(self.system, self.platform) {
+            return Verdict::Open("it gives up an access rather than its deadline where it waits for long".to_string());
+        }
+        let place = self.urgency.iter().position(|other| *other == index).unwrap_or(0);
+        let shifted = |other: &usize| match self.system.components[*other].timing {
+            Timing::Synchronous { offset: other, .. } => other != offset,
+            Timing::Asynchronous { .. } => true,
+        };
+        if self.platform.processors == 1 && blocking == 0 && !self.urgency[..place].iter().any(shifted) {
+            return Verdict::Misses;
+        }
+        let shown = |ticks: u64| length(ticks as i64, self.system.tick_ns);
+        Verdict::Open(match response {
+            Some(response) => format!("the analysis allows {}", shown(response)),
+            None => "the more urgent tasks may leave it too little time".to_string(),
+        })
+    }
+}

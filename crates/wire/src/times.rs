@@ -1,0 +1,73 @@
+//! What `chart times` tells of a system: its tasks and the ages of its data. Times are in nanoseconds.
+
+use serde::Serialize;
+
+/// The times of a system.
+#[derive(Debug, Serialize)]
+#[serde(tag = "type", rename_all = "lowercase")]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub enum TimesTold<'a> {
+    /// The result of `chart times`.
+    Times {
+        /// The system's name.
+        system: &'a str,
+        /// How many processors the tasks share.
+        processors: u64,
+        /// `rate` or `deadline`: which synchronous tasks are more urgent.
+        priorities: &'a str,
+        /// What all tasks together need, as a number of processors; without tasks that may start at any time.
+        load: f64,
+        /// The synchronous tasks need more processors than there are.
+        overloaded: bool,
+        /// In the order of the chart.
+        tasks: Vec<TaskTime<'a>>,
+        /// The age bounds, in the order of the chart.
+        ages: Vec<AgeOfData<'a>>,
+    },
+}
+
+/// The times of a task.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct TaskTime<'a> {
+    /// The component's name.
+    pub name: &'a str,
+    /// 1 is the most urgent.
+    pub priority: usize,
+    /// Null for an asynchronous task.
+    pub period_ns: Option<u64>,
+    /// The shortest time between two cycles; null if it may start at any time.
+    pub interval_ns: Option<u64>,
+    /// The shortest and the longest time of a cycle that never waits.
+    pub execution_ns: [u64; 2],
+    /// The part of a processor that it needs; null if it may start at any time.
+    pub load: Option<f64>,
+    /// How long others keep it from locks, at most; null if that is not analysed.
+    pub blocking_ns: Option<u64>,
+    /// The longest time from its release until the end of the cycle; null if none is known.
+    pub response_ns: Option<u64>,
+    /// Null for an asynchronous task.
+    pub deadline_ns: Option<u64>,
+    /// `meets`, `misses`, `unknown`; null for an asynchronous task.
+    pub verdict: Option<&'a str>,
+    /// Why it is not known.
+    pub reason: Option<&'a str>,
+}
+
+/// The age of data on their way.
+#[derive(Debug, Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct AgeOfData<'a> {
+    /// The component or sensor that they come from.
+    pub from: &'a str,
+    /// The component or actuator that gets what rests on them.
+    pub to: &'a str,
+    /// The greatest age that is allowed.
+    pub limit_ns: u64,
+    /// The greatest age that the analysis allows; null if it gives none.
+    pub most_ns: Option<u64>,
+    /// True if the age is shown to be within its limit; otherwise null: it is not known.
+    pub within: Option<bool>,
+    /// Why no greatest age is given.
+    pub reason: Option<&'a str>,
+}

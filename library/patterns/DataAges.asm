@@ -1,0 +1,181 @@
+/* How old data get on their way through channels, to the tick. It stands beside the machines of ControlTask and changes nothing of
+   theirs: an application runs `r_ages` after each step, in sequence.
+
+   A way begins when a cycle of its first component begins, leads over channels, and ends when a cycle of its last component ends. Each
+   of its channels is a hop. A component takes what it has read last when the elaboration ends in which its next results are decided;
+   without an elaboration, when it writes. The age of a result is the time from the beginning of the way to its end. A cycle with which
+   no datum has come by then has no age. */
+module DataAges
+
+import ../std/StandardLibrary
+import Task
+import SwingingBuffer
+import MessageQueue
+import SharedValue
+import Scheduler
+
+export *
+
+signature:
+	// a channel as a part of a way; ways that begin alike share it
+	abstract domain Hop
+	abstract domain Way
+
+	// Configuration
+	// undef: a way begins in the writer's cycle
+	controlled hop_before: Hop -> Hop
+	controlled hop_writer: Hop -> Scheduler
+	// the elaboration in which the writer decides what it writes; undef: there is none
+	controlled hop_decided: Hop -> SchedulePhase
+	// the channel: one of them
+	controlled hop_buffer: Hop -> SwingingBuffer
+	controlled hop_queue: Hop -> MessageQueue
+	controlled hop_value: Hop -> SharedValue
+	// undef: the way has no channel, its component has both ends
+	controlled way_hop: Way -> Hop
+	controlled way_end: Way -> Scheduler
+	controlled way_decided: Way -> SchedulePhase
+	// the age that is allowed
+	controlled way_limit: Way -> Integer
+
+	// When the data came that are on their way
+	controlled cycleStart: Scheduler -> Integer
+	controlled hop_taken: Hop -> Integer
+	controlled hop_slot: Prod(Hop, QueueSlot) -> Integer
+	controlled hop_received: Hop -> Integer
+	controlled way_taken: Way -> Integer
+
+	// As it was after the step before
+	controlled phaseBefore: Scheduler -> SchedulePhase
+	controlled hop_written: Hop -> Integer
+	controlled hop_read: Hop -> Integer
+
+	// What came of it
+	controlled way_oldest: Way -> Integer
+	controlled way_tooOld: Way -> Integer
+
+	derived hasLeft: Prod(Scheduler, SchedulePhase) -> Boolean
+	derived hasEnded: Scheduler -> Boolean
+	derived hasBegun: Scheduler -> Boolean
+	derived numberWritten: Hop -> Integer
+	derived numberRead: Hop -> Integer
+	derived slotWritten: Hop -> Integer
+	derived slotRead: Hop -> Integer
+	derived origin: Hop -> Integer
+	derived wayOrigin: Way -> Integer
+
+definitions:
+	function hasLeft($c in Scheduler, $p in SchedulePhase) =
+		phaseBefore($c) = $p and scheduler_currentPhase($c) != $p
+
+	// The last phase of its cycle is over.
+	function hasEnded($c in Scheduler) =
+		scheduler_currentPhase($c) != phaseBefore($c) and action(nextPhase(phaseBefore($c))) = WAITING_TRIGGER
+
+	// A cycle begins in the phase that follows the waiting one.
+	function hasBegun($c in Scheduler) =
+		scheduler_currentPhase($c) != phaseBefore($c)
+		and (exists $p in SchedulePhase with
+			action($p) = WAITING_TRIGGER and nextPhase($p) = scheduler_currentPhase($c))
+
+	function numberWritten($h in Hop) =
+		if isDef(hop_buffer($h)) then
+			sb_written(hop_buffer($h))
+		else
+			if isDef(hop_queue($h)) then mq_sent(hop_queue($h)) else sv_sequence(hop_value($h)) endif
+		endif
+
+	function numberRead($h in Hop) =
+		if isDef(hop_buffer($h)) then
+			sb_receivedSequence(hop_buffer($h))
+		else
+			if isDef(hop_queue($h)) then mq_taken(hop_queue($h)) else sv_receivedSequence(hop_value($h)) endif
+		endif
+
+	function slotWritten($h in Hop) =
+		if isDef(hop_buffer($h)) then
+			sb_writingArray(hop_buffer($h))
+		else
+			if isDef(hop_queue($h)) then (mq_sent(hop_queue($h)) - 1) mod mq_capacity(hop_queue($h)) else 0 endif
+		endif
+
+	function slotRead($h in Hop) =
+		if isDef(hop_buffer($h)) then
+			sb_readingArray(hop_buffer($h))
+		else
+			if isDef(hop_queue($h)) then (mq_taken(hop_queue($h)) - 1) mod mq_capacity(hop_queue($h)) else 0 endif
+		endif
+
+	// When that came which the writer of a hop has at hand.
+	function origin($h in Hop) =
+		if isDef(hop_before($h)) then hop_received(hop_before($h)) else cycleStart(hop_writer($h)) endif
+
+	function wayOrigin($w in Way) =
+		if isDef(way_hop($w)) then hop_received(way_hop($w)) else cycleStart(way_end($w)) endif
+
+	// What is decided rests on what was read before.
+	rule r_take =
+		par
+			forall $h in Hop with isDef(hop_decided($h)) do
+				if hasLeft(hop_writer($h), hop_decided($h)) then
+					hop_taken($h) := origin($h)
+				endif
+			forall $w in Way with true do
+				if isDef(way_decided($w)) then
+					if hasLeft(way_end($w), way_decided($w)) then
+						way_taken($w) := wayOrigin($w)
+					endif
+				else
+					way_taken($w) := wayOrigin($w)
+				endif
+		endpar
+
+	rule r_arrive =
+		forall $w in Way with hasEnded(way_end($w)) do
+			if isDef(way_taken($w)) then
+				let ($age = clock - way_taken($w)) in
+					par
+						way_oldest($w) := max(way_oldest($w), $age)
+						if $age > way_limit($w) then
+							way_tooOld($w) := way_tooOld($w) + 1
+						endif
+						way_taken($w) := undef
+					endpar
+				endlet
+			endif
+
+	rule r_begin =
+		par
+			forall $c in Scheduler with hasBegun($c) do
+				cycleStart($c) := clock
+			forall $h in Hop with numberRead($h) != hop_read($h) do
+				hop_received($h) := hop_slot($h, slotRead($h))
+		endpar
+
+	rule r_pass =
+		forall $h in Hop with numberWritten($h) != hop_written($h) do
+			par
+				hop_slot($h, slotWritten($h)) := if isDef(hop_decided($h)) then hop_taken($h) else origin($h) endif
+				hop_taken($h) := undef
+			endpar
+
+	rule r_rememberAges =
+		par
+			forall $c in Scheduler with true do
+				phaseBefore($c) := scheduler_currentPhase($c)
+			forall $h in Hop with true do
+				par
+					hop_written($h) := numberWritten($h)
+					hop_read($h) := numberRead($h)
+				endpar
+		endpar
+
+	// What a step of the tasks does to the ages.
+	rule r_ages =
+		seq
+			r_take[]
+			r_arrive[]
+			r_begin[]
+			r_pass[]
+			r_rememberAges[]
+		endseq

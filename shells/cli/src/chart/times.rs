@@ -1,0 +1,199 @@
+//! `groundstate chart times FILE`: what can be told of a system's times before anything runs.
+//!
+//! In: a chart with a system. Out: a line for each task and for each age bound. Exit code: 1 if a task misses its deadline for certain or
+//! the processors cannot do the work, 3 if the analysis does not show that all deadlines and ages hold.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use ::chart::system::System;
+use ::chart::system::{Timing, length};
+use ::chart::times::{Order, Platform, TaskTimes, Times, Verdict, times, told};
+use clap::{Args, ValueEnum};
+use wire::{AgeOfData, TaskTime, TimesTold};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::shell::Shell;
+
+/// Arguments of `chart times`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// A chart with a system
+    file: PathBuf,
+    /// How many processors the tasks share. Default: as the chart says, or else one
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    processors: Option<u64>,
+    /// Which synchronous tasks are more urgent
+    #[arg(long, value_enum, default_value_t = Priorities::Rate)]
+    priorities: Priorities,
+}
+
+/// The order of urgency.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Priorities {
+    /// Those with shorter periods, as in the generated program
+    Rate,
+    /// Those with shorter deadlines
+    Deadline,
+}
+
+/// Runs the command.
+pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
+    let (sources, chart) = match super::read(shell, &arguments.file)? {
+        Ok(read) => read,
+        Err(exit) => return Ok(exit),
+    };
+    let Some(system) = &chart.system else {
+        return Err(Failure::usage_with_help("the chart has no system", "only the components of a system take time"));
+    };
+    let stated = Platform::of(system);
+    let platform = Platform {
+        processors: arguments.processors.unwrap_or(stated.processors),
+        order: match arguments.priorities {
+            Priorities::Rate => Order::Rate,
+            Priorities::Deadline => Order::Deadline,
+        },
+    };
+    let times = times(system, platform);
+    // What the chart itself states was told when it was read.
+    if system.processors.is_none() || stated != platform {
+        let place = system.processors.map_or(system.span, |(_, place)| place);
+        shell.diagnostics(&sources, &told(system, &times, place))?;
+    }
+    if shell.json() {
+        shell.object(&object(system, &times))?;
+    } else if shell.talks() {
+        shell.out().write_all(table(system, &times).as_bytes())?;
+    }
+    Ok(exit(system, &times))
+}
+
+fn exit(system: &System, times: &Times) -> Exit {
+    let misses = times.tasks.iter().any(|task| task.verdict == Verdict::Misses);
+    let ages = system.bounds.iter().zip(&times.ages);
+    let ages_hold = ages.into_iter().all(|(bound, age)| age.most.is_some_and(|most| most <= bound.limit));
+    let open = times.tasks.iter().any(|task| matches!(task.verdict, Verdict::Open(_)));
+    match (misses || times.overloaded, open || !ages_hold) {
+        (true, _) => Exit::Model,
+        (false, true) => Exit::Unknown,
+        (false, false) => Exit::Good,
+    }
+}
+
+fn processors(platform: Platform) -> String {
+    let word = if platform.processors == 1 { "processor" } else { "processors" };
+    let order = match platform.order {
+        Order::Rate => "shorter periods first",
+        Order::Deadline => "shorter deadlines first",
+    };
+    format!("{} {word}, {order}", platform.processors)
+}
+
+/// The table for people.
+fn table(system: &System, times: &Times) -> String {
+    let shown = |ticks: u64| length(ticks as i64, system.tick_ns);
+    let or_dash = |ticks: Option<u64>| ticks.map_or("-".to_string(), shown);
+    let head = ["task", "priority", "period", "execution", "load", "blocking", "response", "deadline", ""];
+    let mut rows = vec![head.map(str::to_string).to_vec()];
+    for (component, task) in system.components.iter().zip(&times.tasks) {
+        let (least, most) = task.execution;
+        let deadline = match component.timing {
+            Timing::Synchronous { deadline, .. } => Some(deadline),
+            Timing::Asynchronous { .. } => None,
+        };
+        rows.push(vec![
+            component.name.clone(),
+            task.priority.to_string(),
+            match (component.timing.period(), task.interval) {
+                (Some(period), _) => shown(period),
+                (None, Some(interval)) => format!("after data, {}", shown(interval)),
+                (None, None) => "any time".to_string(),
+            },
+            if least == most { shown(most) } else { format!("{}..{}", shown(least), shown(most)) },
+            task.load.map_or("-".to_string(), |load| format!("{:.1} %", load * 100.0)),
+            or_dash(task.blocking),
+            or_dash(task.response),
+            or_dash(deadline),
+            match &task.verdict {
+                Verdict::Meets => "meets".to_string(),
+                Verdict::Misses => "misses".to_string(),
+                Verdict::Open(_) => "not shown".to_string(),
+                Verdict::None => String::new(),
+            },
+        ]);
+    }
+    let mut out = format!("{}\n", processors(times.platform));
+    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..head.len()).map(width).collect();
+    for row in &rows {
+        let cells: Vec<String> = row.iter().zip(&widths).map(|(cell, width)| format!("{cell:width$}")).collect();
+        out += cells.join("  ").trim_end();
+        out.push('\n');
+    }
+    out += &format!("load: {:.2} processors\n", times.load);
+    for (bound, age) in system.bounds.iter().zip(&times.ages) {
+        let (from, to) = (&bound.from.text, &bound.to.text);
+        let limit = shown(bound.limit);
+        let line = match age.most {
+            Some(most) if most <= bound.limit => format!("at most {}: within {limit}", shown(most)),
+            Some(most) => format!("not shown within {limit}: at most {}", shown(most)),
+            None => {
+                let reason = age.ways.iter().find_map(|way| way.reason.as_deref()).unwrap_or_default();
+                format!("not shown within {limit}: {reason}")
+            }
+        };
+        out += &format!("age from {from} to {to}: {line}\n");
+    }
+    out
+}
+
+/// The same for programs.
+fn object<'a>(system: &'a System, times: &'a Times) -> TimesTold<'a> {
+    let ns = |ticks: u64| ticks.saturating_mul(system.tick_ns);
+    let task = |(component, task): (&'a ::chart::system::Component, &'a TaskTimes)| {
+        let (period, deadline) = match component.timing {
+            Timing::Synchronous { period, deadline, .. } => (Some(period), Some(deadline)),
+            Timing::Asynchronous { .. } => (None, None),
+        };
+        let (verdict, reason) = match &task.verdict {
+            Verdict::Meets => (Some("meets"), None),
+            Verdict::Misses => (Some("misses"), None),
+            Verdict::Open(reason) => (Some("unknown"), Some(reason.as_str())),
+            Verdict::None => (None, None),
+        };
+        TaskTime {
+            name: &component.name,
+            priority: task.priority,
+            period_ns: period.map(ns),
+            interval_ns: task.interval.map(ns),
+            execution_ns: [ns(task.execution.0), ns(task.execution.1)],
+            load: task.load,
+            blocking_ns: task.blocking.map(ns),
+            response_ns: task.response.map(ns),
+            deadline_ns: deadline.map(ns),
+            verdict,
+            reason,
+        }
+    };
+    let ages = system.bounds.iter().zip(&times.ages).map(|(bound, age)| AgeOfData {
+        from: &bound.from.text,
+        to: &bound.to.text,
+        limit_ns: ns(bound.limit),
+        most_ns: age.most.map(ns),
+        within: age.most.map(|most| most <= bound.limit).filter(|within| *within),
+        reason: age.ways.iter().find_map(|way| way.reason.as_deref()),
+    });
+    TimesTold::Times {
+        system: &system.name,
+        processors: times.platform.processors,
+        priorities: match times.platform.order {
+            Order::Rate => "rate",
+            Order::Deadline => "deadline",
+        },
+        load: times.load,
+        overloaded: times.overloaded,
+        tasks: system.components.iter().zip(&times.tasks).map(task).collect(),
+        ages: ages.collect(),
+    }
+}
