@@ -198,3 +198,62 @@ fn changes_of_the_model() {
         assert_eq!(differences(CELL, &model.replacen(from, to, 1)).len(), 2, "{from}");
     }
 }
+
+/// The cell with bounds on the ages of its data.
+fn bounded(bounds: &str) -> String {
+    CELL.replace("endsystem", &format!("{bounds}endsystem"))
+}
+
+#[test]
+fn age_bounds() {
+    let (pusher, panel) = ("\twithin 100 ms from camera to pusher\n", "\twithin 300 ms from camera to panel\n");
+    let both = bounded(&format!("{pusher}{panel}"));
+    let model = built(&both);
+    assert_eq!(differences(&both, &model), [""; 0]);
+    let told = differences(&both.replace("within 100 ms", "within 90 ms"), &model);
+    let message =
+        "the age bound from `camera` to `pusher`: the age that is allowed is 90 ms in the chart, 100 ms in the model";
+    assert_eq!(told, [format!("system-differs: {message}")]);
+    assert!(!differences(CELL, &model).is_empty() && !differences(&both, &built(CELL)).is_empty());
+    // A bound that is taken away is gone from the model, too, whichever it was.
+    for left in ["", pusher, panel] {
+        let mut drawn = chart(&bounded(left));
+        let known = Known::completed(&mut drawn, "Imports.asm", &mut Patterns).expect("the library has no faults");
+        let text = build(&drawn, &known, Some(&model)).expect("the model has no faults").text;
+        let checked = check(SourceFile::new("Cell.asm", text.as_str()), &mut Patterns);
+        assert_eq!(checked.diagnostics, [], "{left}");
+        assert_eq!(differences(&bounded(left), &text), [""; 0], "{left}");
+    }
+}
+
+/// The ids of the faults of a chart.
+fn told(text: &str) -> Vec<String> {
+    let loaded = chart::load(SourceFile::new("Cell.chart", text), &mut Patterns);
+    loaded.diagnostics.iter().map(|fault| format!("{}: {}", fault.id, fault.message)).collect()
+}
+
+#[test]
+fn only_stated_processors_are_judged() {
+    assert_eq!(told(CELL), [""; 0]);
+    assert_eq!(told(&bounded("\tprocessors 5\n")), [""; 0]);
+    let late = "late-response: `pusher` may miss its deadline of 4 ms on 2 processors: \
+                tasks with locks are not analysed on fewer processors than tasks";
+    assert!(
+        told(&bounded("\tprocessors 2\n")).contains(&late.to_string()),
+        "{:#?}",
+        told(&bounded("\tprocessors 2\n"))
+    );
+    let overloaded = bounded("\tprocessors 1\n").replace("scan 6 ms", "scan 9 ms");
+    assert_eq!(told(&overloaded), ["overloaded: the synchronous tasks need 1.18 processors, more than there are"]);
+    for (bound, id) in [
+        ("within 9 ms from camera to pusher", "age-bound"),
+        ("within 90 ms from pusher to camera", "age-bound"),
+        ("within 90 ms from camera to nobody", "unknown-shape"),
+        ("processors 0", "overloaded"),
+        ("processors 1\n\tprocessors 1", "duplicate-shape"),
+        ("tick 0.1 ms", "duplicate-shape"),
+    ] {
+        let told = told(&bounded(&format!("\t{bound}\n")));
+        assert!(told.iter().any(|one| one.starts_with(id)), "{bound}: {told:#?}");
+    }
+}
