@@ -75,7 +75,8 @@ pub struct TaskTimes {
     pub load: Option<f64>,
     /// How long others keep it waiting at channels, at most: on one processor also by a lock that a more urgent task waits for.
     pub blocking: Option<u64>,
-    /// The longest time from its release, or from the arrival of what it awaits, until the end of the cycle.
+    /// The longest time from its release until the end of the cycle; of an asynchronous task from when its cycle could begin: what it
+    /// awaits is there, and the cycle before is over.
     pub response: Option<u64>,
     /// What follows for its deadline.
     pub verdict: Verdict,
@@ -247,7 +248,12 @@ impl Analysis<'_> {
             Timing::Asynchronous { awaits: Some(channel) } => {
                 let writer = self.system.channels[channel].from;
                 let before = self.demand(writer).map_or(0, |demand| demand.jitter);
-                before.saturating_add(self.responses[writer]?)
+                let response = self.responses[writer]?;
+                // What comes while its writer is still at work waits there, too: nothing bounds how close it then follows.
+                if self.awaited(writer).is_some() && self.interval(writer)? < response {
+                    return None;
+                }
+                before.saturating_add(response)
             }
         };
         Some(Demand { execution, period: self.interval(index)?, jitter })
