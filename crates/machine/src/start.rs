@@ -289,6 +289,7 @@ impl<'a> Executor<'a> {
         let index = self.core.store.number(function, arguments) as usize;
         self.core.store.values[index] = value.clone();
         self.core.store.given[index] = self.core.epoch;
+        self.core.store.touch();
         Ok(value)
     }
 }

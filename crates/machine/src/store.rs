@@ -43,6 +43,7 @@ pub struct Store {
     sparse: HashMap<Location, LocationIndex, FxBuildHasher>,
     /// The locations of the sparse numbers, from `dense` on.
     sparse_locations: Vec<Location>,
+    touched: u64,
     /// By domain; only dynamic ones' are used.
     pub(crate) carriers: Vec<Carrier>,
 }
@@ -68,6 +69,7 @@ impl Store {
             dense,
             sparse: HashMap::default(),
             sparse_locations: Vec::new(),
+            touched: 0,
             carriers: vec![Carrier::default(); program.domains.len()],
         }
     }
@@ -109,7 +111,19 @@ impl Store {
         self.sparse.insert(location, index);
         self.values.push(Value::Undef);
         self.given.push(0);
+        self.touched += 1;
         index
+    }
+
+    /// A number that is another one once a location has got a number, or an initial value that came up late.
+    #[inline]
+    pub fn touched(&self) -> u64 {
+        self.touched
+    }
+
+    /// A late initial value came up.
+    pub(crate) fn touch(&mut self) {
+        self.touched += 1;
     }
 
     /// How many locations have a number.

@@ -30,8 +30,13 @@ pub(crate) struct Update {
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C)]
 pub(crate) struct Stamp {
-    unit: u32,
-    index: u32,
+    pub unit: u32,
+    pub index: u32,
+}
+
+impl Stamp {
+    /// In place of an index: the unit gives the location the value that it has, which is not on the stack.
+    pub const UNCHANGED: u32 = u32::MAX;
 }
 
 /// What a `seq` overwrote.
@@ -145,7 +150,13 @@ impl Updates {
     /// The current unit's update of a location.
     pub fn held(&self, location: LocationIndex) -> Option<&Update> {
         let stamp = self.stamps.get(location as usize)?;
-        (stamp.unit == self.unit).then(|| &self.stack[stamp.index as usize])
+        (stamp.unit == self.unit && stamp.index != Stamp::UNCHANGED).then(|| &self.stack[stamp.index as usize])
+    }
+
+    /// Whether the current unit gives a location the value that it has, without an update on the stack.
+    pub fn leaves(&self, location: LocationIndex) -> bool {
+        let stamp = self.stamps.get(location as usize);
+        stamp.is_some_and(|stamp| stamp.unit == self.unit && stamp.index == Stamp::UNCHANGED)
     }
 
     /// How many updates the step has so far.
@@ -178,6 +189,11 @@ impl Updates {
             self.stamps.resize(location as usize + 1, Stamp::default());
         }
         let stamp = &mut self.stamps[location as usize];
+        if stamp.unit == self.unit && stamp.index == Stamp::UNCHANGED {
+            // Only compiled code leaves such stamps; it gives the step up, and the interpreter says whether this is one.
+            let clash = Clash { location, first: (Value::Undef, rule), second: (value, rule) };
+            return Err(Box::new(clash));
+        }
         if stamp.unit == self.unit {
             let held = &self.stack[stamp.index as usize];
             if held.value == value {

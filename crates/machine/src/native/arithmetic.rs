@@ -17,6 +17,9 @@ impl Translator<'_, '_> {
             Effect::ReadsBefore | Effect::Chooses | Effect::SpeaksOfRuns => return self.interpreted(id),
             Effect::Pure | Effect::ReadsAgents | Effect::ReadsClock => {}
         }
+        if let Some(known) = self.on_items(builtin, arguments) {
+            return known;
+        }
         match (builtin, arguments) {
             (Builtin::And | Builtin::Or | Builtin::Implies | Builtin::Not, _) => self.truth(id),
             (Builtin::Eq | Builtin::Neq, [left, right]) => {
@@ -36,12 +39,12 @@ impl Translator<'_, '_> {
                 Operand::Scalar(Scalar::defined(Kind::Boolean, value))
             }
             (Builtin::SetSize | Builtin::SeqLength, [operand]) => match self.count(*operand) {
-                Some(count) => count,
+                Some(count) => Operand::Scalar(count),
                 None => self.applied(id, arguments),
             },
             (Builtin::SetIsEmpty | Builtin::SetNotEmpty | Builtin::SeqIsEmpty, [operand]) => {
                 match self.count(*operand) {
-                    Some(Operand::Scalar(count)) => {
+                    Some(count) => {
                         let condition = if builtin == Builtin::SetNotEmpty { IntCC::NotEqual } else { IntCC::Equal };
                         let value = self.builder.ins().icmp_imm(condition, count.value, 0);
                         Operand::Scalar(Scalar::defined(Kind::Boolean, value))

@@ -4,32 +4,71 @@
 //! belongs to the compiled code, collections one that belongs to their value.
 
 use cranelift_codegen::ir::condcodes::IntCC;
-use cranelift_codegen::ir::{self, InstBuilder, StackSlotData, StackSlotKind, types};
-use program::{Binder, DomainId, DomainKind, Term, TermId};
+use cranelift_codegen::ir::{self, InstBuilder, types};
+use program::{Binder, CollectionKind, DomainId, DomainKind, Term, TermId};
 
+use crate::native::context::Offset;
 use crate::native::helper;
-use crate::native::shape::{Bound, Kind, Scalar};
+use crate::native::shape::{Bound, Items, Kind, Operand, Scalar};
 use crate::native::translate::Translator;
 
 /// What a loop walks.
-enum Walk {
+#[derive(Clone, Copy)]
+pub(super) enum Walk {
     /// Numbers `low..=high` of a kind.
     Numbers(Kind, i64, i64),
+    /// `count` integers from `low` on, which lie within bounds where these are known.
+    Span { low: ir::Value, count: ir::Value, range: Option<(i64, i64)> },
     /// `count` values from an address on.
     Values { start: ir::Value, count: ir::Value, kind: Option<Kind> },
+}
+
+/// What becomes of the items ([`crate::native::items`]) that a round of a loop has gathered.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Between {
+    /// They are given back.
+    GivenBack,
+    /// They are given back, and rules run that may overwrite a location whose value is walked.
+    Overwritten,
+    /// They are those of a comprehension: nothing else may stand between them.
+    Added,
 }
 
 impl Translator<'_, '_> {
     /// Translates `body` for each binding; it may jump out of the loops.
     pub fn each_binding(&mut self, binders: &[Binder], body: &mut dyn FnMut(&mut Self)) {
+        self.each_of(binders, Between::GivenBack, body);
+    }
+
+    /// The same for a `forall` rule.
+    pub fn each_run(&mut self, binders: &[Binder], body: &mut dyn FnMut(&mut Self)) {
+        self.each_of(binders, Between::Overwritten, body);
+    }
+
+    fn each_of(&mut self, binders: &[Binder], between: Between, body: &mut dyn FnMut(&mut Self)) {
         let Some((binder, rest)) = binders.split_first() else { return body(self) };
-        let walk = self.walk(binder.range);
+        let walk = match between {
+            Between::GivenBack => self.walk(binder.range, false),
+            Between::Overwritten => self.walk(binder.range, true),
+            Between::Added => self.walk_made(binder.range),
+        };
+        self.each_element(binder, walk, (rest, between), body);
+    }
+
+    /// Translates `body` for each binding, the first binder's range given.
+    pub fn each_element(
+        &mut self,
+        binder: &Binder,
+        walk: Walk,
+        (rest, between): (&[Binder], Between),
+        body: &mut dyn FnMut(&mut Self),
+    ) {
         let around = self.count_rounds(&walk);
         let index = self.variable(types::I64);
         let (head, inner, done) = (self.block(), self.block(), self.block());
         let first = match walk {
             Walk::Numbers(_, low, _) => self.word(low),
-            Walk::Values { .. } => self.word(0),
+            Walk::Span { .. } | Walk::Values { .. } => self.word(0),
         };
         self.set(index, first);
         self.jump(head);
@@ -37,7 +76,9 @@ impl Translator<'_, '_> {
         let now = self.get(index);
         let more = match walk {
             Walk::Numbers(_, _, high) => self.builder.ins().icmp_imm(IntCC::SignedLessThanOrEqual, now, high),
-            Walk::Values { count, .. } => self.builder.ins().icmp(IntCC::UnsignedLessThan, now, count),
+            Walk::Span { count, .. } | Walk::Values { count, .. } => {
+                self.builder.ins().icmp(IntCC::UnsignedLessThan, now, count)
+            }
         };
         self.branch(more, inner, done);
         self.switch(inner);
@@ -45,6 +86,10 @@ impl Translator<'_, '_> {
             Walk::Numbers(kind, low, high) => {
                 let value = if kind == Kind::Boolean { self.builder.ins().ireduce(types::I8, now) } else { now };
                 Bound::Scalar(Scalar::defined(kind, value).within(low, high))
+            }
+            Walk::Span { low, range, .. } => {
+                let value = self.builder.ins().iadd(low, now);
+                Bound::Scalar(Scalar { range, ..Scalar::defined(Kind::Integer, value) })
             }
             Walk::Values { start, kind, .. } => {
                 let place = self.element(start, now, 4);
@@ -55,7 +100,10 @@ impl Translator<'_, '_> {
             }
         };
         self.bind(binder.slot, bound);
-        self.statement(|this| this.each_binding(rest, body));
+        self.statement(|this| match between {
+            Between::GivenBack | Between::Overwritten => this.scoped(|this| this.each_of(rest, between, body)),
+            Between::Added => this.each_of(rest, between, body),
+        });
         let now = self.get(index);
         let next = self.builder.ins().iadd_imm(now, 1);
         self.set(index, next);
@@ -76,7 +124,7 @@ impl Translator<'_, '_> {
                 self.rounds = around.saturating_mul(all.max(1));
                 self.word(all)
             }
-            Walk::Values { count, .. } => {
+            Walk::Span { count, .. } | Walk::Values { count, .. } => {
                 self.rounds = i64::MAX;
                 count
             }
@@ -89,7 +137,8 @@ impl Translator<'_, '_> {
         around
     }
 
-    fn walk(&mut self, range: TermId) -> Walk {
+    /// What a range's loop walks. A collection that a location may lose in the meantime is kept.
+    pub fn walk(&mut self, range: TermId, overwritten: bool) -> Walk {
         let program = self.program;
         if let Term::Domain(domain) = program.term(range) {
             return match self.numbers_of(range) {
@@ -97,18 +146,68 @@ impl Translator<'_, '_> {
                 None => self.walk_domain(*domain),
             };
         }
+        if let Some(walk) = self.walk_span(range) {
+            return walk;
+        }
         let kind = match &program.domain(program.term_domain(range)).kind {
             DomainKind::Powerset(of) | DomainKind::Seq(of) | DomainKind::Bag(of) => self.kind(*of),
             _ => None,
         };
-        let operand = self.term(range);
-        let collection = self.pinned(operand);
-        self.walk_collection(collection, kind)
+        match self.term(range) {
+            Operand::Items(Items { start, count, .. }) => Walk::Values { start, count, kind },
+            operand => {
+                let collection = if overwritten { self.pinned(operand) } else { self.boxed(operand) };
+                self.walk_collection(collection, kind)
+            }
+        }
+    }
+
+    /// The same, after which no items stand above those that were gathered before.
+    fn walk_made(&mut self, range: TermId) -> Walk {
+        let (mark, gatherers) = (self.field(Offset::item), self.gatherers);
+        match self.walk(range, false) {
+            Walk::Values { start, count, kind } if self.gatherers > gatherers => {
+                // What a round of an outer loop walks is its own.
+                let items = Items { start, count, kind: CollectionKind::Seq };
+                let collection = self.made(items);
+                self.set_field(Offset::item, mark);
+                self.walk_collection(collection, kind)
+            }
+            walk => {
+                self.give_back(mark, gatherers);
+                walk
+            }
+        }
+    }
+
+    /// `{low : high}` of integers, which is not made.
+    fn walk_span(&mut self, range: TermId) -> Option<Walk> {
+        let Term::Range { kind, low, high, step: None } = self.program.term(range) else { return None };
+        let integers = [low, high].iter().all(|bound| self.kind_of(**bound) == Some(Kind::Integer));
+        if !integers || !matches!(kind, CollectionKind::Set | CollectionKind::Seq) {
+            return None;
+        }
+        let [low, high] = [*low, *high].map(|bound| {
+            let operand = self.term(bound);
+            let scalar = self.scalar(operand, Kind::Integer);
+            self.defined(scalar)
+        });
+        let range = low.range.zip(high.range).map(|((least, _), (_, most))| (least, most.max(least)));
+        let (width, over) = self.builder.ins().ssub_overflow(high.value, low.value);
+        self.refuse(over);
+        let count = self.builder.ins().iadd_imm(width, 1);
+        let none = self.word(0);
+        let empty = self.builder.ins().icmp_imm(IntCC::SignedLessThan, width, 0);
+        let count = self.builder.ins().select(empty, none, count);
+        // The interpreter makes the collection, or says that it is too large.
+        let most = self.field(Offset::most);
+        let large = self.builder.ins().icmp(IntCC::UnsignedGreaterThan, count, most);
+        self.refuse(large);
+        Some(Walk::Span { low: low.value, count, range })
     }
 
     fn walk_collection(&mut self, collection: ir::Value, kind: Option<Kind>) -> Walk {
-        let slot = self.builder.create_sized_stack_slot(StackSlotData::new(StackSlotKind::ExplicitSlot, 16, 3));
-        let out = self.builder.ins().stack_addr(types::I64, slot, 0);
+        let out = self.scratch(2);
         self.note_kept();
         self.call_or_bail(helper::RANGE, [self.context, collection, out]);
         let (start, count) = (self.load(types::I64, out, 0), self.load(types::I64, out, 8));

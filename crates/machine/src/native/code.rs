@@ -110,9 +110,10 @@ impl Code {
         })
     }
 
-    /// Whether a started machine may run the code as this procedure.
+    /// Whether a started machine may run the code as this procedure. Its program may have more terms, for conditions.
     pub fn fits(&self, program: &Arc<Program>, procedure: ProcedureId, core: &Core) -> bool {
-        Arc::ptr_eq(&self.program, program) && self.procedure == procedure && self.facts == Facts::of(program, core)
+        let same = Arc::ptr_eq(&self.program, program) || program.extends(&self.program);
+        same && self.procedure == procedure && self.facts == Facts::of(program, core)
     }
 
     /// Whether a rule has run in some step, as far as that is noted.

@@ -36,6 +36,9 @@ impl Translator<'_, '_> {
         condition: Option<TermId>,
         body: TermId,
     ) -> Operand {
+        if let Some(items) = self.gathered_comprehension(kind, binders, condition, body) {
+            return items;
+        }
         let program = self.program;
         self.call(helper::COLLECT, [self.context]);
         self.each_fitting(program.binder_list(binders), condition, &mut |this| {
@@ -63,7 +66,7 @@ impl Translator<'_, '_> {
     }
 
     /// The size of a set given by a comprehension, where no two bindings give the same element: counted.
-    pub fn count(&mut self, id: TermId) -> Option<Operand> {
+    pub fn count(&mut self, id: TermId) -> Option<Scalar> {
         let program = self.program;
         let Term::Comprehension { kind, binders, condition, body } = program.term(id) else { return None };
         let binders = program.binder_list(*binders);
@@ -102,6 +105,6 @@ impl Translator<'_, '_> {
             this.set(count, after);
         });
         let value = self.get(count);
-        Some(Operand::Scalar(Scalar::defined(Kind::Integer, value).within(0, i64::from(u32::MAX))))
+        Some(Scalar::defined(Kind::Integer, value).within(0, i64::from(u32::MAX)))
     }
 }

@@ -17,6 +17,8 @@ use crate::work::INTERVAL;
 const TEMPORARIES: usize = 1 << 16;
 /// LIMIT: candidates of a choice, times its variables; where there are more the step is interpreted.
 const CANDIDATES: usize = 1 << 20;
+/// LIMIT: items of collections that are not made; where there are more the step is interpreted.
+const ITEMS: usize = 1 << 20;
 
 /// The view of compiled code.
 #[repr(C)]
@@ -40,6 +42,14 @@ pub(super) struct Context {
     pub candidates: *mut Value,
     pub candidate: u64,
     pub candidate_capacity: u64,
+    /// Items of the collections that running rules have not made, a stack of scalars.
+    pub items: *mut Value,
+    pub item: u64,
+    pub item_capacity: u64,
+    /// How many elements a collection may have.
+    pub most: i64,
+    /// Not zero where an update that leaves its location as it is may be left out.
+    pub terse: u64,
     pub depth: u64,
     /// Work left until the machine looks whether the step is to end ([`crate::work`]).
     pub budget: i64,
@@ -72,13 +82,19 @@ impl Offset {
     pub const candidates: i32 = offset_of!(Context, candidates) as i32;
     pub const candidate: i32 = offset_of!(Context, candidate) as i32;
     pub const candidate_capacity: i32 = offset_of!(Context, candidate_capacity) as i32;
+    pub const items: i32 = offset_of!(Context, items) as i32;
+    pub const item: i32 = offset_of!(Context, item) as i32;
+    pub const item_capacity: i32 = offset_of!(Context, item_capacity) as i32;
+    pub const most: i32 = offset_of!(Context, most) as i32;
+    pub const terse: i32 = offset_of!(Context, terse) as i32;
     pub const depth: i32 = offset_of!(Context, depth) as i32;
     pub const budget: i32 = offset_of!(Context, budget) as i32;
     pub const tables: i32 = offset_of!(Context, tables) as i32;
 
     /// Whether compiled code itself changes the field.
     pub fn is_counter(offset: i32) -> bool {
-        [Self::held, Self::temporary, Self::candidate, Self::depth, Self::budget].contains(&offset)
+        [Self::held, Self::temporary, Self::candidate, Self::item, Self::terse, Self::depth, Self::budget]
+            .contains(&offset)
     }
 }
 
@@ -94,6 +110,7 @@ impl Context {
         if memory.temporaries.capacity() == 0 {
             memory.temporaries.reserve(TEMPORARIES);
             memory.candidates.reserve(CANDIDATES.min(1 << 12));
+            memory.items.reserve_exact(ITEMS);
         }
         Context {
             values: std::ptr::null_mut(),
@@ -112,6 +129,11 @@ impl Context {
             candidates: memory.candidates.as_mut_ptr(),
             candidate: 0,
             candidate_capacity: memory.candidates.capacity() as u64,
+            items: memory.items.as_mut_ptr(),
+            item: 0,
+            item_capacity: 0,
+            most: 0,
+            terse: 0,
             depth: 0,
             budget: 0,
             tables: memory.places(),
@@ -125,6 +147,10 @@ impl Context {
     pub fn begin(&mut self, executor: &mut Executor<'_>) {
         self.count(executor.core);
         self.budget = INTERVAL as i64;
+        // So one that is too large for the interpreter is never completed.
+        self.terse = 1;
+        (self.item, self.item_capacity) = (0, executor.limits.collection.min(ITEMS as u64));
+        self.most = i64::try_from(executor.limits.collection).unwrap_or(i64::MAX);
         self.executor = std::ptr::from_mut(executor).cast::<Executor<'static>>();
     }
 

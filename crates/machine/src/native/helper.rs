@@ -131,6 +131,7 @@ macro_rules! helpers {
 
 helpers! {
     GROW = grow(context) -> i64;
+    PUSH = push(context, location, tag, payload, rule) -> i64;
     AGREES = agrees(context, location, value) -> i64;
     READ = read(context, function, arguments, count) -> *const Value;
     ASK = ask(context, function, arguments, count, index) -> i64;
@@ -149,6 +150,11 @@ helpers! {
     COLLECTED = collected(context, kind) -> *const Value;
     ELEMENTS = elements(context, domain) -> *const Value;
     RANGE = range(context, collection, out) -> i64;
+    ITEMS = items(collection, kind, out) -> i64;
+    EXTEND = extend(context, start, count) -> i64;
+    ARRANGE = arrange(start, count) -> i64;
+    POSITION = position(start, count, tag, payload) -> i64;
+    MAKE = make(context, start, count, kind) -> *const Value;
     BEGIN_SEQUENCE = begin_sequence(context) -> ();
     END_SEQUENCE = end_sequence(context) -> i64;
     OPEN = open(context) -> ();

@@ -11,6 +11,7 @@ use crate::layout::{Dimension, DimensionKind, Layout};
 use crate::membership::Membership;
 use crate::native::context::Offset;
 use crate::native::helper;
+use crate::native::runtime::MAY_LEAVE;
 use crate::native::shape::{Kind, Operand, Scalar};
 use crate::native::translate::{FLAGS, Translator};
 use crate::update::Update;
@@ -271,6 +272,10 @@ impl Translator<'_, '_> {
         value: Operand,
         (rule, alone): (RuleId, bool),
     ) {
+        let value = match value {
+            Operand::Items(items) => Operand::Boxed(self.made(items)),
+            other => other,
+        };
         self.check_codomain(function, value);
         let direct =
             self.plan.facts.plain[function.0 as usize] || self.program.function(function).kind == FunctionKind::Shared;
@@ -305,7 +310,30 @@ impl Translator<'_, '_> {
             }
             None => self.locate(function, arguments),
         };
-        self.push(index, value, rule, alone);
+        // Undef may stand for what others have given, or for what is still to come.
+        let may_leave =
+            matches!(self.program.function(function).kind, FunctionKind::Controlled | FunctionKind::Out) && !lazy;
+        match value {
+            Operand::Scalar(_) | Operand::Undef if self.plan.is_terse() => {
+                self.push_briefly(index, value, rule, may_leave)
+            }
+            _ => self.push(index, value, rule, alone),
+        }
+    }
+
+    /// Adds an update of a scalar to the current unit, by a call: searches run too few steps to pay for more code.
+    fn push_briefly(&mut self, index: ir::Value, value: Operand, rule: RuleId, may_leave: bool) {
+        let (tag, payload) = match value {
+            Operand::Scalar(scalar) => self.words(scalar),
+            _ => (self.word(0), self.word(0)),
+        };
+        let payload = match self.builder.func.dfg.value_type(payload) {
+            types::F64 => self.builder.ins().bitcast(types::I64, ir::MemFlags::new(), payload),
+            _ => payload,
+        };
+        let leave = if may_leave { MAY_LEAVE } else { 0 };
+        let rule = self.word((u64::from(rule.0) | leave) as i64);
+        self.call_or_bail(helper::PUSH, [self.context, index, tag, payload, rule]);
     }
 
     fn locate(&mut self, function: FunctionId, arguments: &[Operand]) -> ir::Value {
@@ -409,7 +437,7 @@ impl Translator<'_, '_> {
                 self.store(tag, entry, at);
                 self.store(payload, entry, at + 8);
             }
-            Operand::Boxed(_) | Operand::Stored(_) => {
+            Operand::Boxed(_) | Operand::Stored(_) | Operand::Items(_) => {
                 let pointer = self.boxed(value);
                 let place = self.builder.ins().iadd_imm(entry, i64::from(at));
                 self.call(helper::COPY, [self.context, pointer, place]);

@@ -22,6 +22,8 @@ pub(super) struct Memory {
     pub temporaries: Vec<Value>,
     /// Candidates of choices that are being collected.
     pub candidates: Vec<Value>,
+    /// Items of collections that are not made: room for scalars, its length 0.
+    pub items: Vec<Value>,
     /// Units and sequences open now.
     pub units: Vec<Unit>,
     pub sequences: Vec<(Sequence, Version)>,
@@ -63,6 +65,7 @@ impl Memory {
             places,
             temporaries: Vec::new(),
             candidates: Vec::new(),
+            items: Vec::new(),
             units: Vec::new(),
             sequences: Vec::new(),
             collections: Vec::new(),

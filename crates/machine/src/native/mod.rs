@@ -14,6 +14,7 @@ mod commit;
 mod comprehension;
 mod context;
 mod helper;
+mod items;
 mod kleene;
 mod location;
 mod memory;

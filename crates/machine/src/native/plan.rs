@@ -28,9 +28,9 @@ pub(super) enum UnitKey {
 }
 
 /// LIMIT: a body of more terms and rules is translated once, where it is called from more than one place.
-const INLINE: usize = 60;
+const INLINE: usize = 12;
 /// LIMIT: a function of more terms and rules inlines no more.
-const BODY: usize = 2_500;
+const BODY: usize = 1_200;
 /// LIMIT: nested inlining.
 const DEPTH: usize = 24;
 /// LIMIT: entries of a table of a fixed term.
@@ -90,6 +90,8 @@ pub(super) struct Plan {
     pub pinned: Vec<Arc<Items>>,
     /// By rule, 1 where it has run; empty where that is not noted.
     pub ran: Box<[AtomicU8]>,
+    /// Some term may gather items.
+    pub gathers: bool,
 }
 
 impl Plan {
@@ -127,12 +129,18 @@ impl Plan {
             numbered: Numbered::default(),
             pinned: vec![constants],
             ran: Box::default(),
+            gathers: program.terms.iter().any(may_gather),
         }
     }
 
-    /// From now on the code that is made notes which rules run.
+    /// From now on the code that is made notes which rules run, and leaves out updates that change nothing: for searches.
     pub fn note_rules(&mut self, program: &Program) {
         self.ran = program.rules.iter().map(|_| AtomicU8::new(0)).collect();
+    }
+
+    /// Whether updates that change nothing are left out.
+    pub fn is_terse(&self) -> bool {
+        !self.ran.is_empty()
     }
 
     /// Where it is noted that a rule has run, if that is noted.
@@ -227,6 +235,30 @@ impl Plan {
         is_worth(program, term) && memo::is_fixed_term(program, term, &self.fixed)
     }
 
+    /// Whether evaluating a term asks the environment for nothing.
+    pub fn is_silent(&self, program: &Program, term: TermId) -> bool {
+        let mut open = vec![term];
+        let mut entered = Vec::new();
+        while let Some(id) = open.pop() {
+            match program.term(id) {
+                Term::Read { function, .. } => {
+                    let known = program.function(*function).element.is_some() || self.facts.plain[function.0 as usize];
+                    if !known || self.facts.lazy[function.0 as usize] {
+                        return false;
+                    }
+                }
+                Term::Define { function, .. } if !entered.contains(function) => {
+                    entered.push(*function);
+                    open.extend(program.function(*function).definition.as_ref().map(|definition| definition.body));
+                }
+                Term::Builtin { builtin, .. } if !builtin.info().effect.is_none() => return false,
+                _ => {}
+            }
+            program.each_child_of_term(id, &mut |child| open.push(child));
+        }
+        true
+    }
+
     /// The number of a table for a fixed term.
     pub fn table(&mut self, term: TermId, spill: usize, entries: i64) -> Option<usize> {
         if !(1..=TABLE).contains(&entries) {
@@ -311,6 +343,17 @@ impl Plan {
     pub fn slots_of_rule(&self, program: &Program, rule: RuleId, slots: &mut Vec<u32>) {
         program.each_term_of_rule(rule, &mut |term| self.slots_of_term(program, term, slots));
         program.each_child_of_rule(rule, &mut |child| self.slots_of_rule(program, child, slots));
+    }
+}
+
+/// Whether a term may give a collection that is not made.
+fn may_gather(term: &Term) -> bool {
+    match term {
+        Term::Collection { .. } | Term::Comprehension { .. } => true,
+        Term::Builtin { builtin, .. } => {
+            matches!(builtin, Builtin::SeqConcat | Builtin::SetUnion | Builtin::AsSet | Builtin::Append)
+        }
+        _ => false,
     }
 }
 

@@ -20,6 +20,10 @@ impl Translator<'_, '_> {
             let (place, ran) = (self.address(mark), self.byte(1));
             self.builder.ins().store(MARKS, ran, place, 0);
         }
+        self.scoped(|this| this.plain_rule(id));
+    }
+
+    fn plain_rule(&mut self, id: RuleId) {
         let program = self.program;
         match program.rule(id) {
             Rule::Skip => {}
@@ -35,24 +39,32 @@ impl Translator<'_, '_> {
             }),
             Rule::TurboCall { procedure, arguments } => self.statement(|this| {
                 let outer = this.foralls.take();
-                this.call(helper::OPEN, [this.context]);
-                let operands = this.terms(*arguments);
-                this.procedure(*procedure, &operands);
-                this.call_or_bail(helper::JOIN, [this.context]);
+                this.in_unit(false, |this| {
+                    this.call(helper::OPEN, [this.context]);
+                    let operands = this.terms(*arguments);
+                    this.procedure(*procedure, &operands);
+                    this.call_or_bail(helper::JOIN, [this.context]);
+                });
                 this.foralls = outer;
             }),
             Rule::Par(rules) => {
-                for rule in program.rule_list(*rules) {
+                let rules = program.rule_list(*rules);
+                let sole = self.sole;
+                self.sole &= rules.len() < 2;
+                for rule in rules {
                     self.rule(*rule);
                 }
+                self.sole = sole;
             }
             Rule::Seq(rules) => {
                 let outer = self.foralls.take();
-                self.call(helper::BEGIN_SEQUENCE, [self.context]);
-                for rule in program.rule_list(*rules) {
-                    self.part(*rule);
-                }
-                self.call_or_bail(helper::END_SEQUENCE, [self.context]);
+                self.in_unit(self.sole, |this| {
+                    this.call(helper::BEGIN_SEQUENCE, [this.context]);
+                    for rule in program.rule_list(*rules) {
+                        this.part(*rule);
+                    }
+                    this.call_or_bail(helper::END_SEQUENCE, [this.context]);
+                });
                 self.foralls = outer;
             }
             Rule::If { guards, rules } => {
@@ -100,6 +112,7 @@ impl Translator<'_, '_> {
                 this.rule(*body);
             }),
             Rule::Forall { binders, condition, body } => self.statement(|this| {
+                let sole = std::mem::replace(&mut this.sole, false);
                 let outer = this.foralls.clone();
                 let ranges = program.binder_list(*binders);
                 if ranges.iter().any(|binder| !matches!(program.term(binder.range), Term::Domain(_))) {
@@ -107,7 +120,7 @@ impl Translator<'_, '_> {
                 } else if let Some(foralls) = &mut this.foralls {
                     foralls.extend(ranges.iter().map(|binder| binder.slot));
                 }
-                this.each_binding(program.binder_list(*binders), &mut |this| match condition {
+                this.each_run(program.binder_list(*binders), &mut |this| match condition {
                     None => this.rule(*body),
                     Some(condition) => {
                         let (then, next) = (this.block(), this.block());
@@ -119,6 +132,7 @@ impl Translator<'_, '_> {
                     }
                 });
                 this.foralls = outer;
+                this.sole = sole;
             }),
             Rule::Choose { binders, condition, body, if_none } => {
                 self.choose(id, *binders, *condition, *body, *if_none);
@@ -151,6 +165,7 @@ impl Translator<'_, '_> {
     ) {
         let before = std::mem::replace(&mut self.keeps, false);
         let mark = self.field(Offset::temporary);
+        let (items, gatherers) = (self.field(Offset::item), self.gatherers);
         let (yes, no) = (self.block(), self.block());
         self.guard(guard, yes, no);
         let keeps = std::mem::replace(&mut self.keeps, before);
@@ -159,8 +174,25 @@ impl Translator<'_, '_> {
             if keeps {
                 self.release(mark);
             }
+            self.give_back(items, gatherers);
             self.jump(to);
         }
+    }
+
+    /// Translates a rule that is a unit of its own, or several. Updates that change nothing may be left out of it where
+    /// `no others` join it to what the step has done: a clash with them would not be found, nor that it made some.
+    fn in_unit(&mut self, no_others: bool, body: impl FnOnce(&mut Self)) {
+        let sole = std::mem::replace(&mut self.sole, false);
+        if no_others || !self.plan.is_terse() {
+            body(self);
+        } else {
+            let before = self.field(Offset::terse);
+            let never = self.word(0);
+            self.set_field(Offset::terse, never);
+            body(self);
+            self.set_field(Offset::terse, before);
+        }
+        self.sole = sole;
     }
 
     /// One part of a sequence; gives whether it made updates.
@@ -172,6 +204,11 @@ impl Translator<'_, '_> {
 
     fn repeat(&mut self, condition: Option<TermId>, body: RuleId, while_updates: bool) {
         let outer = self.foralls.take();
+        self.in_unit(false, |this| this.rounds(condition, body, while_updates));
+        self.foralls = outer;
+    }
+
+    fn rounds(&mut self, condition: Option<TermId>, body: RuleId, while_updates: bool) {
         self.call(helper::BEGIN_SEQUENCE, [self.context]);
         let (head, inner, done) = (self.block(), self.block(), self.block());
         self.jump(head);
@@ -191,7 +228,6 @@ impl Translator<'_, '_> {
         self.jump(head);
         self.switch(done);
         self.call_or_bail(helper::END_SEQUENCE, [self.context]);
-        self.foralls = outer;
     }
 
     /// Whether no other update of the step can be of the same location: the rule is the only one that updates the
@@ -218,6 +254,7 @@ impl Translator<'_, '_> {
     /// The procedure that makes the step.
     pub fn main(&mut self, main: ProcedureId) {
         self.foralls = Some(Vec::new());
+        self.sole = true;
         self.frames.push(Frame {
             unit: UnitKey::Procedure(main),
             size: self.program.procedure(main).frame,
@@ -272,14 +309,14 @@ impl Translator<'_, '_> {
             let operands: Vec<Operand> = operands.into_iter().map(|operand| this.bound(operand).into()).collect();
             let candidates = this.plan.rule_values(this.program, operands.len());
             this.dispatch(value.value, &candidates, &mut |this, procedure| {
-                let turbo = this.program.procedure(procedure).turbo;
-                if turbo {
+                if !this.program.procedure(procedure).turbo {
+                    return this.procedure(procedure, &operands);
+                }
+                this.in_unit(false, |this| {
                     this.call(helper::OPEN, [this.context]);
-                }
-                this.procedure(procedure, &operands);
-                if turbo {
+                    this.procedure(procedure, &operands);
                     this.call_or_bail(helper::JOIN, [this.context]);
-                }
+                });
             });
         });
     }

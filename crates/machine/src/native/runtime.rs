@@ -14,16 +14,17 @@
 
 use std::mem::ManuallyDrop;
 
-use program::{DomainId, FunctionId, RuleId, Term, TermId};
+use program::{CollectionKind, DomainId, FunctionId, RuleId, Term, TermId};
 use smallvec::SmallVec;
 use syntax::{FileId, Span};
 
 use crate::environment::Choice;
 use crate::evaluate::collection;
-use crate::execute::{Executor, Outcome};
+use crate::execute::{Core, Executor, Outcome};
 use crate::native::comprehension::kind_of;
 use crate::native::context::Context;
 use crate::native::memory::Collected;
+use crate::update::{Stamp, Update};
 use crate::value::Value;
 use crate::work::INTERVAL;
 
@@ -76,13 +77,52 @@ pub unsafe extern "C" fn grow(context: Pointer) -> i64 {
     }
 }
 
+/// Above the number of a rule: its update may be left out where it leaves the location as it is.
+pub(super) const MAY_LEAVE: u64 = 1 << 32;
+
+/// Adds an update of a scalar to the current unit.
+pub unsafe extern "C" fn push(context: Pointer, location: u64, tag: u64, payload: u64, rule: u64) -> i64 {
+    let words = [tag, payload];
+    // SAFETY: *context*; the stamps and the values are as many as the locations, of which the code knows the number; the two
+    // words are those of a scalar, which can be copied; below the capacity there is room on the stack.
+    unsafe {
+        let value = &*std::ptr::from_ref(&words).cast::<Value>();
+        let place = (*context).stamps.add(location as usize);
+        let previous = *place;
+        if u64::from(previous.unit) == (*context).unit {
+            return agrees(context, location as i64, value);
+        }
+        let unit = (*context).unit as u32;
+        if (*context).terse != 0 && rule & MAY_LEAVE != 0 && *(*context).values.add(location as usize) == *value {
+            *place = Stamp { unit, index: Stamp::UNCHANGED };
+            return 0;
+        }
+        if (*context).held == (*context).capacity && grow(context) != 0 {
+            return BAIL;
+        }
+        let index = (*context).held;
+        let update =
+            Update { location: location as u32, rule: RuleId(rule as u32), value: std::ptr::read(value), previous };
+        (*context).stack.add(index as usize).write(update);
+        // The stack's growing moves no stamp.
+        *place = Stamp { unit, index: index as u32 };
+        (*context).held = index + 1;
+    }
+    0
+}
+
 /// Whether the current unit's update of a location has this value.
 pub unsafe extern "C" fn agrees(context: Pointer, location: i64, value: *const Value) -> i64 {
     // SAFETY: *context* and *values*; looking for the update that is held moves and changes no value.
     unsafe {
         let value = &*value;
         Context::with(context, |executor, _| {
-            if executor.core.updates.held(location as u32).is_some_and(|held| held.value == *value) { 0 } else { BAIL }
+            let Core { updates, store, .. } = &*executor.core;
+            let agrees = match updates.leaves(location as u32) {
+                true => store.values[location as usize] == *value,
+                false => updates.held(location as u32).is_some_and(|held| held.value == *value),
+            };
+            if agrees { 0 } else { BAIL }
         })
     }
 }
@@ -319,6 +359,71 @@ pub unsafe extern "C" fn range(context: Pointer, collection: *const Value, out: 
         *out = [items.as_ptr() as u64, items.len() as u64];
     }
     0
+}
+
+/// Where the items of a set or a sequence are and how many, written to two words; of another kind, none.
+pub unsafe extern "C" fn items(collection: *const Value, kind: i64, out: *mut [u64; 2]) -> i64 {
+    // SAFETY: *values*; `out` is two words on the code's stack. The items live as long as their collection.
+    unsafe {
+        let items: &[Value] = match (&*collection, kind_of(kind)) {
+            (Value::Set(items), CollectionKind::Set) | (Value::Seq(items), CollectionKind::Seq) => items,
+            _ => return BAIL,
+        };
+        *out = [items.as_ptr() as u64, items.len() as u64];
+    }
+    0
+}
+
+/// Adds copies of values to the items of a collection that is not made, where all are scalars and there is room.
+pub unsafe extern "C" fn extend(context: Pointer, start: *const Value, count: u64) -> i64 {
+    // SAFETY: *context*; the values are as many as the code says, and the items that it counts lie below them or elsewhere.
+    unsafe {
+        let values = std::slice::from_raw_parts(start, count as usize);
+        let context = &mut *context;
+        if context.item + count > context.item_capacity || !values.iter().all(Value::is_scalar) {
+            return BAIL;
+        }
+        std::ptr::copy(start, context.items.add(context.item as usize), count as usize);
+        context.item += count;
+    }
+    0
+}
+
+/// Sorts items and leaves out those that repeat; how many are left.
+pub unsafe extern "C" fn arrange(start: *mut Value, count: u64) -> i64 {
+    // SAFETY: the items are the code's own, as many as it says, all of them scalars, which need not be dropped.
+    let items = unsafe { std::slice::from_raw_parts_mut(start, count as usize) };
+    items.sort_unstable();
+    let mut distinct = 0;
+    for index in 0..items.len() {
+        if index == 0 || items[index] != items[distinct - 1] {
+            items.swap(distinct, index);
+            distinct += 1;
+        }
+    }
+    distinct as i64
+}
+
+/// The position of the first item that is a scalar; -1 where there is none.
+pub unsafe extern "C" fn position(start: *const Value, count: u64, tag: u64, payload: u64) -> i64 {
+    let wanted = [tag, payload];
+    // SAFETY: the items are as many as the code says; the two words are those of a scalar, which needs no drop.
+    let (items, wanted) =
+        unsafe { (std::slice::from_raw_parts(start, count as usize), &*std::ptr::from_ref(&wanted).cast::<Value>()) };
+    items.iter().position(|item| item == wanted).map_or(-1, |position| position as i64)
+}
+
+/// Makes the collection of items.
+pub unsafe extern "C" fn make(context: Pointer, start: *const Value, count: u64, kind: i64) -> *const Value {
+    // SAFETY: *context*; the items are as many as the code says, and those of a set sorted and distinct.
+    unsafe {
+        let items = std::slice::from_raw_parts(start, count as usize).to_vec();
+        let value = match kind_of(kind) {
+            CollectionKind::Set => Value::sorted(items),
+            kind => collection(kind, items),
+        };
+        Context::with(context, |executor, context| kept(context, executor.made(value, NOWHERE)))
+    }
 }
 
 /// Begins a `seq`.

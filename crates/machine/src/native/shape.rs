@@ -5,7 +5,7 @@
 
 use cranelift_codegen::ir::{self, Type, types};
 use model::Basic;
-use program::{DomainId, DomainKind, Program};
+use program::{CollectionKind, DomainId, DomainKind, Program};
 
 use crate::value::Value;
 
@@ -115,6 +115,17 @@ pub(super) enum Operand {
     Boxed(ir::Value),
     /// The number of a location of the store, whose address changes when the store grows.
     Stored(ir::Value),
+    /// A collection that has not been made.
+    Items(Items),
+}
+
+/// A set or a sequence as its items, all of which are scalars: where they stand one after the other until the rule ends.
+/// INVARIANT: those of a set are sorted and distinct.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Items {
+    pub start: ir::Value,
+    pub count: ir::Value,
+    pub kind: CollectionKind,
 }
 
 /// What a variable is bound to.
@@ -122,6 +133,7 @@ pub(super) enum Operand {
 pub(super) enum Bound {
     Scalar(Scalar),
     Boxed(ir::Value),
+    Items(Items),
     Undef,
 }
 
@@ -130,6 +142,7 @@ impl From<Bound> for Operand {
         match bound {
             Bound::Scalar(scalar) => Operand::Scalar(scalar),
             Bound::Boxed(pointer) => Operand::Boxed(pointer),
+            Bound::Items(items) => Operand::Items(items),
             Bound::Undef => Operand::Undef,
         }
     }

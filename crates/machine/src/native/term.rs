@@ -69,6 +69,11 @@ impl Translator<'_, '_> {
                 self.term(*body)
             }
             Term::Quantified { quantifier, binders, condition } => self.quantified(*quantifier, *binders, *condition),
+            Term::Collection { kind, elements }
+                if let Some(items) = self.literal(*kind, program.term_list(*elements)) =>
+            {
+                items
+            }
             Term::Tuple(list) | Term::Collection { elements: list, .. } => {
                 let operands = self.terms(*list);
                 self.apply(id, &operands)
@@ -395,8 +400,14 @@ impl Translator<'_, '_> {
         self.set(count, zero);
         let done = self.block();
         let (mark, keepers) = (self.field(Offset::temporary), self.keepers);
+        let (items, gatherers) = (self.field(Offset::item), self.gatherers);
+        let mut binders = program.binder_list(binders).to_vec();
+        let unordered = self.unordered(quantifier, &binders, condition);
+        if let Some(range) = unordered {
+            binders[0].range = range;
+        }
         // Counts the witnesses of an existential formula, the counterexamples of a universal one.
-        self.each_binding(program.binder_list(binders), &mut |this| {
+        self.each_binding(&binders, &mut |this| {
             let (witness, next) = (this.block(), this.block());
             match (condition, quantifier) {
                 (None, Quantifier::Forall) => this.jump(next),
@@ -408,7 +419,10 @@ impl Translator<'_, '_> {
             let before = this.get(count);
             let after = this.builder.ins().iadd_imm(before, 1);
             this.set(count, after);
-            if quantifier == Quantifier::ExistsUnique {
+            if unordered.is_some() {
+                // One that comes later may be at fault, and come first in the set.
+                this.jump(next);
+            } else if quantifier == Quantifier::ExistsUnique {
                 let many = this.builder.ins().icmp_imm(IntCC::UnsignedGreaterThan, after, 1);
                 this.branch(many, done, next);
             } else {
@@ -422,9 +436,13 @@ impl Translator<'_, '_> {
         if self.keepers > keepers {
             self.release(mark);
         }
+        self.give_back(items, gatherers);
         let count = self.get(count);
-        let wanted = if quantifier == Quantifier::Forall { 0 } else { 1 };
-        let value = self.builder.ins().icmp_imm(IntCC::Equal, count, wanted);
+        let value = match quantifier {
+            Quantifier::Forall => self.builder.ins().icmp_imm(IntCC::Equal, count, 0),
+            Quantifier::Exists => self.builder.ins().icmp_imm(IntCC::NotEqual, count, 0),
+            Quantifier::ExistsUnique => self.builder.ins().icmp_imm(IntCC::Equal, count, 1),
+        };
         Operand::Scalar(Scalar::defined(Kind::Boolean, value))
     }
 }

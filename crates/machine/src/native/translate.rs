@@ -53,9 +53,13 @@ pub(super) struct Translator<'t, 'f> {
     pub keeps: bool,
     /// How many places have been translated that keep one.
     pub keepers: usize,
+    /// How many places have been translated that gather items.
+    pub gatherers: usize,
     /// The variables of the `forall` rules around the rule being translated; none where another rule that makes a
     /// unit, or ranges over what may repeat, stands between it and the step.
     pub foralls: Option<Vec<program::Slot>>,
+    /// Nothing else updates anything in the step while the rule being translated runs, or has done so before.
+    pub sole: bool,
     /// Terms and rules translated into this function.
     pub weight: usize,
     /// How often the loops around that do not count their rounds run what is being translated.
@@ -85,7 +89,9 @@ impl<'t, 'f> Translator<'t, 'f> {
             agent: None,
             keeps: false,
             keepers: 0,
+            gatherers: 0,
             foralls: None,
+            sole: false,
             weight: 0,
             rounds: 1,
             references: Vec::new(),
@@ -136,7 +142,7 @@ impl<'t, 'f> Translator<'t, 'f> {
         self.element(values, index, 4)
     }
 
-    fn scratch(&mut self, words: u32) -> ir::Value {
+    pub fn scratch(&mut self, words: u32) -> ir::Value {
         let data = StackSlotData::new(StackSlotKind::ExplicitSlot, 8 * words, 4);
         let slot = self.builder.create_sized_stack_slot(data);
         self.builder.ins().stack_addr(types::I64, slot, 0)
@@ -321,6 +327,7 @@ impl<'t, 'f> Translator<'t, 'f> {
             }
             Operand::Boxed(pointer) => pointer,
             Operand::Stored(index) => self.stored(index),
+            Operand::Items(items) => self.made(items),
             Operand::Scalar(scalar) => {
                 let (tag, payload) = self.words(scalar);
                 let place = self.scratch(2);
@@ -391,7 +398,7 @@ impl<'t, 'f> Translator<'t, 'f> {
                 let flag = self.byte(0);
                 Scalar { kind, value, flag: Some(flag), range: None }
             }
-            Operand::Scalar(_) => {
+            Operand::Scalar(_) | Operand::Items(_) => {
                 // A value of another kind: the interpreter knows what that means.
                 let value = self.zero(kind);
                 self.give_up();
@@ -426,6 +433,7 @@ impl<'t, 'f> Translator<'t, 'f> {
         match operand {
             Operand::Undef => Some(self.byte(0)),
             Operand::Scalar(scalar) => scalar.flag,
+            Operand::Items(_) => None,
             Operand::Boxed(_) | Operand::Stored(_) => {
                 let pointer = self.boxed(operand);
                 let tag = self.load(types::I64, pointer, 0);
@@ -439,6 +447,7 @@ impl<'t, 'f> Translator<'t, 'f> {
         match operand {
             Operand::Undef => Bound::Undef,
             Operand::Scalar(scalar) => Bound::Scalar(scalar),
+            Operand::Items(items) => Bound::Items(items),
             other => Bound::Boxed(self.pinned(other)),
         }
     }

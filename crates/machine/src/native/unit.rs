@@ -94,11 +94,17 @@ impl Translator<'_, '_> {
             UnitKey::Definition(id) => {
                 let definition = program.function(id).definition.as_ref().expect("a unit has one");
                 self.frames.push(Frame { unit: key, size: definition.frame, slots });
+                let mark = self.field(Offset::temporary);
+                let (items, gatherers) = (self.field(Offset::item), self.gatherers);
                 let operand = self.term(definition.body);
                 self.set_field(Offset::depth, depth);
                 match result.and_then(|domain| Kind::of(program, domain)) {
                     Some(kind) => {
                         let scalar = self.scalar(operand, kind);
+                        if self.keeps {
+                            self.release(mark);
+                        }
+                        self.give_back(items, gatherers);
                         let state = match scalar.flag {
                             Some(flag) => flag,
                             None => self.byte(1),
@@ -120,6 +126,7 @@ impl Translator<'_, '_> {
                             Operand::Scalar(_) => self.call_for_value(helper::KEEP, [self.context, pointer]),
                             _ => pointer,
                         };
+                        self.give_back(items, gatherers);
                         self.builder.ins().return_(&[pointer]);
                         self.switch(self.bail);
                         let null = self.word(0);

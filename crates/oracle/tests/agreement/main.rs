@@ -203,6 +203,47 @@ fn models_of_the_library_and_the_examples() {
     assert!(run > 5, "only {run} models found");
 }
 
+/// Collections that compiled code looks through and does not make: their order, what repeats in them, and which of their
+/// elements is at fault.
+#[test]
+fn collections_that_are_not_made() {
+    let terms = [
+        ("if (exists $v in asSet([x + 1, 0]) with 6 mod $v = 0) then 1 else 2 endif", "division-by-zero"),
+        ("if (forall $v in asSet([x + 1, x + 2, x + 1]) with 6 mod $v = 0) then 1 else 2 endif", ""),
+        ("if (exists unique $v in asSet([x, x]) with $v = x) then 1 else 2 endif", ""),
+        ("size(asSet([x, x, 1]))", ""),
+        ("size(union({x, 1}, {$i in {0 : x} | $i != 2 : $i mod 3}))", ""),
+        ("indexOf(union([x], [1, x, 5]), 5)", ""),
+        ("indexOf([x, y, undef], undef)", ""),
+        ("length([$a in {0 : 3}, $b in [x, 1, $a] | $a != $b : $a + $b])", ""),
+        ("length([$a in [x, 3], $b in {x : $a} : $b])", ""),
+        ("if contains(append([$i in {3 : x} : $i], x), x) then 1 else 0 endif", ""),
+        ("let ($all = {$i in {0 : x} | $i > 1 : $i}) in size($all) + size({$j in $all | $j > 2 : $j}) endlet", ""),
+        ("if isEmpty([$i in {x : 2} : $i]) then 7 else 8 endif", ""),
+        ("size({m : y})", "undefined-operand"),
+    ];
+    for (term, expected) in terms {
+        let text = format!(
+            "asm Model import StandardLibrary signature: controlled x: Integer controlled y: Integer\n\
+             controlled m: Integer controlled s: Seq(Integer)\ndefinitions:\n\
+             main rule r_Main = par y := {term} x := x + 1 s := append(s, x) endpar\n\
+             default init s0: function x = 0 function s = [1]"
+        );
+        for engine in [EngineChoice::Interpreted, EngineChoice::Compiled] {
+            let plan = Plan { seed: 3, steps: 6, bounds: Bounds::default(), engine };
+            match deep(|| judge(&text, plan)) {
+                Verdict::Rejected(why) => panic!("refused: {why}\n{text}"),
+                Verdict::Disagreed(found) => panic!("{}: {}\n{text}", found.kind, found.detail),
+                Verdict::Agreed(outcome) => {
+                    let faults: Vec<&str> = outcome.faults.keys().copied().collect();
+                    let expected: Vec<&str> = [expected].into_iter().filter(|id| !id.is_empty()).collect();
+                    assert_eq!(faults, expected, "{text}");
+                }
+            }
+        }
+    }
+}
+
 /// What the generator does not write.
 #[test]
 fn models_without_definitions_and_with_lost_results() {

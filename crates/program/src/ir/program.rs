@@ -10,7 +10,7 @@ use crate::ir::Specialisations;
 use crate::ir::{Binder, BinderList, ProcedureId, Rule, RuleId, RuleList, Term, TermId, TermList};
 
 /// A rule with a frame of its own: a (specialised) macro rule, a turbo rule, the main rule, a fragment.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Procedure {
     /// The name of the rule it comes from.
     pub name: String,
@@ -44,7 +44,7 @@ pub struct Expression {
 }
 
 /// A function.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Function {
     /// The name.
     pub name: String,
@@ -65,7 +65,7 @@ pub struct Function {
 }
 
 /// What a run needs to know of a domain, to list its elements, test membership and print values.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Domain {
     /// The domain as a model would write it.
     pub name: String,
@@ -120,7 +120,7 @@ pub enum DomainKind {
 }
 
 /// A property or an assumption.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Property {
     /// Which.
     pub kind: PropertyKind,
@@ -137,7 +137,7 @@ pub struct Property {
 }
 
 /// The initial value of a function, as a term over its arguments.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Initial {
     /// The function.
     pub function: FunctionId,
@@ -148,7 +148,7 @@ pub struct Initial {
 }
 
 /// The program of the agents of a domain.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct AgentProgram {
     /// `Agent` or a subset of it.
     pub domain: DomainId,
@@ -206,6 +206,28 @@ pub struct Program {
 }
 
 impl Program {
+    /// Whether it is another program with more terms, which no rule and no definition of the other has: with other
+    /// conditions, that is.
+    pub fn extends(&self, other: &Program) -> bool {
+        self.asynchronous == other.asynchronous
+            && self.domains == other.domains
+            && self.functions == other.functions
+            && self.constants.starts_with(&other.constants)
+            && self.terms.starts_with(&other.terms)
+            && self.term_domains.starts_with(&other.term_domains)
+            && self.rules == other.rules
+            && self.term_lists.starts_with(&other.term_lists)
+            && self.rule_lists == other.rule_lists
+            && self.binder_lists.starts_with(&other.binder_lists)
+            && self.function_lists == other.function_lists
+            && self.procedures == other.procedures
+            && self.main == other.main
+            && self.initials == other.initials
+            && self.agents == other.agents
+            && self.self_function == other.self_function
+            && self.result_function == other.result_function
+    }
+
     /// The term of that id.
     pub fn term(&self, id: TermId) -> &Term {
         &self.terms[id.0 as usize]
