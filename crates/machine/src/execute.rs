@@ -311,6 +311,9 @@ impl Executor<'_> {
         self.core.store.values[index as usize] = value.clone();
         self.core.store.given[index as usize] = self.core.epoch;
         self.core.inputs.push((index, function));
+        if self.core.shared {
+            self.core.store.touch();
+        }
         Ok(value)
     }
 
@@ -328,6 +331,9 @@ impl Executor<'_> {
         self.core.store.values[index as usize] = value;
         self.core.store.given[index as usize] = self.core.epoch;
         self.core.inputs.push((index, function));
+        if self.core.shared {
+            self.core.store.touch();
+        }
         true
     }
 }

@@ -115,13 +115,14 @@ impl Store {
         index
     }
 
-    /// A number that is another one once a location has got a number, or an initial value that came up late.
+    /// A number that is another one once a location has got a number, an initial value that came up late, or, where functions
+    /// are shared, a value of the environment.
     #[inline]
     pub fn touched(&self) -> u64 {
         self.touched
     }
 
-    /// A late initial value came up.
+    /// A location has got a value without an update.
     pub(crate) fn touch(&mut self) {
         self.touched += 1;
     }

@@ -352,3 +352,38 @@ fn explorers_do_what_the_machine_does() {
     assert!(total.compiled > total.tried / 3, "{total:?}");
     assert!(total.judged > 0 && total.excluded > 0 && total.failed > 0, "{total:?}");
 }
+
+/// Code leaves out updates that leave a location as it is; clashes with them, and loops that end without updates, have to
+/// come out all the same.
+#[test]
+fn updates_that_change_nothing_are_updates() {
+    let mains = [
+        "par x := x seq y := 1 - y x := if m then 0 else 1 endif endseq endpar",
+        "par seq x := x n := n endseq if m then x := 1 endif y := 1 - y endpar",
+        "par seq x := x y := y endseq if m then r_Set[1] else r_Set[0] endif endpar",
+        "seq par x := 0 if m then x := 1 endif endpar y := 1 - y endseq",
+        "seq par x := 0 seq if m then x := 1 endif y := y endseq endpar y := 1 - y endseq",
+        "seq par seq x := x n := n endseq if m then x := 1 endif endpar y := 1 - y endseq",
+        "seq x := 0 seq if m then x := 1 endif x := 0 endseq y := 1 - y endseq",
+        "seq n := 0 y := 0 while n < 3 do par n := n + 1 y := y + 1 x := x endpar endseq",
+        "seq n := 0 iterate if n < 2 then seq x := x n := n + 1 endseq endif enditerate y := 1 - y endseq",
+        "seq r_Set[0] forall $i in {0 : 2} with m do r_Set[0] y := 1 - y endseq",
+    ];
+    let mut total = Total::default();
+    for main in mains {
+        let text = format!(
+            "asm Model import StandardLibrary signature: controlled x: Integer controlled y: Integer\n\
+             controlled n: Integer monitored m: Boolean\ndefinitions: rule r_Set($v in Integer) = x := $v\n\
+             main rule r_Main = {main}\ndefault init s0: function x = 0 function y = 0 function n = 0"
+        );
+        let checked = model::check(SourceFile::new("Model.asm", text), &mut NoFiles);
+        assert!(checked.diagnostics.is_empty(), "{main}: {:?}", checked.diagnostics);
+        let program = Arc::new(program::lower(&checked.model).expect("it can be lowered"));
+        let mut widening = Widening::default();
+        while let Err(Trouble::TooNarrow(more)) = compare(&program, &mut widening, true, &mut total) {
+            widening.merge(&more);
+        }
+    }
+    // The others are at fault in some alternative.
+    assert!(2 * total.compiled > total.tried, "{total:?}");
+}

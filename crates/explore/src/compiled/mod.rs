@@ -21,7 +21,7 @@ use crate::memory::maker::{StepMaker, Unmade};
 use crate::packed::codes::finite;
 use crate::packed::encoding::Encoding;
 use crate::packed::interner::{Interner, View};
-use crate::packed::words::{NOWHERE, REST};
+use crate::packed::words::{NOWHERE, Overwrite, REST};
 use crate::settings::Settings;
 use crate::starts::{Starts, each_start};
 use codec::Codec;
@@ -41,6 +41,10 @@ pub(crate) struct Compiled {
     step_conditions: Vec<(Expression, bool)>,
     /// The packed state that the machine is in.
     loaded: Vec<u64>,
+    /// What stands in the fields of the inputs that initial states keep where none is kept.
+    asks_all: Vec<Overwrite>,
+    /// What the machine's store said of its locations without fields when these were last those of that state.
+    touched: u64,
     next: Vec<u64>,
     failed: Vec<u32>,
 }
@@ -62,7 +66,7 @@ impl Compiled {
         interner: &Arc<Interner>,
         starts: &Starts,
     ) -> Option<Compiled> {
-        let plain = encoding.origin.is_none() && encoding.kept.is_empty();
+        let plain = encoding.origin.is_none() && encoding.kept.in_rest.is_empty();
         if !plain || settings.observed || !settings.unordered.is_empty() {
             return None;
         }
@@ -86,6 +90,8 @@ impl Compiled {
         if !machine.compile_steps(starts.states.len() == 1, &settings.code) {
             return None;
         }
+        let touched = machine.store().touched();
+        let asks_all = encoding.without_inputs(&mut view);
         let codecs = encoding.fields.iter().map(|field| Codec::of(encoding, *field)).collect();
         let mut fields = vec![Vec::new(); encoding.words];
         for (index, field) in encoding.fields.iter().enumerate().filter(|(_, field)| field.bits > 0) {
@@ -101,6 +107,8 @@ impl Compiled {
             view,
             step_conditions: settings.step_conditions.clone(),
             loaded: first,
+            asks_all,
+            touched,
             next: Vec::new(),
             failed: Vec::new(),
         })
@@ -113,9 +121,10 @@ impl Compiled {
 
     /// Puts the machine into a state.
     fn load(&mut self, state: &[u64]) {
-        let Compiled { machine, encoding, view, codecs, fields, loaded, .. } = self;
+        let Compiled { machine, encoding, view, codecs, fields, loaded, touched, .. } = self;
         machine.discard();
-        let mut rest = encoding.rest_may_change(machine);
+        // No step is committed: but for what it touches it leaves the rest as it was.
+        let mut rest = machine.store().touched() != *touched;
         let store = machine.store_mut();
         for (word, (now, before)) in state.iter().zip(loaded.iter_mut()).enumerate() {
             let differs = *now ^ *before;
@@ -136,6 +145,7 @@ impl Compiled {
         }
         if rest {
             encoding.unpack_rest(&self.program, state, machine, view);
+            *touched = machine.store().touched();
         }
         machine.forget_inputs();
     }
@@ -155,7 +165,7 @@ impl Compiled {
                 Err(_) => return Step::Unknown,
             }
         }
-        let Compiled { program, machine, encoding, view, codecs, next, .. } = self;
+        let Compiled { program, machine, encoding, view, codecs, next, touched, .. } = self;
         // Compiled code stamps no location that it knows to be updated once, so the updates are not found by their stamps.
         let mut others: Vec<(u32, &Value)> = Vec::new();
         next.clear();
@@ -170,7 +180,8 @@ impl Compiled {
                 }
             }
         }
-        if !others.is_empty() || machine.creates() || encoding.rest_may_change(machine) {
+        let changes = !others.is_empty() || machine.creates();
+        if changes || machine.store().touched() != *touched {
             others.sort_unstable_by_key(|(location, _)| *location);
             let update_of = |location: u32| {
                 let found = others.binary_search_by_key(&location, |(location, _)| *location);
@@ -180,6 +191,14 @@ impl Compiled {
             encoding.settle(machine, &mut rest);
             if encoding.put_rest(rest, next, view).is_err() {
                 return Step::Unknown;
+            }
+            // What was touched is what it would be anyway when it is next read.
+            let same = encoding.rest.is_none_or(|rest| {
+                let field = encoding.fields[rest as usize];
+                field.code(next) == field.code(state)
+            });
+            if !changes && same {
+                *touched = machine.store().touched();
             }
         }
         Step::Next
@@ -194,6 +213,10 @@ impl StepMaker for Compiled {
         expansion: &mut Expansion,
         found: &mut Successors<'_>,
     ) -> Result<(), Unmade> {
+        // The machine makes the first steps of runs, which keep inputs.
+        if self.asks_all.iter().any(|field| state[field.word as usize] & field.clear != field.set) {
+            return Err(Unmade::Unknown);
+        }
         self.branches.first();
         loop {
             if interrupt.is_raised() {

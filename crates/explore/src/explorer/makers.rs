@@ -11,10 +11,25 @@ use crate::explorer::Explorer;
 /// Machine code, as far as it has come.
 #[derive(Debug, Default)]
 pub(crate) struct Makers {
-    pub compiled: Option<Box<Compiled>>,
+    /// It may have made steps and do so no more; it still knows which rules have run.
+    compiled: Option<Box<Compiled>>,
     tried: bool,
     /// Of how many states it has made the steps.
-    pub made: u64,
+    made: u64,
+    /// Of how many it did not know them.
+    unknown: u64,
+}
+
+/// LIMIT: states of which machine code has made the steps before the tree is given up for it, or of which it has not
+/// known them before it is asked no more.
+const TRIAL: u64 = 64;
+
+impl Makers {
+    /// The code, unless it was asked in vain too often.
+    pub fn code(&mut self) -> Option<&mut Compiled> {
+        let useless = self.unknown >= TRIAL && self.unknown > self.made;
+        self.compiled.as_deref_mut().filter(|_| !useless)
+    }
 }
 
 impl Explorer {
@@ -38,10 +53,18 @@ impl Explorer {
             self.makers.tried = true;
             let Explorer { program, settings, encoding, view, starts, .. } = self;
             let compiled = Compiled::new(program, settings, encoding, view.shared(), starts);
-            if compiled.is_some() {
-                self.steps.tree.give_up();
-            }
             self.makers.compiled = compiled.map(Box::new);
+        }
+    }
+
+    /// Counts a state that the code was asked about; it takes over from the tree once it has shown that it knows steps.
+    pub(super) fn count_compiled(&mut self, known: bool) {
+        match known {
+            true => self.makers.made += 1,
+            false => self.makers.unknown += 1,
+        }
+        if known && self.makers.made == TRIAL {
+            self.steps.tree.give_up();
         }
     }
 

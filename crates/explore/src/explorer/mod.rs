@@ -233,13 +233,12 @@ impl Explorer {
         }
         self.compile_if_due();
         let Explorer { makers, settings, .. } = self;
-        if let Some(code) = &mut makers.compiled {
+        if let Some(code) = makers.code() {
             let (mut expansion, mut found) = (Expansion::default(), Successors::new(out));
-            match code.make(state, &settings.interrupt, &mut expansion, &mut found) {
-                Ok(()) => {
-                    makers.made += 1;
-                    return Ok(expansion);
-                }
+            let made = code.make(state, &settings.interrupt, &mut expansion, &mut found);
+            self.count_compiled(made.is_ok());
+            match made {
+                Ok(()) => return Ok(expansion),
                 Err(Unmade::Interrupted) => return Ok(Expansion { interrupted: true, ..expansion }),
                 Err(Unmade::Unknown) => out.truncate(start),
             }

@@ -11,7 +11,7 @@ const TRIAL: u64 = 1 << 14;
 const POOR: u64 = 4;
 /// LIMIT: misses of the tree before it is first compared with machine code. Compiling takes as long as the machine takes for
 /// about so many steps, whatever the size of the program.
-const PATIENCE: u64 = 1 << 13;
+const PATIENCE: u64 = 1 << 11;
 /// Machine code wins if more than one walk in so many misses, once the tree has learned much.
 const RARELY: u64 = 16;
 

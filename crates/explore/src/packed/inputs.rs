@@ -11,7 +11,7 @@ use crate::packed::codes::Codes;
 use crate::packed::encoding::{BITS, Encoding};
 use crate::packed::interner::{Rest, View};
 use crate::packed::kept::Kept;
-use crate::packed::words::{Field, REST};
+use crate::packed::words::{Field, Overwrite, REST};
 
 impl Encoding {
     /// Gives the inputs that are kept fields, as far as they have dense locations and there is room.
@@ -67,6 +67,16 @@ impl Encoding {
             field.put(self.no_input(field, view), words);
             written[field.word as usize] |= field.mask();
         }
+    }
+
+    /// What stands in the fields of kept inputs in a state that keeps none.
+    pub fn without_inputs(&self, view: &mut View) -> Vec<Overwrite> {
+        let without = |index: &u32| {
+            let field = self.fields[*index as usize];
+            let set = u64::from(self.no_input(field, view)) << field.shift;
+            Overwrite { word: field.word, clear: field.mask(), set }
+        };
+        self.kept.fields.iter().map(without).collect()
     }
 
     /// The code that says that an input is not kept.

@@ -13,6 +13,7 @@ mod code;
 mod commit;
 mod comprehension;
 mod context;
+mod gathered;
 mod helper;
 mod items;
 mod kleene;
