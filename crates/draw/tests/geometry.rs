@@ -262,13 +262,15 @@ fn assert_placed(text: &str, places: &[(String, (f64, f64))], name: &str) {
 #[test]
 fn places_are_kept() {
     let mut dice = Dice(7);
+    let full = std::env::var_os("GROUNDSTATE_FULL").is_some();
     for (index, text) in texts().iter().enumerate() {
-        for left_out in [0, 30] {
+        let both = [0, 30];
+        for left_out in if full { &both[..] } else { &both[index % 2..=index % 2] }.iter().copied() {
             let (text, places) = placed(text, &mut dice, left_out);
             assert_placed(&text, &places, &format!("chart {index} without {left_out} %\n{text}"));
         }
     }
-    for seed in 0..60 {
+    for seed in (0..60).filter(|seed| full || seed % 3 == 0) {
         let (text, places) = placed(&random(seed, 2 + seed as usize / 10), &mut dice, (seed % 3 * 20) as usize);
         assert_placed(&text, &places, &format!("seed {seed}\n{text}"));
     }

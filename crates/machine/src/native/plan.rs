@@ -252,7 +252,24 @@ impl Plan {
                     open.extend(program.function(*function).definition.as_ref().map(|definition| definition.body));
                 }
                 Term::Builtin { builtin, .. } if !builtin.info().effect.is_none() => return false,
-                _ => {}
+                Term::Define { .. }
+                | Term::Builtin { .. }
+                | Term::Constant(_)
+                | Term::Slot(_)
+                | Term::Domain(_)
+                | Term::Tuple(_)
+                | Term::Project { .. }
+                | Term::Collection { .. }
+                | Term::Range { .. }
+                | Term::Comprehension { .. }
+                | Term::Quantified { .. }
+                | Term::If { .. }
+                | Term::Switch { .. }
+                | Term::Let { .. }
+                | Term::Rule(_)
+                | Term::Unbound
+                | Term::Missing(_)
+                | Term::Coerce(_) => {}
             }
             program.each_child_of_term(id, &mut |child| open.push(child));
         }
