@@ -14,7 +14,7 @@ use program::Program;
 use syntax::SourceFile;
 
 use crate::has_errors;
-use crate::reporting::of_model::model_specification;
+use crate::reporting::of_model::{model_specification, quoted};
 use crate::workspace::{Absent, Files};
 
 /// The specification `MODEL.report.yaml` beside a model, or what `MODEL.chart` or the model itself says.
@@ -158,9 +158,4 @@ fn name(component: &Component) -> String {
 
 fn spoken(name: &str) -> String {
     name.replace('_', " ")
-}
-
-/// A text as a YAML scalar, quoted as in JSON.
-fn quoted(text: &str) -> String {
-    serde_json::Value::from(text).to_string()
 }

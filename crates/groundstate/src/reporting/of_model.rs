@@ -61,13 +61,10 @@ pub fn model_specification(program: &Arc<Program>, chart: Option<(&Chart, &str)>
         }
     }
     if let Some((chart, file)) = chart {
-        let (mut open, mut each) = (false, Vec::new());
-        for subject in subjects(chart) {
-            // What a machine with a parameter stands for is said by nobody.
-            each.push(subject.machine().is_none_or(|machine| !machine.parameters.is_empty()));
-            open |= each.last() == Some(&false);
-        }
-        if open && each.iter().all(|parametric| !parametric) {
+        // What a machine with a parameter stands for is said by nobody.
+        let mut machines = subjects(chart).map(|subject| subject.machine()).peekable();
+        let some = machines.peek().is_some();
+        if some && machines.all(|machine| machine.is_some_and(|machine| machine.parameters.is_empty())) {
             let _ = writeln!(out, "charts: {{ {}: {{}} }}", quoted(file));
         }
     }
@@ -123,6 +120,6 @@ fn locations(machine: &mut Machine, function: &Function) -> Option<Vec<String>> 
 }
 
 /// A text as a YAML scalar, quoted as in JSON.
-fn quoted(text: &str) -> String {
+pub(super) fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }
