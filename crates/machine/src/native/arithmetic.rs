@@ -88,12 +88,28 @@ impl Translator<'_, '_> {
         }
         let members: Vec<Operand> = program.term_list(*elements).iter().map(|term| self.term(*term)).collect();
         let element = self.term(element);
-        // An undefined element is the library's business.
         let element = self.scalar(element, self.kind_of(arguments[1]).unwrap_or(Kind::Integer));
-        let element = Operand::Scalar(self.defined(element));
+        let Some(flag) = element.flag else { return self.is_any(builtin, &members, element) };
+        let (fast, slow, done) = (self.block(), self.block(), self.block());
+        self.builder.set_cold_block(slow);
+        let mut merge = self.merge(id);
+        self.branch(flag, fast, slow);
+        self.switch(fast);
+        let known = self.is_any(builtin, &members, Scalar { flag: None, ..element });
+        self.leave(&mut merge, known, done);
+        // An undefined element is the library's business.
+        self.switch(slow);
+        let told = self.applied(id, arguments);
+        self.leave(&mut merge, told, done);
+        self.switch(done);
+        self.merged(&merge)
+    }
+
+    /// Whether an element is one of these, or none.
+    fn is_any(&mut self, builtin: Builtin, members: &[Operand], element: Scalar) -> Operand {
         let mut any = self.byte(0);
         for member in members {
-            let equal = self.equal(member, element);
+            let equal = self.equal(*member, Operand::Scalar(element));
             any = self.builder.ins().bor(any, equal);
         }
         self.member_result(builtin, any)

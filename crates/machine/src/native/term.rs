@@ -13,7 +13,7 @@ use crate::native::translate::{Frame, Translator};
 use crate::value::Value;
 
 /// Where the branches of a term leave their value.
-struct Merge {
+pub(super) struct Merge {
     kind: Option<Kind>,
     value: Variable,
     flag: Variable,
@@ -160,7 +160,7 @@ impl Translator<'_, '_> {
 
     // ---- branches
 
-    fn merge(&mut self, id: TermId) -> Merge {
+    pub fn merge(&mut self, id: TermId) -> Merge {
         let kind = self.kind_of(id);
         let value = self.variable(kind.map_or(types::I64, Kind::register));
         let flag = self.variable(types::I8);
@@ -168,7 +168,7 @@ impl Translator<'_, '_> {
     }
 
     /// Leaves a branch's value and goes on at `done`.
-    fn leave(&mut self, merge: &mut Merge, operand: Operand, done: Block) {
+    pub fn leave(&mut self, merge: &mut Merge, operand: Operand, done: Block) {
         match merge.kind {
             None => {
                 let pointer = self.pinned(operand);
@@ -198,7 +198,7 @@ impl Translator<'_, '_> {
         self.jump(done);
     }
 
-    fn merged(&mut self, merge: &Merge) -> Operand {
+    pub fn merged(&mut self, merge: &Merge) -> Operand {
         let value = self.get(merge.value);
         match merge.kind {
             None => Operand::Boxed(value),

@@ -220,6 +220,10 @@ fn collections_that_are_not_made() {
         ("if contains(append([$i in {3 : x} : $i], x), x) then 1 else 0 endif", ""),
         ("let ($all = {$i in {0 : x} | $i > 1 : $i}) in size($all) + size({$j in $all | $j > 2 : $j}) endlet", ""),
         ("if isEmpty([$i in {x : 2} : $i]) then 7 else 8 endif", ""),
+        // `y` is undefined in the first step
+        ("if contains({x, 3}, y) then 1 else 2 endif", ""),
+        ("if contains({x, undef}, y) then 1 else 2 endif", ""),
+        ("if notin({2, x}, y) then 1 else 2 endif", ""),
         ("size({m : y})", "undefined-operand"),
     ];
     for (term, expected) in terms {
