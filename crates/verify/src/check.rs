@@ -21,9 +21,10 @@ use crate::progress::{Progress, Stop};
 use crate::question::{Question, Subject};
 use crate::report::{Expected, NoStart, Outcome, Reason, Report, Verdict};
 use crate::runs::outcome::{OfRuns, Why};
-use crate::runs::{RunPlan, decide};
+use crate::runs::{RunPlan, decide_after};
 use crate::target::Target;
 use crate::temporal::fairness::AgentFairness;
+use crate::walk::Walk;
 
 /// Carries out a request. The listener receives progress, and violations while the search goes on.
 ///
@@ -37,7 +38,9 @@ pub(crate) fn verify_request(
     keeper: Option<&mut dyn Keeper>,
     listener: &mut dyn Listener,
 ) -> Result<Report, NoStart> {
-    let question = Question::of(program, options);
+    let mut question = Question::of(program, options);
+    // A scheduler's choices are no part of the edges.
+    question.plan.edges = agents.is_none() && question.subjects.iter().any(|(_, target)| target.is_none());
     let heed = &mut Heed { listener: &mut *listener, subjects: question.violated(options), told: BTreeMap::new() };
     let task = Task { program, plan: &question.plan, solvers, keeper, heed };
     let mut ended = engine_of(options.engine, &question.plan, task.keeper.is_some()).run(task)?;
@@ -52,7 +55,10 @@ pub(crate) fn verify_request(
         // The graph for temporal properties would store all states in full, and there are too many.
         false if ended.omission.is_some() => Default::default(),
         false if is_enough => Default::default(),
-        false => of_runs(program, &question, options, agents, &reasons, &mut |progress| listener.at(progress)),
+        false => {
+            let walk = ended.walk.take();
+            of_runs(program, &question, options, agents, &reasons, walk, &mut |progress| listener.at(progress))
+        }
     };
     let verdicts = question.subjects.iter().map(|(subject, target)| {
         let outcome = match target {
@@ -122,6 +128,7 @@ fn of_runs(
     options: &Options,
     agents: Option<AgentFairness>,
     reasons: &[Reason],
+    walk: Option<Walk>,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> (BTreeMap<Subject, Outcome>, BTreeMap<usize, Why>) {
     if question.subjects.iter().all(|(_, target)| target.is_some()) {
@@ -140,7 +147,7 @@ fn of_runs(
     let reasons: Vec<Reason> = reasons.iter().filter(stays).copied().collect();
     let mut unknown = BTreeMap::new();
     // The search has begun with initial states, so they exist.
-    let decided = decide(program, &plan, watch).unwrap_or_default();
+    let decided = decide_after(program, &plan, walk, watch).unwrap_or_default();
     let outcomes = decided.into_iter().map(|(index, decided)| {
         let outcome = match decided {
             OfRuns::Violated(trace) if !made_again(program, &plan.settings, &trace, None) => {

@@ -23,6 +23,7 @@ use crate::solver::method::{Left, Proof, Solved};
 use crate::symmetry::Symmetry;
 use crate::target::Target;
 use crate::trace::Trace;
+use crate::walk::Walk;
 
 /// The input of an engine.
 pub(crate) struct Task<'t, 'k, 'h> {
@@ -69,6 +70,8 @@ pub(crate) struct Ended {
     pub width: (usize, usize),
     /// For each rule, whether a machine ran it.
     pub executed: Vec<bool>,
+    /// The graph of the states, if the search has kept it.
+    pub walk: Option<Walk>,
     /// The engine.
     pub engine: EngineKind,
     /// Targets that a solver proved unreachable.
@@ -94,6 +97,7 @@ impl Ended {
             unknown: BTreeSet::new(),
             width: (0, 0),
             executed: Vec::new(),
+            walk: None,
             engine,
             proved: BTreeMap::new(),
             left: BTreeMap::new(),

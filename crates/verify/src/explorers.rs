@@ -29,6 +29,12 @@ impl Maker {
         Maker { program: Arc::clone(program), settings, widening: widening.clone(), interner, starts: None }
     }
 
+    /// What did not fit before.
+    #[cfg(test)]
+    pub fn widening(&self) -> &Widening {
+        &self.widening
+    }
+
     /// Makes explorers enumerate all alternatives, however long that takes.
     pub fn tireless(mut self) -> Maker {
         self.settings.interrupt = Interrupt::default();
@@ -40,6 +46,11 @@ impl Maker {
         let explorer = self.explorer()?;
         self.starts = Some(explorer.starts());
         Ok(explorer)
+    }
+
+    /// An explorer of a program that has more terms and conditions, and otherwise is the same.
+    pub fn of(&self, program: &Arc<Program>, settings: Settings) -> Result<Explorer, Trouble> {
+        Maker { program: Arc::clone(program), settings, ..self.clone() }.explorer()
     }
 
     /// A further explorer.

@@ -31,6 +31,7 @@ mod table;
 mod target;
 pub mod temporal;
 mod trace;
+mod walk;
 
 pub use checkpoint::keeper::{Keeper, Refusal};
 pub use heed::Listener;

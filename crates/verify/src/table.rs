@@ -104,6 +104,12 @@ impl Table {
 
     /// Adds states one after another; calls `new` with each new one.
     pub fn insert_all(&mut self, states: &[u64], new: &mut impl FnMut(&[u64])) {
+        self.insert_each(states, new, &mut |_| {});
+    }
+
+    /// The same; calls `place` with the index of each, new or not. It has no meaning for states of one word, and is
+    /// [`Table::MOST`] where the table is full.
+    pub fn insert_each(&mut self, states: &[u64], new: &mut impl FnMut(&[u64]), place: &mut impl FnMut(u32)) {
         let mut hashes = [0; AHEAD];
         for batch in states.chunks(AHEAD * self.words) {
             // Growing in advance keeps slots valid within a batch.
@@ -117,7 +123,9 @@ impl Table {
             }
             std::hint::black_box(touched);
             for (state, hash) in batch.chunks_exact(self.words).zip(&hashes) {
-                if self.find_or_add(state, *hash) {
+                let (is_new, index) = self.find_or_add(state, *hash);
+                place(index);
+                if is_new {
                     new(state);
                 }
             }
@@ -131,14 +139,14 @@ impl Table {
 
     // The inner loop of a search: a function call here would cost as much as a lookup.
     #[inline(always)]
-    fn find_or_add(&mut self, state: &[u64], hash: u64) -> bool {
+    fn find_or_add(&mut self, state: &[u64], hash: u64) -> (bool, u32) {
         let mut slot = self.slot_of(hash);
         if let [state] = state {
             let entry = state | OCCUPIED;
             loop {
                 let found = self.slots[slot];
                 if found == entry {
-                    return false;
+                    return (false, 0);
                 }
                 if found == 0 {
                     break;
@@ -154,7 +162,7 @@ impl Table {
                 break;
             }
             if found & !0xffff_ffff == mark && self.state((found as u32) as usize - 1) == state {
-                return false;
+                return (false, found as u32 - 1);
             }
             slot = if slot + 1 == self.slots.len() { 0 } else { slot + 1 };
         }
@@ -162,10 +170,10 @@ impl Table {
     }
 
     #[inline]
-    fn add(&mut self, slot: usize, entry: u64, state: &[u64]) -> bool {
+    fn add(&mut self, slot: usize, entry: u64, state: &[u64]) -> (bool, u32) {
         if self.len >= Table::MOST {
             self.full = true;
-            return false;
+            return (false, Table::MOST as u32);
         }
         self.slots[slot] = entry;
         if self.len / CHUNK == self.chunks.len() {
@@ -173,7 +181,7 @@ impl Table {
         }
         self.chunks[self.len / CHUNK].extend_from_slice(state);
         self.len += 1;
-        true
+        (true, self.len as u32 - 1)
     }
 
     #[cold]
@@ -217,9 +225,13 @@ mod tests {
                 expected.push(state.to_vec());
             }
         }
-        let mut new = Vec::new();
-        table.insert_all(&batch, &mut |state| new.push(state.to_vec()));
+        let (mut new, mut places) = (Vec::new(), Vec::new());
+        table.insert_each(&batch, &mut |state| new.push(state.to_vec()), &mut |place| places.push(place));
         assert_eq!(new, expected);
+        if words > 1 {
+            let placed: Vec<u64> = places.iter().flat_map(|place| table.state(*place as usize).to_vec()).collect();
+            assert_eq!(placed, batch);
+        }
         assert_eq!(table.len(), expected.len());
         for (place, state) in expected.iter().enumerate() {
             assert_eq!(table.state(place), state);

@@ -198,6 +198,11 @@ impl Explorer {
         self.encoding.fields.iter().map(|field| usize::from(field.bits)).sum()
     }
 
+    /// Whether another explorer, one with the same interner, packs states in the same way.
+    pub fn packs_like(&self, other: &Explorer) -> bool {
+        self.encoding.is_like(&other.encoding)
+    }
+
     /// The initial states; one may come up several times.
     pub fn initial(&self) -> &[(Box<[u64]>, Start)] {
         &self.starts.states

@@ -12,7 +12,7 @@ use program::{DomainId, DomainKind, Program};
 const CODES: usize = 1 << 12;
 
 /// How values of one function become codes.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Codes {
     /// The place in this list, sorted; undef, where it is possible, comes last.
     Listed { values: Arc<Vec<Value>>, undefined: bool },

@@ -125,6 +125,16 @@ impl Encoding {
         encoding
     }
 
+    /// Whether both give each state the same words, with one interner.
+    pub fn is_like(&self, other: &Encoding) -> bool {
+        self.fields == other.fields
+            && self.codes == other.codes
+            && self.of_location == other.of_location
+            && (self.rest, self.origin) == (other.rest, other.origin)
+            && self.constant_rest == other.constant_rest
+            && self.kept == other.kept
+    }
+
     pub fn add_field(&mut self, location: u32, function: FunctionId, bits: usize) -> u32 {
         // A field without bits has no place of its own: after a full word there would be none.
         let last = self.fields.iter().rev().find(|field| field.bits > 0).filter(|_| bits > 0);

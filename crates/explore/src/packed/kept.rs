@@ -12,7 +12,7 @@ use program::{FunctionId, FunctionKind, Program, RuleId, Term, TermId};
 use crate::settings::Settings;
 
 /// The inputs that first steps keep.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct Kept {
     /// The locations that have a field; at first those that may have one.
     pub in_fields: BTreeSet<Location>,

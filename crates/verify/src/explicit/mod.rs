@@ -4,6 +4,7 @@
 //! [`ancestors`] if states were not stored.
 
 mod ancestors;
+pub(crate) mod edges;
 mod lineage;
 pub(crate) mod search;
 pub(crate) mod shard;
@@ -41,9 +42,10 @@ impl Engine for Explicit {
             symmetry: search.symmetry.take(),
             progress: search.progress,
             width: search.width(),
-            executed: search.executed,
-            unbounded: search.unbounded,
-            unknown: search.unknown,
+            executed: std::mem::take(&mut search.executed),
+            unbounded: std::mem::take(&mut search.unbounded),
+            unknown: std::mem::take(&mut search.unknown),
+            walk: search.walk(),
             ..Ended::without_states(EngineKind::Explicit)
         };
         Ok(ended.judged(program, plan))

@@ -17,6 +17,7 @@ use crate::again::made_again;
 use crate::checkpoint::journal::Journal;
 use crate::checkpoint::keeper::Keeper;
 use crate::checkpoint::{Past, Resumed, Unfit, keep, made, resume};
+use crate::explicit::edges::{Edges, OWNERS};
 use crate::explicit::shard::{Crew, Decision, Shard, Tally, note};
 use crate::explicit::ways::ways;
 use crate::explorers::{Maker, representatives};
@@ -26,8 +27,10 @@ use crate::plan::Plan;
 use crate::progress::{Progress, Stop};
 use crate::storage::{Storage, Store};
 use crate::symmetry::{Distinct, Interchange, Symmetry};
+use crate::table::Table;
 use crate::target::Found;
 use crate::trace::tell;
+use crate::walk::{Walk, WalkedGraph};
 
 /// A search that has ended.
 #[derive(Debug)]
@@ -151,6 +154,23 @@ impl Search {
         }
     }
 
+    /// What it has walked, if that was kept.
+    pub(crate) fn walk(self) -> Option<Walk> {
+        let Search { maker, explorer, stop, shards, .. } = self;
+        if stop.is_some() && shards.len() > 1 {
+            return None;
+        }
+        let shards: Option<Vec<(&Table, &Edges)>> = shards
+            .iter()
+            .map(|shard| match (&shard.store, &shard.edges) {
+                (Store::Exact(table), Some(edges)) => Some((table, edges)),
+                _ => None,
+            })
+            .collect();
+        let graph = WalkedGraph::of(explorer.words(), &shards?);
+        Some(Walk { maker, explorer, stop, graph })
+    }
+
     /// How many words a state has, and how many bits of them are used.
     pub fn width(&self) -> (usize, usize) {
         (self.explorer.words(), self.explorer.bits())
@@ -193,6 +213,11 @@ fn begun(
     let mut shards: Vec<Shard> = (0..count).map(|_| Shard::new(store(), &reduction)).collect();
     shards.iter_mut().for_each(|shard| shard.orbits.clone_from(&orbits));
     shards[0].journal = is_numbered.then(|| Journal::new(&maker.interner));
+    let whole = plan.storage == Storage::Exact && plan.disk.is_none() && reduction.is_none() && orbits.is_none();
+    // LIMIT: a state of one word has no index in its table, and a checkpoint keeps no edges.
+    if plan.edges && whole && !is_kept && explorer.words() > 1 && count <= OWNERS {
+        shards.iter_mut().for_each(|shard| shard.edges = Some(Edges::default()));
+    }
     let starts = representatives(&mut explorer, orbits.as_deref());
     Ok(Begun { maker, explorer, shards, unreduced, starts })
 }

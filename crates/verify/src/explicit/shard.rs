@@ -13,6 +13,7 @@ use explore::{Expansion, Explorer, Orbits, Trouble, Truth, Unbounded, Widening};
 use syntax::Span;
 
 use crate::checkpoint::journal::Journal;
+use crate::explicit::edges::{Edges, LEFT_OUT};
 use crate::explicit::lineage::Lineage;
 use crate::partial_order::Reduction;
 use crate::plan::Plan;
@@ -54,6 +55,8 @@ pub(crate) struct Shard {
     pub order_mattered: Option<Span>,
     /// For a pass that only looks for runs to some states.
     pub lineage: Option<Lineage>,
+    /// The edges walked, if they are wanted: only of states that are stored in full, in memory, and in several words.
+    pub edges: Option<Edges>,
     /// Some work was left undone because the caller asked to stop.
     pub cut: bool,
 }
@@ -67,6 +70,8 @@ pub(crate) struct Crew<'a> {
 
 /// Successors on their way from one worker to another.
 type Mail = Vec<Vec<Mutex<Vec<u64>>>>;
+/// Where the owner of successors has put them: by the worker that made them and that which owns them. Empty where no edges are kept.
+type Places = Vec<Vec<Mutex<Vec<u32>>>>;
 
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
@@ -83,6 +88,8 @@ struct Board {
     quota: u64,
     /// The round was cut short and its results do not count: finding runs repeats whole rounds.
     void: bool,
+    /// The edges take too much memory: nobody keeps them any more.
+    forgets_edges: bool,
 }
 
 /// What a worker reports to the leader.
@@ -160,8 +167,12 @@ impl Crew<'_> {
     ) -> Option<Stop> {
         let (count, words) = (shards.len(), explorer.words());
         let mail: Mail = (0..count).map(|_| (0..count).map(|_| Mutex::default()).collect()).collect();
+        let places: Places = (0..count).map(|_| (0..count).map(|_| Mutex::default()).collect()).collect();
         for item in starts.chunks_exact(item) {
             lock(&mail[owner(&item[..words], count)][0]).extend_from_slice(item);
+        }
+        if let Some(edges) = shards[0].edges.as_mut().filter(|_| !starts.is_empty()) {
+            edges.begin(starts.chunks_exact(item).map(|item| owner(&item[..words], count)));
         }
         let barrier = Barrier::new(count);
         let board = Mutex::new(Board {
@@ -169,21 +180,23 @@ impl Crew<'_> {
             decision: Decision::Round,
             quota: 0,
             void: false,
+            forgets_edges: false,
         });
         let (leader, others) = shards.split_first_mut().expect("at least one worker");
         std::thread::scope(|scope| {
             for (index, shard) in others.iter_mut().enumerate() {
-                let (mail, barrier, board) = (&mail, &barrier, &board);
+                let (mail, places, barrier, board) = (&mail, &places, &barrier, &board);
                 let (plan, explore) = (self.plan, self.explore);
                 let body = move || {
                     let mut explorer = explore().expect("the leader has made the same");
-                    shard.work(&mut explorer, index + 1, plan, mail, barrier, board, &mut |_, _| Decision::Round);
+                    let exchange = (mail, places);
+                    shard.work(&mut explorer, index + 1, plan, exchange, barrier, board, &mut |_, _| Decision::Round);
                 };
                 // Steps may recurse deeply; beyond this, the stack grows on demand.
                 let spawned = std::thread::Builder::new().stack_size(16 << 20).spawn_scoped(scope, body);
                 assert!(spawned.is_ok(), "a thread can be made");
             }
-            leader.work(explorer, 0, self.plan, &mail, &barrier, &board, decide)
+            leader.work(explorer, 0, self.plan, (&mail, &places), &barrier, &board, decide)
         })
     }
 }
@@ -225,6 +238,7 @@ impl Shard {
             orbits: None,
             order_mattered: None,
             lineage: None,
+            edges: None,
             cut: false,
         }
     }
@@ -236,7 +250,7 @@ impl Shard {
         explorer: &mut Explorer,
         index: usize,
         plan: &Plan,
-        mail: &Mail,
+        (mail, places): (&Mail, &Places),
         barrier: &Barrier,
         board: &Mutex<Board>,
         leader: &mut Leader<'_>,
@@ -267,20 +281,26 @@ impl Shard {
             barrier.wait();
             guard(&mut || {
                 let void = lock(board).void;
-                for received in &mail[index] {
+                for (from, received) in mail[index].iter().enumerate() {
                     if void {
                         lock(received).clear();
                     }
-                    self.take_in(explorer, plan, &mut lock(received), false);
+                    self.take_in(explorer, plan, &mut lock(received), false, &mut lock(&places[from][index]));
                 }
                 if settles && self.store.pending() > 0 {
-                    self.take_in(explorer, plan, &mut Vec::new(), true);
+                    self.take_in(explorer, plan, &mut Vec::new(), true, &mut Vec::new());
                 }
             });
             self.order_mattered = explorer.order_mattered();
             let broken = panic.is_some();
             lock(board).reports[index] = Tally { broken, ..self.report() };
             barrier.wait();
+            let all_well = lock(board).reports.iter().all(|report| !report.broken);
+            if all_well && let Some(edges) = &mut self.edges {
+                let arrived: Vec<Vec<u32>> =
+                    places[index].iter().map(|places| std::mem::take(&mut *lock(places))).collect();
+                edges.arrive(&arrived);
+            }
             if index == 0 {
                 let reports = lock(board).reports.clone();
                 // The depth of the incoming states, once the initial ones are there.
@@ -292,17 +312,22 @@ impl Shard {
                     Decision::Stop(None)
                 });
                 let states: u64 = reports.iter().map(|report| report.states).sum();
+                let bytes: u64 = reports.iter().map(|report| report.bytes).sum();
+                board.forgets_edges |= bytes > plan.max_bytes / 2 || reports.iter().any(|report| report.full);
                 board.quota = (plan.max_states.saturating_sub(states) / reports.len() as u64).max(1);
             }
             barrier.wait();
             if let Some(panic) = panic {
                 resume_unwind(panic);
             }
-            let decision;
-            (decision, quota) = {
+            let (decision, forgets_edges);
+            (decision, quota, forgets_edges) = {
                 let board = lock(board);
-                (board.decision, board.quota)
+                (board.decision, board.quota, board.forgets_edges)
             };
+            if forgets_edges {
+                self.edges = None;
+            }
             settles = decision == Decision::Settle;
             match decision {
                 Decision::Round | Decision::Settle => {}
@@ -341,7 +366,7 @@ impl Shard {
             left: (end - self.next) as u64,
             fresh: (self.store.len() - end) as u64,
             pending: self.store.pending() as u64,
-            bytes: self.store.bytes() as u64,
+            bytes: (self.store.bytes() + self.edges.as_ref().map_or(0, Edges::bytes)) as u64,
             spilled: self.store.spilled() as u64,
             full: self.store.is_full(),
             lost: self.store.is_lost(),
@@ -360,6 +385,7 @@ impl Shard {
         let words = explorer.words();
         let mut successors = Vec::new();
         let (mut made, most) = (0, quota.min(BULK / words as u64));
+        let workers = sent.len();
         if self.next < end && !self.store.load(self.next..end) {
             return true;
         }
@@ -369,7 +395,7 @@ impl Shard {
             }
             let state = self.store.state(self.next);
             self.next += 1;
-            let direct = sent.len() == 1 && self.lineage.is_none();
+            let direct = workers == 1 && self.lineage.is_none();
             let out = if direct { &mut sent[0] } else { &mut successors };
             let begin = out.len();
             let expanded = match &self.reduction {
@@ -387,6 +413,11 @@ impl Shard {
                     return false;
                 }
                 Ok(expansion) => {
+                    if let Some(edges) = &mut self.edges {
+                        let walked = out[begin..].chunks_exact(words);
+                        walked.for_each(|successor| edges.leads_to(owner(successor, workers)));
+                        edges.end(&expansion);
+                    }
                     self.compiled = explorer.compiled_states();
                     self.transitions += u64::from(expansion.moved);
                     made += u64::from(expansion.moved);
@@ -401,6 +432,7 @@ impl Shard {
                     }
                 }
                 Err(widening) => {
+                    out.truncate(begin);
                     self.widening = widening;
                     return true;
                 }
@@ -456,9 +488,17 @@ impl Shard {
         }
     }
 
-    /// Adds incoming states, or settles pending ones.
-    fn take_in(&mut self, explorer: &mut Explorer, plan: &Plan, states: &mut Vec<u64>, settles: bool) {
-        let Shard { store, levels, found, unknown, lineage, cut, .. } = self;
+    /// Adds incoming states, or settles pending ones. Where edges are kept, says where each has its place.
+    fn take_in(
+        &mut self,
+        explorer: &mut Explorer,
+        plan: &Plan,
+        states: &mut Vec<u64>,
+        settles: bool,
+        places: &mut Vec<u32>,
+    ) {
+        let Shard { store, levels, found, unknown, lineage, edges, cut, .. } = self;
+        let first = places.len();
         if !plan.assumed.is_empty() {
             let mut admitted = Vec::with_capacity(states.len());
             let words = explorer.words();
@@ -475,6 +515,9 @@ impl Shard {
                 }
                 if all {
                     admitted.extend_from_slice(state);
+                }
+                if edges.is_some() {
+                    places.push(if all { 0 } else { LEFT_OUT });
                 }
             }
             *states = admitted;
@@ -499,9 +542,22 @@ impl Shard {
                 }
             }
         };
-        match settles {
-            false => store.insert_all(states, &mut meet),
-            true => store.settle(&mut meet),
+        match (settles, edges, store) {
+            (true, _, store) => store.settle(&mut meet),
+            (false, Some(_), Store::Exact(table)) => {
+                // Those that are admitted have a slot already.
+                let assumes = !plan.assumed.is_empty();
+                let mut slots = first;
+                table.insert_each(states, &mut meet, &mut |place| match assumes {
+                    false => places.push(place),
+                    true => {
+                        slots += places[slots..].iter().take_while(|place| **place == LEFT_OUT).count();
+                        places[slots] = place;
+                        slots += 1;
+                    }
+                });
+            }
+            (false, _, store) => store.insert_all(states, &mut meet),
         }
         states.clear();
     }

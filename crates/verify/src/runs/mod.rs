@@ -10,6 +10,7 @@
 //! runs. As targets, formulas would leave most of `Ended` empty here, and every other engine would have to refuse them.
 
 mod close;
+mod numbered;
 pub(crate) mod outcome;
 mod scheduler;
 mod states;
@@ -33,6 +34,7 @@ use crate::temporal::read::{Formula, Properties, read_each};
 use crate::temporal::run::Run;
 use crate::temporal::{FormulaVerdict, decide_ctl, decide_ltl};
 use crate::trace::Trace;
+use crate::walk::Walk;
 use states::{Explored, Place, Source, explore, has_letter};
 
 pub use outcome::{OfRuns, Why};
@@ -66,6 +68,16 @@ pub fn decide(
     plan: &RunPlan,
     watch: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Vec<(usize, OfRuns)>, Trouble> {
+    decide_after(program, plan, None, watch)
+}
+
+/// The same after a search of the program's states that may have kept what it walked.
+pub(crate) fn decide_after(
+    program: &Arc<Program>,
+    plan: &RunPlan,
+    walk: Option<Walk>,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Vec<(usize, OfRuns)>, Trouble> {
     let temporal = |kind| matches!(kind, program::PropertyKind::Ctl | program::PropertyKind::Ltl);
     let all = |why: Why| {
         let formulas = program.properties.iter().enumerate().filter(|(_, property)| temporal(property.kind));
@@ -92,7 +104,7 @@ pub fn decide(
     if properties.formulas.is_empty() {
         return Ok(unread.collect());
     }
-    let mut explored = match explore(&source, watch) {
+    let mut explored = match explore(&source, walk, watch) {
         Err(Trouble::Interrupted(cause)) => return Ok(all(Why::Unexplored(Some(cause.into())))),
         explored => explored?,
     };
@@ -152,7 +164,7 @@ fn told(verdict: Option<Result<FormulaVerdict, usize>>, explored: &mut Explored,
     let Some(verdict) = verdict else { return OfRuns::Unknown(Why::Unexplored(Some(Stop::Found))) };
     match verdict {
         Err(number) => {
-            let state = explored.undecided[number].map(|state| explored.states[state as usize].clone());
+            let state: Option<Box<[u64]>> = explored.undecided[number].map(|state| explored.states.get(state).into());
             let values = state.map(|state| explored.explorer.values(&state)).unwrap_or_default();
             OfRuns::Unknown(Why::NoTruth(propositions[number], values))
         }
@@ -275,7 +287,7 @@ impl Explored {
     /// A run in steps.
     fn trace(&mut self, run: &Run) -> Trace {
         let nodes = run.states(&self.graph);
-        let first = self.states[self.nodes[nodes[0] as usize].0 as usize].clone();
+        let first: Box<[u64]> = self.states.get(self.nodes[nodes[0] as usize].0).into();
         let start = self.explorer.initial().iter().find(|(state, _)| *state == first).map(|(_, start)| *start);
         let start = start.map(|start| self.explorer.told_of_start(start)).unwrap_or_default();
         let values = self.explorer.values(&first);
@@ -287,8 +299,8 @@ impl Explored {
     /// The first alternative that an edge of the graph represents.
     fn step(&mut self, from: u32, to: u32, edge: usize) -> Told {
         let (state, letter) = self.nodes[from as usize];
-        let target = self.states[self.nodes[to as usize].0 as usize].clone();
-        let state = self.states[state as usize].clone();
+        let target: Box<[u64]> = self.states.get(self.nodes[to as usize].0).into();
+        let state: Box<[u64]> = self.states.get(state).into();
         let label = self.graph.label(edge);
         let chosen = self.choices.get(label.0 as usize);
         let (letters, first_step) = (&self.letters, self.first_step);

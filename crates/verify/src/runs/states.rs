@@ -9,14 +9,17 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use explore::{Explorer, Interner, Outcome, Path, Settings, Trouble, Truth, Widening};
-use hashbrown::{HashMap, HashSet};
+use hashbrown::HashSet;
 use machine::{Cause, Value};
 use program::Program;
 use rustc_hash::FxBuildHasher;
 use syntax::Span;
 
+use crate::explicit::edges::Besides;
 use crate::graph::{Builder, Graph, Label, StateId};
 use crate::progress::{Progress, Stop};
+use crate::runs::numbered::Numbered;
+use crate::walk::Walk;
 
 /// What the graph is built from.
 #[derive(Debug, Clone)]
@@ -58,7 +61,7 @@ pub struct Explored {
     /// For each node of the graph: the state, and the number of its letter.
     pub nodes: Vec<(u32, u32)>,
     /// The states.
-    pub states: Vec<Box<[u64]>>,
+    pub states: Numbered,
     /// For each letter: for each condition on steps, whether it and its negation fail.
     pub(super) letters: Vec<Vec<u32>>,
     /// For each label: the choice.
@@ -74,11 +77,18 @@ pub struct Explored {
 /// A step of a state: its letter, its target, its label.
 type Row = (u32, u32, u32);
 
-/// Explores the states; `watch` receives progress and tells whether to go on.
+/// Explores the states, unless a search has just done so; `watch` receives progress and tells whether to go on.
 ///
 /// # Errors
 /// There is no initial state.
-pub fn explore(source: &Source, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<Explored, Trouble> {
+pub fn explore(
+    source: &Source,
+    walk: Option<Walk>,
+    watch: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Explored, Trouble> {
+    if let Some(exploration) = walk.and_then(|walk| Exploration::walked(source, walk)) {
+        return Ok(exploration.graph());
+    }
     let mut widening = Widening::default();
     loop {
         let interner = Arc::new(Interner::default());
@@ -99,9 +109,8 @@ pub fn explore(source: &Source, watch: &mut dyn FnMut(&Progress) -> bool) -> Res
 struct Exploration<'s> {
     source: &'s Source,
     explorer: Explorer,
-    states: Vec<Box<[u64]>>,
+    states: Numbered,
     depths: Vec<u32>,
-    known: HashMap<Box<[u64]>, u32, FxBuildHasher>,
     initial: usize,
     rows: Vec<Row>,
     /// For each explored state, where its rows end.
@@ -124,10 +133,9 @@ impl<'s> Exploration<'s> {
         });
         Exploration {
             source,
+            states: Numbered::new(explorer.words()),
             explorer,
-            states: Vec::new(),
             depths: Vec::new(),
-            known: HashMap::default(),
             initial: 0,
             rows: Vec::new(),
             ends: Vec::new(),
@@ -142,12 +150,48 @@ impl<'s> Exploration<'s> {
         }
     }
 
-    fn run(mut self, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<Explored, Widening> {
-        let initial: Vec<Box<[u64]>> = self.explorer.initial().iter().map(|(state, _)| state.clone()).collect();
-        for state in initial {
-            self.state(&state, 0);
+    /// One that a search has made, if it made it all, or came as far as this one would. Without letters and labels an edge is an edge.
+    fn walked(source: &'s Source, walk: Walk) -> Option<Exploration<'s>> {
+        let Walk { maker, explorer: walker, stop, graph } = walk;
+        let explorer = maker.of(&source.program, source.settings.clone()).ok()?;
+        let mut exploration = Exploration::new(source, explorer);
+        let states = graph.ends.len() as u64;
+        let far_enough = match stop {
+            None | Some(Stop::Depth) => true,
+            Some(Stop::States) => states >= source.max_states,
+            Some(_) => false,
+        };
+        let plain = exploration.first_step == u32::MAX && source.scheduler.is_none();
+        if !plain || !far_enough || !exploration.explorer.packs_like(&walker) {
+            return None;
         }
-        self.initial = self.states.len();
+        drop(walker);
+        exploration.stop = stop;
+        exploration.initial = graph.initial;
+        exploration.states.all = graph.states;
+        let mut start = 0;
+        for (state, (end, besides)) in graph.ends.iter().zip(&graph.besides).enumerate() {
+            let own = &graph.targets[start..*end];
+            start = *end;
+            let is_cut = besides.is_none_or(Besides::is_cut);
+            if let Some(besides) = besides.filter(|_| !is_cut) {
+                exploration.rows.extend(own.iter().map(|target| (0, *target, 0)));
+                if besides.stays() {
+                    exploration.rows.push((0, state as u32, 0));
+                }
+                if besides.faults() {
+                    exploration.rows.push((0, state as u32, Label::STUTTER.0));
+                }
+            }
+            exploration.cut.push(is_cut);
+            exploration.ends.push(exploration.rows.len());
+        }
+        exploration.explorer.ignore_interrupts();
+        Some(exploration)
+    }
+
+    fn run(mut self, watch: &mut dyn FnMut(&Progress) -> bool) -> Result<Explored, Widening> {
+        self.prepare();
         let mut next = 0;
         while next < self.states.len() {
             if next % 4096 == 0 {
@@ -180,6 +224,15 @@ impl<'s> Exploration<'s> {
         Ok(self.graph())
     }
 
+    /// Meets the initial states.
+    fn prepare(&mut self) {
+        let initial: Vec<Box<[u64]>> = self.explorer.initial().iter().map(|(state, _)| state.clone()).collect();
+        for state in initial {
+            self.state(&state, 0);
+        }
+        self.initial = self.states.len();
+    }
+
     fn progress(&self, next: usize) -> Progress {
         let depth = self.depths.get(next).copied().unwrap_or(0);
         Progress {
@@ -193,29 +246,26 @@ impl<'s> Exploration<'s> {
     }
 
     fn bytes(&self) -> u64 {
-        (self.states.len() * (16 * self.explorer.words() + 48) + self.rows.len() * size_of::<Row>()) as u64
+        (self.states.bytes() + 16 * self.states.len() + self.rows.len() * size_of::<Row>()) as u64
     }
 
     /// The number of a state; `None` if an assumption is false in it.
     fn state(&mut self, state: &[u64], depth: u32) -> Option<u32> {
-        if let Some(known) = self.known.get(state) {
-            return Some(*known);
+        if let Some(known) = self.states.find(state) {
+            return Some(known);
         }
         for condition in &self.source.assumed {
             if self.explorer.truth(*condition, state) != Truth::True {
                 return None;
             }
         }
-        let number = self.states.len() as u32;
-        self.known.insert(state.into(), number);
-        self.states.push(state.into());
         self.depths.push(depth);
-        Some(number)
+        Some(self.states.push(state))
     }
 
     /// Returns `false` if the caller asked to stop before all alternatives were found.
     fn expand(&mut self, index: usize) -> Result<bool, Widening> {
-        let state = self.states[index].clone();
+        let state: Box<[u64]> = self.states.get(index as u32).into();
         let depth = self.depths[index] + 1;
         let start = self.rows.len();
         let mut cut = false;
@@ -353,7 +403,7 @@ impl<'s> Exploration<'s> {
             let mut truths = Vec::with_capacity(self.source.propositions.len());
             for (number, place) in self.source.propositions.iter().enumerate() {
                 truths.push(match place {
-                    Place::State(condition) => match self.explorer.truth(*condition, &self.states[index]) {
+                    Place::State(condition) => match self.explorer.truth(*condition, self.states.get(*state)) {
                         Truth::True => true,
                         Truth::False => false,
                         Truth::Undef | Truth::Fault | Truth::Unknown => {
@@ -399,3 +449,6 @@ pub(super) fn has_letter(letters: &[Vec<u32>], first_step: u32, path: &Path, let
     let own = path.failed.iter().filter(|condition| **condition >= first_step);
     letters.get(letter as usize).is_none_or(|failed| own.eq(failed.iter()))
 }
+
+#[cfg(test)]
+mod tests;
