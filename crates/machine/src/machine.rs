@@ -541,7 +541,7 @@ impl Machine {
     /// Goes back to a state copied from this machine, or from another of the same program; one with more terms is the same, too.
     pub fn restore(&mut self, snapshot: &Snapshot) {
         self.discard();
-        self.core.store = snapshot.store.clone();
+        self.core.store.clone_from(&snapshot.store);
         self.core.initials.clone_from(&snapshot.initials);
         for carrier in &mut self.core.store.carriers {
             carrier.fresh = carrier.count;

@@ -29,14 +29,14 @@ pub(crate) struct Carrier {
 }
 
 /// The values of a state by the numbers of its locations, and what belongs to them.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Store {
     /// The value of each location.
     pub(crate) values: Vec<Value>,
     /// For an input: the epoch in which the environment gave it.
     pub(crate) given: Vec<u32>,
     /// By function.
-    pub(crate) layouts: Vec<Layout>,
+    pub(crate) layouts: Arc<[Layout]>,
     /// The functions that have dense locations, each with the first of them, in the order of those.
     owners: Arc<[(LocationIndex, FunctionId)]>,
     dense: u32,
@@ -46,6 +46,36 @@ pub struct Store {
     touched: u64,
     /// By domain; only dynamic ones' are used.
     pub(crate) carriers: Vec<Carrier>,
+}
+
+impl Clone for Store {
+    fn clone(&self) -> Store {
+        Store {
+            values: self.values.clone(),
+            given: self.given.clone(),
+            layouts: Arc::clone(&self.layouts),
+            owners: Arc::clone(&self.owners),
+            dense: self.dense,
+            sparse: self.sparse.clone(),
+            sparse_locations: self.sparse_locations.clone(),
+            touched: self.touched,
+            carriers: self.carriers.clone(),
+        }
+    }
+
+    /// In the memory that this one has: a search goes back to one state many times.
+    fn clone_from(&mut self, other: &Store) {
+        let Store { values, given, layouts, owners, dense, sparse, sparse_locations, touched, carriers } = self;
+        values.clone_from(&other.values);
+        given.clone_from(&other.given);
+        layouts.clone_from(&other.layouts);
+        owners.clone_from(&other.owners);
+        *dense = other.dense;
+        sparse.clone_from(&other.sparse);
+        sparse_locations.clone_from(&other.sparse_locations);
+        *touched = other.touched;
+        carriers.clone_from(&other.carriers);
+    }
 }
 
 impl Store {
@@ -64,7 +94,7 @@ impl Store {
         Store {
             values: vec![Value::Undef; dense as usize],
             given: vec![0; dense as usize],
-            layouts,
+            layouts: layouts.into(),
             owners,
             dense,
             sparse: HashMap::default(),

@@ -57,7 +57,7 @@ impl Facts {
     /// Those of a started machine.
     pub fn of(program: &Program, core: &Core) -> Facts {
         Facts {
-            layouts: core.store.layouts.clone(),
+            layouts: core.store.layouts.to_vec(),
             codomains: core.codomains.clone(),
             contents: core.contents.clone(),
             plain: core.plain.clone(),
