@@ -14,6 +14,7 @@
 pub mod loader;
 pub mod page;
 pub mod repository;
+pub mod sample;
 pub mod schema;
 pub mod solver;
 

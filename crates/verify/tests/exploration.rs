@@ -4,8 +4,6 @@
 //! an ordinary environment for. `GROUNDSTATE_CASES` sets how many models (a few seconds' worth if absent),
 //! `GROUNDSTATE_SEED` the first seed.
 
-#![allow(clippy::disallowed_methods, reason = "a test reads the environment")]
-
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
 
@@ -16,7 +14,7 @@ use machine::{
 };
 use program::{DomainId, DomainKind, FunctionId, FunctionKind, Program};
 use syntax::{Severity, SourceFile};
-use testkit::NoFiles;
+use testkit::{NoFiles, sample};
 
 /// The most states of one model that are compared.
 const STATES: usize = 60;
@@ -318,12 +316,10 @@ fn compare_conditions(program: &Arc<Program>, widening: &Widening, total: &mut T
 
 #[test]
 fn explorers_do_what_the_machine_does() {
-    let number =
-        |name: &str, otherwise: u64| std::env::var(name).ok().and_then(|n| n.parse().ok()).unwrap_or(otherwise);
-    let (cases, seed) = (number("GROUNDSTATE_CASES", 300), number("GROUNDSTATE_SEED", 1));
-    let full = std::env::var_os("GROUNDSTATE_FULL").is_some();
+    let seeds = sample::seeds(160, 2_000);
+    let (cases, full) = (seeds.end - seeds.start, sample::is_full());
     let mut total = Total::default();
-    for seed in seed..seed + cases {
+    for seed in seeds {
         let text = oracle::generate::model(seed, 1).to_string();
         let checked = model::check(SourceFile::new("Model.asm", text.clone()), &mut NoFiles);
         if checked.diagnostics.iter().any(|found| found.severity == Severity::Error) {

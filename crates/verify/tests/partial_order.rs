@@ -11,7 +11,7 @@ use std::sync::Arc;
 use machine::{Location, Value};
 use program::Program;
 use syntax::SourceFile;
-use testkit::repository;
+use testkit::{repository, sample};
 use verify::{EngineKind, Options, Outcome, Report, Subject, Trace, Unreduced, verify};
 
 use crate::models::{Disk, lowered};
@@ -188,11 +188,10 @@ fn random_model(seed: u64) -> String {
 
 #[test]
 fn random_agents_have_the_same_verdicts() {
-    let number =
-        |name: &str, otherwise: u64| std::env::var(name).ok().and_then(|n| n.parse().ok()).unwrap_or(otherwise);
-    let (cases, seed) = (number("GROUNDSTATE_CASES", 300), number("GROUNDSTATE_SEED", 1));
+    let seeds = sample::seeds(120, 1_000);
+    let cases = seeds.end - seeds.start;
     let (mut reduced, mut violated) = (0, 0);
-    for seed in seed..seed + cases {
+    for seed in seeds {
         let text = random_model(seed);
         let program = lowered(SourceFile::new("Agents.asm", text.clone()));
         let (whole, fewer) = agrees(&program, &text);

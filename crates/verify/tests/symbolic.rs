@@ -8,7 +8,7 @@ use machine::{Bounds, Limits, Value};
 use model::Basic;
 use program::{DomainKind, FunctionId, FunctionKind, Program};
 use syntax::{Severity, SourceFile};
-use testkit::repository;
+use testkit::{repository, sample};
 use verify::{EngineKind, Options, Outcome, Report, Subject, verify};
 
 use crate::models::{Disk, lowered};
@@ -141,11 +141,10 @@ fn values_without_a_bound_of_their_own() {
 #[test]
 fn random_models() {
     const STATES: u64 = 400;
-    let number =
-        |name: &str, otherwise: u64| std::env::var(name).ok().and_then(|n| n.parse().ok()).unwrap_or(otherwise);
-    let (cases, first) = (number("GROUNDSTATE_CASES", 300), number("GROUNDSTATE_SEED", 1));
+    let seeds = sample::seeds(120, 1_000);
+    let cases = seeds.end - seeds.start;
     let (mut compared, mut several) = (0, 0);
-    for seed in first..first + cases {
+    for seed in seeds {
         let text = oracle::generate::model(seed, 1).to_string();
         let checked = model::check(SourceFile::new("Model.asm", text.clone()), &mut Disk);
         if checked.diagnostics.iter().any(|found| found.severity == Severity::Error) {

@@ -3,7 +3,7 @@
 //!
 //! A model is generated, compiled, and fed the inputs and choices of a run of the machine; the states must be equal
 //! step by step, and a fault must come in the same step. `GROUNDSTATE_FULL` takes every model and more random ones;
-//! otherwise every third model is taken. `GROUNDSTATE_CASES` sets how many random models, `GROUNDSTATE_SEED` the first
+//! otherwise every fifth model is taken. `GROUNDSTATE_CASES` sets how many random models, `GROUNDSTATE_SEED` the first
 //! seed, `GROUNDSTATE_MODEL` the only file to test, `GROUNDSTATE_KEEP` a folder to keep the generated code in.
 #![allow(
     clippy::disallowed_methods,
@@ -29,19 +29,10 @@ use std::path::{Path, PathBuf};
 use model::Loader;
 use syntax::SourceFile;
 use testkit::repository;
+use testkit::sample::{is_full as full, setting};
 
 use compile::{Compiler, Unit, write};
 use run::{Disk, Prepared, read, record};
-
-/// The number in an environment variable.
-fn setting(name: &str, default: u64) -> u64 {
-    std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default)
-}
-
-/// Whether slow tests run in full.
-fn full() -> bool {
-    std::env::var_os("GROUNDSTATE_FULL").is_some()
-}
 
 /// A model, and the words that identify it in messages.
 struct Case {
@@ -96,7 +87,7 @@ fn examples() {
         }
     }
     let mut cases = Vec::new();
-    for path in paths.into_iter().step_by(if full() { 1 } else { 3 }) {
+    for path in paths.into_iter().step_by(if full() { 1 } else { 5 }) {
         let text = std::fs::read_to_string(&path).expect("a readable file");
         let file = SourceFile::new(path.to_string_lossy(), text.clone());
         let name = path.strip_prefix(&root).unwrap_or(&path).display().to_string();

@@ -21,6 +21,7 @@ use compare::{Disagreement, Outcome, Plan};
 use machine::EngineChoice;
 use oracle::Bounds;
 use syntax::{Severity, SourceFile};
+use testkit::sample::{self, is_full as full, setting};
 use testkit::{Disk, NoFiles, repository};
 
 /// The oracle recurses as deep as the model: its threads have room.
@@ -81,16 +82,6 @@ fn judge(text: &str, plan: Plan) -> Verdict {
     })
 }
 
-/// The number in an environment variable.
-fn setting(name: &str, default: u64) -> u64 {
-    std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(default)
-}
-
-/// Whether all of what is slow is wanted.
-fn full() -> bool {
-    std::env::var_os("GROUNDSTATE_FULL").is_some()
-}
-
 /// Runs with a deep stack.
 fn deep<T: Send>(body: impl FnOnce() -> T + Send) -> T {
     std::thread::scope(|scope| {
@@ -101,8 +92,8 @@ fn deep<T: Send>(body: impl FnOnce() -> T + Send) -> T {
 
 #[test]
 fn random_models() {
-    let cases = setting("GROUNDSTATE_CASES", if full() { 1500 } else { 150 });
-    let first = setting("GROUNDSTATE_SEED", 1);
+    let seeds = sample::seeds(100, 1_500);
+    let (cases, first) = (seeds.end - seeds.start, seeds.start);
     let total = std::sync::Mutex::new(Total::default());
     let failures = std::sync::Mutex::new(Vec::new());
     let next = AtomicU64::new(0);

@@ -3,13 +3,11 @@
 //! In: random models, and one with faults and states that an assumption leaves out; one, two and three workers. INVARIANT: states,
 //! their numbers, their edges and what was not explored are the same. `GROUNDSTATE_CASES` sets how many models.
 
-#![allow(clippy::disallowed_methods, reason = "a test reads the environment")]
-
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use machine::Limits;
 use syntax::SourceFile;
-use testkit::NoFiles;
+use testkit::{NoFiles, sample};
 
 use super::*;
 use crate::explicit::search::Search;
@@ -104,9 +102,10 @@ const WIDE: &str = "controlled wideA: Integer controlled wideB: Integer controll
 
 #[test]
 fn what_a_search_has_walked_is_what_is_explored() {
-    let cases = std::env::var("GROUNDSTATE_CASES").ok().and_then(|cases| cases.parse().ok()).unwrap_or(150);
+    let seeds = sample::seeds(150, 2_000);
+    let cases = seeds.end - seeds.start;
     let (mut models, mut edges) = (0, 0);
-    for seed in 1..=cases {
+    for seed in seeds {
         let text = oracle::generate::model(seed, 1).to_string();
         let Some(program) = lowered(&text) else { continue };
         let limits = Limits {
