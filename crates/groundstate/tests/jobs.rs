@@ -100,7 +100,7 @@ fn a_run_is_steered() {
                 remote.send(Command::Choose(7));
                 remote.send(Command::Choose(2));
             }
-            RunEvent::Progress(_) => {}
+            RunEvent::Progress(_) | RunEvent::Said { .. } => {}
             RunEvent::Refused(why) => told.push(why),
             RunEvent::Record { record, state, steps, .. } => told.push(match *record {
                 Record::End(end) => format!("{end:?} after {steps}"),

@@ -64,7 +64,7 @@ fn wait(session: &mut Session) -> Option<String> {
                     return refused;
                 }
             }
-            Heard::Nothing => {}
+            Heard::Nothing | Heard::Said(..) => {}
             Heard::Gone => panic!("the session is gone"),
         }
     }
@@ -207,7 +207,7 @@ fn breaks_stop_forth_and_back() {
     assert!(session.conditions().condition("sum").is_err());
     let program = Arc::clone(&session.scene().program);
     let sum = program.find_function("sum", 0).expect("a function");
-    let list = vec![Break { id: 7, on: On::Function(sum), condition: Some(condition) }];
+    let list = vec![Break { id: 7, on: On::Function(sum), condition: Some(condition), count: None, message: None }];
     let grown = Some(Arc::clone(session.conditions().program()));
     session.set_breaks(Breaks { list, program: grown, faults: true, violations: true });
     session.resume().expect("it can");

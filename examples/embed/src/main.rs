@@ -96,7 +96,7 @@ fn step(loaded: &Loaded, steps: u64) -> Result<(), Box<dyn Error>> {
                 }
                 faults.iter().for_each(|fault| println!("  {}", fault.message));
             }
-            RunEvent::AsksChoice { .. } | RunEvent::Refused(_) | RunEvent::Progress(_) => {}
+            RunEvent::AsksChoice { .. } | RunEvent::Refused(_) | RunEvent::Progress(_) | RunEvent::Said { .. } => {}
         }
     }
     println!("{} steps made", job.finish().map_err(|crashed| crashed.0)?);

@@ -170,7 +170,11 @@ impl<'a> Desk<'a> {
                 self.question = Some(Question { step, location, domain, values });
             }
             RunEvent::Refused(_) => self.prompt.refused(self.program),
-            RunEvent::Record { .. } | RunEvent::Progress(_) | RunEvent::AsksChoice { .. } | RunEvent::Paused => return,
+            RunEvent::Record { .. }
+            | RunEvent::Progress(_)
+            | RunEvent::AsksChoice { .. }
+            | RunEvent::Said { .. }
+            | RunEvent::Paused => return,
         }
         if let Some(question) = &self.question {
             let _ = self.remote.send(self.prompt.ask(self.program, question));

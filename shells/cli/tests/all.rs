@@ -5,6 +5,7 @@ mod bad_input;
 mod bench;
 mod dap;
 mod dap_disorder;
+mod dap_points;
 mod documented;
 mod first_steps;
 mod fmt;

@@ -56,7 +56,7 @@ pub struct Debugger {
     output: BufReader<ChildStdout>,
     folder: PathBuf,
     /// Events that came while something else was waited for.
-    events: Vec<Value>,
+    pub events: Vec<Value>,
     next: i64,
     sequence: u64,
 }
@@ -132,20 +132,20 @@ impl Debugger {
     }
 
     /// The body of a response that is no failure.
-    fn body(&mut self, command: &str, arguments: Value) -> Value {
+    pub fn body(&mut self, command: &str, arguments: Value) -> Value {
         let response = self.ask(command, arguments);
         assert_eq!(response["success"], true, "{response}");
         response["body"].clone()
     }
 
     /// Why a request fails.
-    fn refused(&mut self, command: &str, arguments: Value) -> String {
+    pub fn refused(&mut self, command: &str, arguments: Value) -> String {
         let response = self.ask(command, arguments);
         assert_eq!(response["success"], false, "{response}");
         response["message"].as_str().expect("a reason").to_string()
     }
 
-    fn event(&mut self, name: &str) -> Value {
+    pub fn event(&mut self, name: &str) -> Value {
         loop {
             if let Some(at) = self.events.iter().position(|event| event["event"] == name) {
                 return self.events.remove(at)["body"].clone();
@@ -157,20 +157,20 @@ impl Debugger {
     }
 
     /// Waits for a stop, and gives its reason.
-    fn stop(&mut self) -> String {
+    pub fn stop(&mut self) -> String {
         let body = self.event("stopped");
         assert_eq!(body["threadId"], 1, "{body}");
         body["reason"].as_str().expect("a reason").to_string()
     }
 
     /// Goes on by a command, to the next stop.
-    fn go(&mut self, command: &str) -> String {
+    pub fn go(&mut self, command: &str) -> String {
         self.body(command, json!({ "threadId": 1 }));
         self.stop()
     }
 
     /// Launches, and stops in the initial state.
-    fn launch(&mut self, file: &str, more: Value) -> String {
+    pub fn launch(&mut self, file: &str, more: Value) -> String {
         self.body("initialize", json!({ "adapterID": "groundstate" }));
         let mut arguments = json!({ "program": self.path(file) });
         for (key, value) in more.as_object().expect("an object") {
@@ -182,7 +182,7 @@ impl Debugger {
         self.stop()
     }
 
-    fn value(&mut self, term: &str) -> String {
+    pub fn value(&mut self, term: &str) -> String {
         let body = self.body("evaluate", json!({ "expression": term, "context": "watch" }));
         body["result"].as_str().expect("a text").to_string()
     }
@@ -203,13 +203,13 @@ impl Debugger {
     }
 
     /// The frames: line and name.
-    fn frames(&mut self) -> Vec<(u64, String)> {
+    pub fn frames(&mut self) -> Vec<(u64, String)> {
         let told = self.body("stackTrace", json!({ "threadId": 1 }))["stackFrames"].clone();
         let frame = |one: &Value| (one["line"].as_u64().unwrap(), one["name"].as_str().unwrap().to_string());
         told.as_array().expect("frames").iter().map(frame).collect()
     }
 
-    fn breakpoints(&mut self, file: &str, wanted: Value) -> Vec<Value> {
+    pub fn breakpoints(&mut self, file: &str, wanted: Value) -> Vec<Value> {
         let source = json!({ "path": self.path(file) });
         let body = self.body("setBreakpoints", json!({ "source": source, "breakpoints": wanted }));
         body["breakpoints"].as_array().expect("a list").clone()

@@ -54,6 +54,10 @@ const WORDS: [&str; 18] = [
     "self",
 ];
 
+const COUNTS: [&str; 6] = ["", "2", ">= 1", "% 2", "% 0", "two"];
+
+const MESSAGES: [&str; 6] = ["", "here", "{floor} of {called}", "{", "{}", "{idiv(1, floor)}"];
+
 /// Numbers that look drawn and are always the same.
 struct Draw(u64);
 
@@ -89,6 +93,7 @@ fn requests_in_disorder_are_answered_one_by_one() {
             let command = COMMANDS[draw.below(COMMANDS.len())];
             let one = json!({
                 "line": draw.below(50), "name": draw.word(), "dataId": draw.word(), "condition": draw.word(),
+                "hitCondition": COUNTS[draw.below(COUNTS.len())], "logMessage": MESSAGES[draw.below(MESSAGES.len())],
             });
             let filter = ["faults", "violations", "x"][draw.below(3)];
             let context = ["repl", "watch"][draw.below(2)];

@@ -388,6 +388,8 @@ impl<F: Files> Adapter<F> {
             "supportsConfigurationDoneRequest": true,
             "supportsFunctionBreakpoints": true,
             "supportsConditionalBreakpoints": true,
+            "supportsHitConditionalBreakpoints": true,
+            "supportsLogPoints": true,
             "supportsDataBreakpoints": true,
             "supportsBreakpointLocationsRequest": true,
             "supportsExceptionInfoRequest": true,

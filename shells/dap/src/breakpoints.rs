@@ -1,15 +1,17 @@
 //! The breakpoints that a debugger has set, and what of it stops the session.
 //!
 //! In: the lists of `setBreakpoints` and its like, each of which replaces the former one of its kind and file. Out: what is said of
-//! each breakpoint, and [`Breaks`] for the session. LIMIT: so many of one list.
+//! each breakpoint, and [`Breaks`] for the session. A breakpoint that is set again as it was keeps its number, and so how often it was
+//! reached. LIMIT: so many of one list.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use groundstate::session::{Break, Breaks, On};
+use groundstate::session::{Break, Breaks, Count, On, Piece};
 use program::FunctionKind;
 use serde_json::{Value, json};
 
+use crate::message::{Part, parts};
 use crate::target::Target;
 
 /// LIMIT: breakpoints of a list; others are not verified.
@@ -26,13 +28,22 @@ pub enum Kind {
     Data,
 }
 
+/// A breakpoint as it was asked for, and what it came to.
+#[derive(Debug)]
+struct Made {
+    asked: String,
+    stop: Break,
+    /// Where it is, if that is a place.
+    place: Value,
+}
+
 /// See the module.
 #[derive(Debug, Default)]
 pub struct Breakpoints {
     last: u64,
-    lines: BTreeMap<String, Vec<Break>>,
-    rules: Vec<Break>,
-    data: Vec<Break>,
+    lines: BTreeMap<String, Vec<Made>>,
+    rules: Vec<Made>,
+    data: Vec<Made>,
     faults: bool,
     violations: bool,
 }
@@ -55,7 +66,7 @@ impl Breakpoints {
 
     /// What a breakpoint was set by.
     pub fn kind(&self, id: u64) -> Option<Kind> {
-        let has = |list: &[Break]| list.iter().any(|one| one.id == id);
+        let has = |list: &[Made]| list.iter().any(|one| one.stop.id == id);
         match () {
             () if self.lines.values().any(|list| has(list)) => Some(Kind::Line),
             () if has(&self.rules) => Some(Kind::Rule),
@@ -66,21 +77,32 @@ impl Breakpoints {
 
     /// Where a line's breakpoint is: what stops there.
     pub fn on(&self, id: u64) -> Option<&On> {
+        self.made_as(id).map(|one| &one.stop.on)
+    }
+
+    /// Where a breakpoint is, as the protocol writes places.
+    pub fn place(&self, id: u64) -> Value {
+        self.made_as(id).map_or(Value::Null, |one| one.place.clone())
+    }
+
+    fn made_as(&self, id: u64) -> Option<&Made> {
         let all = self.lines.values().flatten().chain(&self.rules).chain(&self.data);
-        all.into_iter().find(|one| one.id == id).map(|one| &one.on)
+        all.into_iter().find(|one| one.stop.id == id)
     }
 
     /// Sets the breakpoints of a file.
     pub fn set_lines(&mut self, target: &mut Target, path: &str, wanted: &[Value]) -> Vec<Value> {
+        let mut former = self.lines.remove(path).unwrap_or_default();
         let mut kept = Vec::new();
         let told = wanted.iter().enumerate().map(|(index, one)| {
             let stop = one["line"].as_u64().and_then(|line| target.stop_at(path, u32::try_from(line).ok()?));
             let Some(stop) = stop.filter(|_| index < MANY) else {
                 return self.unverified("nothing that can stop a run is here or below: an update, a rule, a command");
             };
-            match self.made(target, stop.on, &one["condition"]) {
+            let place = json!({ "source": { "path": path }, "line": stop.line });
+            match self.made(target, stop.on, one, place, &mut former) {
                 Ok(made) => {
-                    let told = json!({ "id": made.id, "verified": true, "line": stop.line });
+                    let told = json!({ "id": made.stop.id, "verified": true, "line": stop.line });
                     kept.push(made);
                     told
                 }
@@ -95,16 +117,17 @@ impl Breakpoints {
 
     /// Sets the breakpoints of rules.
     pub fn set_rules(&mut self, target: &mut Target, wanted: &[Value]) -> Vec<Value> {
-        let mut kept = Vec::new();
+        let (mut former, mut kept) = (std::mem::take(&mut self.rules), Vec::new());
         let told = wanted.iter().take(MANY).map(|one| {
             let name = one["name"].as_str().unwrap_or_default().trim();
             let Some((on, span)) = target.rule(name) else {
                 return self.unverified(&format!("there is no rule `{name}`"));
             };
-            match self.made(target, on, &one["condition"]) {
+            let place = target.place(span);
+            match self.made(target, on, one, place.clone(), &mut former) {
                 Ok(made) => {
-                    let mut told = target.place(span);
-                    (told["id"], told["verified"]) = (json!(made.id), json!(true));
+                    let mut told = place;
+                    (told["id"], told["verified"]) = (json!(made.stop.id), json!(true));
                     kept.push(made);
                     told
                 }
@@ -119,13 +142,14 @@ impl Breakpoints {
 
     /// Sets the breakpoints of locations.
     pub fn set_data(&mut self, target: &mut Target, wanted: &[Value]) -> Vec<Value> {
-        let mut kept = Vec::new();
+        let (mut former, mut kept) = (std::mem::take(&mut self.data), Vec::new());
         let told = wanted.iter().take(MANY).map(|one| {
             let data = one["dataId"].as_str().unwrap_or_default();
-            let made = location(target, data).and_then(|on| self.made(target, on, &one["condition"]));
+            let on = location(target, data);
+            let made = on.and_then(|on| self.made(target, on, one, Value::Null, &mut former));
             match made {
                 Ok(made) => {
-                    let told = json!({ "id": made.id, "verified": true });
+                    let told = json!({ "id": made.stop.id, "verified": true });
                     kept.push(made);
                     told
                 }
@@ -155,22 +179,48 @@ impl Breakpoints {
         json!({ "id": self.last, "verified": false, "message": reason })
     }
 
-    fn made(&mut self, target: &mut Target, on: On, condition: &Value) -> Result<Break, String> {
-        let condition = match condition.as_str().map(str::trim).filter(|text| !text.is_empty()) {
-            Some(text) => Some(target.session.conditions().condition(text)?),
-            None => None,
+    /// A breakpoint, with the number that it had if it was there before.
+    fn made(
+        &mut self,
+        target: &mut Target,
+        on: On,
+        one: &Value,
+        place: Value,
+        former: &mut Vec<Made>,
+    ) -> Result<Made, String> {
+        let said = |key: &str| one[key].as_str().map(str::trim).filter(|text| !text.is_empty());
+        let condition = said("condition").map(|text| target.session.conditions().condition(text)).transpose()?;
+        let count = said("hitCondition").map(Count::read).transpose()?;
+        let message = said("logMessage").map(|text| message(target, text)).transpose()?;
+        let asked = ["name", "dataId", "condition", "hitCondition", "logMessage"].map(|key| &one[key]);
+        let asked = format!("{:?} {asked:?}", place["line"]);
+        let id = match former.iter().position(|other| other.asked == asked) {
+            Some(index) => former.swap_remove(index).stop.id,
+            None => {
+                self.last += 1;
+                self.last
+            }
         };
-        self.last += 1;
-        Ok(Break { id: self.last, on, condition })
+        Ok(Made { asked, stop: Break { id, on, condition, count, message }, place })
     }
 
     /// Tells the session what stops it.
     pub fn tell(&self, target: &mut Target) {
-        let list = self.lines.values().flatten().chain(&self.rules).chain(&self.data).cloned().collect();
+        let all = self.lines.values().flatten().chain(&self.rules).chain(&self.data);
+        let list = all.map(|one| one.stop.clone()).collect();
         let program = Some(Arc::clone(target.session.conditions().program()));
         let (faults, violations) = (self.faults, self.violations);
         target.session.set_breaks(Breaks { list, program, faults, violations });
     }
+}
+
+/// The parts of a log point's message, with its terms read.
+fn message(target: &mut Target, text: &str) -> Result<Vec<Piece>, String> {
+    let piece = |part: Part| match part {
+        Part::Text(text) => Ok(Piece::Text(text)),
+        Part::Term(term) => target.session.conditions().term(&term).map(Piece::Term),
+    };
+    parts(text)?.into_iter().map(piece).collect()
 }
 
 /// A location that the machine writes, or all of a function.

@@ -15,11 +15,15 @@ use crate::breakpoints::Kind;
 use crate::say::{TOLD, asks_for, whole};
 use crate::variables::shortened;
 
+/// LIMIT: what is heard between two requests. A run that says much waits, so that it can be paused.
+const HEARD: usize = 1_000;
+
 impl<F: Files> Adapter<F> {
     /// Looks what the run has done.
     pub fn look(&mut self) {
-        while self.is_running() {
-            let Some(target) = &mut self.target else { return };
+        for _ in 0..HEARD {
+            let is_running = self.is_running();
+            let Some(target) = self.target.as_mut().filter(|_| is_running) else { return };
             match target.session.hear(Duration::ZERO) {
                 Heard::Nothing => return,
                 Heard::Refused(reason) => {
@@ -29,6 +33,7 @@ impl<F: Files> Adapter<F> {
                         self.stopped();
                     }
                 }
+                Heard::Said(id, text) => self.output("console", &shortened(&text), self.breakpoints.place(id)),
                 Heard::Waits => self.stopped(),
                 Heard::Gone => self.terminated(),
             }

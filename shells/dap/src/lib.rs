@@ -18,6 +18,7 @@ mod console;
 mod events;
 mod frame;
 mod launch;
+mod message;
 mod say;
 mod stack;
 mod target;

@@ -311,7 +311,8 @@ impl Open {
                     self.session.cancel();
                     return Ok(false);
                 }
-                Heard::Nothing => {}
+                // Breaks of these sessions say nothing.
+                Heard::Nothing | Heard::Said(..) => {}
                 Heard::Gone => return Err(Refused::new(ErrorCode::InternalError, "the run is gone")),
             }
         }

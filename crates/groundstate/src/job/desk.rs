@@ -82,6 +82,13 @@ pub enum RunEvent {
         /// The values of its variables, for each candidate.
         candidates: Vec<Vec<Value>>,
     },
+    /// A break of a session has something to say. The run goes on.
+    Said {
+        /// The number of the break.
+        id: u64,
+        /// What it says.
+        text: String,
+    },
     /// The run waits for a command.
     Paused,
     /// A command cannot be carried out now; a sentence.
@@ -156,6 +163,11 @@ impl Desk {
     pub fn refuse(&mut self, reason: &str) {
         self.turn = Turn::Steps(0);
         self.port.tell(RunEvent::Refused(reason.to_string()));
+    }
+
+    /// Hands over what a break says; waits while too much is unread.
+    pub fn say(&mut self, id: u64, text: String) {
+        self.port.tell(RunEvent::Said { id, text });
     }
 
     /// No step is left that could be taken back.

@@ -32,7 +32,7 @@ use crate::job::desk::{Desk, Turn};
 use crate::job::{Cancel, Command, Job, Remote, RunEvent};
 use crate::reporting::Watched;
 
-pub use breaks::{Break, Breaks, Hit, On};
+pub use breaks::{Break, Breaks, Count, Hit, On, Piece};
 pub use evaluate::Evaluator;
 pub use moment::Moment;
 pub use scene::Scene;
@@ -90,6 +90,8 @@ pub enum Heard {
     Waits,
     /// A request cannot be carried out; a sentence.
     Refused(String),
+    /// The break of this number says something, and the run goes on.
+    Said(u64, String),
     /// Nothing within the time.
     Nothing,
     /// Its thread is gone.
@@ -203,6 +205,7 @@ impl Session {
                 self.waits = if ended { Waits::End } else { Waits::Step };
                 Heard::Waits
             }
+            Ok(RunEvent::Said { id, text }) => Heard::Said(id, text),
             Ok(RunEvent::Record { .. } | RunEvent::Progress(_)) | Err(RecvTimeoutError::Timeout) => Heard::Nothing,
             Err(RecvTimeoutError::Disconnected) => Heard::Gone,
         }

@@ -45,8 +45,8 @@ pub(crate) fn run(
     let (ran, past) = (Ran::default(), VecDeque::new());
     let recorder = options.watched.as_ref();
     let recorder = recorder.map(|watched| Recorder::new(watched, &scene.program, Player::new(options.limits.clone())));
-    let mut thread =
-        Thread { shared, history: options.history, ran, past, first, initial: Vec::new(), player, recorder };
+    let (history, initial, said) = (options.history, Vec::new(), Vec::new());
+    let mut thread = Thread { shared, history, ran, past, first, initial, player, recorder, said };
     let mut initial = true;
     loop {
         // The initial state is made before the first pause.
@@ -71,8 +71,11 @@ pub(crate) fn run(
         if let Record::End(End::Quit | End::Interrupted) = record {
             return;
         }
-        if thread.take_in(record, &mut run) {
-            desk.borrow_mut().turn = Turn::Steps(0);
+        let stops = thread.take_in(record, &mut run);
+        let mut desk = desk.borrow_mut();
+        thread.said.drain(..).for_each(|(id, text)| desk.say(id, text));
+        if stops {
+            desk.turn = Turn::Steps(0);
         }
     }
 }
@@ -89,6 +92,8 @@ struct Thread<'a> {
     initial: Vec<(Location, Value)>,
     player: Player,
     recorder: Option<Recorder>,
+    /// What breaks have said.
+    said: Vec<(u64, String)>,
 }
 
 impl Thread<'_> {
@@ -126,7 +131,7 @@ impl Thread<'_> {
                 let mut moment = former.unwrap_or_else(|| Moment::new(run.machine().snapshot()));
                 (moment.step, moment.snapshot) = (run.steps(), Arc::new(run.machine().snapshot()));
                 self.ran.since(run.machine().coverage());
-                self.judge(&mut moment, false);
+                self.judge(&mut moment, false, false);
                 let stops = moment.hit.is_some();
                 self.show(moment);
                 return stops;
@@ -139,9 +144,10 @@ impl Thread<'_> {
             }
         };
         moment.step = run.steps();
+        moment.reached = self.past.back().map(|former| former.reached.clone()).unwrap_or_default();
         let is_attempt = moment.end.is_some();
         moment.faults.extend(faults);
-        self.judge(&mut moment, violated);
+        self.judge(&mut moment, violated, true);
         let stops = stops || moment.hit.is_some();
         if !is_attempt {
             if self.past.len() > self.history {
@@ -173,21 +179,26 @@ impl Thread<'_> {
         moment
     }
 
-    fn judge(&mut self, moment: &mut Moment, violated: bool) {
+    /// What stops the run here, and what is said.
+    fn judge(&mut self, moment: &mut Moment, violated: bool, forth: bool) {
         let breaks = self.shared.breaks();
         let program = breaks.program.clone();
-        let faults = moment.faults.len();
+        let mut reached = std::mem::take(&mut moment.reached);
         let happened = Happened {
             ran: &moment.ran,
             changes: &moment.changes,
             next: None,
-            faults: faults > 0 && !violated,
+            faults: !moment.faults.is_empty() && !violated,
             violations: violated,
+            forth,
         };
         let (player, initial) = (&mut self.player, &self.initial);
-        let hit =
-            breaks.hit(happened, &mut |condition| player.value(program.as_ref()?, condition, moment, initial).ok());
-        moment.hit = hit;
+        let judged = breaks.judge(happened, &mut reached, &mut |term| {
+            let program = program.as_ref().ok_or_else(String::new)?;
+            player.value(program, term, moment, initial)
+        });
+        (moment.hit, moment.reached) = (judged.hit, reached);
+        self.said.extend(judged.said);
     }
 }
 

@@ -2,6 +2,7 @@
 //!
 //! In: what a thread that runs a model or a scenario has seen. Out: a [`Moment`], which its owner reads. It never changes.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use machine::{Change, Coverage, Location, Snapshot, Value};
@@ -37,6 +38,8 @@ pub struct Moment {
     pub checks: (u64, u64),
     /// What stops the run here.
     pub hit: Option<Hit>,
+    /// How often each break was reached on the way here, by its number.
+    pub reached: BTreeMap<u64, u64>,
     /// The state.
     pub snapshot: Arc<Snapshot>,
 }
@@ -57,6 +60,7 @@ impl Moment {
             end: None,
             checks: (0, 0),
             hit: None,
+            reached: BTreeMap::new(),
             snapshot: Arc::new(snapshot),
         }
     }

@@ -67,7 +67,7 @@ pub(crate) fn run(
     show(&moment);
     loop {
         let what = desk.borrow_mut().next();
-        match what {
+        let forth = match what {
             Do::Step => {
                 let before = (play.save(), random.borrow().clone(), moment.clone());
                 if !play.advance() {
@@ -83,6 +83,8 @@ pub(crate) fn run(
                 past.push_back(before);
                 let former = std::mem::replace(&mut moment, Moment::new(play.machine().snapshot()));
                 take_in(&mut moment, &former, &play, script, &mut ran);
+                moment.reached = former.reached;
+                true
             }
             Do::Back => {
                 let Some((saved, choices, former)) = past.pop_back() else {
@@ -93,10 +95,12 @@ pub(crate) fn run(
                 random.replace(choices);
                 moment = former;
                 ran.since(play.machine().coverage());
+                false
             }
             Do::Stop => return,
-        }
-        judge(&mut moment, shared, &mut player);
+        };
+        let said = judge(&mut moment, shared, &mut player, forth);
+        said.into_iter().for_each(|(id, text)| desk.borrow_mut().say(id, text));
         if moment.hit.is_some() || moment.end.is_some() {
             desk.borrow_mut().turn = Turn::Steps(0);
         }
@@ -153,18 +157,25 @@ fn take_in(moment: &mut Moment, former: &Moment, play: &Play<'_>, script: &Scrip
     }
 }
 
-fn judge(moment: &mut Moment, shared: &Shared, player: &mut Player) {
+/// What stops the run here. Out: what is said.
+fn judge(moment: &mut Moment, shared: &Shared, player: &mut Player, forth: bool) -> Vec<(u64, String)> {
     let breaks = shared.breaks();
     let program = breaks.program.clone();
     let violated = |fault: &&Diagnostic| fault.id == "invariant-violated";
     let violations = moment.faults.iter().filter(violated).count();
+    let mut reached = std::mem::take(&mut moment.reached);
     let happened = Happened {
         ran: if moment.ran_now { &moment.ran } else { &[] },
         changes: if moment.ran_now { &moment.changes } else { &[] },
         next: moment.next,
         faults: moment.faults.len() > violations,
         violations: violations > 0,
+        forth,
     };
-    let hit = breaks.hit(happened, &mut |condition| player.value(program.as_ref()?, condition, moment, &[]).ok());
-    moment.hit = hit;
+    let judged = breaks.judge(happened, &mut reached, &mut |term| {
+        let program = program.as_ref().ok_or_else(String::new)?;
+        player.value(program, term, moment, &[])
+    });
+    (moment.hit, moment.reached) = (judged.hit, reached);
+    judged.said
 }
