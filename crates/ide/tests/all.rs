@@ -3,6 +3,7 @@
 
 mod drawing;
 mod edits;
+mod keys;
 mod pages;
 mod refactor;
 mod support;

@@ -7,6 +7,7 @@ mod item;
 mod place;
 mod scope;
 mod snippet;
+mod specification;
 
 use std::path::{Path, PathBuf};
 
@@ -20,7 +21,8 @@ use crate::hover::{declaration, rule_signature, signature};
 use crate::navigate::stem;
 use crate::project::Project;
 pub use item::{Item, ItemKind};
-use place::{Expected, Where};
+use place::{Expected, Place, Where};
+use specification::Slot;
 
 /// What can be written, and the bytes that it takes the place of.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -35,6 +37,9 @@ pub struct Completion {
 pub fn completion<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -> Completion {
     let nothing = Completion { range: (offset, offset), items: Vec::new() };
     let Ok(analysis) = project.analysis(path) else { return nothing };
+    if let Some(kind @ (Kind::Report | Kind::Verification)) = Kind::of(Path::new(path)) {
+        return in_specification(project, &analysis, kind, offset).unwrap_or(nothing);
+    }
     let Some(place) = place::at(&analysis, offset) else { return nothing };
     let mut items = match &place.wanted {
         Where::Path { scenario } => paths(project, &analysis, *scenario),
@@ -53,9 +58,57 @@ pub fn completion<F: Files>(project: &mut Project<F>, path: &str, offset: u32) -
         Where::Drawn => drawn(&analysis),
         Where::Nothing => Vec::new(),
     };
+    in_order(&mut items);
+    Completion { range: place.range, items }
+}
+
+fn in_order(items: &mut Vec<Item>) {
     items.sort_by(|a, b| (a.rank, &a.label, a.kind, &a.detail).cmp(&(b.rank, &b.label, b.kind, &b.detail)));
     items.dedup_by(|a, b| a.label == b.label && a.kind == b.kind);
-    Completion { range: place.range, items }
+}
+
+/// What can be written at an offset of a report or verification specification.
+fn in_specification<F: Files>(
+    project: &mut Project<F>,
+    analysis: &Analysis,
+    kind: Kind,
+    offset: u32,
+) -> Option<Completion> {
+    let specification::At { range, slot, has_colon } = specification::at(kind, analysis.text(), offset)?;
+    let place = |condition: bool| {
+        let expected = Expected(condition.then_some(Domains::BOOLEAN));
+        Place { range, wanted: Where::Term(expected), as_environment: false, variables: Vec::new() }
+    };
+    let words = |words: Vec<&str>, detail: &str| -> Vec<Item> {
+        words.into_iter().map(|word| Item::new(word, ItemKind::Keyword, detail, 0)).collect()
+    };
+    let (mut items, is_key) = match slot {
+        Slot::Keys(keys) => (words(keys, "key"), true),
+        Slot::Words(all) => (words(all, ""), false),
+        Slot::Term { condition } => {
+            (terms(analysis, &place(condition), Expected(condition.then_some(Domains::BOOLEAN))), false)
+        }
+        Slot::TermKey => (terms(analysis, &place(false), Expected(None)), true),
+        Slot::Input => {
+            let takes = |kind: FunctionKind| matches!(kind, FunctionKind::Monitored | FunctionKind::Shared);
+            let inputs = functions(analysis).filter(|(id, _)| takes(analysis.model.function(*id).kind));
+            (inputs.map(|(_, item)| item).collect(), true)
+        }
+        Slot::Chart => (charts(project, analysis), true),
+        Slot::Nothing => return None,
+    };
+    for item in items.iter_mut().filter(|_| is_key && !has_colon) {
+        item.insert.push_str(": ");
+    }
+    in_order(&mut items);
+    Some(Completion { range, items })
+}
+
+/// Charts, as a specification names them.
+fn charts<F: Files>(project: &mut Project<F>, analysis: &Analysis) -> Vec<Item> {
+    let folder = Path::new(&analysis.source().name).parent().unwrap_or(Path::new("")).to_path_buf();
+    let all = project.all_files().into_iter().filter(|file| Kind::of(Path::new(file)) == Some(Kind::Chart));
+    all.map(|file| Item::new(&relative(&folder, Path::new(&file)), ItemKind::File, "", 0)).collect()
 }
 
 /// Modules that can be imported, or models that a scenario can load.
