@@ -26,9 +26,10 @@ fn rounds(sample: usize, full: usize) -> usize {
     if std::env::var_os("GROUNDSTATE_FULL").is_some() { full } else { sample }
 }
 
-/// The files of some examples, with what they import.
+/// The files of some examples, with what they import; with `GROUNDSTATE_FULL` set, of all.
 fn examples() -> BTreeMap<String, String> {
-    let folders = ["examples/coffee_machine", "examples/visual_servoing", "library/patterns", "examples/hanoi"];
+    let some = ["examples/coffee_machine", "examples/visual_servoing", "library/patterns", "examples/hanoi"];
+    let folders = if rounds(0, 1) == 0 { &some[..] } else { &["examples", "library/patterns"][..] };
     let root = repository::root();
     let mut files = BTreeMap::new();
     for folder in folders {
@@ -86,33 +87,74 @@ fn ask(project: &mut Project<Texts>, path: &str, at: u32) -> String {
         told += &format!("{:?}", ide::layout_typed(path, &text, at));
     }
     told += &format!("{:?}", ide::refactorings(project, path, (at, at + 30)));
+    told += &format!("{:?}", ide::implementations(project, path, at));
+    told += &format!("{:?}", ide::lenses(project, path));
+    told += &format!("{:?}", ide::callers(project, path, at));
+    told += &format!("{:?}", ide::callees(project, path, at));
+    if at.is_multiple_of(4) {
+        told += &format!("{:?}", ide::references(project, path, at));
+    }
     told
+}
+
+/// One question after an edit, so that what is known comes from texts of many ages.
+fn ask_one(project: &mut Project<Texts>, path: &str, dice: &mut Dice) {
+    let at = dice.below(5_000) as u32;
+    match dice.below(12) {
+        0 => _ = ide::reports(project, path),
+        1 => _ = ide::hover(project, path, at),
+        2 => _ = ide::completion(project, path, at),
+        3 => _ = ide::tokens(project, path),
+        4 => _ = ide::outline(project, path),
+        _ => {}
+    }
+}
+
+/// Makes edits, one after the other, and asks now and then what a project that knows nothing yet is asked, too. Out: how often.
+fn edited_is_fresh(seed: u64, edits: usize, most: usize) -> usize {
+    let files = examples();
+    let names: Vec<&String> = files.keys().collect();
+    let mut dice = Dice(seed);
+    let mut texts = files.clone();
+    let mut edited = project(&files);
+    let (mut made, mut compared) = (0, 0);
+    while made < edits {
+        let mut last = names[0].clone();
+        for _ in 0..=dice.below(most) {
+            let name = names[dice.below(names.len())].clone();
+            let text = edit(&texts[&name], &mut dice);
+            edited.set_text(&name, made as i64, text.as_str()).expect("a later version");
+            texts.insert(name.clone(), text);
+            made += 1;
+            if dice.below(6) == 0 {
+                // The text of the disk is back.
+                edited.close(&name);
+                texts.insert(name.clone(), files[&name].clone());
+            }
+            ask_one(&mut edited, &name, &mut dice);
+            last = name;
+        }
+        // Another file is asked, too: it may import one that changed.
+        for path in [&last, names[dice.below(names.len())]] {
+            let at = dice.below(texts[path].len() + 1) as u32;
+            let mut fresh = project(&texts);
+            compared += 1;
+            assert_eq!(ask(&mut edited, path, at), ask(&mut fresh, path, at), "{path} at {at}, edit {made}");
+        }
+    }
+    compared
 }
 
 #[test]
 fn an_edited_project_answers_as_a_fresh_one() {
-    let files = examples();
-    let names: Vec<&String> = files.keys().collect();
-    let mut dice = Dice(7);
-    let mut texts = files.clone();
-    let mut edited = project(&files);
-    for round in 0..rounds(40, 1_000) {
-        let name = names[dice.below(names.len())].clone();
-        let text = edit(&texts[&name], &mut dice);
-        edited.set_text(&name, round as i64, text.as_str()).expect("a later version");
-        texts.insert(name.clone(), text);
-        if dice.below(6) == 0 {
-            // The text of the disk is back.
-            edited.close(&name);
-            texts.insert(name.clone(), files[&name].clone());
-        }
-        // Another file is asked, too: it may import the one that changed.
-        for path in [&name, names[dice.below(names.len())]] {
-            let at = dice.below(texts[path].len() + 1) as u32;
-            let mut fresh = project(&texts);
-            assert_eq!(ask(&mut edited, path, at), ask(&mut fresh, path, at), "{path} at {at}, round {round}");
-        }
-    }
+    // After each edit; then after some of very many.
+    assert!(edited_is_fresh(7, rounds(25, 500), 1) >= rounds(50, 1_000));
+    let many = rounds(500, 50_000);
+    let compared: Vec<usize> = std::thread::scope(|scope| {
+        let both = [8, 9].map(|seed| scope.spawn(move || edited_is_fresh(seed, many, 80)));
+        both.into_iter().map(|one| one.join().expect("the same answers")).collect()
+    });
+    assert!(compared.iter().all(|compared| compared * 80 >= many), "{compared:?}");
 }
 
 #[test]

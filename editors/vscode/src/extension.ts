@@ -8,7 +8,9 @@ import { LanguageClient, type LanguageClientOptions, type ServerOptions } from "
 
 import { registerCharts } from "./chart";
 import { registerDebugger } from "./debugging";
-import { program } from "./program";
+import { installedIn, program } from "./program";
+import { registerReports } from "./report";
+import { registerRunning } from "./running";
 import { registerState } from "./state";
 import { registerTasks } from "./tasks";
 import { registerTests } from "./testing";
@@ -64,6 +66,9 @@ async function run(words: string[], given: unknown): Promise<void> {
 }
 
 export async function activate(context: ExtensionContext): Promise<void> {
+  installedIn(context.extensionPath);
+  const send = (method: string, params: object): Promise<unknown> =>
+    client ? client.sendRequest(method, params) : Promise.reject(new Error("the language server does not run"));
   const register = (name: string, words: string[]) =>
     context.subscriptions.push(commands.registerCommand(`groundstate.${name}`, (uri) => run(words, uri)));
   register("run", ["run"]);
@@ -86,13 +91,12 @@ export async function activate(context: ExtensionContext): Promise<void> {
   );
   registerDebugger(context);
   registerTests(context);
-  registerCharts(context);
+  registerRunning(context);
+  registerCharts(context, send);
+  registerReports(context);
   registerVerification(context);
   registerTasks(context);
-  registerState(context, (method, params) => {
-    if (!client) return Promise.reject(new Error("the language server does not run"));
-    return client.sendRequest(method, params);
-  });
+  registerState(context, send);
   await start();
 }
 

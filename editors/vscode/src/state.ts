@@ -18,6 +18,7 @@ import {
 } from "vscode";
 
 import { headline, notes, type Note, type Place, type Row, type Section, sections, Session, type Send } from "./pure/session";
+import { sessionRuns } from "./running";
 
 type Node = { section: Section } | { row: Row };
 
@@ -115,6 +116,7 @@ export function registerState(context: ExtensionContext, send: Send): void {
     view.refresh();
     tree.message = view.message();
     const state = view.session?.state;
+    sessionRuns(state?.state);
     void commands.executeCommand("setContext", "groundstate.session", state !== undefined);
     if (state?.waiting === "input" && !state.offered.length) void give(state.word ?? "");
   };
@@ -136,15 +138,17 @@ export function registerState(context: ExtensionContext, send: Send): void {
   }
   const register = (name: string, work: (...words: never[]) => unknown) =>
     context.subscriptions.push(commands.registerCommand(`groundstate.session.${name}`, work));
-  const open = (seed?: number) =>
-    attempt(async () => {
+  const open = async (seed?: number) => {
+    await attempt(async () => {
       const uri = window.activeTextEditor?.document.uri;
       if (!uri || !/\.(asm|avalla)$/.test(uri.path)) throw new Error("Open a model or a scenario first.");
       await view.session?.close();
       view.session = new Session(send);
       await view.session.open(uri.toString(), seed);
-      await commands.executeCommand("groundstate.state.focus");
     });
+    // The view comes last: one that is told of changes while it is first filled leaves rows out.
+    if (view.session?.state) await commands.executeCommand("groundstate.state.focus");
+  };
   register("open", () => open());
   register("random", () => open(Math.floor(Math.random() * 2 ** 31)));
   register("step", () => request("step"));

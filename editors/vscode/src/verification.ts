@@ -24,8 +24,9 @@ import { counterexample, explored, verdict, type Verdict } from "./pure/results"
 import { reveal } from "./state";
 
 interface Shown extends Verdict {
-  // The scenario of the counterexample.
+  // The scenario of the counterexample, and the page that shows its run.
   scenario?: string;
+  page?: string;
 }
 
 const ICONS = {
@@ -97,11 +98,13 @@ export function registerVerification(context: ExtensionContext): void {
       clearInterval(clock);
       log(ended.errors);
       if (running !== stop) return;
-      const files = await readdir(folder).catch(() => []);
+      const files: string[] = await readdir(folder).catch(() => []);
       const taken = new Set<string>();
       for (const shown of view.verdicts.filter((one) => one.verdict === "violated")) {
         const scenario = counterexample(shown.check, files, taken);
         if (scenario) shown.scenario = path.join(folder, scenario);
+        const page = scenario?.replace(/\.avalla$/, ".html");
+        if (page && files.includes(page)) shown.page = path.join(folder, page);
       }
       const none = ended.errors.trim().split("\n")[0] ?? "";
       tree.message = stop.signal.aborted ? `${name}: stopped` : `${name}: ${extent || none || "there is no verdict"}`;
@@ -136,6 +139,9 @@ export function registerVerification(context: ExtensionContext): void {
         name: `${shown.check}: counterexample`,
         program: shown.scenario,
       });
+    }),
+    commands.registerCommand("groundstate.verification.page", async (shown: Shown) => {
+      if (shown.page) await commands.executeCommand("groundstate.page", shown.page, `${shown.check}: counterexample`);
     }),
     { dispose: () => { running?.abort(); void forget(); } },
   );

@@ -15,7 +15,7 @@ const entry = names.map((name) => `export * as ${name} from "./src/pure/${name}"
 const outfile = path.join(root, "out/test/pure.mjs");
 const stdin = { contents: entry, resolveDir: root };
 await esbuild.build({ stdin, bundle: true, platform: "node", format: "esm", outfile, logLevel: "error" });
-const { results, session, launch, page, process: processes } = await import(pathToFileURL(outfile).href);
+const { results, session, launch, page, picture, stopped, where, process: processes } = await import(pathToFileURL(outfile).href);
 
 let done = 0;
 const test = async (name, work) => {
@@ -68,13 +68,89 @@ await test("launches", () => {
   }
 });
 
-await test("nothing of a picture is a part of the page", () => {
-  const evil = "<svg><script>alert(1)</script></svg>";
-  const html = page.page([{ name: "\"><script>", svg: evil }], "abc");
-  assert.ok(!html.includes("<script") && html.includes("default-src 'none'") && html.includes("style-src 'nonce-abc'"));
-  assert.ok(html.includes(Buffer.from(evil).toString("base64")));
-  assert.ok(page.failed("<b>$& no</b>", "n").includes("<pre>&#60;b&#62;$&#38; no"));
-  assert.ok(page.page([], "n").includes("nothing to draw"));
+await test("pages run their own scripts alone", () => {
+  const chart = page.chartPage('x"><script>', "abc");
+  assert.ok(chart.includes("default-src 'none'") && chart.includes("script-src 'nonce-abc'") && !chart.includes("<script>"), chart);
+  assert.ok(page.failedPage("<b>$& no</b>", "n").includes("<pre>&#60;b&#62;$&#38; no"));
+  const html = '<html>\n<head>\n<meta name="color-scheme" content="light dark"/>\n<style>\n@media (prefers-color-scheme: dark) { a {} }</style></head>' +
+    "<body><p>&lt;script&gt;</p><scripted/><script type=\"application/json\">{}</script><script>\nrun()</script></body></html>";
+  const dark = page.reportPage(html, "abc", "dark");
+  assert.equal([...dark.matchAll(/<(script|style)[ >]/g)].length, [...dark.matchAll(/<(script|style) nonce="abc"/g)].length);
+  assert.ok(dark.includes('content="dark"/>') && dark.includes("@media all { a {} }") && dark.includes("<scripted/>"), dark);
+  assert.ok(dark.indexOf("Content-Security-Policy") < dark.indexOf("<style"), dark);
+  assert.ok(page.reportPage(html, "abc", "light").includes("@media not all { a {} }"));
+  assert.ok(page.reportPage("<script>alert(1)</script>", "abc", "light").includes("no page of a report"));
+});
+
+await test("the program that comes with the extension", () => {
+  const all = () => true;
+  const none = () => false;
+  const own = path.join("/e", "bin", "groundstate");
+  assert.equal(where.where("", "/e", "linux", all), own);
+  assert.equal(where.where(undefined, "/e", "win32", all), path.join("/e", "bin", "groundstate.exe"));
+  assert.equal(where.where("", "/e", "linux", none), "groundstate");
+  assert.equal(where.where(" /opt/gs ", "/e", "linux", all), "/opt/gs");
+  assert.equal(where.where("groundstate", "/e", "linux", all), "groundstate");
+});
+
+const range = (line, start, endLine, end) => ({ start: { line, character: start }, end: { line: endLine, character: end } });
+const box = (id, range, nameRange = null) => ({ id, figure: "circle", label: "", x: 0, y: 0, width: 10, height: 10, range, nameRange });
+const drawings = [
+  {
+    name: "lamp", kind: "machine", title: "", range: range(1, 0, 9, 0), svg: "<svg/>",
+    picture: {
+      left: -1, top: 0, width: 20.2, height: 10,
+      boxes: [box("on", range(3, 1, 3, 20), range(3, 7, 3, 9)), box("off", range(4, 1, 6, 4)), box("inner", range(5, 2, 5, 8)), box("exit 1", null)],
+      lines: [{ from: 0, to: 1, points: [[0, 0], [1, 1]], range: range(7, 1, 7, 10) }],
+    },
+    lights: [{ term: "mode", shapes: [{ value: "ON", shape: "on" }, { value: "OFF", shape: "off" }] }, { term: "arm( $x )", shapes: [{ value: "UP", shape: "inner" }] }],
+  },
+];
+
+await test("the cursor is in the innermost part, and a part leads to its text", () => {
+  const check = (line, character, expect) => assert.deepEqual(picture.partsAt(drawings, { line, character }), expect.map((part) => ({ drawing: "lamp", ...part })));
+  check(3, 1, [{ shape: "on" }]);
+  check(3, 20, [{ shape: "on" }]);
+  check(3, 21, []);
+  check(5, 3, [{ shape: "inner" }]);
+  check(5, 9, [{ shape: "off" }]);
+  check(7, 5, [{ line: 0 }]);
+  check(0, 0, []);
+  assert.deepEqual(picture.textOf(drawings, { drawing: "lamp", shape: "on" }), range(3, 7, 3, 9));
+  assert.deepEqual(picture.textOf(drawings, { drawing: "lamp", shape: "off" }), range(4, 1, 6, 4));
+  assert.deepEqual(picture.textOf(drawings, { drawing: "lamp", line: 0 }), range(7, 1, 7, 10));
+  for (const part of [{ drawing: "lamp", shape: "exit 1" }, { drawing: "lamp", line: 7 }, { drawing: "none", shape: "on" }, { drawing: "lamp" }]) {
+    assert.equal(picture.textOf(drawings, part), null);
+  }
+  const { view, boxes, image } = picture.shown(drawings[0]);
+  assert.deepEqual([view, boxes.map(({ hasText }) => hasText)], [[-1, 0, 21, 10], [true, true, true, false]]);
+  assert.equal(image, `data:image/svg+xml;base64,${Buffer.from("<svg/>").toString("base64")}`);
+});
+
+await test("a state lights the shapes of its values", () => {
+  const lit = (state) => picture.lit(drawings, new Map(Object.entries(state))).map(({ shape, agents }) => [shape, agents]);
+  assert.deepEqual(lit({ mode: "ON", other: "OFF" }), [["on", []]]);
+  assert.deepEqual(lit({ "mode(a)": "ON", modes: "ON" }), []);
+  assert.deepEqual(lit({ "arm(LEFT)": "UP", "arm(RIGHT)": "UP", "arm(REST)": "DOWN" }), [["inner", ["LEFT", "RIGHT"]]]);
+  assert.deepEqual(lit({}), []);
+  assert.deepEqual([...picture.functionsOf(drawings)], ["mode", "arm"]);
+});
+
+await test("a stop of the debugger tells the values of the functions that are wanted", async () => {
+  const asked = [];
+  const variables = {
+    1: [{ name: "mode", evaluateName: "mode", value: "ON", variablesReference: 0 }, { name: "arm", value: "(Side) → Arm", variablesReference: 3 }, { name: "other", value: "", variablesReference: 4 }],
+    3: [{ name: "arm(LEFT)", evaluateName: "arm(LEFT)", value: "UP", variablesReference: 0 }],
+  };
+  const ask = async (command, { variablesReference }) => {
+    asked.push(variablesReference ?? command);
+    if (command === "scopes") return { scopes: [{ name: "Asked for", variablesReference: 9 }, { name: "Controlled", variablesReference: 1 }] };
+    return { variables: variables[variablesReference] };
+  };
+  assert.deepEqual([...(await stopped.stateOf(ask, new Set(["mode", "arm"])))], [["mode", "ON"], ["arm(LEFT)", "UP"]]);
+  assert.deepEqual(asked, ["scopes", 1, 3]);
+  assert.equal((await stopped.stateOf(ask, new Set())).size, 0);
+  assert.equal((await stopped.stateOf(async () => undefined, new Set(["mode"]))).size, 0);
 });
 
 const at = (line, uri = "file:///L.asm") => ({ uri, range: { start: { line, character: 0 }, end: { line, character: 1 } } });
@@ -186,16 +262,16 @@ await test("a search is stopped", async () => {
   assert.notEqual(ended.code, 0);
 });
 
-await test("pictures of a chart", async () => {
-  const out = path.join(folder, "pictures");
-  fs.mkdirSync(out);
-  const chart = path.join(root, "../../examples/micro_assembly/AssemblySystem.chart");
-  for (const theme of ["light", "dark"]) {
-    const ended = await processes.run(program, ["chart", "draw", "--theme", theme, "-o", out, chart], out, () => {});
-    assert.equal(ended.code, 0, ended.errors);
-  }
-  const pictures = fs.readdirSync(out).map((name) => ({ name, svg: fs.readFileSync(path.join(out, name), "utf8") }));
-  assert.ok(pictures.length > 0 && page.page(pictures, "n").includes("data:image/svg+xml;base64,"));
+await test("the page of a report", async () => {
+  const out = path.join(folder, "report.html");
+  const ended = await processes.run(program, ["report", "--random", "--steps", "50", "-o", out, model], folder, () => {});
+  assert.equal(ended.code === 0 || ended.code === 1, true, ended.errors);
+  const written = fs.readFileSync(out, "utf8");
+  // Scripts and styles are elements: nothing of the page would be stopped by a policy that knows their nonce alone.
+  assert.ok(!/\son\w+=/.test(written.replace(/<script[\s\S]*?<\/script>/g, "")) && !/\sstyle="/.test(written.replace(/<script[\s\S]*?<\/script>/g, "")));
+  assert.ok(!/(src|href)="(https?:)?\/\//.test(written));
+  const html = page.reportPage(written, "n0", "dark");
+  assert.ok(!/prefers-color-scheme/.test(html) && /<script nonce="n0" type="application\/json"/.test(html));
 });
 
 // Messages with a length, as both protocols have them.
@@ -261,6 +337,21 @@ await test("a session over the language server", async () => {
   assert.deepEqual([fault.line, fault.uri], [6, pathToFileURL(bad).href]);
   await one.close();
   await assert.rejects(one.open(pathToFileURL(path.join(folder, "None.asm")).href));
+  // The pictures of a chart in both colours, with the places of their shapes.
+  const chart = path.join(root, "../../examples/micro_assembly/AssemblySystem.chart");
+  const textDocument = { uri: pathToFileURL(chart).href };
+  const [light, dark] = [await ask("groundstate/chart/picture", { textDocument, theme: "light" }), await ask("groundstate/chart/picture", { textDocument, theme: "dark" })];
+  assert.ok(light.version === picture.VERSION && light.drawings.length > 0 && light.drawings.every(({ svg }) => svg.startsWith("<svg")));
+  assert.notEqual(light.drawings[0].svg, dark.drawings[0].svg);
+  const { left, top, width, height } = light.drawings[0].picture;
+  assert.ok(light.drawings[0].svg.includes(`viewBox="${[left, top, Math.ceil(width), Math.ceil(height)].join(" ")}"`), light.drawings[0].svg.slice(0, 300));
+  for (const { name, picture: { boxes } } of light.drawings) {
+    for (const { id, nameRange } of boxes.filter((one) => one.nameRange)) {
+      assert.ok(picture.partsAt(light.drawings, nameRange.start).some((part) => part.drawing === name && part.shape === id), id);
+    }
+  }
+  assert.equal((await ask("groundstate/chart/picture", { textDocument })).drawings[0].svg, undefined);
+  await assert.rejects(ask("groundstate/chart/picture", { textDocument, theme: "pink" }), /light or dark/);
   await ask("shutdown", null);
   server.send({ jsonrpc: "2.0", method: "exit", params: null });
   assert.equal(await server.ended, 0);

@@ -9,7 +9,7 @@ import { fileURLToPath, pathToFileURL } from "node:url";
 const disposable = { dispose() {} };
 const never = () => disposable;
 
-export const seen = { commands: new Map(), trees: new Map(), errors: [], debugged: [], notes: [], panels: [], runs: [] };
+export const seen = { commands: new Map(), configuration: {}, trees: new Map(), errors: [], debugged: [], notes: [], panels: [], runs: [] };
 export const answers = [];
 export const active = { file: undefined };
 export const folder = { path: "." };
@@ -20,6 +20,9 @@ export class Uri {
   }
   static file(file) {
     return new Uri("file", file);
+  }
+  static joinPath(base, ...parts) {
+    return Uri.file(path.join(base.fsPath, ...parts));
   }
   static parse(text) {
     return text.startsWith("file:") ? new Uri("file", fileURLToPath(text)) : new Uri(text.split(":")[0], text);
@@ -34,15 +37,22 @@ export class Range {
     [this.start, this.end] = places;
   }
 }
-export class Selection extends Range {}
+export class Selection extends Range {
+  get active() {
+    return this.end;
+  }
+}
 export class Location {
   constructor(uri, range) {
     Object.assign(this, { uri, range });
   }
 }
 export class EventEmitter {
-  event = () => disposable;
-  fire() {}
+  heard = [];
+  event = (work) => (this.heard.push(work), disposable);
+  fire() {
+    this.heard.forEach((work) => work());
+  }
 }
 export class TreeItem {
   constructor(label, state) {
@@ -91,7 +101,7 @@ export const TestRunProfileKind = { Run: 1, Debug: 2, Coverage: 3 };
 export const TaskScope = { Workspace: 2 };
 export const ProgressLocation = { Notification: 15 };
 export const ColorThemeKind = { Light: 1, Dark: 2, HighContrast: 3 };
-export const ViewColumn = { Beside: -2 };
+export const ViewColumn = { Beside: -2, Active: -1, One: 1 };
 export const TextEditorRevealType = { InCenterIfOutsideViewport: 2 };
 
 const editor = () => {
@@ -100,6 +110,13 @@ const editor = () => {
   const lineAt = (line) => ({ range: new Range(line, 0, line, lines[line].length) });
   return {
     document: { uri: Uri.file(active.file), lineCount: lines.length, lineAt },
+    viewColumn: 1,
+    get selection() {
+      return active.selection ?? { active: { line: 0, character: 0 } };
+    },
+    set selection(chosen) {
+      active.selection = chosen;
+    },
     setDecorations: (style, options) => options.forEach((one) => seen.notes.push([one.range.end.line, one.renderOptions.after.contentText])),
     revealRange() {},
   };
@@ -126,7 +143,13 @@ export const window = {
     return tree;
   },
   createWebviewPanel: (kind, title, where, options) => {
-    const panel = { title, options, webview: { html: "" }, onDidDispose: never, reveal() {} };
+    const panel = { title, options, told: [], onDidDispose: never, reveal() {} };
+    panel.webview = {
+      html: "",
+      asWebviewUri: (uri) => uri,
+      postMessage: async (message) => panel.told.push(message),
+      onDidReceiveMessage: (work) => ((panel.say = work), disposable),
+    };
     seen.panels.push(panel);
     return panel;
   },
@@ -135,6 +158,7 @@ export const window = {
   showTextDocument: async (uri) => ((active.file = uri.fsPath), editor()),
   withProgress: (options, work) => work({ report() {} }, { onCancellationRequested: never }),
   onDidChangeVisibleTextEditors: never,
+  onDidChangeTextEditorSelection: (work) => ((seen.moved = work), disposable),
   onDidChangeActiveTextEditor: never,
   onDidChangeActiveColorTheme: never,
 };
@@ -143,18 +167,21 @@ export const workspace = {
     return [{ uri: Uri.file(folder.path) }];
   },
   textDocuments: [],
-  getConfiguration: () => ({ get: () => process.env.GROUNDSTATE }),
+  getConfiguration: () => ({ get: (key) => (key === "path" ? process.env.GROUNDSTATE : seen.configuration[key]) }),
   getWorkspaceFolder: () => undefined,
   asRelativePath: (uri) => path.relative(folder.path, uri.fsPath),
   findFiles: async () => fs.readdirSync(folder.path).filter((name) => name.endsWith(".avalla")).map((name) => Uri.file(path.join(folder.path, name))),
   fs: { readFile: async (uri) => fs.readFileSync(uri.fsPath) },
   createFileSystemWatcher: () => ({ onDidCreate: never, onDidChange: never, onDidDelete: never, dispose() {} }),
+  onDidChangeTextDocument: (work) => ((seen.typed = work), disposable),
   onDidSaveTextDocument: (work) => ((seen.saved = work), disposable),
   onDidChangeConfiguration: never,
 };
 export const debug = {
   registerDebugAdapterDescriptorFactory: (type, factory) => ((seen.adapter = factory), disposable),
   registerDebugConfigurationProvider: (type, provider) => ((seen.configurations = provider), disposable),
+  registerDebugAdapterTrackerFactory: (type, factory) => ((seen.tracker = factory), disposable),
+  onDidTerminateDebugSession: (work) => ((seen.terminated = work), disposable),
   startDebugging: async (where, configuration) => (seen.debugged.push(configuration), true),
 };
 export const tasks = { registerTaskProvider: (type, provider) => ((seen.tasks = provider), disposable) };

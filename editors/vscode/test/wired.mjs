@@ -38,6 +38,7 @@ class LanguageClient {
         this.waiting.splice(0).forEach((go) => go());
       }
     });
+    LanguageClient.last = this;
     await this.sendRequest("initialize", { processId: null, capabilities: {} });
     this.write({ method: "initialized", params: {} });
   }
@@ -107,7 +108,7 @@ const opens = "scenario opens\nload Door.asm\nset key := true;\nstep\ncheck door
 file("Opens.avalla", opens);
 file("Shuts.avalla", `${opens.replace("opens", "shuts").replace("= OPEN", "= SHUT")}`);
 
-const context = { subscriptions: [] };
+const context = { subscriptions: [], extensionPath: root, extensionUri: vscode.Uri.file(root) };
 await activate(context);
 const command = (name, ...words) => seen.commands.get(`groundstate.${name}`)(...words);
 const rows = (id) => {
@@ -176,6 +177,9 @@ await command("verification.debug", ...violated.command.arguments);
 const counterexample = seen.debugged.pop();
 assert.ok(fs.existsSync(counterexample.program), counterexample.program);
 await command("verification.reveal", ...violated.command.arguments);
+await command("verification.page", ...violated.command.arguments);
+assert.equal(seen.panels.at(-1).title, "inv_turns: counterexample");
+assert.ok(seen.panels.at(-1).webview.html.includes("<script nonce="), seen.panels.at(-1).webview.html.slice(0, 500));
 const broken = file("Broken.asm", "asm Broken\n");
 await command("verify", pathToFileURL(broken).href);
 assert.deepEqual(rows("groundstate.verification"), []);
@@ -196,14 +200,94 @@ for (const name of fs.readdirSync(examples).filter((name) => /\.(asm|chart)$/.te
 }
 active.file = chart;
 await command("preview");
-const [panel] = seen.panels;
-assert.equal(panel.options.enableScripts, false);
-assert.ok(panel.webview.html.includes("data:image/svg+xml"), panel.webview.html);
-fs.writeFileSync(chart, "chart <b>");
-await seen.saved({ uri: vscode.Uri.file(chart) });
-assert.ok(panel.webview.html.includes("<pre>") && !panel.webview.html.includes("<b>"), panel.webview.html);
+const panel = seen.panels.at(-1);
+const nonce = /script-src 'nonce-(\w+)'/.exec(panel.webview.html)[1];
+assert.ok(panel.webview.html.includes(`<script nonce="${nonce}" src="`) && !panel.webview.html.includes("unsafe"), panel.webview.html);
+const last = (kind) => panel.told.filter((message) => message.kind === kind).at(-1);
+const until = async (held, what) => {
+  for (let tries = 0; !held(); tries += 1) {
+    assert.ok(tries < 400, what);
+    await new Promise((go) => setTimeout(go, 20));
+  }
+};
+const drawn = last("drawings");
+assert.ok(drawn.drawings.length > 0 && drawn.drawings.every(({ image }) => image.startsWith("data:image/svg+xml;base64,")));
+// The cursor in a shape's text lights it; a click on it leads to its text.
+const source = fs.readFileSync(chart, "utf8").split("\n");
+const line = source.findIndex((text) => /^\s*component\s+\w+/.test(text));
+const [, shape] = /component\s+(\w+)/.exec(source[line]);
+active.selection = { active: { line, character: source[line].indexOf(shape) + 1 } };
+seen.moved({ textEditor: vscode.window.activeTextEditor });
+assert.deepEqual(last("marks").cursor.map((part) => part.shape), [shape]);
+assert.equal(last("marks").follow, true);
+active.selection = undefined;
+panel.say({ kind: "go", part: { drawing: last("marks").cursor[0].drawing, shape } });
+await until(() => active.selection, "the click leads nowhere");
+assert.equal(active.selection.start.line, line);
+assert.equal(source[line].slice(active.selection.start.character, active.selection.end.character), shape);
+panel.say({ kind: "go", part: { drawing: "nothing", shape } });
+// What is typed is drawn without being saved; a text with faults is drawn as far as it can be read.
+const client = globalThis.StandInClient.last;
+const document = { uri: vscode.Uri.file(chart) };
+const typed = async (version, text) => {
+  const before = panel.told.filter(({ kind }) => kind === "drawings").length;
+  const method = version === 1 ? "textDocument/didOpen" : "textDocument/didChange";
+  const textDocument = { uri: document.uri.toString(), languageId: "groundstate-chart", version, text };
+  client.write({ method, params: version === 1 ? { textDocument } : { textDocument, contentChanges: [{ text }] } });
+  seen.typed({ document });
+  await until(() => panel.told.filter(({ kind }) => kind === "drawings").length > before, "nothing was drawn anew");
+};
+await typed(1, "chart Small\nmachine lamp\n\tcontrol {door}\n\tinitial state open \"Open\" {OPEN}\n\tstate shut \"Shut\" {SHUT}\n\topen -> shut\n\tshut -> open\nendmachine\n");
+assert.deepEqual(last("drawings").drawings.map(({ name, boxes }) => [name, boxes.map(({ id }) => id).filter((id) => /open|shut/.test(id))]), [["lamp", ["open", "shut"]]]);
+await typed(2, "chart <b>\nmachine");
+assert.ok(!JSON.stringify(last("drawings").drawings).includes("<b>"));
+await typed(3, "chart Small\nmachine lamp\n\tcontrol {door}\n\tinitial state open \"Open\" {OPEN}\n\tstate shut \"Shut\" {SHUT}\n\topen -> shut\n\tshut -> open\nendmachine\n");
+// A session of the state view lights the state that it is in, and none when it ends.
+const lights = () => last("marks").lit.map((part) => part.shape);
+active.file = model;
+await command("session.open");
+await until(() => lights().join() === "shut", "the state is not lit");
+answers.push("key", "true");
+await command("session.set");
+await command("session.step");
+const [taken] = rows("groundstate.state").filter(({ contextValue }) => contextValue === "offer");
+await command("session.take", ...taken.command.arguments);
+await until(() => lights().join() === "open", "the next state is not lit");
+await command("session.close");
+await until(() => lights().length === 0, "a state is lit although nothing runs");
+// So does a stop of the debugger.
+const debugging = {
+  id: "d1",
+  customRequest: async (word, { variablesReference }) => {
+    if (word === "scopes") return { scopes: [{ name: "Controlled", variablesReference: 1 }, { name: "Last updates", variablesReference: 2 }] };
+    return { variables: variablesReference === 1 ? [{ name: "door", evaluateName: "door", value: "OPEN", variablesReference: 0 }] : assert.fail("it was asked for updates") };
+  },
+};
+const tracker = seen.tracker.createDebugAdapterTracker(debugging);
+tracker.onDidSendMessage({ type: "event", event: "output" });
+tracker.onDidSendMessage({ type: "event", event: "stopped" });
+await until(() => lights().join() === "open", "a stop lights nothing");
+seen.terminated({ id: "other" });
+assert.deepEqual(lights(), ["open"]);
+seen.terminated(debugging);
+await until(() => lights().length === 0, "a state is lit although the debugger has ended");
+
+// The page of a run, and of the counterexample.
+active.file = model;
+seen.configuration["report.arguments"] = ["--random", "--steps", "20"];
+await command("report");
+const page = seen.panels.at(-1);
+assert.match(page.title, /^Door\.asm/);
+const own = /script-src 'nonce-(\w+)'/.exec(page.webview.html)[1];
+const elements = [...page.webview.html.matchAll(/<(?:script|style)\b[^>]*>/g)].map(([tag]) => tag);
+assert.ok(elements.length >= 3 && elements.every((tag) => tag.includes(`nonce="${own}"`)), elements.join("\n"));
+assert.notEqual(own, nonce);
+active.file = broken;
+const before = seen.errors.length;
+await command("report");
+assert.equal(seen.errors.length, before + 1);
 
 context.subscriptions.forEach((one) => one.dispose());
 await deactivate();
 fs.rmSync(folder.path, { recursive: true });
-console.log("tests, state, verification, debugger, tasks and charts do what they should, without VS Code");
+console.log("tests, state, verification, debugger, tasks, charts and reports do what they should, without VS Code");

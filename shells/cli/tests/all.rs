@@ -12,6 +12,8 @@ mod fmt;
 mod input_pages;
 mod interrupts;
 mod lsp;
+mod lsp_bad_input;
+mod lsp_disorder;
 mod refinements;
 mod schema;
 mod start;

@@ -8,7 +8,7 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 use serde_json::{Value, json};
 
-const LAMP: &str = "asm Lamp
+pub const LAMP: &str = "asm Lamp
 import StandardLibrary
 signature:
 	enum domain Light = {ON | OFF}
@@ -23,19 +23,19 @@ default init s0:
 ";
 
 /// An editor with its server.
-struct Editor {
+pub struct Editor {
     server: Child,
     input: ChildStdin,
     output: BufReader<ChildStdout>,
-    folder: PathBuf,
+    pub folder: PathBuf,
     /// Messages that came while another was waited for.
-    kept: Vec<Value>,
+    pub kept: Vec<Value>,
     next: i64,
 }
 
 impl Editor {
     /// Starts a server for a folder of its own with these files.
-    fn start(name: &str, files: &[(&str, &str)], client: Value, options: Value) -> Editor {
+    pub fn start(name: &str, files: &[(&str, &str)], client: Value, options: Value) -> Editor {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("lsp-{name}"));
         _ = std::fs::remove_dir_all(&folder);
         std::fs::create_dir_all(&folder).expect("a folder");
@@ -68,11 +68,11 @@ impl Editor {
         editor
     }
 
-    fn plain(name: &str, files: &[(&str, &str)]) -> Editor {
+    pub fn plain(name: &str, files: &[(&str, &str)]) -> Editor {
         Editor::start(name, files, json!({}), json!({}))
     }
 
-    fn uri(&self, file: &str) -> String {
+    pub fn uri(&self, file: &str) -> String {
         format!("file://{}/{file}", self.folder.display())
     }
 
@@ -82,12 +82,12 @@ impl Editor {
         self.input.flush().expect("the server reads");
     }
 
-    fn tell(&mut self, method: &str, params: Value) {
+    pub fn tell(&mut self, method: &str, params: Value) {
         self.send(&json!({ "jsonrpc": "2.0", "method": method, "params": params }));
     }
 
     /// Sends a request and does not wait for its answer.
-    fn request(&mut self, method: &str, params: Value) -> i64 {
+    pub fn request(&mut self, method: &str, params: Value) -> i64 {
         self.next += 1;
         let id = self.next;
         self.send(&json!({ "jsonrpc": "2.0", "id": id, "method": method, "params": params }));
@@ -123,17 +123,17 @@ impl Editor {
         }
     }
 
-    fn answer(&mut self, id: i64) -> Value {
+    pub fn answer(&mut self, id: i64) -> Value {
         self.wait(|message| message["id"] == id && message.get("method").is_none())
     }
 
-    fn ask(&mut self, method: &str, params: Value) -> Value {
+    pub fn ask(&mut self, method: &str, params: Value) -> Value {
         let id = self.request(method, params);
         self.answer(id)
     }
 
     /// The messages of the faults of a version of a file, once they are told.
-    fn faults(&mut self, file: &str, version: i64) -> Vec<String> {
+    pub fn faults(&mut self, file: &str, version: i64) -> Vec<String> {
         let uri = self.uri(file);
         let told = self.wait(|message| {
             message["method"] == "textDocument/publishDiagnostics"
@@ -144,24 +144,24 @@ impl Editor {
         faults.iter().map(|fault| fault["code"].as_str().unwrap_or_default().to_string()).collect()
     }
 
-    fn open(&mut self, file: &str, text: &str) {
+    pub fn open(&mut self, file: &str, text: &str) {
         let uri = self.uri(file);
         let document = json!({ "uri": uri, "languageId": "asmetal", "version": 1, "text": text });
         self.tell("textDocument/didOpen", json!({ "textDocument": document }));
     }
 
-    fn change(&mut self, file: &str, version: i64, change: Value) {
+    pub fn change(&mut self, file: &str, version: i64, change: Value) {
         let uri = self.uri(file);
         let document = json!({ "uri": uri, "version": version });
         self.tell("textDocument/didChange", json!({ "textDocument": document, "contentChanges": [change] }));
     }
 
-    fn at(&self, file: &str, line: u32, character: u32) -> Value {
+    pub fn at(&self, file: &str, line: u32, character: u32) -> Value {
         json!({ "textDocument": { "uri": self.uri(file) }, "position": { "line": line, "character": character } })
     }
 
     /// Ends the session as it should end.
-    fn end(mut self) {
+    pub fn end(mut self) {
         let answer = self.ask("shutdown", Value::Null);
         assert_eq!(answer["result"], Value::Null);
         let late = self.ask("textDocument/hover", json!({}));

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use chart::{Chart, End, Loaded, Machine, Part, ShapeKind};
-use draw::{Drawing, Figure, Picture, Placed, drawings};
+use draw::{Drawing, Figure, Picture, Placed, Theme, drawings};
 use groundstate::Kind;
 use ide::{Centre, Fresh, FreshKind, Joint, Operation};
 use lsp_server::ErrorCode;
@@ -53,6 +53,12 @@ pub fn answer(answers: &mut Answers, method: &str, params: &Value) -> Result<Val
 /// Where everything lies.
 fn picture(answers: &mut Answers, params: &Value) -> Result<Value, Refused> {
     let path = path_in(params)?;
+    let theme = match &params["theme"] {
+        Value::Null => None,
+        Value::String(word) if word == "light" => Some(Theme::Light),
+        Value::String(word) if word == "dark" => Some(Theme::Dark),
+        _ => return Err(wrong("`theme` is light or dark")),
+    };
     let loaded = answers.project.chart(&path).map_err(failed)?;
     let text = answers.project.text(&path).map_err(|absent| failed(absent.told(&path)))?.text;
     let parse = parse_chart(FileId(0), &text);
@@ -62,7 +68,13 @@ fn picture(answers: &mut Answers, params: &Value) -> Result<Value, Refused> {
     let mut problems: Vec<String> = Vec::new();
     for drawing in drawings(&loaded.chart) {
         match drawing.picture() {
-            Ok(picture) => drawn.push(view.drawing(&drawing, &picture)),
+            Ok(picture) => {
+                let mut told = view.drawing(&drawing, &picture);
+                if let Some(theme) = theme {
+                    told["svg"] = json!(drawing.svg(theme).unwrap_or_default());
+                }
+                drawn.push(told);
+            }
             Err(fault) => problems.push(format!("{} cannot be laid out: {fault}", drawing.name())),
         }
     }
