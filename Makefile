@@ -66,7 +66,7 @@ bench-studio: web/dist/index.html $(GROUNDSTATE) ## the studio's first picture, 
 	sh cpp/install.sh chromium
 	cd web && GROUNDSTATE=$(CURDIR)/$(GROUNDSTATE) npm run bench
 
-vscode: ## the extension for VS Code, checked and packed: editors/vscode/groundstate.vsix
+vscode: ## the extension for VS Code, checked and packed: editors/vscode/groundstate*.vsix
 	cd editors/vscode && npm ci --no-audit --no-fund && npm test && npm run package
 
 full: ## what is slow and rarely breaks, beside `make test`: larger samples, the oldest Rust, sanitizers, all robots, proofs, mutants

@@ -1,4 +1,4 @@
-// Packs the extension: for this platform with the program inside, if it was built (`make build`), else for all platforms without.
+// Packs the extension: for this platform with the program inside, if it was built (`cargo build --release -p cli`), else for all platforms without.
 //
 // `GROUNDSTATE_BINARY` names another program, `GROUNDSTATE_TARGET` another platform, as vsce calls them. The program is started first:
 // one that does not run is not packed.
