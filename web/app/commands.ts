@@ -40,8 +40,9 @@ export function jobsFor(studio: Studio, uri: string | null): { job: JobKind; act
   switch (file.kind) {
     case 'chart': {
       const verify = { job: 'verify' as const, act: () => (hasSystem(studio, file) ? start('verify') : onModel('verify')).act() }
+      const times = hasSystem(studio, file) ? [start('times')] : []
       const rest = studio.sibling(file, 'asm') ? [start('check'), onModel('test'), onModel('generate')] : []
-      return [...(studio.hello.readOnly ? [] : [start('build')]), verify, ...rest]
+      return [...(studio.hello.readOnly ? [] : [start('build')]), verify, ...times, ...rest]
     }
     case 'model':
       return [start('verify'), start('test'), start('review'), start('generate')]
@@ -88,6 +89,7 @@ export const jobIcons: Record<JobKind, string> = {
   check: 'compare',
   generate: 'code',
   review: 'search',
+  times: 'clock',
 }
 
 // Keys that work everywhere. Undo and redo reach the text of the file in front also from the canvas and the panels.

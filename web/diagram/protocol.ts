@@ -60,7 +60,7 @@ export interface Changed {
   text: string | null
 }
 
-export type JobKind = 'verify' | 'test' | 'build' | 'check' | 'generate' | 'review'
+export type JobKind = 'verify' | 'test' | 'build' | 'check' | 'generate' | 'review' | 'times'
 
 // Pictures of charts.
 

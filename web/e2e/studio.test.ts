@@ -300,6 +300,18 @@ test('a model is verified, and its counterexample plays', async () => {
   await shot(page, 'verdicts')
 })
 
+test('the times of a system are told as a table, with what cannot hold', async () => {
+  await open('examples/sorting_cell/SortingCell.chart')
+  await page.getByRole('button', { name: 'More to do with this file' }).click()
+  await page.getByRole('menuitem', { name: 'Times' }).click()
+  const row = page.locator('.times tr', { hasText: 'encoder' })
+  await row.waitFor({ timeout: 40_000 })
+  expect(await row.innerText()).toMatch(/1 ms\s+0.4 ms\s+0.40\s+0.2 ms\s+0.6 ms\s+1 ms\s+meets/)
+  await page.locator('.times tr', { hasText: 'classifier' }).getByText('8.6..20.6 ms').waitFor()
+  await page.locator('.fault-told', { hasText: 'more than there are' }).waitFor()
+  await shot(page, 'times')
+})
+
 test('differences between chart and model are shown on the shapes, failed checks in the scenario', async () => {
   await lamp()
   writeFileSync(path('Lamp.asm'), file('Lamp.asm').replace('light := ON', 'light := OFF'))

@@ -4,7 +4,8 @@ import { type ReactNode, useEffect, useState } from 'react'
 
 import { words } from '../words'
 import { Icon } from './icons'
-import { type Job, type LinePlace, type ScenarioResult, type ToldFault, type Verdict, faultLines, scenarios, verdicts } from './jobs'
+import { TimesTables } from './TimesTable'
+import { type Job, type LinePlace, type ScenarioResult, type ToldFault, type Verdict, faultLines, scenarios, timesOf, verdicts } from './jobs'
 import { useFrame } from './shown'
 import { useStore } from './store'
 import type { Studio } from './studio'
@@ -106,7 +107,8 @@ function Findings({ studio, job }: { studio: Studio; job: Job }): ReactNode {
   const found = verdicts(job)
   const played = scenarios(job)
   const faults = faultLines(job)
-  const rest = job.lines.filter((line) => typeof line === 'string' || !['verdict', 'scenario', 'summary', 'progress', 'fault'].includes(String(line['type'])))
+  const times = timesOf(job)
+  const rest = job.lines.filter((line) => typeof line === 'string' || !['verdict', 'scenario', 'summary', 'progress', 'fault', 'times'].includes(String(line['type'])))
   return (
     <>
       {job.running && <p className="faint-note doing">{words.check.doing[job.job]}</p>}
@@ -124,6 +126,7 @@ function Findings({ studio, job }: { studio: Studio; job: Job }): ReactNode {
           ))}
         </ul>
       )}
+      {times.length > 0 && <TimesTables all={times} />}
       {faults.length > 0 && (
         <ul className="verdicts">
           {faults.map((fault, index) => (

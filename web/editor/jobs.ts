@@ -199,6 +199,40 @@ export interface ScenarioResult {
   faults: ToldFault[]
 }
 
+export interface TaskTimes {
+  name: string
+  priority: number
+  period_ns: number | null
+  execution_ns: [number, number]
+  load: number | null
+  blocking_ns: number | null
+  response_ns: number | null
+  deadline_ns: number | null
+  verdict: string | null
+  reason: string | null
+}
+
+export interface AgeTimes {
+  from: string
+  to: string
+  limit_ns: number
+  most_ns: number | null
+  within: boolean | null
+  reason: string | null
+}
+
+// What the analysis of a system's times says; docs/json.md.
+export interface SystemTimes {
+  system: string
+  processors: number
+  load: number
+  tasks: TaskTimes[]
+  ages: AgeTimes[]
+}
+
+export const timesOf = (job: Job): SystemTimes[] =>
+  job.lines.filter((line) => typeof line === 'object' && line['type'] === 'times') as unknown as SystemTimes[]
+
 const isFault = (line: unknown): line is ToldFault =>
   typeof line === 'object' && line !== null && (line as { type?: unknown }).type === 'fault' && typeof (line as ToldFault).file === 'string'
 

@@ -136,12 +136,14 @@ pub fn words(job: &str, path: &str, options: &Value) -> Result<Vec<String>, Stri
         "verify" if is_chart || kind == Some(Kind::Model) => &["verify"],
         "test" if path.is_empty() || matches!(kind, Some(Kind::Scenario | Kind::Model)) => &["test"],
         "check" if is_chart => &["chart", "check"],
+        "times" if is_chart => &["chart", "times"],
         "check" => &["check"],
         "build" if is_chart => &["chart", "build"],
         "generate" if is_chart || kind == Some(Kind::Model) => &["generate", "cpp"],
         "review" if kind == Some(Kind::Model) => &["review"],
-        "verify" | "test" | "build" | "generate" | "review" => {
-            return Err(format!("there is nothing to {job} in {path}"));
+        "verify" | "test" | "build" | "generate" | "review" | "times" => {
+            let what = if job == "times" { "time" } else { job };
+            return Err(format!("there is nothing to {what} in {path}"));
         }
         _ => return Err(format!("`{}` is no job", job.escape_debug())),
     };
@@ -280,6 +282,11 @@ mod tests {
             check("build", "--help.chart", json!({})),
             Ok("chart build ./--help.chart --within . --format json".into())
         );
+        assert_eq!(
+            check("times", "a.chart", json!({})),
+            Ok("chart times ./a.chart --within . --format json".into())
+        );
+        assert_eq!(check("times", "a.asm", json!({})), Err("there is nothing to time in a.asm".into()));
         assert_eq!(check("test", "", json!({})), Ok("test ./ --within . --format json".into()));
         assert_eq!(check("build", "a.asm", json!({})), Err("there is nothing to build in a.asm".into()));
         assert_eq!(check("rm -rf", "a.asm", json!({})), Err("`rm -rf` is no job".into()));
