@@ -120,6 +120,7 @@ cpp-full: ## the same by clang++, and under AddressSanitizer and UndefinedBehavi
 systems: $(TESTED) ## programs generated from systems: run, held to their models, with faults put in
 	sh cpp/systems/run.sh $(TESTED)
 	sh examples/sorting_cell/check.sh $(TESTED)
+	sh examples/machines.sh $(TESTED)
 
 robot: $(TESTED) ## the case study's robot: servo law, vision, the controller in closed loop, held to its model
 	sh examples/robot.sh $(TESTED) visual_servoing

@@ -66,7 +66,7 @@ object_tracking() {
 }
 pick_and_place() {
     record pick_and_place --virtual 1s
-    hold 0 pick_and_place/PlacingSystem.asm run.mcap "conforms"
+    hold 0 pick_and_place/PlacingSystem.asm run.mcap "decisions are those of the components' machines"
 }
 micro_assembly() {
     record micro_assembly --virtual 1s

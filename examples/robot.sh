@@ -13,6 +13,7 @@ needed="cmake ninja-build libgtest-dev libeigen3-dev liborocos-kdl-dev libcli11-
 build=../target/cpp/robot
 # shellcheck disable=SC2086 # several words
 if [ $# -gt 0 ]; then
+    sh generated.sh "$groundstate" "$@"
     sh ../cpp/install.sh $needed
     cmake -S . -B "$build" -G Ninja -DGROUNDSTATE_WITHOUT_VISP=ON >/dev/null
     targets="robotics_tests robotics_allocation_test recorded_dots"
@@ -31,6 +32,7 @@ fi
 # shellcheck disable=SC2086
 sh ../cpp/install.sh $needed libvisp-vs-dev
 set -- visual_servoing object_tracking pick_and_place micro_assembly
+sh generated.sh "$groundstate" "$@"
 cmake -S . -B "$build" -G Ninja -DGROUNDSTATE_WITHOUT_VISP=OFF >/dev/null
 cmake --build "$build" -- --quiet
 ctest --test-dir "$build" --output-on-failure

@@ -1,4 +1,5 @@
-// What the channels of PlacingSystem.chart carry: a struct for each, of its name. SI units, radians, the base's frame.
+// What the channels of PlacingSystem.chart carry that have no domain there: a struct for each, of its name. SI units, radians,
+// the base's frame. What the others carry is generated.
 #pragma once
 
 #include <array>
@@ -22,39 +23,16 @@ struct Image {
     std::int64_t captured_ns = 0;
 };
 
-/// Where parts lie on the table.
+/// Where the nearest part lies that is not in the row; if there is none, where the last one lay.
 struct Parts {
-    static constexpr std::size_t most = 8;
-    std::array<Place, most> places{};
-    std::size_t count = 0;
-    std::int64_t captured_ns = 0;
+    Place nearest{};
 };
 
-/// What the robot is to do next: bring the tool to a place above the table, or close or open the jaw.
-struct Moves {
-    enum class Kind : std::uint8_t { go, close, open };
-    std::int64_t number = 0;  ///< from 1 on
-    Kind kind = Kind::go;
+/// Where a move of the tool ends.
+struct Target {
+    std::int64_t number = -1;  ///< of the move
     Place place{};
     double height = 0;
-};
-
-/// How far the robot is.
-struct Progress {
-    std::int64_t done = 0;  ///< the number of the last move done
-    bool holds = false;     ///< something is in the jaw
-    std::int64_t at_ns = 0;
-};
-
-struct JawOrder {
-    bool closed = false;
-};
-
-/// What the jaw says.
-struct Grip {
-    bool closed = false;  ///< it has come to its end
-    bool open = false;
-    bool holds = false;
 };
 
 struct EncoderToRobot {
@@ -73,8 +51,8 @@ struct RobotToMotor {
     std::int64_t set_ns = 0;
 };
 
-inline bool valid(const Moves& move) noexcept {
-    return std::isfinite(move.place.x) && std::isfinite(move.place.y) && std::isfinite(move.height);
+inline bool valid(const Target& target) noexcept {
+    return std::isfinite(target.place.x) && std::isfinite(target.place.y) && std::isfinite(target.height);
 }
 
 inline bool valid(const RobotToMotor& datum) noexcept {

@@ -1,8 +1,7 @@
-// What the components do: finding parts, planning, moving, gripping.
+// What the components do beside what their machines decide: pictures, places, motion.
 //
-// The planner sends one move at a time, and the next when the robot has reported it done: above the part, down, close, up,
-// above its place, down, open, up. If nothing is in the jaw after `up`, the part is looked for again. A robot without a
-// move stands; a motor without a fresh set-point brakes.
+// Which move comes next, when it is done, and what the jaw is to do is in Planner.asm, Robot.asm and Gripper.asm. Here is where
+// the moves lead, and how the arm gets there. A robot without a move stands; a motor without a fresh set-point brakes.
 #pragma once
 
 #include <functional>
@@ -13,7 +12,7 @@
 #include <groundstate/servo/visual_servo.hpp>
 #include <groundstate/vision/disc_detector.hpp>
 
-#include "generated/placing_system.hpp"
+#include "generated/placing_system_machines.hpp"
 #include "table.hpp"
 
 namespace placing_system {
@@ -36,69 +35,67 @@ class PartFinder final : public Vision {
 
   private:
     groundstate::vision::DiscDetector detector_{640, 480, {.dark = false, .least_area = 40}};
+    Place last_{};
 };
 
 /// A move, and when it was sent.
 struct Sent {
     std::int64_t at_ns = 0;
-    Moves move{};
+    Move move{};
+    Target target{};
 };
 
-class PlacePlanner final : public Planner {
+/// The machine says which move is next; here is where it leads.
+class PlacePlanner final : public PlannerMachine {
   public:
     /// Where the parts are to go, in this order.
     PlacePlanner(Now now, std::vector<Place> row) : now_{std::move(now)}, row_{std::move(row)} { sent_.reserve(1000); }
     bool plan(const Cycle& cycle, const In& in, Out& out) override;
 
-    std::size_t placed() const noexcept { return placed_; }
+    std::size_t placed() const noexcept { return static_cast<std::size_t>(machine().placed()); }
+    /// Grips after which nothing was in the jaw.
     long missed() const noexcept { return missed_; }
     /// The first thousand moves.
     const std::vector<Sent>& sent() const noexcept { return sent_; }
 
   private:
-    enum class Step { look, over, down, close, up, carry, lower, open, rise, aside };
-
-    bool choose(const Parts& parts);
-    Moves move() const;
-    void next(const Progress& progress);
-
     Now now_;
     std::vector<Place> row_;
     std::vector<Sent> sent_{};
-    std::size_t placed_ = 0;
     long missed_ = 0;
-    Step step_ = Step::look;
     Place part_{};
-    std::int64_t number_ = 0;
-    bool waits_ = false;  ///< for a move to be done
-    std::int64_t free_ns_ = 0;  ///< images from then on show the table without the arm's last part
+    Target target_{};
 };
 
-class ToolMover final : public Robot {
+/// The machine says what is to be done; the tool goes straight to where the move leads.
+class ToolMover final : public RobotMachine {
   public:
     ToolMover(Now now, const groundstate::kinematics::ArmModel& arm)
         : now_{std::move(now)}, motion_{arm, {.most_acceleration = 3}} {}
     bool control(const Cycle& cycle, const In& in, Out& out) override;
+    /// Whether the last cycle left the tool where its move leads.
+    bool arrived(const Cycle&) override { return arrived_; }
 
   private:
-    bool go(const Joints& measured, double dt);
+    bool go(const Joints& measured, const Target& target, double dt);
 
     Now now_;
     groundstate::kinematics::CameraMotion motion_;
-    Moves move_{};
-    std::int64_t done_ = 0;
-    bool closed_ = false;
+    bool arrived_ = false;
     std::int64_t last_ns_ = -1;
 };
 
-class JawController final : public Gripper {
+/// Between the machine and the jaw: its sensor and its valve.
+class JawController final : public GripperMachine {
   public:
-    using Jaw = std::function<Grip(bool closed)>;
-    explicit JawController(Jaw jaw) : jaw_{std::move(jaw)} {}
-    bool close(const Cycle& cycle, const In& in, Out& out) override;
+    using Ask = std::function<Feel(bool closed)>;
+    explicit JawController(Ask ask) : ask_{std::move(ask)} {}
+    Feel jaw(const Cycle&) override { return ask_(closed_); }
+    void valve(const Cycle&, bool closed) override { closed_ = closed; }
 
   private:
-    Jaw jaw_;
+    Ask ask_;
+    bool closed_ = false;
 };
 
 class JointDrives final : public Motor {

@@ -13,13 +13,13 @@ using groundstate::closed_loop::Json;
 
 namespace {
 
-const char* text(Moves::Kind kind) {
-    switch (kind) {
-        case Moves::Kind::go: return "go";
-        case Moves::Kind::close: return "close";
-        case Moves::Kind::open: return "open";
+const char* text(Move move) {
+    switch (move) {
+        case Move::CLOSE: return "close";
+        case Move::OPEN:
+        case Move::REOPEN: return "open";
+        default: return "go";
     }
-    return "";
 }
 
 void write_places(Json& json, const char* name, const std::vector<Place>& places) {
@@ -32,9 +32,9 @@ void write_columns(Json& json, const LoopSettings& settings, const Loop& loop) {
     json.column("t_s", loop.sent, [&](Json& j, const Sent& sent) {
         j.number(groundstate::closed_loop::seconds(sent.at_ns - loop.origin_ns));
     });
-    json.column("kind", loop.sent, [](Json& j, const Sent& sent) { j.text(text(sent.move.kind)); });
+    json.column("kind", loop.sent, [](Json& j, const Sent& sent) { j.text(text(sent.move)); });
     json.column("place_m", loop.sent, [](Json& j, const Sent& sent) {
-        j.numbers(std::array<double, 3>{sent.move.place.x, sent.move.place.y, sent.move.height});
+        j.numbers(std::array<double, 3>{sent.target.place.x, sent.target.place.y, sent.target.height});
     });
     json.close('}');
     json.key("end").open('{');

@@ -75,7 +75,7 @@ void Table::drive(std::int64_t now_ns, const Joints& velocity) {
     }
 }
 
-Grip Table::jaw(std::int64_t now_ns, bool closed) {
+Feel Table::jaw(std::int64_t now_ns, bool closed) {
     const std::lock_guard guard{mutex_};
     pass_until(now_ns);
     if (closed != ordered_closed_) {
@@ -102,7 +102,13 @@ Grip Table::jaw(std::int64_t now_ns, bool closed) {
             }
         }
     }
-    return {.closed = closed && is_there, .open = !closed && is_there, .holds = held_ >= 0};
+    if (!is_there) {
+        return Feel::BETWEEN;
+    }
+    if (!closed) {
+        return Feel::WIDE;
+    }
+    return held_ >= 0 ? Feel::AROUND : Feel::SHUT;
 }
 
 std::vector<Place> Table::parts() {

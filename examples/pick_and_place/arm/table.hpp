@@ -13,6 +13,7 @@
 #include <groundstate/simulated/scene.hpp>
 
 #include "data.hpp"
+#include "generated/messages.hpp"
 
 namespace placing_system {
 
@@ -38,7 +39,8 @@ class Table {
     // Who: everybody.
     Joints measured(std::int64_t now_ns);
     void drive(std::int64_t now_ns, const Joints& velocity);
-    Grip jaw(std::int64_t now_ns, bool closed);
+    /// The jaw, whose valve closes it or not: what its sensor feels.
+    Feel jaw(std::int64_t now_ns, bool closed);
     std::vector<Place> parts();
     long slips() const noexcept { return slips_; }
 
