@@ -282,10 +282,7 @@ mod tests {
             check("build", "--help.chart", json!({})),
             Ok("chart build ./--help.chart --within . --format json".into())
         );
-        assert_eq!(
-            check("times", "a.chart", json!({})),
-            Ok("chart times ./a.chart --within . --format json".into())
-        );
+        assert_eq!(check("times", "a.chart", json!({})), Ok("chart times ./a.chart --within . --format json".into()));
         assert_eq!(check("times", "a.asm", json!({})), Err("there is nothing to time in a.asm".into()));
         assert_eq!(check("test", "", json!({})), Ok("test ./ --within . --format json".into()));
         assert_eq!(check("build", "a.asm", json!({})), Err("there is nothing to build in a.asm".into()));
