@@ -36,6 +36,18 @@ pub struct Settings {
     pub unordered: Arc<[bool]>,
 }
 
+impl Settings {
+    /// The conditions on steps with their numbers, in the order in which they are evaluated: assumptions first, since a step that
+    /// they exclude counts for nothing else.
+    pub(crate) fn checks_of_steps(&self) -> impl Iterator<Item = (u32, &Expression, bool)> {
+        let of = |wanted: bool| {
+            let numbered = (0..).zip(&self.step_conditions).filter(move |(_, (_, assumed))| *assumed == wanted);
+            numbered.map(|(index, (formula, assumed))| (index, formula, *assumed))
+        };
+        of(true).chain(of(false))
+    }
+}
+
 /// Why there is no explorer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Trouble {

@@ -110,7 +110,15 @@ fn step(machine: &mut Machine, settings: &Settings, told: &Told, ends: Option<Ta
             }
             None
         }
-        Err(fault) => Some(fault),
+        Err(fault) => {
+            let mut assumptions = settings.step_conditions.iter().filter(|(_, assumed)| *assumed);
+            let mut holds =
+                |formula| !matches!(machine.evaluate(formula, &mut given), Ok(value) if value != Value::Boolean(true));
+            if !assumptions.all(|(formula, _)| holds(formula)) {
+                return false;
+            }
+            Some(fault)
+        }
     };
     if !same_inputs(machine) {
         return false;

@@ -38,7 +38,8 @@ pub(crate) struct Compiled {
     codecs: Vec<Codec>,
     /// By word of a packed state, the fields in it.
     fields: Vec<Vec<usize>>,
-    step_conditions: Vec<(Expression, bool)>,
+    /// In the order of their evaluation.
+    step_conditions: Vec<(u32, Expression, bool)>,
     /// The packed state that the machine is in.
     loaded: Vec<u64>,
     /// What stands in the fields of the inputs that initial states keep where none is kept.
@@ -105,7 +106,10 @@ impl Compiled {
             branches,
             encoding: Arc::clone(encoding),
             view,
-            step_conditions: settings.step_conditions.clone(),
+            step_conditions: settings
+                .checks_of_steps()
+                .map(|(index, formula, assumed)| (index, formula.clone(), assumed))
+                .collect(),
             loaded: first,
             asks_all,
             touched,
@@ -157,11 +161,11 @@ impl Compiled {
             return Step::Unknown;
         }
         self.failed.clear();
-        for (index, (formula, assumed)) in self.step_conditions.iter().enumerate() {
+        for (index, formula, assumed) in &self.step_conditions {
             match self.machine.evaluate(formula, &mut self.branches) {
                 Ok(Value::Boolean(true)) => {}
                 Ok(_) if *assumed => return Step::Excluded,
-                Ok(_) => self.failed.push(index as u32),
+                Ok(_) => self.failed.push(*index),
                 Err(_) => return Step::Unknown,
             }
         }

@@ -49,7 +49,7 @@ impl Explorer {
         }
     }
 
-    /// Whether no assumption is false of the inputs that a state keeps; one that asks for others is not decided by these.
+    /// Whether no assumption rules out the inputs that a state keeps; one that asks for others is not decided by these.
     fn admits_inputs(&mut self, state: &[u64]) -> bool {
         for index in 0..self.settings.step_conditions.len() {
             let (formula, assumed) = self.settings.step_conditions[index].clone();
@@ -59,7 +59,7 @@ impl Explorer {
             self.branches.first();
             self.load(state);
             let truth = self.machine.evaluate(&formula, &mut self.branches);
-            if self.branches.answers().is_empty() && truth == Ok(Value::Boolean(false)) {
+            if self.branches.answers().is_empty() && truth.is_ok_and(|truth| truth != Value::Boolean(true)) {
                 return false;
             }
         }

@@ -316,8 +316,8 @@ impl Explorer {
             self.branches.unbounded = None;
             outcome = Err(*clash);
         }
-        if outcome.is_ok() {
-            outcome = self.check_step(&mut attempt);
+        if !self.branches.dead && self.branches.unbounded.is_none() {
+            outcome = self.check_step(&mut attempt, outcome);
         }
         if self.branches.dead {
             return Ok(None);
@@ -344,16 +344,28 @@ impl Explorer {
         Ok(Some(attempt))
     }
 
-    fn check_step(&mut self, attempt: &mut Attempt) -> Result<(), Fault> {
-        for (index, (formula, assumed)) in self.settings.step_conditions.iter().enumerate() {
-            let holds = self.machine.evaluate(formula, &mut self.branches)? == Value::Boolean(true);
-            if !holds && *assumed {
-                attempt.kind = AlternativeKind::Excluded;
-                attempt.failed.clear();
-                return Ok(());
+    /// Evaluates the conditions on a step that was made or has a fault. Assumptions come first: what they exclude counts for
+    /// nothing else.
+    fn check_step(&mut self, attempt: &mut Attempt, made: Result<(), Fault>) -> Result<(), Fault> {
+        let Explorer { settings, machine, branches, .. } = self;
+        let mut unclear = None;
+        for (_, formula, _) in settings.checks_of_steps().take_while(|(.., assumed)| *assumed) {
+            match machine.evaluate(formula, branches) {
+                Ok(Value::Boolean(true)) => {}
+                Ok(_) => {
+                    attempt.kind = AlternativeKind::Excluded;
+                    return Ok(());
+                }
+                Err(fault) => _ = unclear.get_or_insert(fault),
             }
-            if !holds {
-                attempt.failed.push(index as u32);
+        }
+        made?;
+        if let Some(fault) = unclear {
+            return Err(fault);
+        }
+        for (index, formula, _) in settings.checks_of_steps().skip_while(|(.., assumed)| *assumed) {
+            if machine.evaluate(formula, branches)? != Value::Boolean(true) {
+                attempt.failed.push(index);
             }
         }
         Ok(())

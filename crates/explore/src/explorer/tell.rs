@@ -16,14 +16,15 @@ impl Explorer {
         self.branches.follow(picks);
         let mut told = Told::default();
         let prepared = self.machine.prepare(&mut self.branches);
+        // Conditions may ask for more inputs; of a step that has a fault only assumptions are evaluated.
+        for (_, formula, assumed) in self.settings.checks_of_steps() {
+            if assumed || prepared.is_ok() {
+                let _ = self.machine.evaluate(formula, &mut self.branches);
+            }
+        }
         told.inputs = self.machine.inputs();
         match prepared {
             Ok(()) => {
-                // Conditions may ask for more inputs.
-                for (formula, _) in &self.settings.step_conditions {
-                    let _ = self.machine.evaluate(formula, &mut self.branches);
-                }
-                told.inputs = self.machine.inputs();
                 self.machine.commit();
                 told.changes = self.machine.changes();
             }

@@ -306,15 +306,19 @@ impl<'s> Exploration<'s> {
                 return Ok(false);
             }
             for path in paths {
-                let letter = self.letter_of(&path);
+                // A step that is ruled out says nothing about propositions.
                 match &path.outcome {
                     Outcome::Next(next) => {
                         if let Some(target) = self.state(next, depth) {
+                            let letter = self.letter_of(&path);
                             let label = self.label_of(&path);
                             self.rows.push((letter, target, label));
                         }
                     }
-                    Outcome::Fault(_) => self.rows.push((letter, index as u32, Label::STUTTER.0)),
+                    Outcome::Fault(_) => {
+                        let letter = self.letter_of(&path);
+                        self.rows.push((letter, index as u32, Label::STUTTER.0));
+                    }
                     Outcome::Unbounded(_) => cut = true,
                     Outcome::Excluded => {}
                 }

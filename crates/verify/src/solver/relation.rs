@@ -139,8 +139,16 @@ impl Relation {
         let settings = &plan.settings;
         encoder.step()?;
         let mut excluded = Terms::FALSE;
+        // A fault of a step counts unless an assumption that has a value rules the step out.
+        let mut ruled_out = Terms::FALSE;
         let mut failures = Vec::new();
         for (index, (formula, assumed)) in settings.step_conditions.iter().enumerate() {
+            if *assumed {
+                let (truth, live) = encoder.condition(formula)?;
+                let not = encoder.terms.not(truth);
+                let fails = encoder.terms.and([live, not]);
+                ruled_out = encoder.terms.or([ruled_out, fails]);
+            }
             let truth = encoder.closed_truth(formula)?;
             let course = encoder.course();
             let not = encoder.terms.not(truth);
@@ -155,8 +163,9 @@ impl Relation {
         let course = encoder.course();
         let included = encoder.terms.not(excluded);
         let goes = encoder.terms.and([course.live, included]);
-        let mut targets: Vec<(Target, Node)> =
-            (0..3).map(|class| (Target::Fault(class), course.faults[class])).collect();
+        let counts = encoder.terms.not(ruled_out);
+        let fault = |class: usize| (Target::Fault(class), encoder.terms.and([course.faults[class], counts]));
+        let mut targets: Vec<(Target, Node)> = (0..3).map(fault).collect();
         for (index, fails) in failures.into_iter().filter(|(index, _)| plan.wanted_steps.contains(index)) {
             targets.push((Target::StepCondition(index), encoder.terms.and([fails, included])));
         }
