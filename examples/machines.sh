@@ -55,7 +55,7 @@ fails() {
     expect 1 "^FAIL $1" "$groundstate" test "$robot/$1.avalla"
 }
 
-# holds CHART MACHINE…: the machines do, for any inputs; and the model of the robot is made of them.
+# holds CHART MACHINE…: the machines do, whatever they read, before the first datum of a channel too; and the model of the robot is made of them.
 holds() {
     expect 0 "" "$groundstate" chart check "$program/$1.chart"
     shift

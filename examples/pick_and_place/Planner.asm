@@ -98,7 +98,7 @@ definitions:
 			g(y(number = $n) and number != $n implies y(work = LOOKING or isNewProgress and first(progress) = $n)))
 
 	/* something was in the jaw when it went up, and has been carried since */
-	LTLSPEC ltlSpec_held: g(move = CARRY implies s(move = CARRY, y(move = UP and second(progress))))
+	LTLSPEC ltlSpec_held: g(move = CARRY implies s(move = CARRY, y(move = UP and isNewProgress and second(progress))))
 	LTLSPEC ltlSpec_gripped: g(move = CLOSE implies s(move = CLOSE, y(move = DOWN)))
 	LTLSPEC ltlSpec_lowered: g(move = OPEN implies s(move = OPEN, y(move = LOWER)))
 
@@ -107,8 +107,8 @@ definitions:
 		g(
 			work = WAITING and y(work = LOOKING)
 			implies y(
-				sight
-				and isNewSight
+				isNewSight
+				and sight
 				and y(
 					s(
 						work = LOOKING,

@@ -55,10 +55,13 @@ seeded afterTheStop Sequencer.asm "leftOrders := false" "skip"
 found ctlSpec_stopped Sequencer.asm
 seeded staysOut LeftPusher.asm "remaining := remaining - 1" "remaining := remaining"
 found ltlSpec_ordered LeftPusher.asm
-seeded again RightPusher.asm "if isNewRightOrders and rightOrders" "if rightOrders"
+seeded again RightPusher.asm "if isNewRightOrders and rightOrders" "if isDef(rightOrders) and rightOrders"
 found ltlSpec_ordered RightPusher.asm
 seeded deaf RightPusher.asm "isHalted or stop" "isHalted"
 found ctlSpec_stopped RightPusher.asm
+# What comes before the first datum of a channel: nothing.
+seeded nothing Sequencer.asm "isDef(codes) and first(codes) = entering then" "first(codes) = entering then"
+found "every guard and operation is defined" Sequencer.asm
 seeded torn Camera.asm "labels := (\$parcel, printed)" "labels := (arrivals, printed)"
 found inv_oneParcel Camera.asm
 

@@ -4,9 +4,10 @@
 //! determine, the range of values. The INVARs still apply; a bound only tells which inputs need not be tried. LIMIT:
 //! comparisons with literal numbers, joined by `and`, inside `forall` over the whole domain of an argument.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
-use machine::{Bounds, Value};
+use machine::{Bounds, Limits, Machine, Value};
 use model::Basic;
 use program::{
     Builtin, DomainKind, FunctionId, FunctionKind, Literal, Program, PropertyKind, Quantifier, Slot, Term, TermId,
@@ -35,6 +36,32 @@ pub fn assumed_bounds(program: &Program) -> Bounds {
         {
             bounds.insert(function, (low..=high).map(Value::Integer).collect());
         }
+    }
+    bounds
+}
+
+/// The values that inputs take, as far as these are not all values of their domains: those that are `given`, else those that
+/// the program's assumptions leave. Inputs that may be `undefined` take undef besides. If the values of such an input cannot
+/// be listed, it has none here, so that it cannot be gone through.
+pub fn input_values(program: &Program, given: &Bounds, undefined: &BTreeSet<FunctionId>) -> Bounds {
+    let mut bounds = assumed_bounds(program);
+    bounds.extend(given.iter().map(|(function, values)| (*function, values.clone())));
+    if undefined.is_empty() {
+        return bounds;
+    }
+    let constant = program.constant_domains();
+    let mut machine = Machine::new(Arc::new(program.clone()), Limits::default());
+    for function in undefined {
+        let domain = program.function(*function).codomain;
+        let listed = bounds.remove(function).or_else(|| {
+            let is_listed = constant[domain.0 as usize] && program.is_listable(domain);
+            is_listed.then(|| machine.elements(domain).ok()).flatten()
+        });
+        let mut values = listed.unwrap_or_default();
+        if !values.is_empty() && !values.contains(&Value::Undef) {
+            values.push(Value::Undef);
+        }
+        bounds.insert(*function, values);
     }
     bounds
 }

@@ -18,7 +18,7 @@ pub use alternatives::branches::{Unbounded, UnboundedKind};
 pub use alternatives::expansion::Expansion;
 pub use alternatives::kind::AlternativeKind;
 pub use alternatives::told::{ChoiceTaken, Told};
-pub use assumed::assumed_bounds;
+pub use assumed::{assumed_bounds, input_values};
 pub use explorer::Explorer;
 pub use explorer::orbit::{Orbits, Permutation};
 pub use explorer::paths::{Outcome, Path};

@@ -7,7 +7,7 @@ use groundstate::scenario::{FirstCandidate, Options as Scenario};
 use groundstate::verify::solver::Method;
 use groundstate::verify::{EngineKind, NoStart, Options, Outcome, Reason, Report, Subject, verify};
 use groundstate::{Suite, counterexample_scenario};
-use program::Program;
+use program::{FunctionId, FunctionKind, Program};
 use syntax::SourceFile;
 use testkit::{Page, Texts};
 
@@ -22,10 +22,17 @@ fn one_model(text: &str) -> Texts {
 }
 
 fn check(text: &str, workers: usize) -> (Arc<Program>, Report) {
+    checked(text, workers, false)
+}
+
+/// Inputs may be undef if `undefined`.
+fn checked(text: &str, workers: usize, undefined: bool) -> (Arc<Program>, Report) {
     let mut loader = one_model(text);
     let loaded = groundstate::load(SourceFile::new(file(text), text), &mut loader);
     let program = loaded.unwrap_or_else(|faulty| panic!("{:#?}", faulty.diagnostics)).program;
-    let report = verify(&program, &Options { workers, ..Options::default() }, &mut |_| true);
+    let inputs = (0..).map(FunctionId).zip(&program.functions).filter(|(_, one)| one.kind == FunctionKind::Monitored);
+    let undefined = inputs.filter(|_| undefined).map(|(id, _)| id).collect();
+    let report = verify(&program, &Options { workers, undefined, ..Options::default() }, &mut |_| true);
     (program, report.unwrap_or_else(|trouble| panic!("{trouble:?}")))
 }
 
@@ -54,12 +61,17 @@ fn verdicts(program: &Program, report: &Report) -> String {
 #[test]
 fn the_examples_have_the_verdicts_that_the_page_says() {
     let page = Page::spec("verification");
-    let (models, expected) = (page.texts("asmetal verify"), page.texts("verdicts"));
-    assert_eq!(models.len(), expected.len());
-    for (model, expected) in models.iter().zip(expected) {
-        for workers in [1, 2] {
-            let (program, report) = check(model, workers);
-            assert_eq!(verdicts(&program, &report), expected, "{model}");
+    for (model, expected, undefined) in
+        [("asmetal verify", "verdicts", false), ("asmetal verify undefined", "verdicts undefined", true)]
+    {
+        let (models, expected) = (page.texts(model), page.texts(expected));
+        assert_eq!(models.len(), expected.len());
+        assert!(!models.is_empty());
+        for (model, expected) in models.iter().zip(expected) {
+            for workers in [1, 2] {
+                let (program, report) = checked(model, workers, undefined);
+                assert_eq!(verdicts(&program, &report), expected, "{model}");
+            }
         }
     }
 }

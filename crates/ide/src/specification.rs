@@ -78,6 +78,11 @@ impl Walk<'_> {
     }
 
     fn bounds(&mut self, root: Fields<'_>) {
+        match root.get("undefined").map(|node| &node.shape) {
+            Some(Shape::Text(text)) => self.term(text, &|part| text.place(part), None),
+            Some(Shape::List(items)) => items.iter().for_each(|item| self.pattern(item, &[])),
+            Some(Shape::Map(_)) | None => {}
+        }
         for (key, node) in Fields::of(root.get("bounds")).0 {
             self.key(key);
             match &node.shape {

@@ -1,6 +1,10 @@
 //! Bounds of a search: the values to try for an input, from `--bound` and the file beside a model.
 //!
-//! In: `NAME=LOW..HIGH` or `NAME=VALUE,VALUE`, and the program. Out: the values of each function of that name.
+//! In: `NAME=LOW..HIGH` or `NAME=VALUE,VALUE`, and the program. Out: the values of each function of that name. From
+//! `--undefined NAME`, the functions of that name.
+
+use std::collections::BTreeSet;
+use std::ops::Deref;
 
 use machine::Bounds;
 use machine::Value;
@@ -33,6 +37,30 @@ pub fn read(program: &Program, texts: &[String]) -> Result<Bounds, Refused> {
         }
     }
     Ok(bounds)
+}
+
+/// Reads the names of inputs that may also be undef.
+///
+/// # Errors
+/// The first name that is no input's, or that of an input whose domain may grow: its values are not the same in all states.
+pub fn undefined(program: &Program, names: &[impl Deref<Target = str>]) -> Result<BTreeSet<FunctionId>, Refused> {
+    let mut undefined = BTreeSet::new();
+    let constant = program.constant_domains();
+    for name in names.iter().map(|name| &**name) {
+        let found = inputs(program, name.trim());
+        if found.is_empty() {
+            return Err(Refused::new(name, format!("`{}` is no monitored or shared function", name.trim())));
+        }
+        for function in found {
+            let domain = program.function(function).codomain;
+            if !constant[domain.0 as usize] {
+                let reason = format!("the domain of `{}` may grow, so it cannot be undef, too", name.trim());
+                return Err(Refused::new(name, reason));
+            }
+            undefined.insert(function);
+        }
+    }
+    Ok(undefined)
 }
 
 fn inputs(program: &Program, name: &str) -> Vec<FunctionId> {

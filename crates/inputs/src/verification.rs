@@ -20,6 +20,8 @@ pub struct Verification {
     pub bounds: Vec<String>,
     /// Where each of the bounds stands.
     pub bound_places: Vec<Span>,
+    /// Names of inputs that may also be undef.
+    pub undefined: Vec<Scalar>,
     /// The condition under which a state may be the last.
     pub terminal: Option<Scalar>,
     /// How fair runs are: `weak` or `strong`, unless the file is wrong.
@@ -37,6 +39,11 @@ impl Verification {
         for (bound, place) in self.bounds.iter().zip(&self.bound_places) {
             if let Err(refused) = bound::read(program, std::slice::from_ref(bound)) {
                 faults.push(*fault(*place, format!("bound {refused}")));
+            }
+        }
+        for name in &self.undefined {
+            if let Err(refused) = bound::undefined(program, &[&**name]) {
+                faults.push(*fault(name.span(), refused.to_string()));
             }
         }
         if let Some(fair) = self.fair.as_ref().filter(|fair| !["weak", "strong"].contains(&&***fair)) {
@@ -67,7 +74,7 @@ fn understood(root: &Node) -> Result<Verification, Box<Diagnostic>> {
         _ => {
             return Err(fault(
                 root.span,
-                "a mapping is expected: bounds, assume, terminal, fair, invariants, ctl, ltl",
+                "a mapping is expected: bounds, undefined, assume, terminal, fair, invariants, ctl, ltl",
             ));
         }
     };
@@ -84,6 +91,7 @@ fn understood(root: &Node) -> Result<Verification, Box<Diagnostic>> {
                     verification.bound_places.push(Span { end, ..input.span });
                 }
             }
+            "undefined" => verification.undefined = texts(node)?,
             "terminal" => verification.terminal = Scalar::joined(texts(node)?, " "),
             "fair" => verification.fair = Scalar::joined(texts(node)?, " "),
             "invariants" => verification.properties[0] = texts(node)?,
@@ -114,10 +122,11 @@ mod tests {
 
     #[test]
     fn what_a_file_says() {
-        let source = "bounds: { level: 0..10, colour: [RED, GREEN] }\nfair: weak\nctl: [a, b]\nltl: c\n";
+        let source = "bounds: { level: 0..10, colour: [RED, GREEN] }\nundefined: [level, colour]\nfair: weak\nctl: [a, b]\nltl: c\n";
         let said = read(FileId(0), source).expect("it says something");
         assert_eq!(said.bounds, ["level=0..10", "colour=RED,GREEN"]);
         assert_eq!(&source[said.bound_places[1].range()], "colour: [RED, GREEN");
+        assert_eq!(said.undefined.iter().map(|name| &**name).collect::<Vec<_>>(), ["level", "colour"]);
         assert_eq!((said.fair.as_deref(), said.terminal), (Some("weak"), None));
         assert_eq!(
             said.properties.map(|texts| texts.iter().map(|text| text.to_string()).collect::<Vec<_>>()),

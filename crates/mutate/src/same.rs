@@ -5,11 +5,12 @@
 //! whether the same conditions on steps fail; whether the terms have the same values. Both are explored side by side, state
 //! by state, until the first difference. INVARIANT: two variants are the same only if every reachable state was compared.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use explore::{Explorer, Interner, Outcome, Settings, Trouble, Truth, Widening, assumed_bounds};
+use explore::{Explorer, Interner, Outcome, Settings, Trouble, Truth, Widening, input_values};
 use machine::{Bounds, FaultClass, FaultKind, Interrupt, Limits, Location, Value};
-use program::{Expression, Program, PropertyKind, Rule};
+use program::{Expression, FunctionId, Program, PropertyKind, Rule};
 use rustc_hash::FxHashMap;
 
 /// How far to compare.
@@ -19,6 +20,8 @@ pub struct Extent {
     pub limits: Limits,
     /// The values to try for inputs, if not all of their domains.
     pub bounds: Bounds,
+    /// Inputs that may also be undef.
+    pub undefined: BTreeSet<FunctionId>,
     /// The most states.
     pub max_states: u64,
     /// Ends the comparison when raised.
@@ -119,8 +122,7 @@ struct Side<'p> {
 
 impl<'p> Side<'p> {
     fn new(variant: Variant<'p>, extent: &Extent, widening: &mut Widening) -> Result<Side<'p>, Differs> {
-        let mut bounds = assumed_bounds(variant.program);
-        bounds.extend(extent.bounds.iter().map(|(function, values)| (*function, values.clone())));
+        let bounds = input_values(variant.program, &extent.bounds, &extent.undefined);
         let mut settings = Settings { limits: extent.limits.clone(), bounds: Arc::new(bounds), ..Settings::default() };
         settings.interrupt = extent.interrupt.clone();
         for property in &variant.program.properties {

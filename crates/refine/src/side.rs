@@ -4,13 +4,12 @@
 //! both machines share, so that they can be compared. INVARIANT: a state's moves are all of them, in the order of its alternatives, or
 //! the state has none and [`Stopped`] says why.
 
+use std::collections::BTreeSet;
 use std::hash::{Hash, Hasher};
 use std::rc::Rc;
 use std::sync::Arc;
 
-use explore::{
-    Explorer, Interner, Outcome, Settings, Start, Told, Trouble, Truth, Unbounded, Widening, assumed_bounds,
-};
+use explore::{Explorer, Interner, Outcome, Settings, Start, Told, Trouble, Truth, Unbounded, Widening, input_values};
 use machine::{Bounds, Fault, FaultKind, Interrupt, Limits, Location, Value};
 use program::{Expression, FunctionId, Program, PropertyKind};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -132,8 +131,7 @@ impl Side {
         readers: FxHashMap<FunctionId, Expression>,
         watched: &[(u32, Expression)],
     ) -> Result<Side, Trouble> {
-        let mut bounds = assumed_bounds(program);
-        bounds.extend(extent.bounds.iter().map(|(function, values)| (*function, values.clone())));
+        let bounds = input_values(program, &extent.bounds, &BTreeSet::new());
         let mut settings = Settings { limits: extent.limits.clone(), bounds: Arc::new(bounds), ..Settings::default() };
         settings.interrupt = extent.interrupt.clone();
         for property in program.properties.iter().filter(|property| property.kind == PropertyKind::Invar) {

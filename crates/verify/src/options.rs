@@ -1,10 +1,10 @@
 //! Options of a verification: the engine, the extent of the search, how states are stored.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use machine::{Bounds, EngineChoice, Interrupt, Limits};
-use program::Expression;
+use program::{Expression, FunctionId};
 
 use crate::solver::method::Method;
 use crate::storage::Storage;
@@ -43,6 +43,8 @@ pub struct Options {
     pub max_bytes: u64,
     /// The values to try for inputs, if not all of their domains. What would Hold is Unknown with such a bound.
     pub bounds: Bounds,
+    /// Inputs that may also be undef. What Holds then holds for these, too.
+    pub undefined: BTreeSet<FunctionId>,
     /// States in which this holds are no deadlocks.
     pub terminal: Option<Expression>,
     /// Make all steps by a machine, remembering none.
@@ -75,6 +77,7 @@ impl Default for Options {
             max_depth: u64::MAX,
             max_bytes: u64::MAX,
             bounds: BTreeMap::new(),
+            undefined: BTreeSet::new(),
             terminal: None,
             forgetful: false,
             steps: EngineChoice::Automatic,

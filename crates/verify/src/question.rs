@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use explore::{Settings, assumed_bounds};
+use explore::{Settings, input_values};
 use program::{Program, PropertyKind};
 
 use crate::options::Options;
@@ -54,8 +54,7 @@ impl Question {
 
     /// The checks of a program under these options.
     pub fn of(program: &Program, options: &Options) -> Question {
-        let mut bounds = assumed_bounds(program);
-        bounds.extend(options.bounds.iter().map(|(function, values)| (*function, values.clone())));
+        let bounds = input_values(program, &options.bounds, &options.undefined);
         let mut settings = Settings { limits: options.limits.clone(), bounds: Arc::new(bounds), ..Settings::default() };
         settings.forgetful = options.forgetful;
         settings.engine = options.steps;

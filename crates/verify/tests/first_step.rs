@@ -7,8 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::sync::Arc;
 
-use machine::{Choice, EngineChoice, Environment, Limits, Location, LocationRef, Machine, TimeUnit, Value};
-use program::{DomainId, FunctionKind, Program, PropertyKind};
+use machine::{Choice, EngineChoice, Environment, FaultClass, Limits, Location, LocationRef, Machine, TimeUnit, Value};
+use program::{DomainId, FunctionId, FunctionKind, Program, PropertyKind};
 use syntax::SourceFile;
 use verify::{EngineKind, Options, Outcome, Reason, Storage, Subject, verify};
 
@@ -22,6 +22,8 @@ fn model(text: &str) -> Arc<Program> {
 /// Enumerates answers, the last one varying fastest.
 #[derive(Default)]
 struct Odometer {
+    /// Inputs may be undef, too.
+    undefined: bool,
     answers: Vec<(usize, usize)>,
     at: usize,
 }
@@ -50,7 +52,8 @@ impl Odometer {
 
 impl Environment for Odometer {
     fn monitored(&mut self, _: &Program, _: LocationRef<'_>, _: DomainId) -> Result<Value, String> {
-        Ok(Value::Boolean(self.ask(2) == 1))
+        Ok([Value::Boolean(false), Value::Boolean(true), Value::Undef][self.ask(2 + usize::from(self.undefined))]
+            .clone())
     }
 
     fn choose(&mut self, _: &Program, choice: &Choice<'_>) -> Result<usize, String> {
@@ -68,10 +71,12 @@ type Answers = Vec<(usize, usize)>;
 /// The results of the machine by itself.
 #[derive(Debug, Default)]
 struct Judge {
+    /// Inputs may be undef, too.
+    undefined: bool,
     /// For each property, the number of steps to its first violation; if it reads inputs, it is evaluated in the step
     /// after them.
     violated: BTreeMap<usize, usize>,
-    inconsistent: Option<usize>,
+    failed: BTreeMap<FaultClass, usize>,
     /// With the answers at the start, since initial values that are computed later depend on them.
     states: BTreeSet<(Answers, State)>,
 }
@@ -80,8 +85,9 @@ struct Judge {
 const DEPTH: usize = 40;
 
 impl Judge {
-    fn of(program: &Arc<Program>) -> Judge {
-        let (mut judge, mut level, mut start) = (Judge::default(), Vec::new(), Odometer::default());
+    fn of(program: &Arc<Program>, undefined: bool) -> Judge {
+        let mut judge = Judge { undefined, ..Judge::default() };
+        let (mut level, mut start) = (Vec::new(), judge.odometer(&[]));
         loop {
             let mut machine = Machine::new(Arc::clone(program), Limits::default());
             machine.start(&mut start).expect("there is an initial state");
@@ -95,9 +101,9 @@ impl Judge {
         }
         for depth in 0..DEPTH {
             for path in std::mem::take(&mut level) {
-                let mut step = Odometer::default();
+                let mut step = judge.odometer(&[]);
                 loop {
-                    let mut machine = again(program, &path);
+                    let mut machine = judge.again(program, &path);
                     if let Some(next) = judge.successor(program, &mut machine, &mut step, depth)
                         && judge.states.insert((path[0].clone(), next))
                     {
@@ -121,15 +127,16 @@ impl Judge {
         step: &mut Odometer,
         depth: usize,
     ) -> Option<State> {
-        if machine.prepare(step).is_err() {
-            self.inconsistent.get_or_insert(depth + 1);
-            return None;
-        }
+        let prepared = machine.prepare(step);
         let read = |kind| program.properties.iter().enumerate().filter(move |(_, one)| one.kind == kind);
         for (_, property) in read(PropertyKind::Invar).filter(|(_, property)| property.reads_monitored) {
             if machine.evaluate(&property.formula, step) != Ok(Value::Boolean(true)) {
                 return None;
             }
+        }
+        if let Err(fault) = prepared {
+            self.failed.entry(FaultClass::of(&fault)).or_insert(depth + 1);
+            return None;
         }
         for (index, property) in read(PropertyKind::Invariant).filter(|(_, property)| property.reads_monitored) {
             if machine.evaluate(&property.formula, step) != Ok(Value::Boolean(true)) {
@@ -140,6 +147,22 @@ impl Judge {
         machine.forget_inputs();
         self.look(program, machine, depth + 1);
         Some(state(machine))
+    }
+
+    /// A machine that was started and has made these steps. It never steps back, so it keeps the inputs as in a run.
+    fn again(&self, program: &Arc<Program>, path: &[Answers]) -> Machine {
+        let mut machine = Machine::new(Arc::clone(program), Limits::default());
+        machine.use_engine(EngineChoice::Interpreted);
+        machine.start(&mut self.odometer(&path[0])).expect("it was started before");
+        for answers in &path[1..] {
+            machine.prepare(&mut self.odometer(answers)).expect("the step was made before");
+            machine.commit();
+        }
+        machine
+    }
+
+    fn odometer(&self, answers: &[(usize, usize)]) -> Odometer {
+        Odometer { undefined: self.undefined, answers: answers.to_vec(), at: 0 }
     }
 
     fn look(&mut self, program: &Arc<Program>, machine: &mut Machine, depth: usize) {
@@ -156,20 +179,8 @@ impl Judge {
 fn admits(program: &Arc<Program>, machine: &mut Machine) -> bool {
     program.properties.iter().filter(|one| one.kind == PropertyKind::Invar).all(|property| {
         let mut more = Odometer::default();
-        machine.evaluate(&property.formula, &mut more) != Ok(Value::Boolean(false)) || more.at > 0
+        machine.evaluate(&property.formula, &mut more) == Ok(Value::Boolean(true)) || more.at > 0
     })
-}
-
-/// A machine that was started and has made these steps. It never steps back, so it keeps the inputs as in a run.
-fn again(program: &Arc<Program>, path: &[Answers]) -> Machine {
-    let mut machine = Machine::new(Arc::clone(program), Limits::default());
-    machine.use_engine(EngineChoice::Interpreted);
-    machine.start(&mut Odometer { answers: path[0].clone(), at: 0 }).expect("it was started before");
-    for answers in &path[1..] {
-        machine.prepare(&mut Odometer { answers: answers.clone(), at: 0 }).expect("the step was made before");
-        machine.commit();
-    }
-    machine
 }
 
 fn state(machine: &Machine) -> State {
@@ -195,13 +206,24 @@ fn ways() -> Vec<(&'static str, Options)> {
 
 #[track_caller]
 fn agrees(text: &str) {
+    is_judged(text, false);
+}
+
+/// What every way says of a model is what the judge says; inputs may be undef if `undefined`.
+#[track_caller]
+fn is_judged(text: &str, undefined: bool) {
     let program = model(text);
-    let judge = Judge::of(&program);
+    let judge = Judge::of(&program, undefined);
+    let inputs = (0..).map(FunctionId).zip(&program.functions).filter(|(_, one)| one.kind == FunctionKind::Monitored);
+    let open: BTreeSet<FunctionId> = inputs.filter(|_| undefined).map(|(id, _)| id).collect();
     for (way, options) in ways() {
+        let options = Options { undefined: open.clone(), ..options };
         let report = verify(&program, &options, &mut |_| true).expect("there is an initial state");
         for verdict in &report.verdicts {
             let expected = match verdict.subject {
-                Subject::Consistent => judge.inconsistent,
+                Subject::Consistent => judge.failed.get(&FaultClass::Inconsistent).copied(),
+                Subject::InDomain => judge.failed.get(&FaultClass::OutOfDomain).copied(),
+                Subject::Defined => judge.failed.get(&FaultClass::Undefined).copied(),
                 Subject::Property(index) => judge.violated.get(&index).copied(),
                 _ => continue,
             };
@@ -235,6 +257,31 @@ fn an_invariant_over_inputs_sees_the_input_of_the_initial_state() {
 #[test]
 fn an_assumption_about_inputs_binds_the_initial_one() {
     agrees(&format!("{FLAGS}definitions:\ninvariant inv_a over bad: not bad\nINVAR mon = false\n{FIRST_KEEPS}"));
+}
+
+#[test]
+fn an_assumption_about_inputs_rules_out_faults() {
+    let faulty =
+        "monitored mon: Boolean\nmonitored other: Boolean\ncontrolled none: Boolean\ncontrolled foo: Boolean\n";
+    let main = "main rule r_Main = if mon then if none then skip endif else foo := not foo endif\n\
+                default init s0: function foo = false";
+    for assumed in ["mon = false", "other implies not mon", "other implies mon", "mon implies none", "true"] {
+        agrees(&format!("{faulty}definitions:\ninvariant inv_a over foo: not foo\nINVAR {assumed}\n{main}"));
+    }
+}
+
+#[test]
+fn steps_that_are_ruled_out_say_nothing_of_formulas() {
+    let text = "INVAR mon = false\nLTLSPEC g(not mon)\nCTLSPEC ag(not mon)\nLTLSPEC f(mon)\n";
+    let program = model(&format!("{FLAGS}definitions:\n{text}{FIRST_KEEPS}"));
+    let report = verify(&program, &Options::default(), &mut |_| true).expect("there is an initial state");
+    let decided = |one: &verify::Verdict| match one.outcome {
+        Outcome::Holds => Some(true),
+        Outcome::Violated(_) => Some(false),
+        Outcome::Unknown(_) => None,
+    };
+    let all: Vec<Option<bool>> = report.verdicts.iter().skip(4).map(decided).collect();
+    assert_eq!(all, [Some(true), Some(true), Some(false)]);
 }
 
 #[test]
@@ -362,4 +409,21 @@ fn every_engine_goes_where_the_machine_goes() {
     for seed in 1..=12 {
         agrees(&random(seed));
     }
+}
+
+#[test]
+fn inputs_may_be_undef() {
+    agrees_undefined(&format!("{FLAGS}definitions:\ninvariant inv_a over foo: isDef(foo)\n{FIRST_KEEPS}"));
+    agrees_undefined(&format!("{FLAGS}definitions:\ninvariant inv_a over foo: isDef(mon)\n{FIRST_KEEPS}"));
+    agrees_undefined(&format!(
+        "{FLAGS}definitions:\ninvariant inv_a over foo: isDef(foo)\nINVAR isDef(mon)\n{FIRST_KEEPS}"
+    ));
+    for seed in 1..=12 {
+        agrees_undefined(&random(seed));
+    }
+}
+
+#[track_caller]
+fn agrees_undefined(text: &str) {
+    is_judged(text, true);
 }

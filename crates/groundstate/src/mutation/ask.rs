@@ -3,12 +3,13 @@
 //! In: a loaded model and the text beside it. Out: what a verification needs. The same text asks the same of a mutant: its
 //! properties have the same numbers.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use inputs::bound;
 use inputs::verification::{self, Verification};
 use machine::Bounds;
-use program::{Expression, Program, PropertyKind};
+use program::{Expression, FunctionId, Program, PropertyKind};
 use solve::session::Solvers;
 use syntax::{Diagnostic, SourceFile};
 use verify::temporal::fairness::AgentFairness;
@@ -22,6 +23,7 @@ use crate::{Loaded, Overlay, with_libraries};
 pub(super) struct Asked {
     pub overlay: Overlay,
     pub bounds: Bounds,
+    pub undefined: BTreeSet<FunctionId>,
     terminal: Option<Expression>,
     fair: Option<AgentFairness>,
 }
@@ -79,9 +81,10 @@ impl Asked {
             "strong" => AgentFairness::Strong,
             _ => AgentFairness::Weak,
         });
-        // The bounds fit the program: that was asked above.
+        // Both fit the program: that was asked above.
         let bounds = bound::read(&overlay.program, &said.bounds).unwrap_or_default();
-        Ok(Asked { overlay, bounds, terminal, fair })
+        let undefined = bound::undefined(&overlay.program, &said.undefined).unwrap_or_default();
+        Ok(Asked { overlay, bounds, undefined, terminal, fair })
     }
 
     /// Leaves out what does not count.
@@ -118,6 +121,7 @@ impl Asked {
             max_depth: depth.unwrap_or(u64::MAX),
             max_bytes: extent.max_bytes,
             bounds: self.bounds.clone(),
+            undefined: self.undefined.clone(),
             terminal: self.terminal.clone(),
             interrupt: interrupt.clone(),
             ..Options::default()

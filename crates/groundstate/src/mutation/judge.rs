@@ -260,6 +260,7 @@ fn are_same(
     let extent = Extent {
         limits: bench.wanted.extent.limits.clone(),
         bounds: asked.bounds.clone(),
+        undefined: asked.undefined.clone(),
         max_states: bench.wanted.extent.max_states,
         interrupt: interrupt.clone(),
     };

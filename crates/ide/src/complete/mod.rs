@@ -89,10 +89,10 @@ fn in_specification<F: Files>(
             (terms(analysis, &place(condition), Expected(condition.then_some(Domains::BOOLEAN))), false)
         }
         Slot::TermKey => (terms(analysis, &place(false), Expected(None)), true),
-        Slot::Input => {
+        Slot::Input { is_key } => {
             let takes = |kind: FunctionKind| matches!(kind, FunctionKind::Monitored | FunctionKind::Shared);
             let inputs = functions(analysis).filter(|(id, _)| takes(analysis.model.function(*id).kind));
-            (inputs.map(|(_, item)| item).collect(), true)
+            (inputs.map(|(_, item)| item).collect(), is_key)
         }
         Slot::Chart => (charts(project, analysis), true),
         Slot::Nothing => return None,

@@ -16,8 +16,8 @@ pub(super) enum Slot {
     Words(Vec<&'static str>),
     /// A term of the model; whether it is a condition.
     Term { condition: bool },
-    /// An input of the model, as a key.
-    Input,
+    /// An input of the model; whether it is a key.
+    Input { is_key: bool },
     /// A term as a key.
     TermKey,
     /// The file of a chart, as a key.
@@ -110,8 +110,11 @@ fn in_report(keys: &[&str], value: bool) -> Slot {
 
 fn in_verification(keys: &[&str], value: bool) -> Slot {
     match (keys, value) {
-        ([], false) => Slot::Keys(vec!["bounds", "assume", "terminal", "fair", "invariants", "ctl", "ltl"]),
-        (["bounds"], false) => Slot::Input,
+        ([], false) => {
+            Slot::Keys(vec!["bounds", "undefined", "assume", "terminal", "fair", "invariants", "ctl", "ltl"])
+        }
+        (["bounds"], false) => Slot::Input { is_key: true },
+        (["undefined", ..], true) => Slot::Input { is_key: false },
         (["bounds", ..], true) => Slot::Term { condition: false },
         (["fair"], true) => Slot::Words(vec!["weak", "strong"]),
         (["assume" | "terminal" | "invariants" | "ctl" | "ltl", ..], _) => Slot::Term { condition: true },

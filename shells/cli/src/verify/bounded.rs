@@ -21,6 +21,9 @@ pub struct Bounded {
     /// The values to try for an input, as NAME=LOW..HIGH or NAME=VALUE,VALUE; may be repeated
     #[arg(long = "bound", value_name = "BOUND")]
     pub bounds: Vec<String>,
+    /// An input that may also be undef; may be repeated
+    #[arg(long, value_name = "NAME")]
+    pub undefined: Vec<String>,
     /// What to verify, and with which inputs. Default: MODEL.verify.yaml beside the model
     #[arg(long, value_name = "FILE")]
     pub spec: Option<PathBuf>,
@@ -96,12 +99,17 @@ impl Bounded {
             bound::read(program, &beside.bounds).map_err(|refused| Failure::usage(format!("bound {refused}")))?;
         let wrong = |refused| Failure::usage_with_help(format!("--bound {refused}"), bound::HELP);
         bounds.extend(bound::read(program, &self.bounds).map_err(wrong)?);
+        let mut undefined = bound::undefined(program, &beside.undefined)
+            .map_err(|refused| Failure::usage(format!("undefined {refused}")))?;
+        let wrong = |refused| Failure::usage(format!("--undefined {refused}"));
+        undefined.extend(bound::undefined(program, &self.undefined).map_err(wrong)?);
         let options = Options {
             limits: shell.global.limits.uninterrupted(),
             max_states: self.max_states.unwrap_or(u64::MAX),
             max_depth: self.depth.unwrap_or(u64::MAX),
             max_bytes: self.max_memory.saturating_mul(1 << 20),
             bounds,
+            undefined,
             interrupt: interrupt::request().clone(),
             ..Options::default()
         };
