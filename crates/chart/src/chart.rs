@@ -5,6 +5,7 @@
 //! a pattern instance or an exit, and never in a circle without one of these.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use syntax::Span;
 
@@ -76,9 +77,13 @@ pub struct Machine {
     pub arrows: Vec<Arrow>,
     /// Actions and instances to execute in sequence if one path contains them.
     pub sequences: Vec<Vec<ShapeId>>,
+    /// Actions of a pattern that are done if it is left from outside, by a path from a composite state around an instance.
+    pub aborts: Vec<ShapeId>,
     /// Whether it has a control state, or a block that takes steps, so that entering and leaving it takes several
     /// steps.
     pub steps: bool,
+    /// The same machine without composite states, if it has any. Its first shapes are those of this one.
+    pub flattened: Option<Arc<Machine>>,
     /// Where it is declared: its name.
     pub span: Span,
 }
@@ -106,7 +111,39 @@ impl Machine {
 
     /// The control state in which the machine starts.
     pub fn initial(&self) -> Option<ShapeId> {
-        self.numbered().find(|(_, shape)| shape.kind == ShapeKind::State { initial: true }).map(|(id, _)| id)
+        self.first_in(None)
+    }
+
+    /// The control state in which a composite state begins; without one, the machine.
+    pub fn first_in(&self, composite: Option<ShapeId>) -> Option<ShapeId> {
+        let mut around = composite;
+        // As deep as states are nested.
+        for _ in 0..=self.shapes.len() {
+            let is_first = |(_, shape): &(ShapeId, &Shape)| shape.inside == around && shape.is_initial();
+            let (id, shape) = self.numbered().find(is_first)?;
+            match shape.kind {
+                ShapeKind::Composite(_) => around = Some(id),
+                _ => return Some(id),
+            }
+        }
+        None
+    }
+
+    /// The composite states around a shape, from the inside out.
+    pub fn around(&self, id: ShapeId) -> Vec<ShapeId> {
+        std::iter::successors(self.shape(id).inside, |outer| self.shape(*outer).inside).collect()
+    }
+
+    /// What the machine means: itself, or the same without composite states.
+    pub fn flat(&self) -> &Machine {
+        self.flattened.as_deref().unwrap_or(self)
+    }
+
+    /// Whether an action stands on no path: it is done when a composite state is entered or left, or a pattern is aborted.
+    pub fn is_apart(&self, id: ShapeId) -> bool {
+        let has = |composite: &Composite| composite.entry.contains(&id) || composite.exit.contains(&id);
+        let composites = self.shapes.iter().filter_map(Shape::composite);
+        self.aborts.contains(&id) || composites.into_iter().any(has)
     }
 
     /// Whether entering and leaving it takes several steps, since it has a control state or a block that takes steps.
@@ -155,8 +192,29 @@ pub struct Shape {
     pub link: Option<Link>,
     /// Set if what the shape stands for is still to be refined; such a shape is drawn dashed.
     pub refinement: Option<Refinement>,
+    /// The composite state that it stands in.
+    pub inside: Option<ShapeId>,
     /// Where it is declared: its name.
     pub span: Span,
+}
+
+impl Shape {
+    /// Whether the machine, or the composite state around it, begins in it.
+    pub fn is_initial(&self) -> bool {
+        match &self.kind {
+            ShapeKind::State { initial } => *initial,
+            ShapeKind::Composite(composite) => composite.initial,
+            ShapeKind::Guard | ShapeKind::Action | ShapeKind::Instance(_) => false,
+        }
+    }
+
+    /// What it says if it is a composite state.
+    pub fn composite(&self) -> Option<&Composite> {
+        match &self.kind {
+            ShapeKind::Composite(composite) => Some(composite),
+            _ => None,
+        }
+    }
 }
 
 /// The kinds of shapes.
@@ -167,12 +225,36 @@ pub enum ShapeKind {
         /// The machine starts in it.
         initial: bool,
     },
+    /// A state that holds others: the machine is in it while it is in one of these. A rounded rectangle around them.
+    Composite(Composite),
     /// A test predicate: a hexagon with the exits yes and no.
     Guard,
     /// A rule: a rectangle.
     Action,
     /// A block that stands for a pattern machine, called an instance.
     Instance(Pattern),
+}
+
+/// A state that holds others.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Composite {
+    /// The machine, or the composite state around it, begins in it.
+    pub initial: bool,
+    /// It is entered where it was left.
+    pub history: Option<History>,
+    /// Actions that are done whenever it is entered.
+    pub entry: Vec<ShapeId>,
+    /// Actions that are done whenever it is left.
+    pub exit: Vec<ShapeId>,
+}
+
+/// Where a composite state remembers in which of its states it was left.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum History {
+    /// In a location of the specification.
+    Linked(Link),
+    /// In a function to be created, with the machine's parameters as arguments.
+    Made,
 }
 
 /// The pattern of an instance.
@@ -216,10 +298,15 @@ pub struct Arrow {
 }
 
 /// Words that begin items of a chart or stand in paths; shapes must not have these names.
-pub const WORDS: [&str; 20] = [
+pub const WORDS: [&str; 25] = [
     "control",
     "initial",
+    "composite",
     "state",
+    "endstate",
+    "history",
+    "entry",
+    "abort",
     "guard",
     "action",
     "instance",

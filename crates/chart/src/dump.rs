@@ -31,6 +31,9 @@ fn one(out: &mut String, chart: &Chart, machine: &Machine) {
         let kind = match &shape.kind {
             ShapeKind::State { initial: true } => "initial state".to_string(),
             ShapeKind::State { initial: false } => "state".to_string(),
+            ShapeKind::Composite(composite) => {
+                format!("{}composite state", if composite.initial { "initial " } else { "" })
+            }
             ShapeKind::Guard => "guard".to_string(),
             ShapeKind::Action => "action".to_string(),
             ShapeKind::Instance(pattern) => format!("instance of {}({})", pattern.name, pattern.arguments.join(", ")),
@@ -42,6 +45,7 @@ fn one(out: &mut String, chart: &Chart, machine: &Machine) {
         });
         let _ = writeln!(out, "  {kind} {} {:?}{link}{}", shape.name, shape.text, refinement.unwrap_or_default());
     }
+    let machine = machine.flat();
     for transition in transitions(chart, machine) {
         let name = |id| machine.shape(id).name.as_str();
         let origin = match transition.origin {

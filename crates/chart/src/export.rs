@@ -7,6 +7,7 @@
 //!
 //! LIMIT: if the guards of two paths hold together, SCXML takes the first one; in a chart both are taken in parallel.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use crate::build::call;
@@ -20,6 +21,7 @@ pub(crate) const NAMESPACE: &str = "urn:groundstate:chart";
 
 /// The SCXML of a machine.
 pub fn scxml_of(chart: &Chart, machine: &Machine) -> String {
+    let machine = machine.flat();
     let initial = match machine.initial() {
         Some(id) if !machine.is_pattern => machine.shape(id).name.as_str(),
         _ => "enter",
@@ -47,8 +49,12 @@ pub fn scxml_of(chart: &Chart, machine: &Machine) -> String {
     out.push_str(">\n");
     let all = transitions(chart, machine);
     let writer = Writer { machine };
+    let mut declared = BTreeSet::new();
     for (id, shape) in machine.numbered().filter(|(id, _)| !is_block(chart, machine, *id)) {
-        writer.declaration(&mut out, id, shape);
+        // A flat machine has the guards and actions on the paths of several states once for each.
+        if declared.insert(&shape.name) {
+            writer.declaration(&mut out, id, shape);
+        }
     }
     for sequence in &machine.sequences {
         let names: Vec<&str> = sequence.iter().map(|id| machine.shape(*id).name.as_str()).collect();
@@ -104,7 +110,7 @@ impl Writer<'_> {
     /// A guard, an action, or an instance in which the machine does not stay.
     fn declaration(&self, out: &mut String, id: ShapeId, shape: &Shape) {
         let word = match &self.machine.shape(id).kind {
-            ShapeKind::State { .. } => return,
+            ShapeKind::State { .. } | ShapeKind::Composite(_) => return,
             ShapeKind::Guard => "guard",
             ShapeKind::Action => "action",
             ShapeKind::Instance(_) => "instance",

@@ -305,6 +305,8 @@ fn machine(
         shapes: Vec::new(),
         arrows: Vec::new(),
         sequences: Vec::new(),
+        aborts: Vec::new(),
+        flattened: None,
         steps: true,
         span: declared.span,
     };
@@ -547,6 +549,7 @@ fn add(machine: &mut Machine, kind: ShapeKind, name: &str, text: &str, link: &st
     let is_application = is_closed(link.trim_start_matches(|c: char| c.is_ascii_alphanumeric() || c == '_'));
     let link = Link { text: link.to_string(), name: name_of(link), is_application, span: machine.span };
     machine.shapes.push(Shape {
+        inside: None,
         name: unique,
         text: text.to_string(),
         kind,

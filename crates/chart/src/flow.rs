@@ -52,9 +52,10 @@ pub const MAX_TRANSITIONS: usize = 10_000;
 /// LIMIT: the most stops on all of them; in a chart with errors, paths may split without leading anywhere.
 const MAX_STOPS: usize = 100 * MAX_TRANSITIONS;
 
-/// The transitions of a machine; those of one origin are in the order of its arrows. A path that returns to itself,
+/// The transitions of a machine, over the shapes of [`Machine::flat`]; those of one origin are in the order of its arrows. A path that returns to itself,
 /// which is an error, is left out.
 pub fn transitions(chart: &Chart, machine: &Machine) -> Vec<Transition> {
+    let machine = machine.flat();
     let mut found = Vec::new();
     let mut budget = MAX_STOPS;
     for origin in origins(chart, machine) {
@@ -90,7 +91,7 @@ fn follow(
         End::Exit => Some(Target::Exit),
         End::Enter => return,
         End::Shape(id) => match machine.shape(id).kind {
-            ShapeKind::State { .. } => Some(Target::State(id)),
+            ShapeKind::State { .. } | ShapeKind::Composite(_) => Some(Target::State(id)),
             ShapeKind::Instance(_) if is_block(chart, machine, id) => Some(Target::Block(id)),
             _ => None,
         },

@@ -19,6 +19,7 @@ mod dump;
 mod export;
 mod extract;
 mod fault;
+mod flat;
 mod flow;
 mod lights;
 mod link;
@@ -33,7 +34,8 @@ pub mod xml;
 
 pub use build::{Built, Known, Lengths, Unknown, build, communication, library, unbuilt, unverified, verified};
 pub use chart::{
-    Arrow, Chart, Control, End, Layout, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind, WORDS,
+    Arrow, Chart, Composite, Control, End, Layout, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind,
+    WORDS,
 };
 pub use check::{Probed, built_faults, check, probed};
 pub use computing::{ComponentMachine, Computing, Content, Feed, Take};

@@ -4,7 +4,7 @@
 
 use std::fmt::Write;
 
-use crate::chart::{Arrow, Chart, Control, End, Machine, Shape, ShapeKind};
+use crate::chart::{Arrow, Chart, Composite, Control, End, History, Machine, Shape, ShapeId, ShapeKind};
 
 /// The text of a chart.
 pub fn write(chart: &Chart) -> String {
@@ -38,9 +38,7 @@ fn one(out: &mut String, machine: &Machine) {
         Some(Control::Made { name, .. }) => _ = writeln!(out, "control {name}"),
         None => {}
     }
-    for shape in &machine.shapes {
-        let _ = writeln!(out, "{}", declaration(shape));
-    }
+    shapes(out, machine, None);
     for sequence in &machine.sequences {
         let names: Vec<&str> = sequence.iter().map(|id| machine.shape(*id).name.as_str()).collect();
         let _ = writeln!(out, "sequence {}", names.join(", "));
@@ -49,8 +47,29 @@ fn one(out: &mut String, machine: &Machine) {
     let _ = writeln!(out, "end{word}");
 }
 
-fn declaration(shape: &Shape) -> String {
+/// The shapes in a composite state; without one, those of the machine in none.
+fn shapes(out: &mut String, machine: &Machine, around: Option<ShapeId>) {
+    for (id, shape) in machine.numbered().filter(|(_, shape)| shape.inside == around) {
+        let _ = writeln!(out, "{}", declaration(machine, id, shape));
+        let Some(composite) = shape.composite() else { continue };
+        match &composite.history {
+            Some(History::Linked(link)) => _ = writeln!(out, "history {{{}}}", link.text),
+            Some(History::Made) => _ = writeln!(out, "history"),
+            None => {}
+        }
+        shapes(out, machine, Some(id));
+        let _ = writeln!(out, "endstate");
+    }
+}
+
+fn declaration(machine: &Machine, id: ShapeId, shape: &Shape) -> String {
+    let around = shape.inside.and_then(|around| machine.shape(around).composite());
     let (word, of) = match &shape.kind {
+        ShapeKind::Composite(Composite { initial: true, .. }) => ("initial composite state", String::new()),
+        ShapeKind::Composite(_) => ("composite state", String::new()),
+        ShapeKind::Action if around.is_some_and(|around| around.entry.contains(&id)) => ("entry", String::new()),
+        ShapeKind::Action if around.is_some_and(|around| around.exit.contains(&id)) => ("exit", String::new()),
+        ShapeKind::Action if machine.aborts.contains(&id) => ("abort", String::new()),
         ShapeKind::State { initial: true } => ("initial state", String::new()),
         ShapeKind::State { initial: false } => ("state", String::new()),
         ShapeKind::Guard => ("guard", String::new()),
@@ -82,7 +101,9 @@ fn paths(out: &mut String, machine: &Machine) {
         None => name(arrow.from).to_string(),
     };
     let is_state = |end: End| match end {
-        End::Shape(id) => matches!(machine.shape(id).kind, ShapeKind::State { .. } | ShapeKind::Instance(_)),
+        End::Shape(id) => {
+            matches!(machine.shape(id).kind, ShapeKind::State { .. } | ShapeKind::Composite(_) | ShapeKind::Instance(_))
+        }
         _ => true,
     };
     let mut done = vec![false; machine.arrows.len()];

@@ -100,5 +100,6 @@ fn node(name: &str, figure: Figure, text: &str, details: Vec<Detail>) -> Node {
         height: 2.0 * (height.max(LEADING + 20.0) / 2.0).ceil(),
         place: None,
         initial: false,
+        inside: None,
     }
 }

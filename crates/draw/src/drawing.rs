@@ -94,7 +94,7 @@ pub struct Page;
 
 impl Pictures for Page {
     fn style(&self, class: &str) -> String {
-        style::css(Theme::Auto, &format!(".{class} "))
+        style::css(Theme::Auto, &format!(".{class} "), true)
     }
 
     fn part(&self, subject: Subject<'_>, prefix: &str, class: &str) -> Result<String, NotDrawn> {

@@ -4,10 +4,12 @@
 //! read too. Arrows come in from above; a guard's `yes` goes on below and its `no` to the right, at the hexagon's corner,
 //! so the straight way is the way of yes. Equal scenes give equal pictures: the library's random seed is fixed.
 
+use std::collections::BTreeMap;
+
 use serde_json::{Value, json};
 
 use crate::picture::{Figure, Label, Line, Picture, Placed};
-use crate::scene::{Edge, Node, Scene, branch_size, link_size};
+use crate::scene::{Edge, FRAME, Node, Scene, branch_size, frame_top, link_size};
 
 /// The layout library refused a graph: our bug or its own.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -40,8 +42,8 @@ pub fn placed(scene: &Scene) -> Result<Picture, LayoutFault> {
 }
 
 fn graph(scene: &Scene) -> Value {
-    let children: Vec<Value> =
-        scene.nodes.iter().enumerate().map(|(index, node)| shape(index, node, scene.free)).collect();
+    let nested = scene.nodes.iter().any(|node| node.inside.is_some());
+    let is_composite = |index: usize| scene.nodes[index].figure == Figure::Composite;
     let edges: Vec<Value> = scene
         .edges
         .iter()
@@ -51,10 +53,11 @@ fn graph(scene: &Scene) -> Value {
                 _ if scene.free => edge.from.to_string(),
                 Some(true) => format!("{}yes", edge.from),
                 Some(false) => format!("{}no", edge.from),
+                None if is_composite(edge.from) => edge.from.to_string(),
                 None => format!("{}out", edge.from),
             };
             let straightness = if edge.branch == Some(false) { "1" } else { "10" };
-            let to = if scene.free { edge.to.to_string() } else { format!("{}in", edge.to) };
+            let to = if scene.free || is_composite(edge.to) { edge.to.to_string() } else { format!("{}in", edge.to) };
             json!({
                 "id": format!("e{index}"), "sources": [from], "targets": [to],
                 "layoutOptions": { "elk.layered.priority.straightness": straightness },
@@ -86,10 +89,28 @@ fn graph(scene: &Scene) -> Value {
             "elk.layered.spacing.edgeNodeBetweenLayers": "16",
             "elk.layered.spacing.edgeEdgeBetweenLayers": "12",
             "elk.padding": "[top=20,left=20,bottom=20,right=20]",
+            "elk.hierarchyHandling": if nested { "INCLUDE_CHILDREN" } else { "INHERIT" },
         },
-        "children": children,
+        "children": children(scene, None),
         "edges": edges,
     })
+}
+
+/// The shapes in a composite state; without one, those in none.
+fn children(scene: &Scene, around: Option<usize>) -> Vec<Value> {
+    let here = scene.nodes.iter().enumerate().filter(|(_, node)| node.inside == around);
+    here.map(|(index, node)| match node.figure {
+        Figure::Composite => json!({
+            "id": index.to_string(), "children": children(scene, Some(index)),
+            "layoutOptions": {
+                "elk.padding": format!("[top={},left={FRAME},bottom={FRAME},right={FRAME}]", frame_top(node.details.len())),
+                "elk.nodeSize.constraints": "[MINIMUM_SIZE]",
+                "elk.nodeSize.minimum": format!("({},{})", node.width, node.height),
+            },
+        }),
+        _ => shape(index, node, scene.free),
+    })
+    .collect()
 }
 
 /// A shape with the places where arrows meet it.
@@ -148,9 +169,15 @@ fn list<'v>(value: &'v Value, key: &str) -> impl Iterator<Item = &'v Value> {
 fn picture(scene: &Scene, answer: &Value) -> Picture {
     let mut picture =
         Picture { width: number(answer, "width"), height: number(answer, "height"), ..Picture::default() };
-    for (index, (node, child)) in scene.nodes.iter().zip(list(answer, "children")).enumerate() {
-        let (x, y) = (number(child, "x"), number(child, "y"));
-        picture.boxes.push(shape_at(node, (x + node.width / 2.0, y + node.height / 2.0)));
+    let mut found = Answer::default();
+    found.within(answer, (0.0, 0.0));
+    for (index, node) in scene.nodes.iter().enumerate() {
+        let Some((child, (x, y))) = found.nodes.get(&index).copied() else { continue };
+        let mut placed = shape_at(node, (x + node.width / 2.0, y + node.height / 2.0));
+        if node.figure == Figure::Composite {
+            (placed.width, placed.height) = (number(child, "width"), number(child, "height"));
+        }
+        picture.boxes.push(placed);
         picture.labels.extend(list(child, "labels").map(|given| label(given, index, x, y, true)));
         for port in list(child, "ports") {
             let leads = |edge: &&Edge| {
@@ -163,10 +190,11 @@ fn picture(scene: &Scene, answer: &Value) -> Picture {
             }
         }
     }
-    for (edge, given) in scene.edges.iter().zip(list(answer, "edges")) {
+    for (index, edge) in scene.edges.iter().enumerate() {
+        let Some((given, (left, top))) = found.edges.get(&index).copied() else { continue };
         let mut points = Vec::new();
         for section in list(given, "sections") {
-            let corner = |value: &Value| (number(value, "x"), number(value, "y"));
+            let corner = |value: &Value| (left + number(value, "x"), top + number(value, "y"));
             points.extend(section.get("startPoint").map(corner));
             points.extend(list(section, "bendPoints").map(corner));
             points.extend(section.get("endPoint").map(corner));
@@ -174,6 +202,30 @@ fn picture(scene: &Scene, answer: &Value) -> Picture {
         picture.lines.push(line(edge, points));
     }
     picture
+}
+
+/// What the library answers of each shape and each arrow, by number. A shape stands with the place of its left upper corner in the
+/// whole; an arrow, which the library puts into the innermost shape that holds both its ends, with the place of that one's.
+#[derive(Default)]
+struct Answer<'v> {
+    nodes: BTreeMap<usize, (&'v Value, (f64, f64))>,
+    edges: BTreeMap<usize, (&'v Value, (f64, f64))>,
+}
+
+impl<'v> Answer<'v> {
+    fn within(&mut self, of: &'v Value, (left, top): (f64, f64)) {
+        let id = |value: &'v Value| value.get("id").and_then(Value::as_str);
+        for edge in list(of, "edges") {
+            let index = id(edge).and_then(|id| id.trim_start_matches('e').parse().ok());
+            self.edges.extend(index.map(|index: usize| (index, (edge, (left, top)))));
+        }
+        for child in list(of, "children") {
+            let place = (left + number(child, "x"), top + number(child, "y"));
+            let index = id(child).and_then(|id| id.parse().ok());
+            self.nodes.extend(index.map(|index: usize| (index, (child, place))));
+            self.within(child, place);
+        }
+    }
 }
 
 /// The shape of a node with its centre there.
@@ -189,6 +241,7 @@ pub fn shape_at(node: &Node, (x, y): (f64, f64)) -> Placed {
         y: y - node.height / 2.0,
         width: node.width,
         height: node.height,
+        inside: node.inside,
     }
 }
 

@@ -10,7 +10,7 @@
 use crate::elk::{self, LayoutFault};
 use crate::picture::{Figure, Label, Picture, Placed};
 use crate::route::{Area, Port, Router, Side, Wire};
-use crate::scene::{Edge, Node, Scene, branch_size, link_size};
+use crate::scene::{Edge, FRAME, Node, Scene, branch_size, frame_top, link_size};
 
 /// Around everything.
 const PADDING: f64 = 20.0;
@@ -22,8 +22,14 @@ const APART: f64 = 24.0;
 /// The scene with everything in its place.
 pub fn placed(scene: &Scene) -> Result<Picture, LayoutFault> {
     let centres = centres(scene)?;
-    let boxes: Vec<Placed> =
+    let mut boxes: Vec<Placed> =
         scene.nodes.iter().zip(&centres).map(|(node, centre)| elk::shape_at(node, *centre)).collect();
+    let known: Vec<Option<(f64, f64)>> = centres.iter().copied().map(Some).collect();
+    for (index, node) in scene.nodes.iter().enumerate().filter(|(_, node)| node.figure == Figure::Composite) {
+        let (left, upper, right, lower) = frame(scene, &known, index).unwrap_or_default();
+        let (width, height) = ((right - left).max(node.width), (lower - upper).max(node.height));
+        boxes[index] = Placed { x: left, y: upper, width, height, ..boxes[index].clone() };
+    }
     let exits = exits(scene, &centres);
     let mut labels = Vec::new();
     for (edge, side) in scene.edges.iter().zip(&exits) {
@@ -50,7 +56,7 @@ pub fn placed(scene: &Scene) -> Result<Picture, LayoutFault> {
         })
         .collect();
     let routes = Router::new(
-        &boxes.iter().map(area).collect::<Vec<_>>(),
+        &boxes.iter().map(in_the_way).collect::<Vec<_>>(),
         &labels.iter().map(of_label).collect::<Vec<_>>(),
         &wires,
     )
@@ -63,6 +69,27 @@ pub fn placed(scene: &Scene) -> Result<Picture, LayoutFault> {
 
 fn area(shape: &Placed) -> Area {
     (shape.x, shape.y, shape.x + shape.width, shape.y + shape.height)
+}
+
+/// What arrows lead around: not the frame of a composite state.
+fn in_the_way(shape: &Placed) -> Area {
+    match shape.figure {
+        Figure::Composite => (shape.x, shape.y, shape.x, shape.y),
+        _ => area(shape),
+    }
+}
+
+/// The frame of a composite state around what lies in it; `None` if nothing in it has a place yet.
+fn frame(scene: &Scene, centres: &[Option<(f64, f64)>], composite: usize) -> Option<Area> {
+    let inner = scene.nodes.iter().enumerate().filter(|(_, node)| node.inside == Some(composite));
+    let areas = inner.filter_map(|(index, node)| match node.figure {
+        Figure::Composite => frame(scene, centres, index),
+        _ => Some(footprint(node, centres[index]?)),
+    });
+    let whole = areas.reduce(|a, b| (a.0.min(b.0), a.1.min(b.1), a.2.max(b.2), a.3.max(b.3)))?;
+    let node = &scene.nodes[composite];
+    let right = (whole.2 + FRAME).max(whole.0 - FRAME + node.width);
+    Some((whole.0 - FRAME, whole.1 - frame_top(node.details.len()), right, whole.3 + FRAME))
 }
 
 fn of_label(label: &Label) -> Area {
@@ -83,7 +110,10 @@ fn footprint(node: &Node, (x, y): (f64, f64)) -> Area {
 /// The centre of each shape: the one it has, or a free one.
 fn centres(scene: &Scene) -> Result<Vec<(f64, f64)>, LayoutFault> {
     let within = |(x, y): (f64, f64)| (x.clamp(-FAR, FAR), y.clamp(-FAR, FAR));
-    let mut centres: Vec<Option<(f64, f64)>> = scene.nodes.iter().map(|node| node.place.map(within)).collect();
+    let is_composite = |index: usize| scene.nodes[index].figure == Figure::Composite;
+    // A composite state has no place of its own.
+    let given = |node: &Node| if node.figure == Figure::Composite { Some((0.0, 0.0)) } else { node.place.map(within) };
+    let mut centres: Vec<Option<(f64, f64)>> = scene.nodes.iter().map(given).collect();
     if centres.iter().any(Option::is_none) {
         let ideal = elk::placed(scene)?;
         let ideal: Vec<(f64, f64)> =
@@ -94,7 +124,8 @@ fn centres(scene: &Scene) -> Result<Vec<(f64, f64)>, LayoutFault> {
                 _ if edge.to == index => Some(edge.from),
                 _ => None,
             };
-            scene.edges.iter().filter_map(of).filter(|other| centres[*other].is_some()).collect()
+            let known = |other: &usize| centres[*other].is_some() && !is_composite(*other);
+            scene.edges.iter().filter_map(of).filter(known).collect()
         };
         while let Some(first) = centres.iter().position(Option::is_none) {
             let open = |index: &usize| centres[*index].is_none() && !placed(&centres, *index).is_empty();
@@ -103,7 +134,7 @@ fn centres(scene: &Scene) -> Result<Vec<(f64, f64)>, LayoutFault> {
             if near.is_empty() {
                 let distance =
                     |other: &usize| (ideal[*other].0 - ideal[index].0).hypot(ideal[*other].1 - ideal[index].1);
-                let known = (0..centres.len()).filter(|other| centres[*other].is_some());
+                let known = (0..centres.len()).filter(|other| centres[*other].is_some() && !is_composite(*other));
                 near.extend(known.min_by(|a, b| distance(a).total_cmp(&distance(b))));
             }
             centres[index] = Some(free_spot(scene, &centres, index, wanted(&centres, &ideal, index, &near)));
@@ -124,8 +155,14 @@ fn wanted(centres: &[Option<(f64, f64)>], ideal: &[(f64, f64)], index: usize, ne
 
 /// The free spot nearest to the wanted one.
 fn free_spot(scene: &Scene, centres: &[Option<(f64, f64)>], index: usize, wanted: (f64, f64)) -> (f64, f64) {
-    let others: Vec<Area> =
-        scene.nodes.iter().zip(centres).filter_map(|(node, centre)| Some(footprint(node, (*centre)?))).collect();
+    let around: Vec<usize> =
+        std::iter::successors(scene.nodes[index].inside, |outer| scene.nodes[*outer].inside).collect();
+    let taken = |(other, node): (usize, &Node)| match node.figure {
+        Figure::Composite if around.contains(&other) => None,
+        Figure::Composite => frame(scene, centres, other),
+        _ => Some(footprint(node, centres[other]?)),
+    };
+    let others: Vec<Area> = scene.nodes.iter().enumerate().filter_map(taken).collect();
     let floats = matches!(scene.nodes[index].figure, Figure::Enter | Figure::Exit);
     let apart = if floats { APART / 2.0 } else { APART };
     let free = |centre: (f64, f64)| {
@@ -133,7 +170,27 @@ fn free_spot(scene: &Scene, centres: &[Option<(f64, f64)>], index: usize, wanted
         let own = (own.0 - apart, own.1 - apart, own.2 + apart, own.3 + apart);
         others.iter().all(|other| overlap(own, *other) == 0.0)
     };
+    // The frames around it grow with it: they should not come to lie on what stands outside of them.
+    let holds = |outer: usize, other: usize| {
+        std::iter::successors(scene.nodes[other].inside, |next| scene.nodes[*next].inside).any(|next| next == outer)
+    };
+    let grows_well = |centre: (f64, f64)| {
+        let mut centres = centres.to_vec();
+        centres[index] = Some(centre);
+        around.iter().all(|outer| {
+            let Some(grown) = frame(scene, &centres, *outer) else { return true };
+            let outside = (0..scene.nodes.len()).filter(|other| !holds(*outer, *other) && other != outer);
+            let mut areas = outside.filter_map(|other| match scene.nodes[other].figure {
+                Figure::Composite if around.contains(&other) => None,
+                Figure::Composite => frame(scene, &centres, other),
+                _ => Some(footprint(&scene.nodes[other], centres[other]?)),
+            });
+            areas.all(|area| overlap(grown, area) == 0.0)
+        })
+    };
     const STEP: f64 = 10.0;
+    // Within so many rings a spot is looked for by which no frame comes to lie on anything; given places may allow none.
+    const PICKY: i32 = 40;
     let wanted = (wanted.0.round(), wanted.1.round());
     let mut ring = 0;
     loop {
@@ -144,7 +201,8 @@ fn free_spot(scene: &Scene, centres: &[Option<(f64, f64)>], index: usize, wanted
         }
         spots.sort_by_key(|(x, y)| x * x + y * y);
         let spots = spots.iter().map(|(x, y)| (wanted.0 + f64::from(*x) * STEP, wanted.1 + f64::from(*y) * STEP));
-        if let Some(spot) = spots.into_iter().find(|spot| free(*spot)) {
+        let picky = !around.is_empty() && ring < PICKY;
+        if let Some(spot) = spots.into_iter().find(|spot| free(*spot) && (!picky || grows_well(*spot))) {
             return spot;
         }
         ring += 1;

@@ -8,6 +8,8 @@
 pub enum Figure {
     /// A control state.
     Circle,
+    /// A state that holds others.
+    Composite,
     /// A guard.
     Hexagon,
     /// An action.
@@ -49,6 +51,8 @@ pub struct Placed {
     pub width: f64,
     /// Height.
     pub height: f64,
+    /// The composite state around it, by its index.
+    pub inside: Option<usize>,
 }
 
 /// A line of smaller text in a shape.

@@ -53,7 +53,7 @@ fn lines(chart: &Chart, drawing: &Drawing) -> Result<String, LayoutFault> {
     let mut out = String::new();
     for shape in &drawing.picture()?.boxes {
         let placed = known.is_some_and(|places| places.contains_key(&shape.id));
-        if placed || shape.figure == Figure::Exit {
+        if placed || matches!(shape.figure, Figure::Exit | Figure::Composite) {
             continue;
         }
         let centre = ((shape.x + shape.width / 2.0).round(), (shape.y + shape.height / 2.0).round());

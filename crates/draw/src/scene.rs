@@ -5,9 +5,9 @@
 
 use std::collections::BTreeSet;
 
-use chart::{Chart, End, Machine, Shape, ShapeKind};
+use chart::{Chart, Composite, End, Machine, ShapeId, ShapeKind};
 
-use crate::measure::{TEXT, extent, in_circle, link_width, text_width, wrapped};
+use crate::measure::{SMALL, SMALL_LEADING, TEXT, extent, in_circle, link_width, text_width, wrapped};
 use crate::picture::{Detail, Figure};
 
 /// A shape to be placed.
@@ -28,6 +28,8 @@ pub struct Node {
     pub place: Option<(f64, f64)>,
     /// The machine starts here.
     pub initial: bool,
+    /// The composite state around it. That one's own size follows from what lies in it.
+    pub inside: Option<usize>,
 }
 
 impl Node {
@@ -66,11 +68,18 @@ pub fn of_machine(chart: &Chart, machine: &Machine) -> Scene {
     let mut scene = Scene::default();
     for end in &order {
         let mut node = match end {
-            End::Shape(id) => node(chart, machine.shape(*id), radius),
+            End::Shape(id) => node(chart, machine, *id, radius),
             _ => point("enter".to_string(), Figure::Enter),
         };
         node.place = chart.layouts.get(&machine.name).and_then(|places| places.get(&node.id)).copied();
         scene.nodes.push(node);
+    }
+    let around = |end: &End| match end {
+        End::Shape(id) => machine.shape(*id).inside.map(End::Shape),
+        End::Enter | End::Exit => None,
+    };
+    for (index, end) in order.iter().enumerate() {
+        scene.nodes[index].inside = around(end).and_then(|outer| order.iter().position(|known| *known == outer));
     }
     let place = |end: End| order.iter().position(|known| *known == end);
     // Drawn in the order of the shapes they start at, `yes` before `no`.
@@ -99,7 +108,7 @@ fn reading_order(machine: &Machine) -> Vec<End> {
     let start = if machine.is_pattern { Some(End::Enter) } else { machine.initial().map(End::Shape) };
     let mut order = Vec::new();
     let mut seen = BTreeSet::new();
-    let rest = machine.numbered().map(|(id, _)| End::Shape(id));
+    let rest = machine.numbered().filter(|(id, _)| !machine.is_apart(*id)).map(|(id, _)| End::Shape(id));
     for root in start.into_iter().chain(rest) {
         let mut open = vec![root];
         while let Some(end) = open.pop() {
@@ -110,6 +119,12 @@ fn reading_order(machine: &Machine) -> Vec<End> {
             let mut next: Vec<_> = machine.out_of(end).collect();
             next.sort_by_key(|arrow| arrow.branch.map(|yes| !yes));
             open.extend(next.iter().rev().map(|arrow| arrow.to));
+            // Whoever enters a composite state reads on where it begins.
+            if let End::Shape(id) = end
+                && machine.shape(id).composite().is_some()
+            {
+                open.extend(machine.first_in(Some(id)).map(End::Shape));
+            }
         }
     }
     order
@@ -128,12 +143,31 @@ fn point(id: String, figure: Figure) -> Node {
         height: 2.0,
         place: None,
         initial: false,
+        inside: None,
     }
 }
 
-fn node(chart: &Chart, shape: &Shape, radius: f64) -> Node {
+/// What is done when a composite state is entered or left.
+fn doings(machine: &Machine, composite: &Composite) -> Vec<Detail> {
+    let told = |word: &str, actions: &[ShapeId]| -> Vec<Detail> {
+        let text = |id: &ShapeId| format!("{word} / {}", machine.shape(*id).text.replace('\n', " "));
+        actions.iter().map(|id| Detail { text: text(id), ..Detail::default() }).collect()
+    };
+    let history = composite.history.as_ref().map(|_| Detail { text: "history".to_string(), ..Detail::default() });
+    history.into_iter().chain(told("entry", &composite.entry)).chain(told("exit", &composite.exit)).collect()
+}
+
+fn node(chart: &Chart, machine: &Machine, id: ShapeId, radius: f64) -> Node {
+    let shape = machine.shape(id);
+    let mut details = Vec::new();
     let (figure, lines, width, height) = match &shape.kind {
         ShapeKind::State { .. } => (Figure::Circle, in_circle(&shape.text).0, 2.0 * radius, 2.0 * radius),
+        ShapeKind::Composite(composite) => {
+            let lines = vec![shape.text.replace('\n', " ")];
+            details = doings(machine, composite);
+            let widest = details.iter().map(|detail| text_width(&detail.text, SMALL)).fold(extent(&lines).0, f64::max);
+            (Figure::Composite, lines, widest + 40.0, frame_top(details.len()) + 40.0)
+        }
         ShapeKind::Guard => {
             let lines = wrapped(&shape.text, 120.0);
             let (width, height) = extent(&lines);
@@ -162,15 +196,24 @@ fn node(chart: &Chart, shape: &Shape, radius: f64) -> Node {
         figure,
         dashed: shape.refinement.is_some(),
         lines,
-        details: Vec::new(),
+        details,
         place: None,
+        inside: None,
         link: link.map(|link| format!("{{{}}}", link.name)),
         // Even, so that the middle lies on a whole pixel and straight arrows are straight.
         width: 2.0 * (width / 2.0).ceil(),
         height: 2.0 * (height / 2.0).ceil(),
-        initial: shape.kind == ShapeKind::State { initial: true },
+        initial: shape.is_initial(),
     }
 }
+
+/// The room that the words of a composite state with so many details take above what lies in it.
+pub fn frame_top(details: usize) -> f64 {
+    30.0 + details as f64 * SMALL_LEADING
+}
+
+/// Between the frame of a composite state and what lies in it.
+pub const FRAME: f64 = 20.0;
 
 /// How far the two corners of a hexagon reach out.
 pub fn corner(height: f64) -> f64 {

@@ -22,12 +22,13 @@ pub enum Theme {
 const SANS: &str = "Helvetica,Arial,Arimo,'Liberation Sans',sans-serif";
 const MONO: &str = "ui-monospace,Menlo,Consolas,Cousine,'Liberation Mono',monospace";
 
-/// The rules of a drawing, all of them under a selector (which ends in a blank) or under none.
-pub fn css(theme: Theme, under: &str) -> String {
+/// The rules of a drawing, all of them under a selector (which ends in a blank) or under none; those of composite states if there are
+/// any.
+pub fn css(theme: Theme, under: &str, nested: bool) -> String {
     let mut css = String::new();
     forms(&mut css, under);
     let mut sheet = String::new();
-    colours(&mut sheet, under);
+    colours(&mut sheet, under, nested);
     match theme {
         Theme::Light => css.push_str(&painted(&sheet, Paper::Light)),
         Theme::Dark => css.push_str(&painted(&sheet, Paper::Dark)),
@@ -63,7 +64,7 @@ fn forms(css: &mut String, under: &str) {
 }
 
 /// The rules about colour, with the names that the palette has for them.
-fn colours(css: &mut String, under: &str) {
+fn colours(css: &mut String, under: &str, nested: bool) {
     let _ = write!(
         css,
         "{under}.paper{{fill:$paper}}{under}text{{fill:$ink}}{under}.link,{under}.faint{{fill:$soft}}\
@@ -72,6 +73,7 @@ fn colours(css: &mut String, under: &str) {
     // The class, its fill, its line; where it is lit, the line fills it.
     let figures = [
         ("state", "state", "write"),
+        ("composite", "paper", "write"),
         ("guard", "guard", "guard-line"),
         ("action", "action", "line"),
         ("instance", "instance", "instance-line"),
@@ -79,7 +81,7 @@ fn colours(css: &mut String, under: &str) {
         ("channel", "guard", "guard-line"),
         ("device", "action", "line"),
     ];
-    for (class, fill, line) in figures {
+    for (class, fill, line) in figures.into_iter().filter(|(class, ..)| nested || *class != "composite") {
         let _ = write!(css, "{under}.{class}{{fill:${fill};stroke:${line}}}");
         if !under.is_empty() {
             // Only a page lights shapes.

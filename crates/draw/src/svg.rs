@@ -27,7 +27,7 @@ pub fn svg(picture: &Picture, description: &str, theme: Theme) -> String {
     let Picture { left, top, width, height, .. } = *picture;
     let style = format!(
         "<style>{}</style>\n<rect class=\"paper\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n",
-        css(theme, ""),
+        css(theme, "", picture.boxes.iter().any(|shape| shape.figure == Figure::Composite)),
         N(left),
         N(top),
         N(width.ceil()),
@@ -59,12 +59,20 @@ fn element(picture: &Picture, description: &str, prefix: &str, class: &str, styl
     if !style.is_empty() {
         heading(&mut out, picture);
     }
+    // What holds others lies behind them, the outermost farthest.
+    let mut frames: Vec<&Placed> = picture.boxes.iter().filter(|shape| shape.figure == Figure::Composite).collect();
+    frames.sort_by(|one, other| (other.width * other.height).total_cmp(&(one.width * one.height)));
+    for frame in frames {
+        let _ = writeln!(out, "<g data-shape=\"{}\">", Text(&frame.id));
+        composite(&mut out, frame);
+        out.push_str("</g>\n");
+    }
     for line in &picture.lines {
         arrow(&mut out, line);
     }
     for (index, shape) in picture.boxes.iter().enumerate() {
         let labels: Vec<&Label> = picture.labels.iter().filter(|label| label.of == index).collect();
-        let floating = matches!(shape.figure, Figure::Enter | Figure::Exit);
+        let floating = matches!(shape.figure, Figure::Enter | Figure::Exit | Figure::Composite);
         if floating {
             continue;
         }
@@ -165,7 +173,7 @@ fn figure(out: &mut String, shape: &Placed) {
             let points: Vec<String> = points.iter().map(|(x, y)| format!("{},{}", N(*x), N(*y))).collect();
             let _ = writeln!(out, "<polygon class=\"shape guard{dashed}\" points=\"{}\"/>", points.join(" "));
         }
-        Figure::Enter | Figure::Exit => {}
+        Figure::Enter | Figure::Exit | Figure::Composite => {}
         _ => {
             let (class, round) = class_of(shape.figure);
             let round = N(round.min(height / 2.0));
@@ -194,6 +202,36 @@ fn figure(out: &mut String, shape: &Placed) {
         }
     }
     words(out, shape);
+}
+
+/// The frame of a composite state, with its words at the top.
+fn composite(out: &mut String, shape: &Placed) {
+    let mut frame = |class: &str, in_by: f64, round: f64| {
+        let _ = writeln!(
+            out,
+            "<rect class=\"shape composite{class}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"{}\"/>",
+            N(shape.x + in_by),
+            N(shape.y + in_by),
+            N(shape.width - 2.0 * in_by),
+            N(shape.height - 2.0 * in_by),
+            N(round)
+        );
+    };
+    frame("", 0.0, 14.0);
+    if shape.initial {
+        frame(" inner", 3.5, 11.0);
+    }
+    let x = N(shape.x + 16.0);
+    let mut y = shape.y + 20.0;
+    for line in &shape.lines {
+        let _ = writeln!(out, "<text class=\"name start\" x=\"{x}\" y=\"{}\">{}</text>", N(y), Text(line));
+        y += SMALL_LEADING;
+    }
+    for detail in &shape.details {
+        let _ =
+            writeln!(out, "<text class=\"small faint start\" x=\"{x}\" y=\"{}\">{}</text>", N(y), Text(&detail.text));
+        y += SMALL_LEADING;
+    }
 }
 
 /// The text in a shape, and the smaller one below it.

@@ -12,6 +12,7 @@ const TOLD: usize = 60;
 pub fn of_machine(chart: &Chart, machine: &Machine) -> String {
     let kind = if machine.is_pattern { "Pattern machine" } else { "Control-state machine" };
     let mut out = format!("{kind} {}.", machine.name);
+    let machine = machine.flat();
     let text = |id| machine.shape(id).text.replace('\n', " ");
     let all = transitions(chart, machine);
     for transition in all.iter().take(TOLD) {

@@ -43,6 +43,11 @@ fn inside(a: Area, picture: &Picture) -> bool {
     a.0 >= left && a.1 >= top && a.2 <= left + width && a.3 <= top + height
 }
 
+/// Whether a composite state holds a shape.
+fn holds(picture: &Picture, outer: usize, inner: usize) -> bool {
+    std::iter::successors(picture.boxes[inner].inside, |next| picture.boxes[*next].inside).any(|next| next == outer)
+}
+
 fn assert_readable(picture: &Picture, name: &str) {
     let shapes: Vec<(Area, &str, Figure)> = picture
         .boxes
@@ -51,8 +56,16 @@ fn assert_readable(picture: &Picture, name: &str) {
         .collect();
     for (index, (a, first, _)) in shapes.iter().enumerate() {
         assert!(inside(*a, picture), "{name}: {first} is outside");
-        for (b, second, _) in &shapes[index + 1..] {
-            assert!(!overlap(*a, *b), "{name}: {first} overlaps {second}");
+        for (other, (b, second, _)) in shapes.iter().enumerate().skip(index + 1) {
+            let nested = holds(picture, index, other) || holds(picture, other, index);
+            assert!(nested || !overlap(*a, *b), "{name}: {first} overlaps {second}");
+            for (outer, a, inner, b) in [(index, a, other, b), (other, b, index, a)] {
+                let within = b.0 >= a.0 && b.1 >= a.1 && b.2 <= a.2 && b.3 <= a.3;
+                assert!(
+                    within || !holds(picture, outer, inner),
+                    "{name}: {first} and {second} are not one in the other"
+                );
+            }
         }
     }
     let labels: Vec<(Area, &str)> = picture
@@ -62,7 +75,8 @@ fn assert_readable(picture: &Picture, name: &str) {
         .collect();
     for (index, (a, text)) in labels.iter().enumerate() {
         assert!(inside(*a, picture), "{name}: {text} is outside");
-        for (b, id, figure) in &shapes {
+        // What stands in a composite state, and what leads there, lies in its frame.
+        for (b, id, figure) in shapes.iter().filter(|(.., figure)| *figure != Figure::Composite) {
             // The corner of a hexagon's box beside its slanted edge is free.
             let free = *figure == Figure::Hexagon && (a.1 > (b.1 + b.3) / 2.0 || a.3 < (b.1 + b.3) / 2.0);
             assert!(free || !overlap(*a, *b), "{name}: the label {text} lies on {id}");
@@ -84,7 +98,7 @@ fn assert_readable(picture: &Picture, name: &str) {
         for pair in line.points.windows(2) {
             assert!(pair[0].0 == pair[1].0 || pair[0].1 == pair[1].1, "{name}: a line is neither level nor upright");
             for (index, (b, id, _)) in shapes.iter().enumerate() {
-                let own = index == line.from || index == line.to;
+                let own = index == line.from || index == line.to || picture.boxes[index].figure == Figure::Composite;
                 assert!(own || !overlap(*b, stretch(pair[0], pair[1])), "{name}: a line runs through {id}");
             }
         }
@@ -162,29 +176,32 @@ impl Dice {
     }
 }
 
-/// A machine or pattern with so many states, whose paths lead over guards and actions of their own or of others.
-fn random(seed: u64, most: usize) -> String {
+/// A machine or pattern with so many states, whose paths lead over guards and actions of their own or of others. If it is nested, any
+/// shape may stand in one of two composite states.
+fn random(seed: u64, most: usize, nested: bool) -> String {
     let mut dice = Dice(seed);
     let is_pattern = dice.throw(2) == 0;
     let states = 1 + dice.throw(most);
     let (open, close) = if is_pattern { ("pattern", "endpattern") } else { ("machine", "endmachine") };
-    let mut shapes = format!("chart Random {open} m \"{}\" control c\n", dice.words(4));
+    let head = format!("chart Random {open} m \"{}\" control c\n", dice.words(4));
+    // What stands in no composite state, in the outer and in the inner one.
+    let mut shapes = [String::new(), String::new(), String::new()];
     let mut paths = String::new();
+    let mut declared = |dice: &mut Dice, text: String| shapes[if nested { dice.throw(3) } else { 0 }] += &text;
     for n in 0..states {
-        let initial = if n == 0 && !is_pattern { "initial " } else { "" };
-        shapes += &format!(
-            "{initial}state s{n} \"{}\"{}\n",
-            dice.words(3),
-            if dice.throw(2) == 0 { format!(" {{S{n}}}") } else { String::new() }
-        );
+        let initial = if n == 0 && !is_pattern && !nested { "initial " } else { "" };
+        let link = if dice.throw(2) == 0 { format!(" {{S{n}}}") } else { String::new() };
+        let text = format!("{initial}state s{n} \"{}\"{link}\n", dice.words(3));
+        declared(&mut dice, text);
     }
     if is_pattern {
-        shapes += "action first\n";
+        declared(&mut dice, "action first\n".to_string());
         paths += "enter -> first -> s0\n";
     }
     let target = |dice: &mut Dice, actions: usize| match dice.throw(5) {
         0 if is_pattern => "exit".to_string(),
         1 if actions > 0 => format!("a{}", dice.throw(actions)),
+        2 if nested => ["around", "within"][dice.throw(2)].to_string(),
         _ => format!("s{}", dice.throw(states)),
     };
     let (mut guards, mut actions) = (0, 0);
@@ -192,8 +209,10 @@ fn random(seed: u64, most: usize) -> String {
         let mut from = format!("s{n}");
         for _ in 0..1 + dice.throw(2) {
             let refined = if dice.throw(4) == 0 { " to refine" } else { "" };
-            shapes += &format!("guard g{guards} \"{}\"{}{refined}\n", dice.words(4), dice.link(""));
-            shapes += &format!("action a{actions} \"{}\"{}\n", dice.words(3), dice.link("r_").replace("}", "[]}"));
+            let text = format!("guard g{guards} \"{}\"{}{refined}\n", dice.words(4), dice.link(""));
+            declared(&mut dice, text);
+            let text = format!("action a{actions} \"{}\"{}\n", dice.words(3), dice.link("r_").replace("}", "[]}"));
+            declared(&mut dice, text);
             // To an action made before, or to a state: never in a circle without one.
             paths += &format!("{from} -> g{guards} yes -> a{actions} -> {}\n", target(&mut dice, actions));
             match dice.throw(3) {
@@ -203,16 +222,24 @@ fn random(seed: u64, most: usize) -> String {
             }
             guards += 1;
             actions += 1;
-            from = format!("s{}", dice.throw(states));
+            from = if nested && dice.throw(3) == 0 { "around".to_string() } else { format!("s{}", dice.throw(states)) };
         }
     }
-    shapes + &paths + close + "\n"
+    let [outside, around, within] = shapes;
+    if !nested {
+        return head + &outside + &paths + close + "\n";
+    }
+    let (initial, title) = (if is_pattern { "" } else { "initial " }, dice.words(3));
+    format!(
+        "{head}{outside}{initial}composite state around \"{title}\" history entry come exit go initial state q {around}\
+         composite state within initial state r {within}endstate endstate {paths}{close}\n"
+    )
 }
 
 #[test]
 fn random_charts_are_readable() {
-    for seed in 0..150 {
-        let text = random(seed, 2 + seed as usize / 10);
+    for (seed, nested) in (0..150).map(|seed| (seed, false)).chain((0..24).map(|seed| (seed, true))) {
+        let text = random(seed, 2 + seed as usize / 10, nested);
         let picture = drawings(&read_chart(&text))[0].picture().expect("it is laid out");
         assert_readable(&picture, &format!("seed {seed}\n{text}"));
     }
@@ -231,7 +258,7 @@ fn placed(text: &str, dice: &mut Dice, left_out: usize) -> (String, Places) {
         }
         out += &format!("\nlayout {}\n", drawing.name());
         for shape in drawing.picture().expect("it is laid out").boxes {
-            if shape.figure == Figure::Exit || dice.throw(100) < left_out {
+            if matches!(shape.figure, Figure::Exit | Figure::Composite) || dice.throw(100) < left_out {
                 continue;
             }
             let mut moved = |at: f64| (at * 1.6 + dice.throw(40) as f64).round() - 20.0;
@@ -271,7 +298,8 @@ fn places_are_kept() {
         }
     }
     for seed in (0..60).filter(|seed| full || seed % 3 == 0) {
-        let (text, places) = placed(&random(seed, 2 + seed as usize / 10), &mut dice, (seed % 3 * 20) as usize);
+        let nested = seed % 4 == 3;
+        let (text, places) = placed(&random(seed, 2 + seed as usize / 10, nested), &mut dice, (seed % 3 * 20) as usize);
         assert_placed(&text, &places, &format!("seed {seed}\n{text}"));
     }
 }

@@ -181,24 +181,36 @@ fn machine(node: &SyntaxNode) -> Option<Entry> {
         SyntaxKind::SYSTEM_CHART => "system",
         _ => return None,
     };
-    let name = |node: &SyntaxNode| {
-        let mut tokens = node.children_with_tokens().filter_map(|element| element.into_token());
-        tokens.find(|token| token.kind() == SyntaxKind::GENERIC_ID)
-    };
-    let found = entry(node, name(node), EntryKind::Machine, detail)?;
-    let inner = node.children().filter_map(|child| {
+    let found = entry(node, name_of(node), EntryKind::Machine, detail)?;
+    Some(Entry { inner: parts(node), ..found })
+}
+
+fn name_of(node: &SyntaxNode) -> Option<SyntaxToken> {
+    let mut tokens = node.children_with_tokens().filter_map(|element| element.into_token());
+    tokens.find(|token| token.kind() == SyntaxKind::GENERIC_ID)
+}
+
+/// What a machine, a system or a composite state holds.
+fn parts(node: &SyntaxNode) -> Vec<Entry> {
+    let of = |child: SyntaxNode| {
         let detail = match child.kind() {
             SyntaxKind::COMPONENT => "component",
             SyntaxKind::CHANNEL => "channel",
             SyntaxKind::DEVICE => "device",
             _ => match Shape::cast(child.clone())? {
                 Shape::State(_) => "state",
+                Shape::Composite(_) => "composite state",
+                Shape::Entry(_) => "entry action",
+                Shape::Exit(_) => "exit action",
+                Shape::Abort(_) => "action of an abort",
                 Shape::Guard(_) => "guard",
                 Shape::Action(_) => "action",
                 Shape::Instance(_) => "instance",
             },
         };
-        entry(&child, name(&child), EntryKind::Shape, detail)
-    });
-    Some(Entry { inner: inner.collect(), ..found })
+        let found = entry(&child, name_of(&child), EntryKind::Shape, detail)?;
+        let inner = if child.kind() == SyntaxKind::COMPOSITE_STATE { parts(&child) } else { Vec::new() };
+        Some(Entry { inner, ..found })
+    };
+    node.children().filter_map(of).collect()
 }

@@ -49,7 +49,7 @@ fn account(chart: &Chart) -> Account {
         End::Shape(id) => machine.shape(id).name.clone(),
     };
     let kind = |shape: &chart::Shape| match shape.kind {
-        chart::ShapeKind::State { .. } => Figure::State,
+        chart::ShapeKind::State { .. } | chart::ShapeKind::Composite(_) => Figure::State,
         chart::ShapeKind::Guard => Figure::Guard,
         chart::ShapeKind::Action | chart::ShapeKind::Instance(_) => Figure::Other,
     };

@@ -95,7 +95,8 @@ kinds! {
     ENDPATTERN_KW = "endpattern", CONTROL_KW = "control", INITIAL_KW = "initial", STATE_KW = "state", GUARD_KW = "guard",
     ACTION_KW = "action", INSTANCE_KW = "instance", OF_KW = "of", TO_KW = "to", REFINE_KW = "refine", BY_KW = "by",
     ENTER_KW = "enter", EXIT_KW = "exit", YES_KW = "yes", NO_KW = "no", SEQUENCE_KW = "sequence", LAYOUT_KW = "layout",
-    ENDLAYOUT_KW = "endlayout", AT_KW = "at",
+    ENDLAYOUT_KW = "endlayout", AT_KW = "at", COMPOSITE_KW = "composite", ENDSTATE_KW = "endstate",
+    HISTORY_KW = "history", ENTRY_KW = "entry", ABORT_KW = "abort",
     SYSTEM_KW = "system", ENDSYSTEM_KW = "endsystem", TICK_KW = "tick", COMPONENT_KW = "component",
     ENDCOMPONENT_KW = "endcomponent", SYNCHRONOUS_KW = "synchronous", ASYNCHRONOUS_KW = "asynchronous",
     PERIOD_KW = "period", OFFSET_KW = "offset", DEADLINE_KW = "deadline", AWAITS_KW = "awaits", READ_KW = "read",
@@ -132,7 +133,8 @@ kinds! {
     TERM_FILE,
 
     // Nodes: charts
-    CHART_FILE, MACHINE_CHART, CONTROL_VARIABLE, CONTROL_STATE, GUARD_SHAPE, ACTION_SHAPE, PATTERN_INSTANCE, LINK,
+    CHART_FILE, MACHINE_CHART, CONTROL_VARIABLE, CONTROL_STATE, COMPOSITE_STATE,
+    HISTORY, ENTRY_ACTION, EXIT_ACTION, ABORT_ACTION, GUARD_SHAPE, ACTION_SHAPE, PATTERN_INSTANCE, LINK,
     REFINEMENT, CHART_PATH, PATH_STOP, SEQUENCE, LAYOUT, PLACEMENT, COORDINATE,
     SYSTEM_CHART, TICK, PROCESSORS, COMPONENT, COMPONENT_KIND, PHASE, CHANNEL, CHANNEL_KIND, DEVICE, AGE_BOUND, CONNECTION,
     QUANTITY,

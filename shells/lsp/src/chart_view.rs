@@ -239,7 +239,7 @@ impl View<'_> {
         let refinement = shape.and_then(|shape| shape.refinement.as_ref());
         let of = shape.and_then(|shape| match &shape.kind {
             ShapeKind::Instance(pattern) => Some(pattern.name.clone()),
-            ShapeKind::State { .. } | ShapeKind::Guard | ShapeKind::Action => None,
+            ShapeKind::State { .. } | ShapeKind::Composite(_) | ShapeKind::Guard | ShapeKind::Action => None,
         });
         let details =
             placed.details.iter().map(|detail| json!({ "id": detail.id, "text": detail.text, "right": detail.right }));
@@ -268,6 +268,7 @@ impl View<'_> {
 fn figure(figure: Figure) -> &'static str {
     match figure {
         Figure::Circle => "circle",
+        Figure::Composite => "composite",
         Figure::Hexagon => "hexagon",
         Figure::Rectangle => "rectangle",
         Figure::Block => "block",
@@ -317,7 +318,7 @@ fn laid_out(answers: &mut Answers, path: &str, text: &str, drawing: &str) -> Res
     let found = found.ok_or_else(|| failed(format!("the chart has no machine or system `{drawing}`")))?;
     let picture = found.picture().map_err(|fault| failed(fault.to_string()))?;
     let centre = |placed: &Placed| (placed.x + placed.width / 2.0, placed.y + placed.height / 2.0);
-    let shapes = picture.boxes.iter().filter(|placed| placed.figure != Figure::Exit);
+    let shapes = picture.boxes.iter().filter(|placed| !matches!(placed.figure, Figure::Exit | Figure::Composite));
     let places: BTreeMap<String, Centre> = shapes
         .map(|placed| (placed.id.clone(), centre(placed)))
         .map(|(id, (x, y))| (id, (x.round(), y.round())))

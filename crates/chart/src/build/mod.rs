@@ -16,7 +16,10 @@ mod table;
 pub(crate) use known::OWNED;
 pub use known::{Known, Unknown};
 pub(crate) use rule::{machine_rule, origin_condition};
-pub(crate) use spelling::{call, function_name, rule_name, state_value};
+pub(crate) use spelling::{
+    call, control_location, function_name, inner_control, instance_call, memory_location, of_instance, rule_name,
+    state_value,
+};
 pub use system::{Lengths, busy, late};
 
 use crate::chart::{Chart, Control, Machine, ShapeKind};

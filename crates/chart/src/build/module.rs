@@ -8,8 +8,8 @@ use std::fmt::Write;
 
 use super::known::Known;
 use super::rule::machine_rule;
-use super::spelling::{applied, call, function_name, rule_name, state_value};
-use crate::chart::{Chart, Control, Machine, Shape, ShapeKind};
+use super::spelling::{applied, call, function_name, memory_name, rule_name, state_value};
+use crate::chart::{Chart, Composite, Control, History, Machine, Shape, ShapeKind};
 use crate::flow::is_block;
 
 /// A declaration or definition.
@@ -128,7 +128,17 @@ fn controls(chart: &Chart, known: &Known, parts: &mut Parts) {
             _ => format!("Prod({}) -> ", of.join(", ")),
         };
         add(&mut parts.declarations, &name, format!("controlled {name}: {of}{domain}\n"), false);
+        for composite in machine.shapes.iter().filter(|shape| remembers(shape)) {
+            let memory = memory_name(composite);
+            let note = format!("// where {} was left\n", composite.text.replace('\n', " "));
+            add(&mut parts.declarations, &memory, format!("{note}controlled {memory}: {of}{domain}\n"), false);
+        }
     }
+}
+
+/// Whether a function is to be made that remembers where a composite state was left.
+fn remembers(shape: &Shape) -> bool {
+    matches!(shape.composite(), Some(Composite { history: Some(History::Made), .. }))
 }
 
 fn capitalised(name: &str) -> String {

@@ -6,7 +6,7 @@
 
 use std::fmt::Write;
 
-use super::spelling::{call, control_location, rule_name, state_value, substituted};
+use super::spelling::{call, control_location, inner_control, instance_call, state_value};
 use crate::chart::{Chart, End, Machine, ShapeId, ShapeKind};
 use crate::flow::{Origin, is_beside, is_block, origins};
 
@@ -15,6 +15,7 @@ pub(crate) fn machine_rule(chart: &Chart, machine: &Machine, name: &str) -> Stri
     let parameters: Vec<String> =
         machine.parameters.iter().map(|parameter| format!("{} in {}", parameter.variable, parameter.domain)).collect();
     let parameters = if parameters.is_empty() { String::new() } else { format!("({})", parameters.join(", ")) };
+    let machine = machine.flat();
     let writer = Writer { chart, machine };
     let mut rules: Vec<String> = Vec::new();
     for (id, shape) in machine.numbered().filter(|(id, _)| is_beside(machine, *id)) {
@@ -97,15 +98,8 @@ impl Writer<'_> {
         format!("// {note}\nif {control} = {value} then\nif isUndef({inner}) then\n{left}\nelse\n{call}\nendif\nendif")
     }
 
-    /// The control variable of an instance's pattern, with the arguments instead of its parameters.
     fn inner_control(&self, id: ShapeId) -> String {
-        let shape = self.machine.shape(id);
-        let (Some(pattern), ShapeKind::Instance(instance)) = (self.chart.pattern_of(shape), &shape.kind) else {
-            return "undef".to_string();
-        };
-        let location = control_location(pattern).unwrap_or_default();
-        let variables: Vec<&str> = pattern.parameters.iter().map(|parameter| parameter.variable.as_str()).collect();
-        substituted(&location, &variables, &instance.arguments)
+        inner_control(self.chart, self.machine.shape(id)).unwrap_or_else(|| "undef".to_string())
     }
 
     fn control(&self) -> String {
@@ -117,14 +111,7 @@ impl Writer<'_> {
     }
 
     fn instance(&self, id: ShapeId) -> String {
-        let shape = self.machine.shape(id);
-        match (self.chart.pattern_of(shape), &shape.kind) {
-            (Some(pattern), ShapeKind::Instance(instance)) => {
-                let name = shape.link.as_ref().map(|link| link.name.clone()).unwrap_or_else(|| rule_name(pattern));
-                format!("{name}[{}]", instance.arguments.join(", "))
-            }
-            _ => "skip".to_string(),
-        }
+        instance_call(self.chart, self.machine.shape(id))
     }
 
     /// The rules of the paths from an end to the end of the step; `chain` contains the actions so far.
@@ -141,7 +128,7 @@ impl Writer<'_> {
         };
         let go_to = format!("{} := {}", self.control(), self.value(id));
         match self.machine.shape(id).kind {
-            ShapeKind::State { .. } => last(go_to, chain),
+            ShapeKind::State { .. } | ShapeKind::Composite(_) => last(go_to, chain),
             ShapeKind::Instance(_) if is_block(self.chart, self.machine, id) => {
                 chain.push((id, self.instance(id)));
                 last(go_to, chain)

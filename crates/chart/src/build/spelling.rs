@@ -1,6 +1,6 @@
 //! Spells the parts of a chart in AsmetaL: names of rules and functions, values of states, calls.
 
-use crate::chart::{Chart, Control, Machine, Shape, ShapeId, ShapeKind};
+use crate::chart::{Chart, Control, History, Machine, Shape, ShapeId, ShapeKind};
 
 /// The name of a machine's rule.
 pub(crate) fn rule_name(machine: &Machine) -> String {
@@ -77,6 +77,43 @@ pub(crate) fn call(machine: &Machine, shape: &Shape) -> String {
         (Some(link), _) => link.text.clone(),
         (None, ShapeKind::Guard) => applied(&function_name(&shape.name), machine, '(', ')'),
         (None, _) => applied(&format!("r_{}", shape.name), machine, '[', ']'),
+    }
+}
+
+/// The control variable of an instance's pattern, with the arguments instead of its parameters.
+pub(crate) fn inner_control(chart: &Chart, instance: &Shape) -> Option<String> {
+    let pattern = chart.pattern_of(instance)?;
+    Some(of_instance(pattern, instance, &control_location(pattern)?))
+}
+
+/// A text of a pattern with the arguments of an instance instead of the parameters.
+pub(crate) fn of_instance(pattern: &Machine, instance: &Shape, text: &str) -> String {
+    let ShapeKind::Instance(of) = &instance.kind else { return text.to_string() };
+    let variables: Vec<&str> = pattern.parameters.iter().map(|parameter| parameter.variable.as_str()).collect();
+    substituted(text, &variables, &of.arguments)
+}
+
+/// The call of the rule of an instance's pattern.
+pub(crate) fn instance_call(chart: &Chart, instance: &Shape) -> String {
+    match (chart.pattern_of(instance), &instance.kind) {
+        (Some(pattern), ShapeKind::Instance(of)) => {
+            let name = instance.link.as_ref().map(|link| link.name.clone()).unwrap_or_else(|| rule_name(pattern));
+            format!("{name}[{}]", of.arguments.join(", "))
+        }
+        _ => "skip".to_string(),
+    }
+}
+
+/// The function that remembers in which of its states a composite state was left.
+pub(crate) fn memory_name(composite: &Shape) -> String {
+    format!("{}Left", function_name(&composite.name))
+}
+
+/// That function as a location.
+pub(crate) fn memory_location(machine: &Machine, composite: &Shape) -> String {
+    match composite.composite().and_then(|composite| composite.history.as_ref()) {
+        Some(History::Linked(link)) => link.text.clone(),
+        Some(History::Made) | None => applied(&memory_name(composite), machine, '(', ')'),
     }
 }
 

@@ -204,7 +204,13 @@ fn one(chart: &Chart, machine: &Machine, probe: &str, model: &Model, faults: &mu
         let explorer = Explorer::new(model, function, location.clone(), origin.clone(), Depth::Full);
         match (explorer.rule(probe, &names), explorer.rule(rule, &names)) {
             (Ok(drawn), Ok(written)) => {
-                let side = Side { chart, machine, origin: &origin, control: &location, rule: model.rule(rule).span };
+                let side = Side {
+                    chart,
+                    machine: machine.flat(),
+                    origin: &origin,
+                    control: &location,
+                    rule: model.rule(rule).span,
+                };
                 side.compare(&drawn, &written, faults);
             }
             (_, Err(reason)) | (Err(reason), _) => {

@@ -16,10 +16,10 @@ use syntax::ast::{AstNode, TermFile};
 use syntax::{Diagnostic, FileId, Severity, Span};
 
 use crate::build::{call, origin_condition};
-use crate::chart::{Chart, Machine, ShapeId};
+use crate::chart::{Chart, End, Machine, ShapeId, ShapeKind};
 use crate::differ::difference;
 use crate::fault;
-use crate::flow::{Origin, Target, Transition, transitions};
+use crate::flow::{Origin, Target, Transition, is_block, transitions};
 use crate::symbolic::Path;
 
 /// LIMIT: how many pairs of paths of one machine are compared.
@@ -74,8 +74,9 @@ pub(super) fn paths(
     solver: &mut dyn Solver,
     faults: &mut Vec<Diagnostic>,
 ) {
+    let (drawn, machine) = (machine, machine.flat());
     let all = transitions(chart, machine);
-    let mut asker = Asker { chart, machine, guards, solver };
+    let mut asker = Asker { chart, drawn, machine, guards, solver };
     let mut origins: Vec<Origin> = all.iter().map(|one| one.origin).collect();
     origins.dedup();
     let mut budget = MAX_PAIRS;
@@ -88,6 +89,8 @@ pub(super) fn paths(
 
 struct Asker<'a> {
     chart: &'a Chart,
+    /// The machine with its composite states; `machine` is the flat one.
+    drawn: &'a Machine,
     machine: &'a Machine,
     guards: &'a mut Guards,
     solver: &'a mut dyn Solver,
@@ -132,8 +135,7 @@ impl Asker<'_> {
     }
 
     fn gap(&mut self, origin: Origin, from: &[&Transition], faults: &mut Vec<Diagnostic>) {
-        let guards: BTreeSet<ShapeId> = from.iter().flat_map(|one| &one.guards).map(|(id, _)| *id).collect();
-        if guards.len() < 2 || from.iter().any(|one| one.guards.is_empty()) {
+        if self.own_guards(origin) < 2 || from.iter().any(|one| one.guards.is_empty()) {
             return;
         }
         // Paths that use both exits of their guards cover all cases, whatever the guards mean.
@@ -152,6 +154,32 @@ impl Asker<'_> {
                 faults.push(fault::undecided_paths(place, &name, "cover all cases", &reason));
             }
         }
+    }
+
+    /// How many guards stand on the own paths of a state, not on those of the states around it.
+    fn own_guards(&self, origin: Origin) -> usize {
+        let mut open = vec![match origin {
+            Origin::Enter => End::Enter,
+            Origin::State(id) | Origin::Left(id) => End::Shape(id),
+        }];
+        let mut seen: BTreeSet<ShapeId> = BTreeSet::new();
+        let mut guards = 0;
+        while let Some(end) = open.pop() {
+            for arrow in self.drawn.out_of(end) {
+                let End::Shape(to) = arrow.to else { continue };
+                let kind = &self.drawn.shape(to).kind;
+                guards += usize::from(*kind == ShapeKind::Guard && !seen.contains(&to));
+                let goes_on = match kind {
+                    ShapeKind::Guard | ShapeKind::Action => true,
+                    ShapeKind::Instance(_) => !is_block(self.chart, self.drawn, to),
+                    ShapeKind::State { .. } | ShapeKind::Composite(_) => false,
+                };
+                if goes_on && seen.insert(to) {
+                    open.push(arrow.to);
+                }
+            }
+        }
+        guards
     }
 
     /// Whether a condition can hold at an origin.

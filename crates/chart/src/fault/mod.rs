@@ -19,6 +19,7 @@ pub const IDS: &[&str] = &[
     "chart-import",
     "circular-path",
     "component-machine",
+    "composite-state",
     "control-variable",
     "dead-end",
     "duplicate-shape",
@@ -143,6 +144,71 @@ pub(crate) fn needless_initial(span: Span, first: Option<Span>) -> Diagnostic {
             .here("a pattern is entered by its arrow, when its control variable is undef")
             .with_help("remove `initial`, and write a path `enter -> …`"),
     }
+}
+
+/// A composite state that is entered and does not say where it begins.
+pub(crate) fn no_initial_inside(span: Span, name: &str) -> Diagnostic {
+    Diagnostic::error("initial-state", span, format!("`{name}` does not say where it begins"))
+        .here("a path leads to this composite state, or the machine begins in it")
+        .with_help("write `initial` before one of the states in it, or lead the path to one of them")
+}
+
+/// What belongs into a composite state.
+pub(crate) fn outside_composite(span: Span) -> Diagnostic {
+    Diagnostic::error("composite-state", span, "this stands in no composite state")
+        .here("a composite state is entered and left, and may remember where it was left")
+        .with_help("move it between `composite state` and `endstate`")
+}
+
+/// `abort` anywhere but in a pattern.
+pub(crate) fn outside_pattern(span: Span) -> Diagnostic {
+    Diagnostic::error("composite-state", span, "this is not directly in a pattern")
+        .here("only a pattern is aborted, by a path out of a composite state around an instance of it")
+        .with_help("write `exit` for what is done whenever a composite state is left")
+}
+
+/// `history` without a location, beside a control variable of the specification.
+pub(crate) fn unlinked_history(span: Span, name: &str) -> Diagnostic {
+    Diagnostic::error(
+        "composite-state",
+        span,
+        format!("`{name}` does not say where it remembers in which state it was left"),
+    )
+    .here("the control variable is a location of the specification, so this must be one, too")
+    .with_help("write `history {f($x)}`, with a function of the same domain")
+}
+
+/// A machine whose composite states multiply its paths.
+pub(crate) fn too_nested(span: Span, name: &str) -> Diagnostic {
+    Diagnostic::error("composite-state", span, format!("`{name}` is too large"))
+        .here("each state in a composite state has the paths of those around it, and these are too many or too long")
+        .with_help("split the machine, or make the paths out of composite states shorter")
+}
+
+/// `history` twice.
+pub(crate) fn second_history(span: Span) -> Diagnostic {
+    Diagnostic::error("composite-state", span, "a second `history`").here("one is enough").with_help("remove it")
+}
+
+/// A control variable within a composite state.
+pub(crate) fn control_in_composite(span: Span) -> Diagnostic {
+    Diagnostic::error("control-variable", span, "a control variable in a composite state")
+        .here("the states in it are values of the machine's control variable")
+        .with_help("remove it")
+}
+
+/// An instance beside the paths, in a composite state.
+pub(crate) fn beside_in_composite(span: Span, name: &str) -> Diagnostic {
+    Diagnostic::error("composite-state", span, format!("no path leads to `{name}`"))
+        .here("an instance beside the paths runs in every step, whatever state the machine is in")
+        .with_help("move it out of the composite state, or lead a path to it")
+}
+
+/// An action that is done when a composite state is entered or left, or a pattern aborted, on a path.
+pub(crate) fn apart_on_path(span: Span, name: &str) -> Diagnostic {
+    Diagnostic::error("composite-state", span, format!("`{name}` stands on no path"))
+        .here("it is done by itself whenever its state is entered or left, or its pattern is aborted")
+        .with_help("declare another action for the path")
 }
 
 /// Arguments that do not fit the pattern.

@@ -6,7 +6,9 @@ use syntax::{Span, SyntaxToken};
 use super::link::{flat, link, names_function};
 use super::{Reader, structure};
 use crate::build::function_name;
-use crate::chart::{Arrow, Control, End, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind};
+use crate::chart::{
+    Arrow, Composite, Control, End, History, Machine, Parameter, Pattern, Refinement, Shape, ShapeId, ShapeKind,
+};
 use crate::fault;
 use crate::link::Link;
 
@@ -27,13 +29,16 @@ impl Reader {
             shapes: Vec::new(),
             arrows: Vec::new(),
             sequences: Vec::new(),
+            aborts: Vec::new(),
             steps: false,
+            flattened: None,
             span: self.span(&name),
         };
         self.control(node, &mut machine);
         for shape in node.shapes() {
             self.shape(&shape, &mut machine);
         }
+        self.misplaced(node);
         let before = self.faults.len();
         for path in node.paths() {
             let stops: Vec<PathStop> = path.stops().collect();
@@ -95,22 +100,68 @@ impl Reader {
         }
     }
 
+    /// What composite states cannot hold, and `history` outside of them.
+    fn misplaced(&mut self, node: &MachineChart) {
+        for composite in node.composites() {
+            for control in composite.controls() {
+                self.faults.push(fault::control_in_composite(Span::new(self.file, control.range())));
+            }
+            for second in composite.histories().skip(1) {
+                self.faults.push(fault::second_history(Span::new(self.file, second.range())));
+            }
+        }
+        for history in node.histories() {
+            self.faults.push(fault::outside_composite(Span::new(self.file, history.range())));
+        }
+    }
+
     fn shape(&mut self, node: &ast::Shape, machine: &mut Machine) {
         let Some(name) = node.name() else { return };
         let span = self.span(&name);
+        let named = |name: &SyntaxToken| machine.shapes.iter().position(|shape| shape.name == name.text()).map(ShapeId);
+        let inside = node.around().and_then(|around| named(&ast::Shape::Composite(around).name()?));
         if let Some(first) = machine.shapes.iter().find(|shape| shape.name == name.text()) {
             self.faults.push(fault::duplicate(span, "shape", name.text(), first.span));
             return;
         }
         let kind = match node {
             ast::Shape::State(state) => ShapeKind::State { initial: state.is_initial() },
+            ast::Shape::Composite(state) => {
+                let mut histories = state.histories();
+                let history = histories.next().map(|history| match self.link(history.link()) {
+                    Some(link) => History::Linked(link),
+                    None => History::Made,
+                });
+                ShapeKind::Composite(Composite { initial: state.is_initial(), history, ..Composite::default() })
+            }
             ast::Shape::Guard(_) => ShapeKind::Guard,
-            ast::Shape::Action(_) => ShapeKind::Action,
+            ast::Shape::Action(_) | ast::Shape::Entry(_) | ast::Shape::Exit(_) | ast::Shape::Abort(_) => {
+                ShapeKind::Action
+            }
             ast::Shape::Instance(instance) => ShapeKind::Instance(Pattern {
                 name: instance.pattern().map(|name| name.text().to_string()).unwrap_or_default(),
                 arguments: instance.arguments().iter().map(|argument| flat(argument.syntax())).collect(),
             }),
         };
+        let id = ShapeId(machine.shapes.len());
+        let around = inside.and_then(|around| match &mut machine.shapes[around.0].kind {
+            ShapeKind::Composite(composite) => Some(composite),
+            _ => None,
+        });
+        match (node, around) {
+            (ast::Shape::Entry(_), Some(composite)) => composite.entry.push(id),
+            (ast::Shape::Exit(_), Some(composite)) => composite.exit.push(id),
+            (ast::Shape::Entry(_) | ast::Shape::Exit(_), None) => {
+                self.faults.push(fault::outside_composite(span));
+                return;
+            }
+            (ast::Shape::Abort(_), None) if machine.is_pattern => machine.aborts.push(id),
+            (ast::Shape::Abort(_), _) => {
+                self.faults.push(fault::outside_pattern(span));
+                return;
+            }
+            _ => {}
+        }
         let refinement = node.refinement().map(|node| Refinement { by: node.by().map(|name| name.text().to_string()) });
         machine.shapes.push(Shape {
             text: node.text().unwrap_or_else(|| spoken(name.text())),
@@ -118,6 +169,7 @@ impl Reader {
             kind,
             link: self.link(node.link()),
             refinement,
+            inside,
             span,
         });
     }

@@ -10,11 +10,13 @@ mod structure;
 mod system;
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use syntax::ast::{self, AstNode, ChartFile};
 use syntax::{Diagnostic, FileId, Parse, Span};
 
 use crate::chart::{Chart, ShapeKind};
+use crate::flat::flattened;
 use crate::{fault, flow};
 
 pub use import::{Loaded, load, load_beside};
@@ -69,6 +71,15 @@ impl Reader {
         for (machine, over) in flow::settle(chart) {
             self.faults.push(fault::contains_itself(chart.machines[machine].span, &over));
         }
+        for index in 0..chart.machines.len() {
+            match flattened(chart, &chart.machines[index]) {
+                Ok(flat) => chart.machines[index].flattened = flat.map(Arc::new),
+                Err(_) => {
+                    let machine = &chart.machines[index];
+                    self.faults.push(fault::too_nested(machine.span, &machine.name));
+                }
+            }
+        }
         for machine in &chart.machines {
             let blocks = machine.numbered().any(|(id, _)| flow::is_block(chart, machine, id));
             if blocks && machine.control.is_none() && !structure::has_states(machine) {
@@ -102,7 +113,9 @@ impl Reader {
         let shapes: Vec<&str> = match (&chart.system, chart.machines.iter().find(|machine| machine.name == name.text()))
         {
             (_, Some(machine)) => {
-                let shapes = machine.shapes.iter().map(|shape| shape.name.as_str());
+                // A composite state is drawn around what lies in it; what stands on no path is a line of text.
+                let placed = machine.numbered().filter(|(id, one)| one.composite().is_none() && !machine.is_apart(*id));
+                let shapes = placed.map(|(_, shape)| shape.name.as_str());
                 machine.is_pattern.then_some("enter").into_iter().chain(shapes).collect()
             }
             (Some(system), None) if system.name == name.text() => {

@@ -2,10 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use syntax::Diagnostic;
+use syntax::{Diagnostic, Span};
 
-use crate::chart::{Arrow, Control, End, Machine, Shape, ShapeId, ShapeKind};
+use crate::chart::{Arrow, Composite, Control, End, History, Machine, Shape, ShapeId, ShapeKind};
 use crate::fault;
+use crate::flow::is_beside;
 
 /// Shapes by the value of their control state, for faults about values.
 type ByValue<'m> = BTreeMap<&'m str, &'m Shape>;
@@ -16,6 +17,7 @@ pub(super) fn faults(machine: &Machine, sound: bool) -> Vec<Diagnostic> {
     control(machine, &mut faults);
     values(machine, &mut faults);
     if sound {
+        composites(machine, &mut faults);
         ends(machine, &mut faults);
         forks(machine, &mut faults);
         dead_ends(machine, &mut faults);
@@ -30,14 +32,44 @@ fn control(machine: &Machine, faults: &mut Vec<Diagnostic>) {
     if states().next().is_some() && machine.control.is_none() {
         faults.push(fault::no_control(machine.span, &machine.name));
     }
-    let initial: Vec<_> =
-        states().filter(|(_, shape)| shape.kind == ShapeKind::State { initial: true }).map(|(_, s)| s.span).collect();
+    let starts = |around: Option<ShapeId>| -> Vec<Span> {
+        let starts = machine.shapes.iter().filter(|shape| shape.inside == around && shape.is_initial());
+        starts.map(|shape| shape.span).collect()
+    };
+    let initial = starts(None);
     if machine.is_pattern {
         faults.extend(initial.iter().map(|span| fault::needless_initial(*span, None)));
     } else if initial.is_empty() && states().next().is_some() {
         faults.push(fault::no_initial(machine.span, &machine.name));
     } else {
         faults.extend(initial.iter().skip(1).map(|span| fault::needless_initial(*span, initial.first().copied())));
+    }
+    for (id, shape) in machine.numbered().filter(|(_, shape)| shape.composite().is_some()) {
+        let inner = starts(Some(id));
+        faults.extend(inner.iter().skip(1).map(|span| fault::needless_initial(*span, inner.first().copied())));
+        let is_target = machine.arrows.iter().any(|arrow| arrow.to == End::Shape(id));
+        if inner.is_empty() && (is_target || shape.is_initial()) {
+            faults.push(fault::no_initial_inside(shape.span, &shape.name));
+        }
+    }
+}
+
+/// What composite states must not hold, and actions that are done by themselves on a path.
+fn composites(machine: &Machine, faults: &mut Vec<Diagnostic>) {
+    for (id, shape) in machine.numbered() {
+        if let Some(Composite { history: Some(History::Made), .. }) = shape.composite()
+            && let Some(Control::Linked(_)) = machine.control
+        {
+            faults.push(fault::unlinked_history(shape.span, &shape.name));
+        }
+        if shape.inside.is_some() && is_beside(machine, id) {
+            faults.push(fault::beside_in_composite(shape.span, &shape.name));
+        }
+        if machine.is_apart(id) {
+            let end = End::Shape(id);
+            let on_path = machine.arrows.iter().find(|arrow| arrow.from == end || arrow.to == end);
+            faults.extend(on_path.map(|arrow| fault::apart_on_path(arrow.span, &shape.name)));
+        }
     }
 }
 
@@ -83,7 +115,9 @@ fn forks(machine: &Machine, faults: &mut Vec<Diagnostic>) {
     let mut first: BTreeMap<(End, Option<bool>), &Arrow> = BTreeMap::new();
     for arrow in &machine.arrows {
         let (kind, name) = match arrow.from {
-            End::Shape(id) if matches!(machine.shape(id).kind, ShapeKind::State { .. }) => continue,
+            End::Shape(id) if matches!(machine.shape(id).kind, ShapeKind::State { .. } | ShapeKind::Composite(_)) => {
+                continue;
+            }
             End::Shape(id) => (kind_of(machine, id), machine.shape(id).name.as_str()),
             _ => continue,
         };
@@ -98,6 +132,7 @@ fn forks(machine: &Machine, faults: &mut Vec<Diagnostic>) {
 pub(crate) fn kind_of(machine: &Machine, id: ShapeId) -> &'static str {
     match machine.shape(id).kind {
         ShapeKind::State { .. } => "control state",
+        ShapeKind::Composite(_) => "composite state",
         ShapeKind::Guard => "guard",
         ShapeKind::Action => "action",
         ShapeKind::Instance(_) => "instance",
@@ -110,7 +145,8 @@ fn dead_ends(machine: &Machine, faults: &mut Vec<Diagnostic>) {
         let is_reached = machine.arrows.iter().any(|arrow| arrow.to == End::Shape(id));
         // A control state may be final; an instance without arrows runs parallel to the paths.
         let ends = match shape.kind {
-            ShapeKind::State { .. } => false,
+            ShapeKind::State { .. } | ShapeKind::Composite(_) => false,
+            ShapeKind::Action if machine.is_apart(id) => false,
             ShapeKind::Instance(_) => is_reached && !leads_on,
             _ => !leads_on,
         };
@@ -169,8 +205,23 @@ fn unreachable(machine: &Machine, faults: &mut Vec<Diagnostic>) {
     }
     let mut seen: BTreeSet<End> = BTreeSet::new();
     while let Some(end) = open.pop().flatten() {
-        if seen.insert(end) {
-            open.extend(machine.out_of(end).map(|arrow| Some(arrow.to)));
+        if !seen.insert(end) {
+            continue;
+        }
+        for arrow in machine.out_of(end) {
+            open.push(Some(arrow.to));
+            // An arrow to a composite state leads to where that begins.
+            if let End::Shape(to) = arrow.to
+                && machine.shape(to).composite().is_some()
+            {
+                open.push(machine.first_in(Some(to)).map(End::Shape));
+            }
+        }
+        // Whoever is in a state is in those around it.
+        if let End::Shape(id) = end
+            && !matches!(machine.shape(id).kind, ShapeKind::Guard | ShapeKind::Action)
+        {
+            open.extend(machine.shape(id).inside.map(|around| Some(End::Shape(around))));
         }
     }
     if seen.is_empty() {
@@ -178,7 +229,7 @@ fn unreachable(machine: &Machine, faults: &mut Vec<Diagnostic>) {
     }
     for (id, shape) in machine.numbered().filter(|(id, _)| !seen.contains(&End::Shape(*id))) {
         let beside = matches!(shape.kind, ShapeKind::Instance(_)) && machine.out_of(End::Shape(id)).next().is_none();
-        if !beside {
+        if !beside && !machine.is_apart(id) {
             faults.push(fault::unreachable(shape.span, kind_of(machine, id), &shape.name));
         }
     }

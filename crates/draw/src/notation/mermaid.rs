@@ -24,12 +24,31 @@ fn escaped(text: &str) -> String {
 /// The flowchart of a scene.
 pub fn mermaid(scene: &Scene, name: &str) -> String {
     let mut out = format!("---\ntitle: {name}\n---\nflowchart TD\n");
-    for (index, node) in scene.nodes.iter().enumerate() {
+    nodes(&mut out, scene, None);
+    for edge in &scene.edges {
+        let label = match edge.branch {
+            Some(true) => "|yes|",
+            Some(false) => "|no|",
+            None => "",
+        };
+        let _ = writeln!(out, "  n{} -->{label} n{}", edge.from, edge.to);
+    }
+    out + "  classDef refine stroke-dasharray: 6 4\n  classDef end fill:none,stroke:none\n"
+}
+
+/// The nodes in a composite state; without one, those in none.
+fn nodes(out: &mut String, scene: &Scene, around: Option<usize>) {
+    for (index, node) in scene.nodes.iter().enumerate().filter(|(_, node)| node.inside == around) {
         let mut text = node.told().map(|line| escaped(&line)).collect::<Vec<_>>().join("<br/>");
         if let Some(link) = &node.link {
             let _ = write!(text, "<br/><small>{}</small>", escaped(link));
         }
         let _ = match node.figure {
+            Figure::Composite => {
+                let _ = writeln!(out, "  subgraph n{index}[\"{text}\"]");
+                nodes(out, scene, Some(index));
+                writeln!(out, "  end")
+            }
             Figure::Circle if node.initial => writeln!(out, "  n{index}(((\"{text}\")))"),
             Figure::Circle => writeln!(out, "  n{index}((\"{text}\"))"),
             Figure::Hexagon => writeln!(out, "  n{index}{{{{\"{text}\"}}}}"),
@@ -42,13 +61,4 @@ pub fn mermaid(scene: &Scene, name: &str) -> String {
             let _ = writeln!(out, "  class n{index} refine");
         }
     }
-    for edge in &scene.edges {
-        let label = match edge.branch {
-            Some(true) => "|yes|",
-            Some(false) => "|no|",
-            None => "",
-        };
-        let _ = writeln!(out, "  n{} -->{label} n{}", edge.from, edge.to);
-    }
-    out + "  classDef refine stroke-dasharray: 6 4\n  classDef end fill:none,stroke:none\n"
 }

@@ -186,7 +186,7 @@ fn legal(machine: &MachineChart, joint: &Joint) -> Result<(Joint, bool), String>
     }
     let forks = match (joint.from.as_str(), shape(&joint.from)) {
         ("enter", _) => true,
-        (_, Some(Shape::State(_))) => true,
+        (_, Some(Shape::State(_) | Shape::Composite(_))) => true,
         (_, Some(Shape::Guard(_))) => {
             let Some(_) = joint.branch else {
                 return Err(format!("say which exit of `{}` it is: yes or no", joint.from));
@@ -194,8 +194,14 @@ fn legal(machine: &MachineChart, joint: &Joint) -> Result<(Joint, bool), String>
             return Ok((joint, false));
         }
         (_, Some(Shape::Action(_) | Shape::Instance(_))) => false,
+        (_, Some(Shape::Entry(_) | Shape::Exit(_) | Shape::Abort(_))) => {
+            return Err(format!("`{}` is done by itself, and stands on no path", joint.from));
+        }
         (_, None) => return Err(format!("there is no shape `{}`", joint.from)),
     };
+    if let Some(Shape::Entry(_) | Shape::Exit(_) | Shape::Abort(_)) = shape(&joint.to) {
+        return Err(format!("`{}` is done by itself, and stands on no path", joint.to));
+    }
     joint.branch = None;
     Ok((joint, forks))
 }

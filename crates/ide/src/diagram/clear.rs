@@ -13,7 +13,13 @@ impl Work {
             Section::Machine(machine) => {
                 let is_it = |shape: &syntax::ast::Shape| shape.name().is_some_and(|own| own.text() == name);
                 let shape = machine.shapes().find(is_it).ok_or_else(|| format!("there is no shape `{name}`"))?;
-                drop(shape);
+                // A composite state goes with all that it holds.
+                let inner = machine.shapes().filter(|one| one.syntax().parent().as_ref() == Some(shape.syntax()));
+                let inner: Vec<String> = inner.filter_map(|one| Some(one.name()?.text().to_string())).collect();
+                drop((shape, machine));
+                for one in inner {
+                    self.delete(&one)?;
+                }
                 self.disconnect_all(name)?;
                 self.leave_sequences(name)?;
                 self.displace(name)?;

@@ -256,8 +256,10 @@ fn is_item(kind: SyntaxKind) -> bool {
         kind,
         CONTROL_VARIABLE
             | CONTROL_STATE
+            | COMPOSITE_STATE
             | GUARD_SHAPE
             | ACTION_SHAPE
+            | ABORT_ACTION
             | PATTERN_INSTANCE
             | SEQUENCE
             | CHART_PATH

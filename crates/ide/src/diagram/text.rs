@@ -108,14 +108,20 @@ impl Work {
             return Err("a pattern starts where its entering arrow leads".to_string());
         }
         let is_it = |shape: &Shape| shape.name().is_some_and(|own| own.text() == name);
-        if !machine.shapes().any(|shape| matches!(shape, Shape::State(_)) && is_it(&shape)) {
+        let is_state = |shape: &Shape| matches!(shape, Shape::State(_) | Shape::Composite(_));
+        let Some(wanted) = machine.shapes().find(|shape| is_state(shape) && is_it(shape)) else {
             return Err(format!("`{name}` is no control state"));
-        }
+        };
+        let around = wanted.syntax().parent();
         let mut edits: Vec<(std::ops::Range<usize>, &str)> = Vec::new();
-        for shape in machine.shapes() {
-            let Shape::State(state) = &shape else { continue };
-            let tokens = words(state.syntax());
-            match (state.is_initial(), is_it(&shape), tokens.as_slice()) {
+        for shape in machine.shapes().filter(|shape| shape.syntax().parent() == around) {
+            let is_initial = match &shape {
+                Shape::State(state) => state.is_initial(),
+                Shape::Composite(state) => state.is_initial(),
+                _ => continue,
+            };
+            let tokens = words(shape.syntax());
+            match (is_initial, is_it(&shape), tokens.as_slice()) {
                 (true, false, [initial, word, ..]) => edits.push((range(initial).start..range(word).start, "")),
                 (false, true, [word, ..]) => edits.push((range(word).start..range(word).start, "initial ")),
                 _ => {}

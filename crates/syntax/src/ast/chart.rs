@@ -12,6 +12,16 @@ nodes! {
     ControlVariable = CONTROL_VARIABLE,
     /// `[initial] state NAME "text" {value}`
     ControlState = CONTROL_STATE,
+    /// `[initial] composite state NAME "text" … endstate`
+    CompositeState = COMPOSITE_STATE,
+    /// `history`, `history {location}`
+    History = HISTORY,
+    /// `entry NAME "text" {rule}`
+    EntryAction = ENTRY_ACTION,
+    /// `exit NAME "text" {rule}`
+    ExitAction = EXIT_ACTION,
+    /// `abort NAME "text" {rule}`
+    AbortAction = ABORT_ACTION,
     /// `guard NAME "text" {term} [to refine]`
     GuardShape = GUARD_SHAPE,
     /// `action NAME "text" {rule} [to refine]`
@@ -38,7 +48,10 @@ nodes! {
 
 choice! {
     /// A shape of a machine.
-    Shape { State(ControlState), Guard(GuardShape), Action(ActionShape), Instance(PatternInstance) }
+    Shape {
+        State(ControlState), Composite(CompositeState), Guard(GuardShape), Action(ActionShape), Entry(EntryAction),
+        Exit(ExitAction), Abort(AbortAction), Instance(PatternInstance),
+    }
 }
 
 /// The string of a node without its quotes, with its escapes undone.
@@ -112,17 +125,25 @@ impl MachineChart {
     pub fn controls(&self) -> Children<ControlVariable> {
         children(self.syntax())
     }
-    /// The shapes.
-    pub fn shapes(&self) -> Children<Shape> {
+    /// The shapes, in the order of the text; those within composite states too.
+    pub fn shapes(&self) -> impl Iterator<Item = Shape> + use<> {
+        inner(self.syntax())
+    }
+    /// The composite states.
+    pub fn composites(&self) -> impl Iterator<Item = CompositeState> + use<> {
+        inner(self.syntax())
+    }
+    /// `history` outside of a composite state, which is a fault.
+    pub fn histories(&self) -> Children<History> {
         children(self.syntax())
     }
-    /// The paths.
-    pub fn paths(&self) -> Children<ChartPath> {
-        children(self.syntax())
+    /// The paths; those within composite states too.
+    pub fn paths(&self) -> impl Iterator<Item = ChartPath> + use<> {
+        inner(self.syntax())
     }
-    /// What is done in sequence.
-    pub fn sequences(&self) -> Children<Sequence> {
-        children(self.syntax())
+    /// What is done in sequence; within composite states too.
+    pub fn sequences(&self) -> impl Iterator<Item = Sequence> + use<> {
+        inner(self.syntax())
     }
 }
 
@@ -132,6 +153,33 @@ impl ControlVariable {
         token(self.syntax(), GENERIC_ID)
     }
     /// The location of the specification.
+    pub fn link(&self) -> Option<Link> {
+        child(self.syntax())
+    }
+}
+
+/// The items of a machine, and of the composite states in it.
+fn inner<N: AstNode>(machine: &crate::SyntaxNode) -> impl Iterator<Item = N> + use<N> {
+    machine.descendants().filter_map(N::cast)
+}
+
+impl CompositeState {
+    /// The machine starts in it, or the composite state around it does.
+    pub fn is_initial(&self) -> bool {
+        token(self.syntax(), INITIAL_KW).is_some()
+    }
+    /// Control variables, which is a fault.
+    pub fn controls(&self) -> Children<ControlVariable> {
+        children(self.syntax())
+    }
+    /// `history`: it is entered where it was left. More than one is a fault.
+    pub fn histories(&self) -> Children<History> {
+        children(self.syntax())
+    }
+}
+
+impl History {
+    /// The location of the specification that remembers.
     pub fn link(&self) -> Option<Link> {
         child(self.syntax())
     }
@@ -156,6 +204,10 @@ impl Shape {
     /// The link to the specification.
     pub fn link(&self) -> Option<Link> {
         child(self.syntax())
+    }
+    /// The composite state that it stands in.
+    pub fn around(&self) -> Option<CompositeState> {
+        self.syntax().parent().and_then(CompositeState::cast)
     }
     /// Whether, and by which chart, it is to be refined.
     pub fn refinement(&self) -> Option<Refinement> {

@@ -45,7 +45,9 @@ pub(super) fn part(node: &SyntaxNode, before: SyntaxKind, part: &SyntaxElement) 
     match here {
         SOURCE_FILE | SIGNATURE | DEFINITIONS | INIT => section(here, before, kind),
         SCENARIO_FILE | BLOCK => scenario(here, before, kind),
-        CHART_FILE | MACHINE_CHART | SYSTEM_CHART | COMPONENT | LAYOUT | LINK | COORDINATE => chart(here, before, kind),
+        CHART_FILE | MACHINE_CHART | COMPOSITE_STATE | SYSTEM_CHART | COMPONENT | LAYOUT | LINK | COORDINATE => {
+            chart(here, before, kind)
+        }
         FUNCTION_TERM | MACRO_CALL_RULE | TURBO_CALL_RULE | TERM_RULE => Nothing,
         EXPORT | OVER_LIST | COLLECTION_TERM | IMPORT_SELECTION if before == COMMA => FoldAlone,
         ARGUMENT_LIST | PAREN_TERM | TUPLE_TERM | COLLECTION_TERM | MAP_TERM | PARAMETER_LIST | IMPORT_SELECTION
@@ -78,7 +80,11 @@ pub(super) fn part(node: &SyntaxNode, before: SyntaxKind, part: &SyntaxElement) 
             definition(before, kind, goes_on(part))
         }
         PATTERN_INSTANCE if kind == ARGUMENT_LIST => Nothing,
-        CONTROL_STATE | GUARD_SHAPE | ACTION_SHAPE | PATTERN_INSTANCE if kind == LINK => FoldAlone,
+        CONTROL_STATE | GUARD_SHAPE | ACTION_SHAPE | ENTRY_ACTION | EXIT_ACTION | ABORT_ACTION | PATTERN_INSTANCE
+            if kind == LINK =>
+        {
+            FoldAlone
+        }
         EXECBLOCK_COMMAND if before == COLON || kind == COLON => Nothing,
         PICK_COMMAND if before == L_PAREN || matches!(kind, L_PAREN | R_PAREN) => Nothing,
         SET_COMMAND | PICK_COMMAND if before == ASSIGN => Fold,
@@ -115,8 +121,8 @@ fn chart(here: SyntaxKind, before: SyntaxKind, kind: SyntaxKind) -> Separator {
         _ if here == CHART_FILE => Section,
         _ if matches!(here, LINK | COORDINATE) => Nothing,
         PARAMETER_LIST => Nothing,
-        GENERIC_ID | STRING | LINK | COMPONENT_KIND => Space,
-        ENDMACHINE_KW | ENDPATTERN_KW | ENDSYSTEM_KW | ENDCOMPONENT_KW | ENDLAYOUT_KW => Own,
+        GENERIC_ID | STRING | LINK | COMPONENT_KIND | COMPOSITE_KW | STATE_KW => Space,
+        ENDMACHINE_KW | ENDPATTERN_KW | ENDSTATE_KW | ENDSYSTEM_KW | ENDCOMPONENT_KW | ENDLAYOUT_KW => Own,
         _ => OwnIndented,
     }
 }

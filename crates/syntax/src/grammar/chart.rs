@@ -59,11 +59,30 @@ fn machine(p: &mut Parser<'_>, kind: SyntaxKind, end: SyntaxKind) {
     p.finish();
 }
 
-const ITEMS: [SyntaxKind; 7] = [CONTROL_KW, INITIAL_KW, STATE_KW, GUARD_KW, ACTION_KW, INSTANCE_KW, SEQUENCE_KW];
+const ITEMS: [SyntaxKind; 12] = [
+    CONTROL_KW,
+    INITIAL_KW,
+    COMPOSITE_KW,
+    STATE_KW,
+    GUARD_KW,
+    ACTION_KW,
+    INSTANCE_KW,
+    SEQUENCE_KW,
+    HISTORY_KW,
+    ENTRY_KW,
+    EXIT_KW,
+    ABORT_KW,
+];
 
 /// The word of the item that starts at the cursor; none for a path.
 fn item_word(p: &Parser<'_>) -> Option<SyntaxKind> {
-    keyword(p, &ITEMS).filter(|_| p.peek(1) != ARROW)
+    let word = keyword(p, &ITEMS).filter(|_| p.peek(1) != ARROW)?;
+    let leaves_a_guard = p.is_word_next("yes") || p.is_word_next("no");
+    match word {
+        COMPOSITE_KW => p.is_word_next("state").then_some(word),
+        HISTORY_KW | ENTRY_KW | EXIT_KW | ABORT_KW => (!leaves_a_guard).then_some(word),
+        _ => Some(word),
+    }
 }
 
 fn starts_item(p: &Parser<'_>) -> bool {
@@ -82,6 +101,7 @@ fn is_name(p: &Parser<'_>) -> bool {
 fn item(p: &mut Parser<'_>) {
     match item_word(p) {
         Some(CONTROL_KW) => control(p),
+        Some(INITIAL_KW) if p.is_word_next("composite") => composite(p, true),
         Some(INITIAL_KW) => {
             p.start(CONTROL_STATE);
             p.bump_as(INITIAL_KW);
@@ -90,6 +110,16 @@ fn item(p: &mut Parser<'_>) {
             }
             p.finish();
         }
+        Some(COMPOSITE_KW) => composite(p, false),
+        Some(HISTORY_KW) => {
+            p.start(HISTORY);
+            p.bump_as(HISTORY_KW);
+            term_link(p);
+            p.finish();
+        }
+        Some(ENTRY_KW) => declared(p, ENTRY_ACTION, ENTRY_KW, rule_link),
+        Some(EXIT_KW) => declared(p, EXIT_ACTION, EXIT_KW, rule_link),
+        Some(ABORT_KW) => declared(p, ABORT_ACTION, ABORT_KW, rule_link),
         Some(STATE_KW) => declared(p, CONTROL_STATE, STATE_KW, term_link),
         Some(GUARD_KW) => declared(p, GUARD_SHAPE, GUARD_KW, term_link),
         Some(ACTION_KW) => declared(p, ACTION_SHAPE, ACTION_KW, rule_link),
@@ -116,6 +146,23 @@ fn declared(p: &mut Parser<'_>, node: SyntaxKind, word: SyntaxKind, link: fn(&mu
     p.start(node);
     p.bump_as(word);
     shape(p, link);
+    p.finish();
+}
+
+/// `[initial] composite state NAME "text" … endstate`
+fn composite(p: &mut Parser<'_>, initial: bool) {
+    p.start(COMPOSITE_STATE);
+    if initial {
+        p.bump_opener_as(INITIAL_KW, ENDSTATE_KW);
+        p.bump_as(COMPOSITE_KW);
+    } else {
+        p.bump_opener_as(COMPOSITE_KW, ENDSTATE_KW);
+    }
+    if expect_word(p, STATE_KW, "behind `composite`") {
+        shape_name(p);
+        p.eat(STRING);
+    }
+    block(p, ENDSTATE_KW, item);
     p.finish();
 }
 

@@ -6,7 +6,8 @@ use crate::fault;
 use crate::parser::Parser;
 
 /// Words that end a block: never taken as names, so that a name left out costs no more than itself.
-pub(super) const ENDS: [SyntaxKind; 5] = [ENDMACHINE_KW, ENDPATTERN_KW, ENDSYSTEM_KW, ENDCOMPONENT_KW, ENDLAYOUT_KW];
+pub(super) const ENDS: [SyntaxKind; 6] =
+    [ENDMACHINE_KW, ENDPATTERN_KW, ENDSTATE_KW, ENDSYSTEM_KW, ENDCOMPONENT_KW, ENDLAYOUT_KW];
 
 /// The word of the section that starts at the cursor.
 pub(super) fn section_word(p: &Parser<'_>) -> Option<SyntaxKind> {

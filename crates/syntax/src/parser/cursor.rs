@@ -46,6 +46,15 @@ impl<'t> Parser<'t> {
         self.at(FUNCTION_ID) && self.token_text() == word
     }
 
+    /// The next token is this name.
+    pub(crate) fn is_word_next(&self, word: &str) -> bool {
+        let mut at = (self.at + 1).min(self.tokens.len() - 1);
+        while self.is_skipped(at) {
+            at += 1;
+        }
+        self.tokens[at].kind == FUNCTION_ID && self.text_of(at) == word
+    }
+
     pub(crate) fn token_text(&self) -> &'t str {
         self.text_of(self.at)
     }
