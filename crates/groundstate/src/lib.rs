@@ -46,7 +46,7 @@ pub use fault::scenario::{diagnose_failure, diagnose_remark};
 pub use fault::verification::{
     diagnose_outside, diagnose_property, diagnose_unbounded, diagnose_unreachable, short_place,
 };
-pub use fingerprint::fingerprint;
+pub use fingerprint::{fingerprint, text_fingerprint};
 pub use kind::{Kind, has_ending, model_of};
 pub use overlay::{Overlay, Said};
 pub use test::{SeededChoices, Suite, Tested, own_files};

@@ -145,8 +145,9 @@ fn the_class_of_a_model() {
 fn the_program_of_a_system() {
     let generate = |text: &str| {
         let source = SourceFile::new("Blink.chart", text);
-        let chart = groundstate::chart::load(source, &mut testkit::Patterns).chart;
-        let job = job::generate_system(chart, "Blink.chart".to_string(), Default::default(), Cancel::new());
+        let groundstate::chart::Loaded { chart, sources, .. } =
+            groundstate::chart::load(source, &mut testkit::Patterns);
+        let job = job::generate_system(chart, sources, "Blink.chart".to_string(), Default::default(), Cancel::new());
         folder(job.expect("a thread"))
     };
     let text = "chart Blink\nimport patterns/ControlTask\nsystem blink\n\tcomponent lamp synchronous period 10 ms\n\
@@ -154,6 +155,25 @@ fn the_program_of_a_system() {
     let folder = generate(text).expect("it can be generated");
     assert!(folder.once.iter().any(|(path, _)| path == "main.cpp"));
     assert!(folder.decided.iter().any(|(path, _)| path == "generated/include/groundstate/system.hpp"));
+    let map = folder.decided.iter().find(|(path, _)| path == "generated/source-map.json").expect("it has a map");
+    let map: serde_json::Value = serde_json::from_str(&map.1).expect("it is JSON");
+    let header = &folder.decided[0].1;
+    let lines: Vec<(&str, u64)> = map["lines"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|line| {
+            let number = line["generated"]["line"].as_u64().expect("a number");
+            (
+                header.lines().nth(number as usize - 1).expect("it is there").trim(),
+                line["model"]["line"].as_u64().expect("one"),
+            )
+        })
+        .collect();
+    // The class, its hook, the task and its cycle.
+    assert_eq!((lines[0], lines[1].1), (("struct Lamp {", 4), 5), "{lines:?}");
+    assert!(lines[1].0.contains(" bool toggle(") && lines.len() == 4, "{lines:?}");
+    assert_eq!(map["texts"][0]["fingerprint"], groundstate::text_fingerprint(text));
     assert_eq!(generate("chart Blink\n"), Err(NotGenerated::NoSystem));
 }
 

@@ -117,7 +117,7 @@ impl Subject {
         if let Some(fault) = ungenerated(system).first() {
             return Err(format!("{}: {}", self.path, fault.message));
         }
-        let Generated { decided, once } =
+        let Generated { decided, once, .. } =
             generate(chart, system, self.path, &Form { wait_free, namespace: None, ..Form::default() });
         for (path, text) in decided.iter().chain(&once) {
             let own = self.hooks.map(|hooks| root().join(hooks).join(path)).filter(|own| own.is_file());

@@ -9,12 +9,14 @@ mod cycle;
 mod files;
 mod header;
 mod machines;
+mod map;
 mod names;
 mod plan;
 mod refuse;
 
 use chart::Chart;
 use chart::system::System;
+use syntax::Span;
 
 use crate::names::snake;
 
@@ -28,6 +30,8 @@ pub struct Generated {
     pub decided: Vec<(String, String)>,
     /// The user's files: written if missing, never touched again.
     pub once: Vec<(String, String)>,
+    /// Lines of the first file, counted from 1, and the parts of the chart that they stand for.
+    pub lines: Vec<(u32, Span)>,
 }
 
 /// The program of a system for which [`ungenerated`] is empty. Comments call the chart `file`.
@@ -35,6 +39,7 @@ pub fn generate(chart: &Chart, system: &System, file: &str, form: &Form) -> Gene
     let name = snake(&system.name);
     let space = form.namespace.clone().unwrap_or_else(|| name.clone());
     let header = header::header(system, file, &space, form);
+    let lines = map::lines(system, &header);
     let mut once = vec![
         ("CMakeLists.txt".to_string(), files::cmake(&chart.name, &name, !form.classes.is_empty())),
         ("main.cpp".to_string(), files::main(system, &space)),
@@ -53,5 +58,5 @@ pub fn generate(chart: &Chart, system: &System, file: &str, form: &Form) -> Gene
     }
     let computing = machines::header(system, file, &name, &space, form);
     decided.extend(computing.map(|text| (format!("generated/{name}_machines.hpp"), text)));
-    Generated { decided, once }
+    Generated { decided, once, lines }
 }

@@ -15,6 +15,7 @@ use program::Program;
 use serde_json::{Value, json};
 use syntax::{Diagnostic, Sources, Span};
 
+use crate::fingerprint::text_fingerprint;
 use crate::job::{Cancel, Job, Port};
 
 /// The generated files: paths within the folder, and texts.
@@ -100,11 +101,17 @@ pub fn machine_of_component(
     (MachineClass { file, machine, name, header, renamed: folder.renamed, domains }, files)
 }
 
-/// Starts to generate the program of a chart's system; comments call the chart `file`.
+/// Starts to generate the program of a chart's system; comments call the chart `file`. The source map shows the names in `sources`.
 ///
 /// # Errors
 /// The system cannot start a thread.
-pub fn generate_system(chart: Chart, file: String, form: Form, cancel: Cancel) -> io::Result<GenerateJob> {
+pub fn generate_system(
+    chart: Chart,
+    sources: Sources,
+    file: String,
+    form: Form,
+    cancel: Cancel,
+) -> io::Result<GenerateJob> {
     Job::start("generate", cancel, move |port| {
         let system = chart.system.as_ref().ok_or(NotGenerated::NoSystem)?;
         let faults = ungenerated(system);
@@ -112,8 +119,14 @@ pub fn generate_system(chart: Chart, file: String, form: Form, cancel: Cancel) -
             return Err(NotGenerated::Refused(faults));
         }
         go_on(&port)?;
-        let generate::system::Generated { mut decided, once } =
+        let generate::system::Generated { mut decided, once, lines } =
             generate::system::generate(&chart, system, &file, &form);
+        let header = decided.first().map(|(path, _)| path.trim_start_matches("generated/").to_string());
+        let header = header.unwrap_or_default();
+        let lines: Vec<Value> =
+            lines.iter().map(|(line, span)| mapped(&header, *line, place(&sources, *span))).collect();
+        let map = json!({ "lines": lines, "sites": [], "names": [], "texts": texts(&sources) });
+        decided.push(("generated/source-map.json".to_string(), serde_json::to_string_pretty(&map).unwrap_or_default()));
         let runtime =
             |(name, text): &(&str, &str)| (format!("generated/include/groundstate/{name}"), (*text).to_string());
         decided.extend(headers::RUNTIME.iter().map(runtime));
@@ -139,26 +152,34 @@ fn told(port: &Port<GenerateEvent>, folder: Folder) -> Result<Folder, NotGenerat
 
 /// Maps generated lines to places of the model, the numbers in faults to places, and C++ names to the model's.
 fn source_map(generated: &Generated, sources: &Sources) -> Value {
-    let place = |span: Span| {
-        let file = sources.file(span.file);
-        let (start, end) = (file.line_column(span.start), file.line_column(span.end));
-        json!({
-            "file": file.name,
-            "line": start.line, "column": start.column,
-            "end_line": end.line, "end_column": end.column,
-        })
+    let of = |file: &generate::model::File| {
+        let lines = file.mappings.iter();
+        lines.map(|mapping| mapped(&file.name, mapping.line, place(sources, mapping.span))).collect::<Vec<Value>>()
     };
-    let lines: Vec<Value> = generated
-        .files
-        .iter()
-        .flat_map(|file| {
-            file.mappings.iter().map(|mapping| {
-                json!({ "generated": { "file": file.name, "line": mapping.line }, "model": place(mapping.span) })
-            })
-        })
-        .collect();
+    let lines: Vec<Value> = generated.files.iter().flat_map(of).collect();
     let sites = generated.sites.iter().enumerate();
-    let sites: Vec<Value> = sites.map(|(index, span)| json!({ "site": index + 1, "model": place(*span) })).collect();
+    let sites: Vec<Value> =
+        sites.map(|(index, span)| json!({ "site": index + 1, "model": place(sources, *span) })).collect();
     let names = generated.renamed.iter().map(|(model, cpp)| json!({ "model": model, "generated": cpp }));
-    json!({ "lines": lines, "sites": sites, "names": names.collect::<Vec<_>>() })
+    json!({ "lines": lines, "sites": sites, "names": names.collect::<Vec<_>>(), "texts": texts(sources) })
+}
+
+fn mapped(file: &str, line: u32, model: Value) -> Value {
+    json!({ "generated": { "file": file, "line": line }, "model": model })
+}
+
+fn place(sources: &Sources, span: Span) -> Value {
+    let file = sources.file(span.file);
+    let (start, end) = (file.line_column(span.start), file.line_column(span.end));
+    json!({
+        "file": file.name,
+        "line": start.line, "column": start.column,
+        "end_line": end.line, "end_column": end.column,
+    })
+}
+
+/// The texts that the code was made from, each with its fingerprint; the built-in libraries are those of the program.
+fn texts(sources: &Sources) -> Vec<Value> {
+    let own = sources.iter().filter(|(_, file)| !file.name.starts_with('<'));
+    own.map(|(_, file)| json!({ "file": file.name, "fingerprint": text_fingerprint(&file.text) })).collect()
 }

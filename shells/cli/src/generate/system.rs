@@ -44,7 +44,10 @@ pub fn run(shell: &mut Shell, arguments: &Cpp) -> Result<Exit, Failure> {
             Err(exit) => return Ok(exit),
         }
     }
-    let job = job::generate_system(chart, name, form, Cancel::from(interrupt::request().clone()));
+    let folder = arguments.output.join("generated");
+    std::fs::create_dir_all(&folder).map_err(|error| Failure::of_file("write", &folder, error))?;
+    let cancel = Cancel::from(interrupt::request().clone());
+    let job = job::generate_system(chart, placed(&sources, &folder), name, form, cancel);
     let Folder { decided, once, .. } = match finished(shell, &sources, job)? {
         Ok(folder) => folder,
         Err(exit) => return Ok(exit),
