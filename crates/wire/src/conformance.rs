@@ -1,8 +1,9 @@
-//! The verdict of `conform` as JSON.
+//! The verdict of `conform` as JSON, and what it tells while it follows a program.
 //!
-//! In: a [`Verdict`], and the texts that its claims point into. Out: [`Conformance`].
+//! In: a [`Verdict`], and the texts that its claims point into. Out: [`Conformance`]; [`FollowedTold`].
 
 use ::conform::{Event, Parted, Verdict};
+use groundstate::job::{Agreed, LastPhase};
 use serde::Serialize;
 use syntax::Sources;
 
@@ -17,6 +18,8 @@ pub struct Conformance {
     kind: &'static str,
     verdict: &'static str,
     way: String,
+    /// The verdict as it is said to people.
+    words: String,
     events: usize,
     /// If the run conforms: how many events came after its tasks were asked to stop; these are not compared.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -50,9 +53,36 @@ struct Told {
     rule: Option<String>,
 }
 
+/// How far program and model agree while the program runs.
+#[derive(Debug, Serialize)]
+#[serde(tag = "type", rename_all = "lowercase")]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub enum FollowedTold {
+    /// Told several times a second by `conform --follow`. It is no verdict.
+    Followed {
+        /// How far, as it is said to people.
+        words: String,
+        /// How many events agree so far.
+        events: usize,
+        /// The instant of the newest event that was read; it may not have been compared yet.
+        time_ns: i64,
+        /// Of each task the phase that it is in, or that it began last since the object before; null if there is none.
+        phases: Vec<(String, Option<String>)>,
+    },
+}
+
+impl FollowedTold {
+    /// How far the two agree; the object before was of this instant.
+    pub fn new(Agreed { words, events, time_ns, tasks }: Agreed, before_ns: i64) -> FollowedTold {
+        let present = |last: &LastPhase| !last.is_over || last.began_ns > before_ns;
+        let of = |last: LastPhase| (last.task.clone(), Some(last).filter(present).and_then(|last| last.phase));
+        FollowedTold::Followed { words, events, time_ns, phases: tasks.into_iter().map(of).collect() }
+    }
+}
+
 impl Conformance {
     /// The verdict of a run that was compared in this way.
-    pub fn new(sources: &Sources, verdict: &Verdict, way: &str) -> Conformance {
+    pub fn new(sources: &Sources, verdict: &Verdict, way: &str, words: String) -> Conformance {
         let (word, events, reason, parts) = match verdict {
             Verdict::Conforms { events, .. } => ("conforms", *events, None, None),
             Verdict::Unknown { events, reason } => ("unknown", *events, Some(reason.clone()), None),
@@ -69,6 +99,7 @@ impl Conformance {
             kind: "conformance",
             verdict: word,
             way: way.to_string(),
+            words,
             events,
             after,
             reason,

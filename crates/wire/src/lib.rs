@@ -29,7 +29,7 @@ mod verification;
 pub use crate::report::{Measured, ProgramReported, ReportMade};
 pub use crate::scenario::{ScenarioResult, Told};
 pub use answer::Answer;
-pub use conformance::Conformance;
+pub use conformance::{Conformance, FollowedTold};
 pub use coverage::Coverage;
 pub use fault::{Fault, Place, WorldFailure};
 pub use generation::{Generated, Goal};

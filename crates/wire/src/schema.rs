@@ -40,6 +40,7 @@ fn the_schema_of_the_output() {
             all.subschema_for::<Answer<'_>>(),
             all.subschema_for::<Assumed<'_>>(),
             all.subschema_for::<Conformance>(),
+            all.subschema_for::<FollowedTold>(),
             all.subschema_for::<Coverage<'_>>(),
             all.subschema_for::<ExploredLine<'_>>(),
             all.subschema_for::<Fault<'_>>(),

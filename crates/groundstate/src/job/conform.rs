@@ -6,7 +6,7 @@
 use std::io;
 use std::sync::Arc;
 
-use conform::{Malformed, Reader, Recording, Refusal, Session, Verdict, Way};
+use conform::{Event, Kind, Malformed, Reader, Recording, Refusal, Session, Track, Verdict, Way};
 use machine::Limits;
 use syntax::Sources;
 
@@ -73,8 +73,60 @@ pub struct ConformRequest<T> {
 pub enum ConformEvent {
     /// No event has come yet.
     Awaits,
-    /// Program and model agree so far: how far, and which tasks have been silent for long.
-    Agrees(String),
+    /// Program and model agree so far.
+    Agrees(Agreed),
+}
+
+/// How far program and model agree, and what the program does now.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Agreed {
+    /// How far, and which tasks have been silent for long.
+    pub words: String,
+    /// How many events agree.
+    pub events: usize,
+    /// The instant of the newest event that was read; it may not have been compared yet.
+    pub time_ns: i64,
+    /// What each task did last, as it was recorded.
+    pub tasks: Vec<LastPhase>,
+}
+
+/// The phase that a task began last.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LastPhase {
+    /// The task.
+    pub task: String,
+    /// The phase; none if it has begun none.
+    pub phase: Option<String>,
+    /// When it began.
+    pub began_ns: i64,
+    /// It has ended.
+    pub is_over: bool,
+}
+
+impl LastPhase {
+    fn of(track: &Track) -> LastPhase {
+        let event = |kind| track.events.iter().rposition(|event: &Event| event.kind == kind);
+        let (begins, ends) = (event(Kind::Begins), event(Kind::Ends));
+        let began = begins.map(|at| &track.events[at]);
+        LastPhase {
+            task: track.task.clone(),
+            phase: began.map(|event| event.object.to_string()),
+            began_ns: began.map_or(0, |event| event.time_ns),
+            is_over: begins < ends,
+        }
+    }
+}
+
+impl Agreed {
+    fn new(session: &Session, recording: &Recording) -> Agreed {
+        let newest = recording.tracks.iter().filter_map(|track| track.events.last());
+        Agreed {
+            words: session.progress(recording),
+            events: session.agreed(),
+            time_ns: newest.map(|event| event.time_ns).max().unwrap_or(0),
+            tasks: recording.tracks.iter().map(LastPhase::of).collect(),
+        }
+    }
 }
 
 /// The result of a comparison.
@@ -164,7 +216,7 @@ fn follow<T: Tail>(
                     let (sources, way, decisions) = (session.sources().clone(), session.way(), session.decisions());
                     return Ok(Conformed { sources, recording: recording.clone(), verdict, way, decisions });
                 }
-                None => tell(ConformEvent::Agrees(session.progress(recording))),
+                None => tell(ConformEvent::Agrees(Agreed::new(session, recording))),
             }
         } else if stops {
             return Err(NotConformed::NoEvents);

@@ -4,7 +4,7 @@
 //! has no source, the run waits for its answer; commands for later are kept until then.
 
 use std::cell::RefCell;
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::rc::Rc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::Duration;
@@ -74,6 +74,8 @@ pub enum RunEvent {
         domain: DomainId,
         /// The first hundred values of the domain, if they are known.
         values: Vec<Value>,
+        /// The least and the greatest value, if the domain is all integers between them.
+        bounds: Option<(i64, i64)>,
     },
     /// A choice is requested; continues with [`Command::Choose`].
     AsksChoice {
@@ -285,8 +287,8 @@ impl Source for Asking {
         let location = ask.location.to_location();
         let desk = Rc::clone(&self.desk);
         let mut desk = desk.borrow_mut();
-        let (step, domain, values) = (ask.step, ask.codomain, offered(ask));
-        desk.port.tell(RunEvent::AsksInput { step, location: location.clone(), domain, values });
+        let (step, domain, values, bounds) = (ask.step, ask.codomain, offered(ask), bounds(ask));
+        desk.port.tell(RunEvent::AsksInput { step, location: location.clone(), domain, values, bounds });
         loop {
             match desk.wait() {
                 Waited::Over | Waited::Command(Command::Stop) => return Err(self.stop(Signal::Quit)),
@@ -328,6 +330,19 @@ fn offered(ask: &Ask<'_>) -> Vec<Value> {
         DomainKind::Basic(Basic::Boolean) => vec![Value::Boolean(true), Value::Boolean(false)],
         _ => Vec::new(),
     }
+}
+
+/// The ends of a domain that is all integers between them.
+fn bounds(ask: &Ask<'_>) -> Option<(i64, i64)> {
+    let elements = ask.carriers.get(ask.codomain)?;
+    let number = |value: &Value| match value {
+        Value::Integer(number) => Some(*number),
+        _ => None,
+    };
+    let numbers: Vec<i64> = elements.iter().map(number).collect::<Option<_>>()?;
+    let (least, most) = (*numbers.iter().min()?, *numbers.iter().max()?);
+    let different: BTreeSet<i64> = numbers.into_iter().collect();
+    (most.checked_sub(least)?.checked_add(1)? == different.len() as i64).then_some((least, most))
 }
 
 impl Chooser for Asking {

@@ -25,7 +25,8 @@ use std::time::Duration;
 use machine::{Cause, Interrupt};
 
 pub use conform::{
-    ConformEvent, ConformJob, ConformRequest, Conformed, Events, NoTail, NotConformed, Piece, Tail, conform,
+    Agreed, ConformEvent, ConformJob, ConformRequest, Conformed, Events, LastPhase, NoTail, NotConformed, Piece, Tail,
+    conform,
 };
 pub use desk::{Command, Remote, RunEvent};
 pub use generate::{

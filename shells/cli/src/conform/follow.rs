@@ -7,10 +7,11 @@
 use std::fs::File;
 use std::io::{ErrorKind, IsTerminal, Read};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use groundstate::job::{self, Cancel, ConformEvent, ConformRequest, Events, NotConformed, Piece};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use wire::FollowedTold;
 
 use super::{Arguments, not_started, refused, tell, unreadable};
 use crate::exit::Exit;
@@ -22,6 +23,8 @@ use crate::within;
 
 /// How often the file is looked at.
 const PAUSE: Duration = Duration::from_millis(50);
+/// How long it is silent at least between two objects that tell how far it is.
+const APART: Duration = Duration::from_millis(100);
 /// The most bytes that are read before they are compared.
 const AT_ONCE: u64 = 8 << 20;
 
@@ -38,10 +41,19 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
     let request = ConformRequest { loaded, events: Events::Coming(tail), limits, by_order: arguments.untimed };
     let job = job::conform(request, Cancel::from(interrupt::request().clone())).map_err(not_started)?;
     let status = Status::new(shell.talks());
+    let mut told: Option<(Instant, i64)> = None;
     while let Some(event) = job.next_event() {
         match event {
             ConformEvent::Awaits => status.say(format!("waiting for the first events in {}", path.display())),
-            ConformEvent::Agrees(words) => status.say(words),
+            ConformEvent::Agrees(agreed) if shell.json() => {
+                if told.is_none_or(|(then, _)| then.elapsed() >= APART) {
+                    let before_ns = told.map_or(-1, |(_, time_ns)| time_ns);
+                    told = Some((Instant::now(), agreed.time_ns));
+                    shell.object(&FollowedTold::new(agreed, before_ns))?;
+                    shell.flush()?;
+                }
+            }
+            ConformEvent::Agrees(agreed) => status.say(agreed.words),
         }
     }
     status.done();

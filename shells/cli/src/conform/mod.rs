@@ -106,71 +106,75 @@ fn refused(shell: &mut Shell, path: &Path, refusal: Refusal) -> Result<Exit, Fai
 fn tell(shell: &mut Shell, conformed: &Conformed) -> Result<Exit, Failure> {
     let Conformed { sources, recording, verdict, way, decisions } = conformed;
     let way = way.words();
-    if shell.json() {
-        shell.object(&wire::Conformance::new(sources, verdict, way))?;
-    }
-    match verdict {
+    let words = match verdict {
         Verdict::Conforms { events, steps, after } => {
-            if shell.talks() {
-                let after = match after {
-                    0 => String::new(),
-                    1 => "; 1 event after the tasks were asked to stop is not compared".to_string(),
-                    more => format!("; {more} events after the tasks were asked to stop are not compared"),
-                };
-                writeln!(shell.out(), "conforms {way}: {events} events, {steps} steps of the model{after}")?;
-                if let Some(decisions) = decisions {
-                    writeln!(shell.out(), "{decisions} decisions are those of the components' machines")?;
-                }
-            }
-            Ok(Exit::Good)
+            let after = match after {
+                0 => String::new(),
+                1 => "; 1 event after the tasks were asked to stop is not compared".to_string(),
+                more => format!("; {more} events after the tasks were asked to stop are not compared"),
+            };
+            let decisions = decisions
+                .map(|decisions| format!("\n{decisions} decisions are those of the components' machines"))
+                .unwrap_or_default();
+            format!("conforms {way}: {events} events, {steps} steps of the model{after}{decisions}")
         }
         Verdict::Unknown { events, reason } => {
-            if shell.talks() {
-                writeln!(shell.out(), "not known, {way}: {reason}; {events} events agree before")?;
-            }
-            Ok(Exit::Unknown)
+            format!("not known, {way}: {reason}; {events} events agree before")
         }
-        Verdict::Parts(parted) => {
-            if !shell.json() {
-                parting(shell, sources, recording, parted, way)?;
-            }
-            Ok(Exit::Model)
-        }
+        Verdict::Parts(parted) => difference(recording, parted, way),
+    };
+    if shell.json() {
+        shell.object(&wire::Conformance::new(sources, verdict, way, words))?;
+    } else if let Verdict::Parts(parted) = verdict {
+        writeln!(shell.out(), "{words}")?;
+        parting(shell, sources, parted)?;
+    } else if shell.talks() {
+        writeln!(shell.out(), "{words}")?;
     }
+    Ok(match verdict {
+        Verdict::Conforms { .. } => Exit::Good,
+        Verdict::Unknown { .. } => Exit::Unknown,
+        Verdict::Parts(_) => Exit::Model,
+    })
 }
 
-/// Prints where the two differ: the place, the rule, the preceding events, the state.
-fn parting(
-    shell: &mut Shell,
-    sources: &Sources,
-    recording: &Recording,
-    parted: &Parted,
-    way: &str,
-) -> Result<(), Failure> {
-    let ms = |ns: i64| format!("{:.4}", ns as f64 / 1e6);
-    let out = shell.out();
+fn ms(ns: i64) -> String {
+    format!("{:.4}", ns as f64 / 1e6)
+}
+
+/// Where the two differ, in a few lines.
+fn difference(recording: &Recording, parted: &Parted, way: &str) -> String {
     let at = ms(parted.event.as_ref().map_or(parted.tick * recording.tick_ns, |event| event.time_ns));
     let agreed = if parted.decides { "decisions" } else { "events" };
-    writeln!(out, "parts {way}, at {at} ms (tick {}), after {} {agreed}", parted.tick, parted.agreed)?;
+    let mut out = format!("parts {way}, at {at} ms (tick {}), after {} {agreed}", parted.tick, parted.agreed);
+    let task = &parted.task;
     if parted.decides {
-        writeln!(out, "  {} {}", parted.task, parted.reason.as_deref().unwrap_or_default())?;
-        writeln!(out, "\n  its machine's state, after the step:")?;
-        for (location, value) in &parted.state {
-            writeln!(out, "    {location} = {value}")?;
-        }
-        return Ok(());
+        return out + &format!("\n  {task} {}", parted.reason.as_deref().unwrap_or_default());
     }
     let did = match &parted.event {
         Some(event) => event.words(),
         None => "nothing more".to_string(),
     };
-    writeln!(out, "  {} did: {did}", parted.task)?;
-    match parted.claims.iter().map(|claim| claim.event.words()).collect::<Vec<_>>() {
-        claims if claims.is_empty() => writeln!(out, "  the model: nothing")?,
-        claims => writeln!(out, "  the model: {}", claims.join("; "))?,
-    }
+    out += &format!("\n  {task} did: {did}");
+    out += &match parted.claims.iter().map(|claim| claim.event.words()).collect::<Vec<_>>() {
+        claims if claims.is_empty() => "\n  the model: nothing".to_string(),
+        claims => format!("\n  the model: {}", claims.join("; ")),
+    };
     if let Some(reason) = &parted.reason {
-        writeln!(out, "  {reason}")?;
+        out += &format!("\n  {reason}");
+    }
+    out
+}
+
+/// Prints what is known of a difference: the preceding events, the state, the rule.
+fn parting(shell: &mut Shell, sources: &Sources, parted: &Parted) -> Result<(), Failure> {
+    let out = shell.out();
+    if parted.decides {
+        writeln!(out, "\n  its machine's state, after the step:")?;
+        for (location, value) in &parted.state {
+            writeln!(out, "    {location} = {value}")?;
+        }
+        return Ok(());
     }
     writeln!(out, "\n  before:")?;
     for recorded in &parted.before {
