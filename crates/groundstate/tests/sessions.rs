@@ -40,6 +40,7 @@ fn options(seed: Option<u64>) -> SessionOptions {
         history: 100,
         passes_violations: false,
         given: Vec::new(),
+        recorded: None,
         limits: Limits::default(),
         watched: None,
     }
@@ -280,4 +281,51 @@ fn a_timeline_is_that_of_the_run_whatever_was_taken_back() {
     straight.back().expect("it can");
     wait(&mut straight);
     assert_ne!(lanes(&straight), lanes(&winding), "a step was taken back");
+}
+
+const GAUGE: &str = "asm Gauge
+import StandardLibrary
+signature:
+	domain Percent subsetof Integer
+	monitored level: Percent
+	monitored tap: Boolean
+	controlled sum: Integer
+definitions:
+	domain Percent = {-10 : 200}
+	main rule r_Main = if tap then sum := sum + level endif
+default init s0:
+	function sum = 0
+";
+
+#[test]
+fn inputs_come_from_a_file_what_is_set_comes_first_and_the_rest_is_asked_for() {
+    let loaded = load(SourceFile::new("Gauge.asm", GAUGE), &mut NoFiles).expect("it has no errors");
+    let yaml = "always: { tap: true }\n1: { level: 5 }\n3..3: { level: 40 }\n";
+    let named = inputs::named(&loaded.program, inputs::Form::Yaml, syntax::FileId(0), yaml).expect("it fits");
+    let with = |recorded| SessionOptions { recorded, ..options(None) };
+    let mut session = Session::open(Arc::new(Scene::from(&loaded)), with(Some(Arc::new(named)))).expect("it starts");
+    wait(&mut session);
+    let mut sums = Vec::new();
+    for _ in 0..3 {
+        step(&mut session, 1);
+        sums.push(value(&mut session, "sum"));
+    }
+    assert_eq!(sums, ["5", "10", "50"]);
+    // Steps that are taken back and made again take the same inputs; what is set by hand comes first.
+    session.back().expect("it can");
+    wait(&mut session);
+    step(&mut session, 1);
+    assert_eq!(value(&mut session, "sum"), "50");
+    let (location, set) = session.read_input("level", Some("7")).expect("it is one");
+    session.set(location, set).expect("it runs");
+    step(&mut session, 1);
+    assert_eq!(value(&mut session, "sum"), "57");
+    // What the file does not give is asked for, with the ends of its domain, also of one with more values than are offered.
+    let partial =
+        inputs::named(&loaded.program, inputs::Form::Csv, syntax::FileId(0), "step,tap\n1,true\n").expect("it fits");
+    let mut session = Session::open(Arc::new(Scene::from(&loaded)), with(Some(Arc::new(partial)))).expect("it starts");
+    wait(&mut session);
+    step(&mut session, 1);
+    let Waits::Input { values, bounds, .. } = session.waits() else { panic!("{:?}", session.waits()) };
+    assert_eq!((values.len(), *bounds), (100, Some((-10, 200))));
 }

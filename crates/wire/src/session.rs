@@ -44,6 +44,8 @@ pub struct SessionState<P> {
     pub word: Option<String>,
     /// What may be given: values of the input, or the candidates of the choice in their order.
     pub offered: Vec<String>,
+    /// The least and the greatest value of the input, if its domain is all integers between them.
+    pub bounds: Option<[i64; 2]>,
     /// The choice that is to be made.
     pub at: Option<P>,
     /// The state: location and value.

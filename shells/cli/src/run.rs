@@ -166,7 +166,7 @@ impl<'a> Desk<'a> {
     /// Answers what a run asks. After its end a run hears no answer.
     pub fn hear(&mut self, event: RunEvent) {
         match event {
-            RunEvent::AsksInput { step, location, domain, values } => {
+            RunEvent::AsksInput { step, location, domain, values, .. } => {
                 self.question = Some(Question { step, location, domain, values });
             }
             RunEvent::Refused(_) => self.prompt.refused(self.program),

@@ -103,8 +103,15 @@ impl Launch {
             given.push(scene.read_input(location, value)?);
         }
         let limits = Limits { work: WORK, ..Limits::default() };
-        let options =
-            SessionOptions { seed: self.seed, history: HISTORY, passes_violations: true, given, limits, watched: None };
+        let options = SessionOptions {
+            seed: self.seed,
+            history: HISTORY,
+            passes_violations: true,
+            given,
+            recorded: None,
+            limits,
+            watched: None,
+        };
         Session::open(Arc::new(scene), options).map_err(|error| format!("the run cannot be started: {error}").into())
     }
 

@@ -266,7 +266,7 @@ fn functions(target: &Target, kind: FunctionKind) -> impl Iterator<Item = Functi
 fn asked(target: &Target, answer: Option<&str>) -> Vec<Value> {
     let program = &target.scene.program;
     match target.session.waits() {
-        Waits::Input { location, values } => {
+        Waits::Input { location, values, .. } => {
             let name = location.show(program).to_string();
             let offered: Vec<String> = values.iter().map(|value| value.show(program).to_string()).collect();
             let kind = match offered.is_empty() {

@@ -149,6 +149,7 @@ impl Sessions {
         if scene.script.is_none() && scene.program.main.is_none() {
             return Err(failed("a module has no main rule to run"));
         }
+        let recorded = recorded(&scene, &params["inputs"])?;
         let (scene, watched) = watched(answers, scene);
         let files = scene
             .sources
@@ -161,6 +162,7 @@ impl Sessions {
             history: HISTORY,
             passes_violations: false,
             given: Vec::new(),
+            recorded,
             limits: Limits { work: WORK, ..Limits::default() },
             watched: watched.as_ref().ok().map(Arc::clone),
         };
@@ -170,6 +172,27 @@ impl Sessions {
         self.open.insert(self.last, Open { session, texts, breaks: Vec::new(), refused: None, unwatched });
         Ok(self.last)
     }
+}
+
+/// Inputs by step, from the text of a file.
+fn recorded(scene: &Scene, file: &Value) -> Result<Option<Arc<simulate::Named>>, Refused> {
+    if file.is_null() {
+        return Ok(None);
+    }
+    let (Some(name), Some(text)) = (file["name"].as_str(), file["text"].as_str()) else {
+        return Err(wrong("`inputs` has the `name` and the `text` of a file"));
+    };
+    if scene.script.is_some() {
+        return Err(failed("the scenario gives the inputs: change its text"));
+    }
+    let form = inputs::Form::of(Path::new(name)).ok_or_else(|| failed(format!("{name} is neither YAML nor CSV")))?;
+    let lines = Lines::new(Arc::from(text));
+    let first = |faults: Vec<syntax::Diagnostic>| {
+        let Some(fault) = faults.first() else { return failed(name.to_string()) };
+        let at = lines.position(fault.primary.span.start as usize, Encoding::Utf16);
+        failed(format!("{name}:{}: {}", at.line + 1, fault.message))
+    };
+    inputs::named(&scene.program, form, syntax::FileId(0), text).map(|named| Some(Arc::new(named))).map_err(first)
 }
 
 /// What the timeline of a scene shows, with its terms in the scene; or why there is no timeline.
@@ -326,8 +349,10 @@ impl Open {
         let place = |span| self.texts.place(&scene, span);
         let moment = self.session.moment();
         let ended = moment.as_ref().and_then(|moment| moment.end);
+        let mut bounds = None;
         let (waiting, word, offered, at) = match self.session.waits() {
-            Waits::Input { location, values } => {
+            Waits::Input { location, values, bounds: ends } => {
+                bounds = ends.map(|(least, most)| [least, most]);
                 let offered = values.iter().map(|value| value.show(program).to_string()).collect();
                 (Waiting::Input, Some(location.show(program).to_string()), offered, None)
             }
@@ -347,6 +372,7 @@ impl Open {
             waiting,
             word,
             offered,
+            bounds,
             at,
             state,
             updates: Vec::new(),

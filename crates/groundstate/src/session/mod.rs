@@ -25,7 +25,7 @@ use ::scenario::Script;
 use machine::{Limits, Location, Show, Value};
 use program::DomainId;
 use report::Report;
-use simulate::read_value;
+use simulate::{Named, read_value};
 use syntax::Span;
 
 use crate::job::desk::{Desk, Turn};
@@ -51,6 +51,8 @@ pub struct SessionOptions {
     pub passes_violations: bool,
     /// Inputs that are set from the beginning on.
     pub given: Vec<(Location, Value)>,
+    /// Inputs by step; what is set by hand comes first. What it does not give is asked for, or drawn.
+    pub recorded: Option<Arc<Named>>,
     /// The machine's limits.
     pub limits: Limits,
     /// What a timeline shows; its terms are part of the scene's program. None: there is no timeline.
@@ -71,6 +73,8 @@ pub enum Waits {
         location: Location,
         /// The first hundred values of its domain, if they are known.
         values: Vec<Value>,
+        /// The least and the greatest value, if the domain is all integers between them.
+        bounds: Option<(i64, i64)>,
     },
     /// A choice.
     Choice {
@@ -188,8 +192,8 @@ impl Session {
                 }
                 Heard::Refused(reason)
             }
-            Ok(RunEvent::AsksInput { location, values, .. }) => {
-                self.waits = Waits::Input { location, values };
+            Ok(RunEvent::AsksInput { location, values, bounds, .. }) => {
+                self.waits = Waits::Input { location, values, bounds };
                 Heard::Waits
             }
             Ok(RunEvent::AsksChoice { span, candidates }) => {

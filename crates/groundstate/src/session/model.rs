@@ -9,7 +9,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use machine::{Interrupt, Limits, Location, Snapshot, Value};
-use simulate::{Bounds, Choices, End, Inputs, Invariants, Options, RandomSource, Record, Run, StepRecord};
+use simulate::{Bounds, Choices, End, Inputs, Invariants, Named, Options, RandomSource, Record, Run, StepRecord};
 
 use crate::diagnose_record;
 use crate::job::desk::{Asking, Desk, Do, Given, Turn};
@@ -31,6 +31,10 @@ pub(crate) fn run(
 ) {
     desk.borrow_mut().begin_session(&options.given);
     let inputs = Inputs::new().with(Given(Rc::clone(desk)));
+    let inputs = match &options.recorded {
+        Some(recorded) => inputs.with(Named::clone(recorded)),
+        None => inputs,
+    };
     let inputs = match options.seed {
         Some(seed) => inputs.with(RandomSource::new(seed, Bounds::default())).choosing(Choices::random(seed)),
         None => inputs.with(Asking::at(desk)).choosing(Choices::asked(Asking::at(desk))),
