@@ -1,5 +1,9 @@
 //! What `chart times` tells of a system: its tasks and the ages of its data. Times are in nanoseconds.
+//!
+//! In: a system and its [`Times`]. Out: an object for programs, of the command line and of the language server.
 
+use chart::system::{Component, System, Timing};
+use chart::times::{Order, TaskTimes, Times, Verdict};
 use serde::Serialize;
 
 /// The times of a system.
@@ -70,4 +74,56 @@ pub struct AgeOfData<'a> {
     pub within: Option<bool>,
     /// Why no greatest age is given.
     pub reason: Option<&'a str>,
+}
+
+impl<'a> TimesTold<'a> {
+    /// The times of a system.
+    pub fn of(system: &'a System, times: &'a Times) -> TimesTold<'a> {
+        let ns = |ticks: u64| ticks.saturating_mul(system.tick_ns);
+        let task = |(component, task): (&'a Component, &'a TaskTimes)| {
+            let (period, deadline) = match component.timing {
+                Timing::Synchronous { period, deadline, .. } => (Some(period), Some(deadline)),
+                Timing::Asynchronous { .. } => (None, None),
+            };
+            let (verdict, reason) = match &task.verdict {
+                Verdict::Meets => (Some("meets"), None),
+                Verdict::Misses => (Some("misses"), None),
+                Verdict::Open(reason) => (Some("unknown"), Some(reason.as_str())),
+                Verdict::None => (None, None),
+            };
+            TaskTime {
+                name: &component.name,
+                priority: task.priority,
+                period_ns: period.map(ns),
+                interval_ns: task.interval.map(ns),
+                execution_ns: [ns(task.execution.0), ns(task.execution.1)],
+                load: task.load,
+                blocking_ns: task.blocking.map(ns),
+                response_ns: task.response.map(ns),
+                deadline_ns: deadline.map(ns),
+                verdict,
+                reason,
+            }
+        };
+        let ages = system.bounds.iter().zip(&times.ages).map(|(bound, age)| AgeOfData {
+            from: &bound.from.text,
+            to: &bound.to.text,
+            limit_ns: ns(bound.limit),
+            most_ns: age.most.map(ns),
+            within: age.most.map(|most| most <= bound.limit).filter(|within| *within),
+            reason: age.ways.iter().find_map(|way| way.reason.as_deref()),
+        });
+        TimesTold::Times {
+            system: &system.name,
+            processors: times.platform.processors,
+            priorities: match times.platform.order {
+                Order::Rate => "rate",
+                Order::Deadline => "deadline",
+            },
+            load: times.load,
+            overloaded: times.overloaded,
+            tasks: system.components.iter().zip(&times.tasks).map(task).collect(),
+            ages: ages.collect(),
+        }
+    }
 }

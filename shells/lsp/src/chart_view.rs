@@ -46,6 +46,7 @@ pub fn answer(answers: &mut Answers, method: &str, params: &Value) -> Result<Val
     match method {
         "picture" => picture(answers, params),
         "edit" => edit(answers, params),
+        "times" => crate::system_view::times(answers, &path_in(params)?),
         other => Err(Refused::new(ErrorCode::MethodNotFound, format!("{PREFIX}{other} is not known"))),
     }
 }
@@ -63,6 +64,7 @@ fn picture(answers: &mut Answers, params: &Value) -> Result<Value, Refused> {
     let text = answers.project.text(&path).map_err(|absent| failed(absent.told(&path)))?.text;
     let parse = parse_chart(FileId(0), &text);
     let declared = ChartFile::cast(parse.syntax()).map(|file| Declared::of(&file)).unwrap_or_default();
+    let systems = crate::system_view::systems(answers, &path, &parse);
     let mut view = View { answers, path: &path, loaded: &loaded, declared: &declared };
     let mut drawn = Vec::new();
     let mut problems: Vec<String> = Vec::new();
@@ -70,6 +72,7 @@ fn picture(answers: &mut Answers, params: &Value) -> Result<Value, Refused> {
         match drawing.picture() {
             Ok(picture) => {
                 let mut told = view.drawing(&drawing, &picture);
+                told["system"] = systems.get(drawing.name()).cloned().unwrap_or_default();
                 if let Some(theme) = theme {
                     told["svg"] = json!(drawing.svg(theme).unwrap_or_default());
                 }
@@ -370,7 +373,10 @@ fn operation_of(value: &Value) -> Result<Operation, Refused> {
             let shapes = list("shapes").iter().map(fresh).collect::<Result<_, _>>()?;
             Operation::Paste(shapes, list("arrows").iter().map(joint).collect::<Result<_, _>>()?)
         }
-        other => return Err(wrong(format!("`{other}` is no operation"))),
+        other => match crate::system_view::operation_of(value)? {
+            Some(operation) => operation,
+            None => return Err(wrong(format!("`{other}` is no operation"))),
+        },
     })
 }
 

@@ -25,6 +25,7 @@ mod route;
 mod run;
 mod session;
 mod settings;
+mod system_view;
 mod worker;
 
 pub use disk::{Folder, project_files};

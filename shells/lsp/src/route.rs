@@ -23,6 +23,16 @@ pub struct Refused {
 }
 
 impl Refused {
+    /// Something is missing in the parameters, or is of another kind.
+    pub fn wrong(message: impl Into<String>) -> Refused {
+        Refused::new(ErrorCode::InvalidParams, message)
+    }
+
+    /// It cannot be done; a sentence for the user.
+    pub fn failed(message: impl Into<String>) -> Refused {
+        Refused::new(ErrorCode::RequestFailed, message)
+    }
+
     /// An error with a code of the protocol.
     pub fn new(code: ErrorCode, message: impl Into<String>) -> Refused {
         Refused { code: code as i32, message: message.into() }

@@ -134,8 +134,11 @@ impl Work {
             .map_or(0, |element| usize::from(element.text_range().end()));
         let rest = &self.text[end..];
         let to_line = rest.find('\n').unwrap_or(rest.len());
-        let alone = rest[..to_line].trim().is_empty();
-        self.replace(end..end, &format!("\n\t{line}{}", if alone { "" } else { "\n\t" }));
+        let behind = rest[..to_line].trim();
+        // A comment at the end of the head's line stays there.
+        let alone = behind.is_empty() || behind.starts_with("//");
+        let at = if alone { end + rest[..to_line].trim_end().len() } else { end };
+        self.replace(at..at, &format!("\n\t{line}{}", if alone { "" } else { "\n\t" }));
         Ok(())
     }
 
@@ -219,7 +222,7 @@ impl Work {
     }
 
     /// A phase of a component, at the beginning or the end of its cycle.
-    fn add_phase(&mut self, component: &str, line: &str, is_first: bool) -> Result<(), String> {
+    pub(super) fn add_phase(&mut self, component: &str, line: &str, is_first: bool) -> Result<(), String> {
         let Section::System(system) = self.section()? else { return Ok(()) };
         let found = system.components().find(|part| part.name().is_some_and(|name| name.text() == component));
         let Some(found) = found else { return Ok(()) };

@@ -9,16 +9,18 @@ mod clear;
 mod declare;
 mod name;
 mod place;
+mod system;
 mod text;
 
 use std::collections::BTreeMap;
 
-use syntax::ast::{AstNode, ChartFile, MachineChart, SystemChart};
+use syntax::ast::{AstNode, ChartFile, MachineChart, PhaseKind, SystemChart};
 use syntax::{FileId, Parse, Severity, SyntaxNode, parse_chart};
 
 use crate::position::{Edit, difference};
 
 pub use arrow::Joint;
+pub use system::Property;
 
 /// A centre in pixels, to the right and down.
 pub type Centre = (f64, f64);
@@ -59,6 +61,23 @@ pub enum Operation {
     },
     /// Shapes and the arrows between them, from here or from another chart. Arrows name shapes by what they are called in `Fresh::name`.
     Paste(Vec<Fresh>, Vec<Joint>),
+    /// A property of a part of a system, or of the system itself; without a text it goes, if it may.
+    Set(String, Property, Option<String>),
+    /// A component gets a phase: a reading at the beginning of its cycle, another one at the end.
+    AddPhase(String, PhaseKind, String),
+    /// The phase of this number of a component goes.
+    RemovePhase(String, usize),
+    /// The phase of this number of a component gets this place in the cycle.
+    MovePhase(String, usize, usize),
+    /// A bound on the age of data.
+    AddAge {
+        /// The component or sensor that they come from.
+        from: String,
+        /// The component or actuator that gets what rests on them.
+        to: String,
+        /// The greatest age.
+        limit: String,
+    },
 }
 
 /// The kinds of shapes that can be drawn.
@@ -179,6 +198,11 @@ impl Work {
             Operation::Initial(name) => self.set_initial(name),
             Operation::Machine { name, is_pattern, title } => self.add_machine(name, *is_pattern, title),
             Operation::Paste(shapes, arrows) => self.paste(shapes, arrows),
+            Operation::Set(name, property, value) => self.set(name, *property, value.as_deref()),
+            Operation::AddPhase(name, kind, subject) => self.add_phase_of(name, *kind, subject),
+            Operation::RemovePhase(name, at) => self.remove_phase(name, *at),
+            Operation::MovePhase(name, at, to) => self.move_phase(name, *at, *to),
+            Operation::AddAge { from, to, limit } => self.add_age(from, to, limit),
         }
     }
 
@@ -225,5 +249,7 @@ impl Work {
     }
 }
 
+#[cfg(test)]
+mod system_tests;
 #[cfg(test)]
 mod tests;

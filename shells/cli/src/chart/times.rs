@@ -8,9 +8,9 @@ use std::path::PathBuf;
 
 use ::chart::system::System;
 use ::chart::system::{Timing, length};
-use ::chart::times::{Order, Platform, TaskTimes, Times, Verdict, times, told};
+use ::chart::times::{Order, Platform, Times, Verdict, times, told};
 use clap::{Args, ValueEnum};
-use wire::{AgeOfData, TaskTime, TimesTold};
+use wire::TimesTold;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -62,7 +62,7 @@ pub fn run(shell: &mut Shell, arguments: &Arguments) -> Result<Exit, Failure> {
         shell.diagnostics(&sources, &told(system, &times, place))?;
     }
     if shell.json() {
-        shell.object(&object(system, &times))?;
+        shell.object(&TimesTold::of(system, &times))?;
     } else if shell.talks() {
         shell.out().write_all(table(system, &times).as_bytes())?;
     }
@@ -146,54 +146,4 @@ fn table(system: &System, times: &Times) -> String {
         out += &format!("age from {from} to {to}: {line}\n");
     }
     out
-}
-
-/// The same for programs.
-fn object<'a>(system: &'a System, times: &'a Times) -> TimesTold<'a> {
-    let ns = |ticks: u64| ticks.saturating_mul(system.tick_ns);
-    let task = |(component, task): (&'a ::chart::system::Component, &'a TaskTimes)| {
-        let (period, deadline) = match component.timing {
-            Timing::Synchronous { period, deadline, .. } => (Some(period), Some(deadline)),
-            Timing::Asynchronous { .. } => (None, None),
-        };
-        let (verdict, reason) = match &task.verdict {
-            Verdict::Meets => (Some("meets"), None),
-            Verdict::Misses => (Some("misses"), None),
-            Verdict::Open(reason) => (Some("unknown"), Some(reason.as_str())),
-            Verdict::None => (None, None),
-        };
-        TaskTime {
-            name: &component.name,
-            priority: task.priority,
-            period_ns: period.map(ns),
-            interval_ns: task.interval.map(ns),
-            execution_ns: [ns(task.execution.0), ns(task.execution.1)],
-            load: task.load,
-            blocking_ns: task.blocking.map(ns),
-            response_ns: task.response.map(ns),
-            deadline_ns: deadline.map(ns),
-            verdict,
-            reason,
-        }
-    };
-    let ages = system.bounds.iter().zip(&times.ages).map(|(bound, age)| AgeOfData {
-        from: &bound.from.text,
-        to: &bound.to.text,
-        limit_ns: ns(bound.limit),
-        most_ns: age.most.map(ns),
-        within: age.most.map(|most| most <= bound.limit).filter(|within| *within),
-        reason: age.ways.iter().find_map(|way| way.reason.as_deref()),
-    });
-    TimesTold::Times {
-        system: &system.name,
-        processors: times.platform.processors,
-        priorities: match times.platform.order {
-            Order::Rate => "rate",
-            Order::Deadline => "deadline",
-        },
-        load: times.load,
-        overloaded: times.overloaded,
-        tasks: system.components.iter().zip(&times.tasks).map(task).collect(),
-        ages: ages.collect(),
-    }
 }
